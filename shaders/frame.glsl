@@ -13,3 +13,5 @@ layout(push_constant) uniform Draw { DrawConstants draw; };
 layout(constant_id = 0) const bool kEncodes = false;
 // Whether parallax fades towards the screen's edges; if not, the fade is not even compiled.
 layout(constant_id = 1) const bool kFades = false;
+// Whether there are capsules that keep light off; if not, they are not even compiled.
+layout(constant_id = 4) const bool kCapsules = false;

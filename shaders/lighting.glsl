@@ -56,6 +56,29 @@ float tool_shadow(vec3 world) {
 }
 #endif
 
+// Returns 1 for a capsule that there is and that does not stand for what is drawn, else 0.
+float casts(int capsule) {
+    return step(1e-9, frame.capsule_from[capsule].w) * min(abs(draw.material.w - float(capsule + 1)), 1.0);
+}
+
+// Returns the shadow of the capsules, 0 to 1: the darkest of theirs, since those of one hand overlap at its joints.
+float capsule_shadow(vec3 world) {
+    vec3 l = frame.light.xyz;
+    float dark = 0.0;
+    for (int i = 0; i < kMostCapsules; ++i) {
+        float r = frame.capsule_from[i].w;
+        vec3 to_from = frame.capsule_from[i].xyz - world, axis = frame.capsule_to[i].xyz - frame.capsule_from[i].xyz;
+        // Seen along the light the axis is a segment.
+        float along = dot(to_from, l), rise = dot(axis, l);
+        vec3 beside = to_from - along * l, flat_axis = axis - rise * l;
+        float s = clamp(-dot(beside, flat_axis) / max(dot(flat_axis, flat_axis), 1e-12), 0.0, 1.0);
+        along += s * rise;
+        dark = max(dark, hidden_share(length(beside + s * flat_axis), max(along, 0.0), max(r, 1e-6)) *
+                             smoothstep(0.0, 0.5 * r, along) * casts(i));
+    }
+    return dark;
+}
+
 // Returns how much of the hemisphere over a point a ball covers, cosine-weighted; exact while all of it is above the
 // horizon.
 float ball_cover(vec3 world, vec3 normal, vec4 ball) {
@@ -64,6 +87,17 @@ float ball_cover(vec3 world, vec3 normal, vec4 ball) {
     float distance_m = max(length(to_ball), ball.w * 1.0001);
     float sine = ball.w / distance_m;
     return max(dot(normal, to_ball) / distance_m, 0.0) * sine * sine;
+}
+
+// Returns how much of the hemisphere over a point the nearest of the capsules covers.
+float capsule_cover(vec3 world, vec3 normal) {
+    float cover = 0.0;
+    for (int i = 0; i < kMostCapsules; ++i) {
+        vec3 from = frame.capsule_from[i].xyz, axis = frame.capsule_to[i].xyz - from;
+        float t = clamp(dot(world - from, axis) / max(dot(axis, axis), 1e-12), 0.0, 1.0);
+        cover = max(cover, casts(i) * ball_cover(world, normal, vec4(from + t * axis, frame.capsule_from[i].w)));
+    }
+    return cover;
 }
 
 // Returns the share of ambient light that reaches a point beside the tool and over the plinth.
@@ -131,6 +165,10 @@ vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
     float light = nl > 0.0 ? sun * (1.0 - tool_shadow(world)) : 0.0;
     if (draw.material.z == 0.0) open *= 1.0 - 0.8 * ball_cover(world, n, frame.workpiece);
 #endif
+    if (kCapsules && draw.material.w >= 0.0) {
+        light *= 1.0 - capsule_shadow(world);
+        open *= 1.0 - 0.75 * capsule_cover(world, n);
+    }
     vec3 key = frame.light_colour.rgb * light;
     float roughness = draw.material.x, gloss = draw.material.y;
 

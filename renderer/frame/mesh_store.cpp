@@ -30,10 +30,17 @@ Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
                             std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
     const auto is_there = [&](const auto& mesh) { return stored_.contains(mesh.get()); };
     if (std::ranges::all_of(meshes, is_there)) return {};
+    std::vector<Replaced> replaced;
+    for (const auto& mesh : meshes)
+        if (!is_there(mesh))
+            if (const auto indices = take_place(mesh, meshes)) replaced.push_back({mesh.get(), *indices});
     // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them. Decided
     // before anything is recorded: commands must not fill a buffer that is given up before they are submitted.
-    if (!fit(meshes))
+    if (!fit(meshes)) {
         if (const auto done = begin_anew(device, meshes); !done) return done;
+        replaced.clear();
+    }
+    for (const Replaced& one : replaced) write(commands, *one.mesh, at(*one.mesh), one.with_indices);
     for (const auto& mesh : meshes)
         if (!is_there(mesh)) append(commands, mesh);
     return {};
@@ -62,15 +69,35 @@ Result<void> MeshStore::begin_anew(gpu::Device& device, std::span<const std::sha
     return {};
 }
 
+std::optional<bool> MeshStore::take_place(const std::shared_ptr<const DrawnMesh>& mesh,
+                                          std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
+    const auto gone = std::ranges::find_if(stored_, [&](const auto& entry) {
+        const DrawnMesh& old = *entry.second.mesh;
+        return old.vertices.size() == mesh->vertices.size() && old.indices.size() == mesh->indices.size() &&
+               std::ranges::find(meshes, entry.second.mesh) == meshes.end();
+    });
+    if (gone == stored_.end()) return std::nullopt;
+    const Kept old = gone->second;
+    stored_.erase(gone);
+    stored_.emplace(mesh.get(), Kept{mesh, old.place});
+    return old.mesh->indices != mesh->indices;
+}
+
+void MeshStore::write(gpu::Commands& commands, const DrawnMesh& mesh, const StoredMesh& place, bool with_indices) {
+    if (mesh.indices.empty()) return;
+    const std::vector<geometry::VertexLight> full(mesh.lights.empty() ? mesh.vertices.size() : 0);
+    const std::span<const geometry::VertexLight> lights = mesh.lights.empty() ? full : mesh.lights;
+    const auto first = static_cast<std::uint64_t>(place.first_vertex);
+    commands.upload(vertices_, first * kVertexBytes, std::as_bytes(std::span(mesh.vertices)));
+    commands.upload(lights_, first * kLightBytes, std::as_bytes(lights));
+    if (with_indices)
+        commands.upload(indices_, place.first_index * kIndexBytes, std::as_bytes(std::span(mesh.indices)));
+}
+
 void MeshStore::append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh) {
-    const std::vector<geometry::VertexLight> lights(mesh->vertices.size());
-    if (!mesh->indices.empty()) {
-        commands.upload(vertices_, used_vertices_ * kVertexBytes, std::as_bytes(std::span(mesh->vertices)));
-        commands.upload(lights_, used_vertices_ * kLightBytes, std::as_bytes(std::span(lights)));
-        commands.upload(indices_, used_indices_ * kIndexBytes, std::as_bytes(std::span(mesh->indices)));
-    }
     const StoredMesh place{static_cast<std::uint32_t>(used_indices_), static_cast<std::uint32_t>(mesh->indices.size()),
                            static_cast<std::int32_t>(used_vertices_)};
+    write(commands, *mesh, place, true);
     stored_.emplace(mesh.get(), Kept{mesh, place});
     used_vertices_ += mesh->vertices.size();
     used_indices_ += mesh->indices.size();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The meshes of the scenes that a renderer has drawn, on the device: all in one vertex and one index buffer, each put
-// there when a scene first shows it. Room for a mesh that no scene shows any more is given back when the buffers have
-// to grow. Thread: that of the renderer's Device.
+// there when a scene first shows it. A mesh that the scene shows no more gives its place to one of the same size, as a
+// hand does that moves from frame to frame; room is given back otherwise when the buffers have to grow. Thread: that of
+// the renderer's Device.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -42,6 +45,15 @@ private:
         StoredMesh place;
     };
     [[nodiscard]] bool fit(std::span<const std::shared_ptr<const DrawnMesh>> meshes) const;
+    struct Replaced {
+        const DrawnMesh* mesh = nullptr;
+        bool with_indices = false;
+    };
+    // Gives a mesh the place of one of its size that is not among `meshes`. Returns whether its indices are others;
+    // none where there is no such place.
+    [[nodiscard]] std::optional<bool> take_place(const std::shared_ptr<const DrawnMesh>& mesh,
+                                                 std::span<const std::shared_ptr<const DrawnMesh>> meshes);
+    void write(gpu::Commands& commands, const DrawnMesh& mesh, const StoredMesh& place, bool with_indices);
     void append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh);
     [[nodiscard]] Result<void> begin_anew(gpu::Device& device,
                                           std::span<const std::shared_ptr<const DrawnMesh>> meshes);

@@ -39,6 +39,7 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
     spec.vertex_spirv = k_solid_vert;
     switch (kind) {
         case PipelineKind::solid:
+        case PipelineKind::solid_beside_capsules:
             spec.name = "solid pipeline";
             spec.fragment_spirv = k_solid_frag;
             spec.cull = VK_CULL_MODE_BACK_BIT;
@@ -152,8 +153,9 @@ Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, b
     gpu::PipelineHandle& kept = kinds[static_cast<std::size_t>(kind)];
     if (!kept) {
         gpu::GraphicsPipelineSpec spec = spec_of(kind);
-        const std::array<std::uint32_t, 4> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u, grid ? 1u : 0u,
-                                                     shadows ? 1u : 0u};
+        const std::array<std::uint32_t, 5> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u, grid ? 1u : 0u,
+                                                     shadows ? 1u : 0u,
+                                                     kind == PipelineKind::solid_beside_capsules ? 1u : 0u};
         spec.layout = layout_.raw();
         spec.render_pass = targets.whole_pass.raw();
         spec.samples = targets.samples;

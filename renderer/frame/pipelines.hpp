@@ -12,9 +12,10 @@
 namespace burin::renderer {
 
 enum class PipelineKind : std::size_t {
-    solid,     // the shapes, and the workpiece where it is lit at every pixel
-    fine,      // the workpiece where it is lit at its vertices
-    backdrop,  // the room
+    solid,                  // the shapes, and the workpiece where it is lit at every pixel
+    solid_beside_capsules,  // the same, with the shadow of the scene's capsules
+    fine,                   // the workpiece where it is lit at its vertices
+    backdrop,               // the room
     backdrop_without_shadows,
     backdrop_plain,  // without shadows and grid
     // The far faces of the workspace's boxes and bubble, drawn before glass_front. Neither writes depth.

@@ -53,6 +53,11 @@ std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene) {
     return meshes;
 }
 
+// Returns the pipeline for what is lit at every pixel.
+PipelineKind solid_of(const Scene& scene) {
+    return scene.capsules.empty() ? PipelineKind::solid : PipelineKind::solid_beside_capsules;
+}
+
 VkViewport viewport_of(ImageSize size) {
     const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
     constexpr auto kTimes = static_cast<float>(kGuard);
@@ -316,7 +321,7 @@ void Renderer::Implementation::begin_pass(Recording& r) {
 
 Result<void> Renderer::Implementation::draw_shapes(Recording& r) {
     if (r.shapes.solid.empty()) return {};
-    if (const auto done = use(r, PipelineKind::solid); !done) return done;
+    if (const auto done = use(r, solid_of(r.scene)); !done) return done;
     draw_primitives(r, r.shapes.solid);
     draw_meshes(r, r.shapes.solid);
     return {};
@@ -336,8 +341,10 @@ void Renderer::Implementation::draw_meshes(Recording& r, std::span<const Shape> 
 }
 
 Result<void> Renderer::Implementation::draw_surface(Recording& r) {
-    if (const auto done = draw_surface(r, PipelineKind::fine, r.surface.fine); !done) return done;
-    return draw_surface(r, PipelineKind::solid, r.surface.solid);
+    // Shadows of capsules are finer than any vertices.
+    const PipelineKind solid = solid_of(r.scene), fine = r.scene.capsules.empty() ? PipelineKind::fine : solid;
+    if (const auto done = draw_surface(r, fine, r.surface.fine); !done) return done;
+    return draw_surface(r, solid, r.surface.solid);
 }
 
 Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind kind,

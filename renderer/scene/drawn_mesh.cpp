@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "geometry/mesh/vertex_weld.hpp"
 #include "shaders/shared/octahedral.h"
@@ -134,6 +135,33 @@ std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh) 
             drawn->indices.push_back(at->second);
         }
     }
+    return drawn;
+}
+
+std::shared_ptr<const DrawnMesh> smooth_mesh(std::span<const Vec3> places_m,
+                                             std::span<const std::array<std::uint32_t, 3>> triangles,
+                                             std::span<const std::uint32_t> colours,
+                                             std::vector<geometry::VertexLight> lights) {
+    std::vector<Vec3> areas(places_m.size(), Vec3(0.0));
+    auto drawn = std::make_shared<DrawnMesh>();
+    drawn->indices.reserve(3 * triangles.size());
+    for (const auto& [a, b, c] : triangles) {
+        const Vec3 area = glm::cross(places_m[b] - places_m[a], places_m[c] - places_m[a]);
+        for (const std::uint32_t corner : {a, b, c}) {
+            areas[corner] += area;
+            drawn->indices.push_back(corner);
+        }
+    }
+    drawn->vertices.reserve(places_m.size());
+    for (std::size_t i = 0; i < places_m.size(); ++i) {
+        const Vec3& p = places_m[i];
+        const bool has_area = glm::length(areas[i]) > 0.0;
+        drawn->vertices.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+                                   normal_code(has_area ? areas[i] : Vec3(0.0, 1.0, 0.0)),
+                                   colours.empty() ? 0xffffffffu : colours[i]});
+        drawn->bounds.include(p);
+    }
+    drawn->lights = std::move(lights);
     return drawn;
 }
 

@@ -4,11 +4,14 @@
 // Positions are in metres in the mesh's own frame. Pure; any thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/space.hpp"
+#include "geometry/contact/surface_tile.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 #include "shaders/shared/surface_vertex.h"
 
@@ -16,9 +19,18 @@ namespace burin::renderer {
 
 struct DrawnMesh {
     std::vector<shared::SurfaceVertex> vertices;
-    std::vector<std::uint32_t> indices;  // three for each triangle, counter-clockwise seen from outside
+    std::vector<geometry::VertexLight> lights = {};  // one for each vertex; empty: all has full light
+    std::vector<std::uint32_t> indices;              // three for each triangle, counter-clockwise seen from outside
     Box bounds;
 };
+
+// Returns a mesh that is smooth everywhere, with a normal for each place: the mean of the faces around it, weighted by
+// area. White, to be tinted, unless there is a colour for each place; with the lights that are given, or full light.
+// For meshes that are made anew for each frame: linear in the triangles.
+[[nodiscard]] std::shared_ptr<const DrawnMesh> smooth_mesh(std::span<const Vec3> places_m,
+                                                           std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                           std::span<const std::uint32_t> colours = {},
+                                                           std::vector<geometry::VertexLight> lights = {});
 
 // Edges at which faces turn by more than this are drawn sharp; about 40 degrees.
 inline constexpr double kCreaseCosine = 0.766;

@@ -302,6 +302,11 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
     if (scene.pedestal.visible) frame.pedestal = vec4_of(scene.pedestal.top_center_world, scene.pedestal.radius_m);
     frame.background = vec4_of(linear_of(scene.background), 1.0);
     frame.background_root = vec4_of(glm::pow(linear_of(scene.background), Vec3(1.0 / 2.4)), 0.0);
+    BURIN_CHECK(scene.capsules.size() <= shared::kMostCapsules);
+    for (std::size_t i = 0; i < std::min<std::size_t>(scene.capsules.size(), shared::kMostCapsules); ++i) {
+        frame.capsule_from[i] = vec4_of(scene.capsules[i].from_world, scene.capsules[i].radius_m);
+        frame.capsule_to[i] = vec4_of(scene.capsules[i].to_world, 0.0);
+    }
     return frame;
 }
 
@@ -310,8 +315,10 @@ Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
     if (scene.tool.visible) add_tool(shapes, scene.tool, primitives);
     for (const DrawnObject& object : scene.objects) {
         if (object.opacity < 1.0) continue;
-        shared::DrawConstants c = constants_of(matrix(object.world_from_mesh), object.colour, 1.0, 0.42, 0.9);
+        shared::DrawConstants c =
+            constants_of(matrix(object.world_from_mesh), object.colour, 1.0, object.roughness, object.gloss);
         c.material.z = 1.0f;  // shows how near the tool is
+        c.material.w = object.own_capsule == kAllCapsules ? -1.0f : static_cast<float>(object.own_capsule + 1);
         shapes.solid.push_back({{0, 0, object.mesh->bounds}, c, object.mesh});
     }
     add_clear_objects(shapes, scene);

@@ -31,14 +31,30 @@ struct SceneTool {
     bool operator==(const SceneTool&) const = default;
 };
 
-// An object of a world. It receives the tool's shadow and ring as the workpiece does, and casts no shadow.
+inline constexpr std::int32_t kNoCapsule = -1, kAllCapsules = -2;
+
+// An object of a world. It receives the tool's shadow and ring as the workpiece does, and that of the capsules, and
+// casts none itself. One that changes its shape has another mesh in each scene; where these are of one size the
+// renderer puts each in the place of the one before.
 struct DrawnObject {
     std::shared_ptr<const DrawnMesh> mesh;  // not null
     Similarity world_from_mesh;
     Vec3 colour{0.78, 0.78, 0.78};
     double opacity = 1.0;  // below 1 it is drawn as glass, over all that is opaque, the farthest such object first
+    double roughness = 0.42, gloss = 0.9;
+    // Which of the scene's capsules stands for it, and keeps no light off it.
+    std::int32_t own_capsule = kNoCapsule;
 
     bool operator==(const DrawnObject&) const = default;
+};
+
+// A segment that is thickened by a radius: it is not drawn, and casts a shadow on objects in closed form. The bones of
+// a hand, whose skin is drawn as an object, are some of them.
+struct SceneCapsule {
+    Vec3 from_world{0.0}, to_world{0.0};
+    double radius_m = 0.0;
+
+    bool operator==(const SceneCapsule&) const = default;
 };
 
 // The transparent haptic workspace box.
@@ -112,6 +128,7 @@ struct Scene {
     // picture is redrawn when these change.
     Box workpiece_object;
     std::vector<DrawnObject> objects;
+    std::vector<SceneCapsule> capsules;  // at most shared::kMostCapsules
     SceneTool tool;
     SceneContact contact;
     SceneBox box;

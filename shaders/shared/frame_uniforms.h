@@ -8,6 +8,9 @@
 
 BURIN_SHARED_BEGIN
 
+// Capsules that keep light off what is around them, such as the bones of a hand (Scene::capsules).
+const int kMostCapsules = 24;
+
 struct FrameUniforms {
     // left eye, right eye; with a guard band around the picture (renderer/scene/frame_setup.hpp)
     mat4 clip_from_world[2];
@@ -30,6 +33,8 @@ struct FrameUniforms {
     // For parallax_fade.h: x: strength, y: band, z: distance of the point midway between the eyes from the screen; w:
     // the guard band.
     vec4 fade;
+    vec4 capsule_from[kMostCapsules];  // xyz: one end, w: radius; radius 0: none
+    vec4 capsule_to[kMostCapsules];    // xyz: the other end
 };
 
 // A panel in the scene is divided into this many cells each way where parallax is faded, since the fade is computed at
@@ -48,15 +53,15 @@ const float kFootDarkens = 0.5f;
 struct DrawConstants {
     mat4 world_from_local;
     vec4 tint;  // rgb multiplies the vertex colour; a: opacity, for glass
-    // x: roughness 0..1, y: strength of reflections, z: 1 = shows the nearness of the tool. For glass, x: how much
-    // denser it is towards the edges.
+    // x: roughness 0..1, y: strength of reflections, z: 1 = shows the nearness of the tool, w: 0 = the capsules keep
+    // light off it, k > 0 = all but the k-th do, -1 = none does. For glass, x: how much denser it is towards the edges.
     vec4 material;
 };
 
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 16 * 16);
+static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + (16 + 2 * 24) * 16);
 static_assert(sizeof(burin::shared::DrawConstants) == 96,
               "must fit the 128 bytes of push constants that every device has");
 #endif

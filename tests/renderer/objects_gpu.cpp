@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Objects come into a scene, more than the buffers hold: the picture is that of a renderer that has never seen others.
+#include "renderer/scene/frame_setup.hpp"
 #include "tests/renderer/test_scene.hpp"
 
 namespace burin::renderer {
@@ -65,6 +66,89 @@ TEST_F(Objects, BehindClearOnesOthersAreSeen) {
     }
     ASSERT_GT(red, 100u);
     EXPECT_GT(mixed, red / 2);
+}
+
+// A mesh that changes from frame to frame: each is put where the one before was, and is drawn as if it were the first.
+TEST_F(Objects, AMeshThatChangesIsDrawnAsItIsNow) {
+    const auto still = strip(5, 0.02);
+    const auto show = [&](double height_m) {
+        Scene scene = bare_scene();
+        scene.objects = {{still, {}, {0.2, 0.3, 0.8}}, {strip(7, height_m), {}, {0.8, 0.3, 0.2}}};
+        return render(scene).left.rgba;
+    };
+    const auto low = show(0.08), high = show(0.2);
+    EXPECT_FALSE(low == high);
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_TRUE(show(0.08) == low);
+        EXPECT_TRUE(show(0.2) == high);
+    }
+}
+
+namespace {
+
+// A wall behind the screen, and before it what casts a shadow on it.
+constexpr double kWallZ_m = -0.05;
+Scene before_a_wall(const std::vector<SceneCapsule>& capsules) {
+    geometry::TriangleMesh wall;
+    wall.positions_m = {{-0.3, -0.2, kWallZ_m}, {0.3, -0.2, kWallZ_m}, {0.3, 0.5, kWallZ_m}, {-0.3, 0.5, kWallZ_m}};
+    wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+    Scene scene = bare_scene();
+    scene.viewer.interpupillary_m = 0.0;
+    scene.objects = {{drawn_mesh(wall), {}, {0.8, 0.8, 0.8}}};
+    scene.capsules = capsules;
+    return scene;
+}
+
+// Where the lamp's line through a place meets the wall, in pixels.
+Vec2 shadow_px(const Scene& scene, const Vec3& place) {
+    const Vec3 down = direction_to_light() * ((place.z - kWallZ_m) / direction_to_light().z);
+    const Vec2 at = wall::point_on_screen(scene.screen, scene.viewer.head_world.position_m, place - down);
+    return {at.x / scene.wall.width_m * kTestSize.width, (1.0 - at.y / scene.wall.height_m) * kTestSize.height};
+}
+
+}  // namespace
+
+TEST_F(Objects, CapsulesCastTheirShadowWhereTheLampsLinesMeetAWall) {
+    const SceneCapsule capsule{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006};
+    const Scene scene = before_a_wall({capsule});
+    const Image lit = render(before_a_wall({})).left, shaded = render(scene).left;
+    Vec2 sum(0.0);
+    double weight = 0.0;
+    for (std::uint32_t y = 0; y < kTestSize.height; ++y)
+        for (std::uint32_t x = 0; x < kTestSize.width; ++x) {
+            const std::size_t at = 4 * (std::size_t{y} * kTestSize.width + x);
+            const double dark = int{lit.rgba[at + 1]} - int{shaded.rgba[at + 1]};
+            EXPECT_GE(dark, -2.0);  // dithered
+            if (dark < 12.0) continue;
+            sum += dark * Vec2(x + 0.5, y + 0.5);
+            weight += dark;
+        }
+    ASSERT_GT(weight, 1000.0);
+    const Vec2 middle = 0.5 * (shadow_px(scene, capsule.from_world) + shadow_px(scene, capsule.to_world));
+    EXPECT_LT(glm::length(sum / weight - middle), 2.0);
+}
+
+TEST_F(Objects, CapsulesKeepNoLightOffWhatTheyStandFor) {
+    Scene scene = before_a_wall({{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006}});
+    const auto lit = render(before_a_wall({})).left.rgba;
+    EXPECT_FALSE(render(scene).left.rgba == lit);
+    for (const std::int32_t own : {kAllCapsules, 0}) {
+        scene.objects.front().own_capsule = own;
+        EXPECT_TRUE(render(scene).left.rgba == lit) << own;
+    }
+    scene.objects.front().own_capsule = 1;
+    EXPECT_FALSE(render(scene).left.rgba == lit);
+}
+
+TEST_F(Objects, WithoutCapsulesNoShaderKnowsThem) {
+    const auto compiled_for = [&](const Scene& scene) {
+        auto fresh = Renderer::create(device(), kTestSize);
+        EXPECT_TRUE(fresh);
+        EXPECT_TRUE(fresh->render(scene));
+        return fresh->stats().pipelines;
+    };
+    EXPECT_EQ(compiled_for(before_a_wall({})), 1u);
+    EXPECT_EQ(compiled_for(before_a_wall({{{0.0, 0.2, 0.0}, {0.0, 0.2, 0.0}, 0.01}})), 1u);
 }
 
 }  // namespace burin::renderer
