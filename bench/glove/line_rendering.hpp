@@ -4,9 +4,10 @@
 // G2). Simulated: a finger that presses a ball, the line byte by byte, the piston's own low-pass.
 //
 // The finger: 0.1 kg, 3 N s/m and 100 N/m towards where it wants to be; assumed, as in `burin bench stability`. The
-// piston follows commands as a low-pass of first order. The controller samples at 500 Hz. Distributed: a set of 32 bytes
-// begins when the last one is out, holds the position at its beginning, and is known when its last byte has come (10
-// bits a byte); the host answers at its next tick of 1 ms with a command of 8 bytes, whose force acts when it has come.
+// piston follows commands as a low-pass of first order. The controller samples at 500 Hz. Distributed: a set of 32
+// bytes begins when the last one is out, holds the position at its beginning, and is known when its last byte has come
+// (10 bits a byte); the host answers at its next tick of 1 ms with a command of 8 bytes, whose force acts when it has
+// come.
 // Units SI. Pure and deterministic.
 #pragma once
 
