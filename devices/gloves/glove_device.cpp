@@ -29,19 +29,19 @@ DeviceDescription glove_description(bool on_a_line) {
     d.damping_Ns_per_m = 0.5;
     d.delay_s = on_a_line ? seconds(GloveLink::kSend_ns) : 0.0;
     d.joints.count = kFingerJoints;
+    d.felt_by_person = on_a_line;
     return d;
 }
 
 class GloveParts {
 public:
-    GloveParts(std::unique_ptr<GloveLink> link, std::optional<GripShape> simulated, OmniHand hand, Clock& clock)
+    GloveParts(std::unique_ptr<GloveLink> link, std::optional<GripShape> simulated, AnyHand hand, Clock& clock)
         : link_(std::move(link)),
           simulated_(simulated),
           hand_(std::move(hand)),
           clock_(clock),
           start_ns_(clock.now_ns()) {}
 
-    [[nodiscard]] bool on_a_line() const noexcept { return !simulated_; }
     [[nodiscard]] DeviceSample read(std::size_t finger) noexcept {
         if (finger == 0) look();
         const Pose& tip = places_[finger].hand_from_tip;
@@ -68,16 +68,10 @@ public:
     }
 
 private:
-    [[nodiscard]] HandTarget hand_target(double time_s) noexcept {
-        if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
-        if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
-        return std::get_if<SteeredHand>(&hand_)->target(time_s);
-    }
-
     // Takes where the palm and the joints are now.
     void look() noexcept {
         const Nanoseconds before_ns = std::exchange(now_ns_, clock_.now_ns());
-        const HandTarget hand = hand_target(seconds(now_ns_ - start_ns_));
+        const HandTarget hand = target_of(hand_, seconds(now_ns_ - start_ns_));
         palm_ = {hand.position_device_m, hand.orientation_device};
         buttons_ = hand.buttons;
         joints_ = {};
@@ -118,7 +112,7 @@ private:
     const GloveHand& shape_ = usual_hand();
     std::unique_ptr<GloveLink> link_;     // null: there is no glove
     std::optional<GripShape> simulated_;  // none: it is no simulated one
-    OmniHand hand_;
+    AnyHand hand_;
     Clock& clock_;
     Nanoseconds start_ns_, now_ns_ = 0;
     Pose palm_;
@@ -130,41 +124,22 @@ private:
     Grip grip_;
 };
 
-class GlovePart final : public HapticDevice {
-public:
-    GlovePart(std::shared_ptr<GloveParts> all, std::size_t finger)
-        : all_(std::move(all)), finger_(finger), description_(glove_description(all_->on_a_line())) {}
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-    [[nodiscard]] DeviceSample read() noexcept override { return all_->read(finger_); }
-    void write(const DeviceWrench& wrench) noexcept override { all_->write(finger_, wrench); }
-
-private:
-    std::shared_ptr<GloveParts> all_;
-    std::size_t finger_;
-    DeviceDescription description_;
-};
-
-OpenedDevice of_parts(const std::shared_ptr<GloveParts>& all) {
-    OpenedDevice device;
-    for (std::size_t i = 0; i < kGloveFingers; ++i)
-        device.parts.push_back({kPistonNames[i], std::make_unique<GlovePart>(all, i)});
-    return device;
-}
-
 }  // namespace
 
-OpenedDevice simulated_glove(GripShape shape, OmniHand hand, Clock& clock) {
-    return of_parts(std::make_shared<GloveParts>(nullptr, shape, std::move(hand), clock));
+OpenedDevice simulated_glove(GripShape shape, AnyHand hand, Clock& clock) {
+    const auto all = std::make_shared<GloveParts>(nullptr, shape, std::move(hand), clock);
+    return of_parts(all, glove_description(false), kPistonNames);
 }
 
-Result<OpenedDevice> open_glove(const std::string& port, OmniHand hand, Clock& clock) {
+Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock) {
     std::unique_ptr<GloveLink> link;
     if (!port.empty()) {
         auto opened = GloveLink::open(port, clock);
         if (!opened) return std::unexpected(opened.error());
         link = std::move(*opened);
     }
-    return of_parts(std::make_shared<GloveParts>(std::move(link), std::nullopt, std::move(hand), clock));
+    const auto all = std::make_shared<GloveParts>(std::move(link), std::nullopt, std::move(hand), clock);
+    return of_parts(all, glove_description(true), kPistonNames);
 }
 
 }  // namespace burin::devices

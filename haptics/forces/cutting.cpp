@@ -19,6 +19,8 @@ constexpr double kFirstCreep = 1e-3;
 // It ends where a step brings the function down by this share of it, or after so many steps and halvings.
 constexpr double kSettled = 1e-9;
 constexpr int kMostIterations = 15, kMostHalvings = 8;
+// Of the pressure: by so much at least material below its yield holds the tool along its surface.
+constexpr double kHeldInMaterial = 0.25;
 
 // One element of the tool's surface in one tick: resisted by area * stress(w), w = max(0, dot(normal, u) + ahead_m).
 struct Element {
@@ -26,6 +28,7 @@ struct Element {
     double area_m2 = 0.0;
     double ahead_m = 0.0;  // what the tool's turning brings it forward, less its gap to the material
     Vec3 arm_m{0.0};       // from the tool's origin
+    double held = 0.0;     // stress against motion along the surface
 };
 using Elements = StaticVector<Element, 4 * Engagement::kMost>;
 
@@ -37,6 +40,8 @@ struct Symmetric {
         xx += weight * m.x * m.x, xy += weight * m.x * m.y, xz += weight * m.x * m.z;
         yy += weight * m.y * m.y, yz += weight * m.y * m.z, zz += weight * m.z * m.z;
     }
+    // Along all directions alike.
+    void add(double weight) { xx += weight, yy += weight, zz += weight; }
     // By Cholesky's decomposition; the matrix is positive definite.
     [[nodiscard]] Vec3 solved(const Vec3& b) const {
         const double a = std::sqrt(xx), p = xy / a, q = xz / a;
@@ -69,10 +74,10 @@ public:
         double sum = 0.5 * pull_ * glm::dot(left, left);
         for (std::uint32_t i = 0; i < count_; ++i) {
             const Element& e = elements_[i];
-            const double w = glm::dot(e.normal, u) + e.ahead_m;
+            const double into = glm::dot(e.normal, u), w = into + e.ahead_m;
+            if (e.held > 0.0) sum += e.area_m2 * e.held * creeping(glm::length(u - into * e.normal));
             if (w <= 0.0) continue;
-            const double yielding = w < creep_m_ ? 0.5 * w * w / creep_m_ : w - 0.5 * creep_m_;
-            sum += e.area_m2 * (yield_ * yielding + 0.5 * hardness_ * w * w);
+            sum += e.area_m2 * (yield_ * creeping(w) + 0.5 * hardness_ * w * w);
         }
         return sum;
     }
@@ -82,7 +87,8 @@ public:
         Symmetric curvature{.xx = pull_, .yy = pull_, .zz = pull_};
         for (std::uint32_t i = 0; i < count_; ++i) {
             const Element& e = elements_[i];
-            const double w = glm::dot(e.normal, u) + e.ahead_m;
+            const double into = glm::dot(e.normal, u), w = into + e.ahead_m;
+            if (e.held > 0.0) hold(e, u - into * e.normal, downhill, curvature);
             if (w < 0.0) continue;
             downhill -= e.area_m2 * stress(w) * e.normal;
             curvature.add(e.normal, e.area_m2 * (hardness_ + (w < creep_m_ ? yield_ / creep_m_ : 0.0)));
@@ -90,7 +96,23 @@ public:
         return curvature.solved(downhill);
     }
 
+    // The stress along the surface of an element that moves so, against its motion.
+    [[nodiscard]] Vec3 holding(const Element& e, const Vec3& u) const {
+        const Vec3 along = u - glm::dot(e.normal, u) * e.normal;
+        return -e.held / std::max(glm::length(along), creep_m_) * along;
+    }
+
 private:
+    // The integral of a stress of 1 that rises over the creep.
+    [[nodiscard]] double creeping(double w) const { return w < creep_m_ ? 0.5 * w * w / creep_m_ : w - 0.5 * creep_m_; }
+    void hold(const Element& e, const Vec3& along, Vec3& downhill, Symmetric& curvature) const {
+        const double length = glm::length(along), steep = e.area_m2 * e.held / std::max(length, creep_m_);
+        downhill -= steep * along;
+        curvature.add(steep);
+        curvature.add(e.normal, -steep);
+        if (length > creep_m_) curvature.add(along / length, -steep);
+    }
+
     const Elements& elements_;
     std::uint32_t count_;
     Vec3 way_m_;
@@ -118,6 +140,18 @@ Vec3 least(const Resistance& resistance, Vec3 u, std::uint32_t& terms) {
         if (settled) break;
     }
     return u;
+}
+
+// Below the yield material that is pressed holds the tool along its surface as well, by friction. The pressure is that
+// of the last step; what is cut is sheared off and holds nothing.
+void hold_below_the_yield(const CuttingState& state, double friction, double yield, double creep_m, std::uint32_t count,
+                          Elements& elements) {
+    if (!state.engaged) return;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Element& e = elements[i];
+        const double pressed = (glm::dot(e.normal, state.step_object_m) + e.ahead_m) / creep_m;
+        if (pressed > 0.0 && pressed < 1.0) e.held = friction * yield * pressed;
+    }
 }
 
 // How much harder than its mean the material is at a place, from a wave of straight flanks.
@@ -198,6 +232,8 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
     const double pull = in.stiffness_N_per_m * g * g * in.dt_s;
     const double yield = material.cutting_yield_Pa * grain * g * in.dt_s;
     const double hardness = material.hardness_Ns_per_m3 * grain;
+    hold_below_the_yield(state, std::max(kHeldInMaterial, material.static_friction), yield, kCreep * tool.size_m, count,
+                         elements);
     Vec3 u = state.engaged ? state.step_object_m : Vec3(0.0);
     for (const double creep : {kFirstCreep, kCreep})
         u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, step.terms);
@@ -211,8 +247,8 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
         if (w < 0.0) continue;
         step.engaged_area_m2 += e.area_m2 / (g * g);
         // Stresses come out as pressure times g dt, areas and arms in the object's frame.
-        step.torque_device_Nm -=
-            glm::cross(e.arm_m / g, (resistance.stress(w) / (g * in.dt_s) * e.area_m2 / (g * g)) * e.normal);
+        const Vec3 stress = resistance.stress(w) * e.normal - resistance.holding(e, u);
+        step.torque_device_Nm -= glm::cross(e.arm_m / g, (e.area_m2 / (g * g) / (g * in.dt_s)) * stress);
     }
     step.cut_speed_m_per_s = glm::length(u) / (g * in.dt_s);
     step.drag_device_N = -material.cutting_drag_Ns_per_m3 * step.engaged_area_m2 * in.velocity_device_m_per_s;

@@ -12,11 +12,17 @@
 // still; beyond that it sinks at (F / A - p0) / H; and drawn along it runs at the depth where the lift of what lies
 // ahead bears the press, deeper with more force, softer material and less speed.
 //
+// Below the yield the material holds the tool along its surface too, by friction: an element that is pressed with less
+// than p0 resists motion along itself by up to mu times its pressure, mu the material's static friction and at least a
+// quarter. Else a tilted tool would slip along its own face, which moves into nothing. The pressure is that of the last
+// step. An element that cuts is held back by the chip law alone, which is for the whole force of a cutter.
+//
 // A step is the least of a convex function of the way u that c goes in the period, and so unique, stable for any
 // hardness and any period, and never adds energy: F . u >= 0 while the tool does not turn.
-//     K / 2 |x - u|^2 + sum A (p0' w + H w^2 / 2),    w = max(0, m . u + turn - gap),  K = k g^2 dt,  p0' = p0 g dt
+//     K / 2 |x - u|^2 + sum A (p0' w + H w^2 / 2 + q |u - (m . u) m|)
+//     w = max(0, m . u + turn - gap),  K = k g^2 dt,  p0' = p0 g dt,  q = mu times the last pressure, or 0
 // x from c to h, `turn` the element's own motion along m because the hand turns the tool, `gap` how far it is from the
-// material. Found by Newton's method. The stress below the yield rises over kCreep of the tool's size
+// material. Found by Newton's method. The stresses below the yield and of friction rise over kCreep of the tool's size
 // a tick: three nanometres a second for a tool of 3 mm. The torque is that of the elements' stresses about the tool's
 // origin.
 //

@@ -16,34 +16,10 @@
 #include "sculpt/tool_mesh.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/sculpt/area_in_plane.hpp"
 
 namespace burin::sculpt {
 namespace {
-
-// Returns the area of the part of a triangle that lies below height 0.
-double area_below(std::array<Vec3, 3> t) {
-    std::vector<Vec3> part;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 &a = t.at(i), &b = t.at((i + 1) % 3);
-        if (a.y <= 0.0) part.push_back(a);
-        if ((a.y < 0.0) != (b.y < 0.0) && a.y != b.y) part.push_back(a + (a.y / (a.y - b.y)) * (b - a));
-    }
-    Vec3 sum(0.0);
-    for (std::size_t i = 1; i + 1 < part.size(); ++i) sum += 0.5 * glm::cross(part[i] - part[0], part[i + 1] - part[0]);
-    return glm::length(sum);
-}
-
-// Of the faces that look down, and so move into the material, below the plane at height 0.
-double area_in_plane(const geometry::TriangleMesh& mesh, const Pose& pose) {
-    double sum_m2 = 0.0;
-    for (const auto& t : mesh.triangles) {
-        const std::array<Vec3, 3> corners{pose * mesh.positions_m[t[0]], pose * mesh.positions_m[t[1]],
-                                          pose * mesh.positions_m[t[2]]};
-        const Vec3 out = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        if (out.y < 0.0) sum_m2 += area_below(corners);
-    }
-    return sum_m2;
-}
 
 double lowest(const geometry::TriangleMesh& mesh, const Quat& turn) {
     double least = HUGE_VAL;
@@ -103,7 +79,7 @@ TEST(EngagedArea, OfRandomToolsInAPlane) {
                 const double depth_m = kDepths.at(d) * tool.size_m;
                 Pose there = touching;
                 there.position_m.y -= depth_m;
-                const double expected = area_in_plane(mesh, there);
+                const double expected = haptics::test::area_in_plane(mesh, there).area_m2;
                 errors.at(kind).at.at(d).push_back(engaged_m2(tool, *plane, touching, depth_m) / expected - 1.0);
             }
         }
