@@ -10,6 +10,7 @@
 #include "base/sha256.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/state/session_settings.hpp"
@@ -42,6 +43,13 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
     return DeviceWords{*device, *points};
 }
 
+// Returns the description of a device that has a handle.
+Result<devices::WandDescription> described_now(const std::string& device) {
+    Result<devices::DeviceNature> nature = devices::nature_of_device(device);
+    if (!nature) return std::unexpected(nature.error());
+    return nature->handle.value_or(devices::WandDescription{});
+}
+
 Result<devices::WandDescription> recorded_wand(const record::RecordReader& reader, const std::string& device) {
     const std::string file = wand_file_of(device);
     const std::string digest = fact_of(reader, record::kWandDigestFact);
@@ -53,12 +61,12 @@ Result<devices::WandDescription> recorded_wand(const record::RecordReader& reade
         if (!wand) return std::unexpected(wand.error().front());
         return std::move(*wand);
     }
-    if (file.empty()) return devices::wand_named(device);
+    if (file.empty()) return described_now(device);
     if (digest.empty())
         return fail(reader.path(), "does not hold the description of its wand, " + file,
                     "record the motion again: recordings of this version hold it");
     if (const auto same = check_wand_file(reader, device, kPutBack); !same) return std::unexpected(same.error());
-    return devices::wand_named(device);
+    return described_now(device);
 }
 
 }  // namespace
@@ -68,10 +76,7 @@ std::string fact_of(const record::RecordReader& reader, const char* key) {
     return at == reader.facts().end() ? std::string() : at->second;
 }
 
-std::string wand_file_of(const std::string& device) {
-    const std::size_t behind = std::string_view(devices::kSimulatedWand).size() + 1;
-    return devices::is_wand(device) && device.size() > behind ? device.substr(behind) : std::string();
-}
+std::string wand_file_of(const std::string& device) { return devices::handle_file_of(device); }
 
 std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::string& device) {
     const std::string file = wand_file_of(device);
@@ -105,7 +110,7 @@ Result<activities::RecordedDevice> recorded_device(const record::RecordReader& r
     const Result<DeviceWords> words = device_words_of(reader);
     if (!words) return std::unexpected(words.error());
     activities::RecordedDevice recorded;
-    if (!devices::is_wand(words->device)) return recorded;
+    if (!devices::has_handle(words->device)) return recorded;
     Result<devices::WandDescription> wand = recorded_wand(reader, words->device);
     if (!wand) return std::unexpected(wand.error());
     recorded.wand = std::move(*wand);

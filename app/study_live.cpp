@@ -14,6 +14,7 @@
 #include "app/study_trials.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "session/drive/session.hpp"
 #include "session/record/session_recording.hpp"
 #include "study/folder/interruption.hpp"
@@ -39,9 +40,10 @@ Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& 
 
 // The wand that the device is, where it is one; its points must be where the protocol has them.
 Result<std::optional<devices::WandDescription>> wand_of(const std::string& device, const study::Protocol& protocol) {
-    if (!devices::is_wand(device)) return std::nullopt;
-    const auto wand = devices::wand_named(device);
-    if (!wand) return std::unexpected(wand.error());
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(device);
+    if (!nature) return std::unexpected(nature.error());
+    const std::optional<devices::WandDescription>& wand = nature->handle;
+    if (!wand) return std::nullopt;
     const auto points = devices::points_named(*wand, devices::usual_points(*wand));
     if (!points) return std::unexpected(points.error());
     const std::vector<devices::WandPoint> wanted = study::study_wand(protocol).points;
@@ -134,8 +136,7 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     }
     const auto wand = wand_of(live.device, study.protocol());
     if (!wand) return std::unexpected(wand.error());
-    const bool is_wand = wand->has_value();
-    const std::string device = is_wand ? "simulated wand" : live.device;
+    const std::string device = *wand ? "simulated wand" : live.device;
     if (const auto ok = activities::begin_visit(study, options.participant, device, *plan); !ok) return ok;
     activities::StageOnDisk disk(study, options.participant, *group,
                                  options.without_motion ? activities::StageOnDisk::Motion::none
@@ -151,7 +152,7 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
         activities::StudyDevice{*wand, options.participant}, keeper,
         std::vector<std::pair<std::string, std::string>>{{activities::kProtocolTextFact, study.protocol_text()}});
     session::SculptOptions session = participant_session(live, activity);
-    if (is_wand) session.points = devices::usual_points(**wand);
+    if (*wand) session.points = devices::usual_points(**wand);
     const Result<void> done = run_recorded_session(session, "study run");
     std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),
                 places.size() - activity->stages_ended());

@@ -18,8 +18,8 @@
 #include "app/world_wand.hpp"
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
-#include "devices/registry/device_registry.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
 #include "scene/mesh_world.hpp"
@@ -371,17 +371,16 @@ std::string WorldCommand::misuse() const {
     if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
     if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
-    const bool has_wand = devices::is_wand(live.device) || std::ranges::any_of(live.hands, [](const auto& hand) {
-                              return devices::is_wand(hand.device);
-                          });
-    if (!options_->exploration.points.empty() && !has_wand)
-        return "--points belongs to a wand: give --device " + std::string(devices::kSimulatedWand);
+    const bool has_points = std::ranges::any_of(session::devices_of(live),
+                                                [](const auto& hand) { return devices::has_handle(hand.device); });
+    if (!options_->exploration.points.empty() && !has_points)
+        return "--points belongs to a wand: give --device " + devices::devices_with_handles();
     if (!options_->exploration.stroke.empty() && !live.hands.empty())
         return "world explores with one hand: name one --device";
     if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice &&
-        !devices::is_wand(live.device))
-        return "world explores with --device " + std::string(devices::kDefaultHapticDevice) +
-               " or simulated-wand, not " + live.device;
+        !devices::has_handle(live.device))
+        return "world explores with --device " + std::string(devices::kDefaultHapticDevice) + " or " +
+               devices::devices_with_handles() + ", not " + live.device;
     return "";
 }
 
@@ -391,17 +390,17 @@ Result<void> WorldCommand::run() const {
         WorldExploration exploration = options_->exploration;
         exploration.record = options_->session.live.record;
         exploration.device = options_->session.live.device;
-        if (devices::is_wand(exploration.device)) return explore_world_with_wand(exploration);
+        if (devices::has_handle(exploration.device)) return explore_world_with_wand(exploration);
         return explore_world(exploration);
     }
     session::SculptOptions session = options_->session;
     session.world = options_->exploration.world;
-    if (devices::is_wand(session.live.device)) {
+    if (devices::has_handle(session.live.device)) {
         session.points = options_->exploration.points;
         if (session.points.empty()) {
-            const Result<devices::WandDescription> wand = devices::wand_named(session.live.device);
-            if (!wand) return std::unexpected(wand.error());
-            session.points = devices::usual_points(*wand);
+            const Result<devices::DeviceNature> nature = devices::nature_of_device(session.live.device);
+            if (!nature) return std::unexpected(nature.error());
+            session.points = devices::usual_points(*nature->handle);
         }
         if (session.tool.shape.empty()) session.tool.shape = formatted("ball:%g", options_->exploration.radius_m);
     }

@@ -19,6 +19,7 @@
 #include "app/world_digest.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
 #include "session/felt/felt_figures.hpp"
@@ -175,12 +176,13 @@ struct WandWorld {
 
 Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options) {
     auto opened = std::make_unique<WandWorld>();
-    const Result<devices::WandDescription> wand = devices::wand_named(options.device);
-    if (!wand) return std::unexpected(wand.error());
-    opened->feel.wand = *wand;
+    Result<devices::DeviceNature> nature = devices::nature_of_device(options.device);
+    if (!nature) return std::unexpected(nature.error());
+    if (!nature->handle) return fail("--device " + options.device, "has no handle with points", "name a wand");
+    opened->feel.wand = std::move(*nature->handle);
     opened->feel.radius_m = options.radius_m;
-    Result<std::vector<devices::WandPoint>> points =
-        devices::points_named(*wand, options.points.empty() ? devices::usual_points(*wand) : options.points);
+    Result<std::vector<devices::WandPoint>> points = devices::points_named(
+        opened->feel.wand, options.points.empty() ? devices::usual_points(opened->feel.wand) : options.points);
     if (!points) return std::unexpected(points.error());
     opened->feel.points = std::move(*points);
     Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
@@ -246,7 +248,7 @@ Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader
     const bool sound = text("world", options.world) && text("stroke", options.stroke) &&
                        text("device", options.device) && text("points", options.points) && json.contains("radius_m") &&
                        json["radius_m"].is_number();
-    if (!sound || !devices::is_wand(options.device))
+    if (!sound || !devices::has_handle(options.device))
         return fail(reader.path(), "has no sound settings of a stroke with a wand",
                     "replay what burin world --stroke --device simulated-wand --record has written");
     options.radius_m = json["radius_m"].get<double>();

@@ -207,8 +207,9 @@ void Commands::upload(const Buffer& to, std::uint64_t offset_bytes, std::span<co
     if (bytes.empty() || first_error_) return;
     if (staging_.empty() || staging_.back().size_bytes() - staging_used_ < bytes.size()) {
         Device device(core_);
-        auto chunk = Buffer::create(device, BufferUse::upload,
-                                    std::max<std::uint64_t>(kStagingChunk_bytes, bytes.size()), "staging");
+        const std::uint64_t usual_bytes = std::min<std::uint64_t>(kStagingChunk_bytes, core_->max_allocation_bytes);
+        auto chunk =
+            Buffer::create(device, BufferUse::upload, std::max<std::uint64_t>(usual_bytes, bytes.size()), "staging");
         if (!chunk) return keep(chunk.error());
         staging_.push_back(std::move(*chunk));
         staging_used_ = 0;
@@ -278,28 +279,47 @@ Result<Submission> Commands::submit(const QueueSync& sync) && {
 
 // ---- Whole transfers
 
+namespace {
+
+// The most that goes over at once: a solid's store takes up to a gigabyte, which the host need not hold twice.
+std::uint64_t piece_bytes(const Device& device) {
+    return std::min<std::uint64_t>(std::uint64_t{64} << 20, device.core()->max_allocation_bytes);
+}
+
+}  // namespace
+
 Result<void> write(Device& device, const Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes) {
-    auto commands = Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    commands->upload(to, offset_bytes, bytes);
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    return submission->wait();
+    const std::uint64_t most = piece_bytes(device);
+    for (std::uint64_t done = 0; done < bytes.size(); done += most) {
+        auto commands = Commands::begin(device);
+        if (!commands) return std::unexpected(commands.error());
+        commands->upload(to, offset_bytes + done, bytes.subspan(done, std::min(most, bytes.size() - done)));
+        auto submission = std::move(*commands).submit();
+        if (!submission) return std::unexpected(submission.error());
+        if (const auto waited = submission->wait(); !waited) return waited;
+    }
+    return {};
 }
 
 Result<std::vector<std::byte>> read(Device& device, const Buffer& from, std::uint64_t offset_bytes,
                                     std::uint64_t size_bytes) {
-    if (size_bytes == 0) return std::vector<std::byte>{};
-    auto readback = Buffer::create(device, BufferUse::readback, size_bytes, "readback");
+    std::vector<std::byte> all;
+    if (size_bytes == 0) return all;
+    const std::uint64_t most = std::min(piece_bytes(device), size_bytes);
+    auto readback = Buffer::create(device, BufferUse::readback, most, "readback");
     if (!readback) return std::unexpected(readback.error());
-    auto commands = Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    commands->copy(from, offset_bytes, *readback, 0, size_bytes);
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    if (const auto waited = submission->wait(); !waited) return std::unexpected(waited.error());
-    const std::span<const std::byte> bytes = readback->mapped();
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    all.resize(size_bytes);
+    for (std::uint64_t done = 0; done < size_bytes; done += most) {
+        const std::uint64_t piece = std::min(most, size_bytes - done);
+        auto commands = Commands::begin(device);
+        if (!commands) return std::unexpected(commands.error());
+        commands->copy(from, offset_bytes + done, *readback, 0, piece);
+        auto submission = std::move(*commands).submit();
+        if (!submission) return std::unexpected(submission.error());
+        if (const auto waited = submission->wait(); !waited) return std::unexpected(waited.error());
+        std::memcpy(all.data() + done, readback->mapped().data(), piece);
+    }
+    return all;
 }
 
 }  // namespace burin::gpu

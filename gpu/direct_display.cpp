@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kStereoExtension = "VK_NV_display_stereo";
 constexpr const char* kWhere = "direct display";
+constexpr const char* kInAWindow = "show the picture in a window";
 
 // VK_NV_display_stereo, declared by hand: the values of extension 552 begin at 1000551000.
 enum StereoType : std::int32_t { kStereoNone = 0, kStereoDin = 1, kStereoHdmi = 2, kStereoInband = 3 };
@@ -100,7 +101,11 @@ Result<std::vector<Display>> find_displays(const Core& core, const Functions& f)
     VkResult r = f.displays(core.physical, &count, nullptr);
     std::vector<VkDisplayPropertiesKHR> found(count);
     if (r == VK_SUCCESS && count > 0) r = f.displays(core.physical, &count, found.data());
-    if (r < VK_SUCCESS) return vulkan_failure(kWhere, core.info.name + " cannot list its displays", r);
+    if (r < VK_SUCCESS) {
+        auto failed = vulkan_failure(kWhere, core.info.name + " cannot list its displays", r);
+        if (failed.error().remedy.empty()) failed.error().remedy = kInAWindow;
+        return failed;
+    }
     found.resize(count);
     if (found.empty()) {
         return fail(
@@ -235,7 +240,9 @@ Result<DisplaySurface> create_display_surface(Device& device, const DisplayChoic
     info.imageExtent = {chosen.width, chosen.height};
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (const VkResult r = f.create_surface(core.instance, &info, nullptr, &surface); r != VK_SUCCESS) {
-        return vulkan_failure("display " + display.info.name, "it could not be opened", r);
+        auto failed = vulkan_failure("display " + display.info.name, "it could not be opened", r);
+        if (failed.error().remedy.empty()) failed.error().remedy = kInAWindow;
+        return failed;
     }
     return DisplaySurface{SurfaceHandle(device.core(), surface), display.info.name, chosen};
 }

@@ -24,6 +24,7 @@ std::string result_name(VkResult result) {
         case VK_ERROR_SURFACE_LOST_KHR: return "surface lost";
         case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR: return "window already in use";
         case VK_ERROR_OUT_OF_DATE_KHR: return "out of date";
+        case VK_ERROR_UNKNOWN: return "an error that the driver does not name";
         default: return "VkResult " + std::to_string(static_cast<int>(result));
     }
 }

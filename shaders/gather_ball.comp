@@ -23,7 +23,7 @@ void take(uint vertex, vec3 place) {
     if (atomicExchange(members.at[vertex].stamp, parameters.stamp) == parameters.stamp) return;
     uint number = atomicAdd(counters.ball_vertices, 1u);
     members.at[vertex].number = number;
-    if (number >= uint(kBallVertices)) return;
+    if (number >= parameters.most_vertices) return;
     ball_places[number] =
         vec3(float(double(place.x) - parameters.center[0]), float(double(place.y) - parameters.center[1]),
              float(double(place.z) - parameters.center[2]));
@@ -76,7 +76,7 @@ void main() {
             bool second = (shares_b || shares_c) && near(at_a, shares_b ? at_b : at_c, at_d, center);
             uint taken = (first ? 1u : 0u) + (second ? 1u : 0u);
             uint number = taken > 0u ? atomicAdd(counters.ball_triangles, taken) : 0u;
-            if (taken > 0u && number + taken <= uint(kBallTriangles)) {
+            if (taken > 0u && number + taken <= parameters.most_triangles) {
                 take(a, at_a);
                 if (first || shares_b) take(b, at_b);
                 if (first || shares_c) take(c, at_c);

@@ -13,7 +13,7 @@ void main() {
     Members members = Members(parameters.member_address);
     // With more triangles than there is room for, the last entries may never have been written, and the host discards
     // the ball: nothing is mapped.
-    uint end = counters.ball_triangles > uint(kBallTriangles) ? 0u : counters.ball_triangles;
+    uint end = counters.ball_triangles > parameters.most_triangles ? 0u : counters.ball_triangles;
     for (uint i = gl_GlobalInvocationID.x; i < end; i += 64u * gl_NumWorkGroups.x) {
         uvec3 corners = ball_triangles[i];
         ball_triangles[i] =

@@ -16,7 +16,7 @@ WandView::WandView(const devices::WandDescription& wand, double scale, double ra
 
 void WandView::add_to(renderer::Scene& scene, const WandPose& pose, const Similarity& world_from_scene) const {
     const Similarity scene_from_tool{pose.scene_from_tool.position_m, pose.scene_from_tool.orientation, scale_};
-    session::DrawnWand::Place place{world_from_scene * scene_from_tool, {}, world_from_scene.scale * radius_m_};
+    session::DrawnHandle::Place place{world_from_scene * scene_from_tool, {}, world_from_scene.scale * radius_m_};
     for (const Vec3& point_scene : pose.points_scene) place.points_world.push_back(world_from_scene * point_scene);
     drawn_.add_to(scene.objects, place);
     scene.contact.visible = pose.force_N != Vec3(0.0);

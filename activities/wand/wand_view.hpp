@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Draws a wand in a world (session/state/held_wand.hpp has what is drawn of it), seen from nearby. Frames: as
+// Draws a wand in a world (session/state/held_handle.hpp has what is drawn of it), seen from nearby. Frames: as
 // activities/world/world_view.hpp. Pure; any thread.
 #pragma once
 
 #include <vector>
 
 #include "activities/world/world_view.hpp"
-#include "session/state/held_wand.hpp"
+#include "session/state/held_handle.hpp"
 
 namespace burin::activities {
 
@@ -35,7 +35,7 @@ public:
                                               const WandCamera& camera) const;
 
 private:
-    session::DrawnWand drawn_;
+    session::DrawnHandle drawn_;
     double scale_;
     double radius_m_;
 };

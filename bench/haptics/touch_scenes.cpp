@@ -11,6 +11,7 @@
 #include "bench/measure/bumpy_sphere.hpp"
 #include "bench/measure/rough_surfaces.hpp"
 #include "geometry/files/mesh_import.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/stroke_reader.hpp"
 
@@ -132,11 +133,13 @@ Result<std::unique_ptr<const TouchedScene>> touched(const TouchScene& scene) {
     if (!touch) return std::unexpected(touch.error());
     Result<SurfaceWalk> walk = SurfaceWalk::create(*mesh, 1);
     if (!walk) return std::unexpected(walk.error());
+    const geometry::MeshHealth health = geometry::examine(*mesh);
     geometry::TriangleMesh kept = std::move(*mesh);
     // The tree refers to arrays that moving the mesh leaves in place.
     geometry::TriangleTree tree(kept.positions_m, kept.triangles);
-    return std::make_unique<const TouchedScene>(
-        TouchedScene{scene.name, scene.smooth, std::move(kept), touch->snapshot(), std::move(*walk), std::move(tree)});
+    return std::make_unique<const TouchedScene>(TouchedScene{scene.name, scene.smooth, std::move(kept),
+                                                             touch->snapshot(), std::move(*walk), std::move(tree),
+                                                             !health.closed || !health.consistently_oriented});
 }
 
 std::uint64_t contacts_lost(const TouchedScene& scene, const std::vector<Vec3>& hands_m, double radius_m) {
@@ -147,7 +150,8 @@ std::uint64_t contacts_lost(const TouchedScene& scene, const std::vector<Vec3>& 
         ++judged;
         const double distance_m = scene.tree.nearest(hands_m[i], 0).distance_m;
         const bool meets = distance_m < 0.95 * radius_m;  // a ball in a session is a little smaller than its tool
-        if (meets || (distance_m > kInside_m && winding_number(scene.mesh, hands_m[i]) > 0.5)) ++lost;
+        if (meets || (!scene.both_sides && distance_m > kInside_m && winding_number(scene.mesh, hands_m[i]) > 0.5))
+            ++lost;
     }
     return lost * hands_m.size() / judged;
 }
@@ -156,7 +160,7 @@ void fill(geometry::LocalSurface& draft, const TouchedScene& scene, std::uint64_
     draft.sequence = sequence;
     draft.made_ns = now_ns;
     draft.radius_m = 1e3;
-    draft.meshes.assign(1, {scene.snapshot, 0});
+    draft.meshes.assign(1, {scene.snapshot, 0, scene.both_sides});
 }
 
 std::vector<NamedProbe> probes_on(double mean_edge_m) {

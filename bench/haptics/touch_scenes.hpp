@@ -49,6 +49,7 @@ struct TouchedScene {
     std::shared_ptr<const geometry::TouchSnapshot> snapshot;
     SurfaceWalk walk;  // has not moved yet
     geometry::TriangleTree tree;
+    bool both_sides = false;  // an open mesh, which has no inside: felt as a scene feels it
 };
 
 [[nodiscard]] Result<std::unique_ptr<const TouchedScene>> touched(const TouchScene& scene);

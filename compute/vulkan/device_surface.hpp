@@ -38,6 +38,8 @@ struct DeviceSurfaceOptions {
     std::uint32_t edges = 1u << 18;     // crossed edges in these tiles
     std::uint32_t vertices = 1u << 18;  // of the whole surface
     std::uint32_t indices = 1u << 20;
+    std::uint32_t ball_triangles = 1u << 16;  // near the tool
+    std::uint32_t ball_vertices = 1u << 15;   // of these triangles
 };
 
 // Work done since the surface was made.
@@ -76,9 +78,10 @@ public:
     // Waits until the surface matches the solid.
     [[nodiscard]] Result<void> finish();
 
-    // Sets `out` to the triangles of the ball as loose triangles, ready for contact. The ball is made smaller when it
-    // holds more than the device has space for (kBallTriangles, kBallVertices). `sequence` and `made_ns` of `out` are
-    // left unchanged. Calls finish first; takes one more submission where the ball differs from the one given to carve.
+    // Sets `out` to the triangles of the ball as loose triangles, ready for contact. Only when they exceed what a
+    // binding shows (capabilities().max_storage_buffer_bytes) is the ball made smaller. `sequence` and `made_ns` of
+    // `out` are left unchanged. Calls finish first; takes one more submission where the ball differs from the one
+    // given to carve, and one or two more where it holds more than any before.
     [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
     // Returns the vertices, indices and disagreeing edges of every tile, for tests and reports. Calls finish first.
     [[nodiscard]] Result<std::vector<TileMesh>> download();
@@ -127,6 +130,9 @@ private:
                      std::uint32_t most_changed);
     void record_gather(gpu::Commands& commands, const Ball& ball);
     [[nodiscard]] Result<void> gather_alone(const Ball& ball);
+    [[nodiscard]] bool holds_ball(const shared::MeshCounters& counters) const;
+    // Makes room for the ball that was counted; false where the device has none.
+    [[nodiscard]] Result<bool> grow_ball(const shared::MeshCounters& counters);
     [[nodiscard]] shared::MeshParameters parameters() const;
 
     VulkanEngine& engine_;

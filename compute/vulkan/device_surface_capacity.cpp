@@ -15,7 +15,7 @@ using shared::SurfaceVertex;
 using shared::TileJob;
 using shared::TileRange;
 
-constexpr std::uint32_t kMemberBytes = 8;
+constexpr std::uint32_t kMemberBytes = 8, kTriangleBytes = 12;
 constexpr std::uint32_t kTableWords = 4 * 256;
 constexpr std::uint32_t kMostFree = 65536;
 constexpr std::uint32_t kLists = 2 * shared::kRangeClasses;
@@ -63,8 +63,8 @@ Result<void> DeviceSurface::allocate() {
     if (done) done = counters_.reserve(device, sizeof(MeshCounters));
     if (done) done = dirty_.reserve(device, options_.slots * sizeof(std::uint32_t));
     if (done) done = create_into(waiting_, device, kStorage, tile_count * sizeof(std::uint32_t), "waiting tiles");
-    if (done) done = ball_places_.reserve(device, shared::kBallVertices * sizeof(Vec3f));
-    if (done) done = ball_triangles_.reserve(device, shared::kBallTriangles * 3 * sizeof(std::uint32_t));
+    if (done) done = ball_places_.reserve(device, options_.ball_vertices * sizeof(Vec3f));
+    if (done) done = ball_triangles_.reserve(device, options_.ball_triangles * kTriangleBytes);
     TileRange none{};
     none.vertex_class = none.index_class = shared::kNoClass;
     if (done) done = fill_buffer(device, ranges_, std::vector<TileRange>(tile_count, none));
@@ -102,6 +102,35 @@ Result<void> DeviceSurface::grow(const MeshCounters& counters) {
         done = grow_pool(indices_, sizeof(std::uint32_t), options_.indices, counters.indices_used, "indices");
     }
     return done;
+}
+
+bool DeviceSurface::holds_ball(const MeshCounters& counters) const {
+    return counters.ball_triangles <= options_.ball_triangles && counters.ball_vertices <= options_.ball_vertices;
+}
+
+Result<bool> DeviceSurface::grow_ball(const MeshCounters& counters) {
+    gpu::Device& device = engine_.device();
+    const std::uint64_t shown_bytes =
+        std::min(device.capabilities().max_storage_buffer_bytes, device.core()->max_allocation_bytes);
+    const auto enlarge = [&](SharedBuffer& buffer, std::uint32_t& held, std::uint32_t wanted,
+                             std::uint32_t bytes) -> Result<bool> {
+        if (wanted <= held) return true;
+        const auto more = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(wanted + std::uint64_t{wanted} / 4, shown_bytes / bytes));
+        if (more < wanted) return false;
+        if (const auto made = buffer.reserve(device, std::uint64_t{more} * bytes); !made) {
+            return std::unexpected(made.error());
+        }
+        ++counts_.growths;
+        held = more;
+        return true;
+    };
+    // The vertices of triangles that found no room were not counted. A closed surface has half as many as triangles.
+    const std::uint32_t vertices =
+        counters.ball_triangles > options_.ball_triangles ? counters.ball_triangles / 2 + 1 : counters.ball_vertices;
+    const auto room = enlarge(ball_triangles_, options_.ball_triangles, counters.ball_triangles, kTriangleBytes);
+    if (!room || !*room) return room;
+    return enlarge(ball_places_, options_.ball_vertices, vertices, sizeof(Vec3f));
 }
 
 // Enlarges a pool and keeps its contents; the rest is zero.

@@ -22,6 +22,8 @@ void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
     p.radius_m = static_cast<float>(ball.radius_m);
     p.stamp = ++stamp_;
     p.spacing_m = static_cast<float>(lattice_.spacing_m);
+    p.most_triangles = options_.ball_triangles;
+    p.most_vertices = options_.ball_vertices;
     const Vec3 center = ball.center_object - lattice_.origin_object;
     const double tile_m = lattice_.spacing_m * kTileCells;
     for (int a = 0; a < 3; ++a) {
@@ -57,13 +59,16 @@ Result<void> DeviceSurface::gather_alone(const Ball& ball) {
 
 Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) {
     if (const auto done = finish(); !done) return done;
-    for (double radius = radius_m;; radius *= 0.7) {
+    for (double radius = radius_m;;) {
         if (!touched_ || touched_->center_object != center_object || touched_->radius_m != radius) {
             if (const auto done = gather_alone({center_object, radius}); !done) return done;
         }
         const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
-        if (counters.ball_triangles > std::uint32_t{shared::kBallTriangles} ||
-            counters.ball_vertices > std::uint32_t{shared::kBallVertices}) {
+        if (!holds_ball(counters)) {
+            const auto grown = grow_ball(counters);
+            if (!grown) return std::unexpected(grown.error());
+            if (!*grown) radius *= 0.7;
+            touched_.reset();  // what was gathered of it is no whole
             continue;
         }
         auto loose = std::make_shared<geometry::GriddedTriangles>();

@@ -30,7 +30,7 @@ DeviceDescription glove_description() {
 
 class GloveParts {
 public:
-    GloveParts(std::unique_ptr<GloveLink> link, OmniHand hand, Clock& clock)
+    GloveParts(std::unique_ptr<GloveLink> link, AnyHand hand, Clock& clock)
         : link_(std::move(link)), hand_(std::move(hand)), clock_(clock), start_ns_(clock.now_ns()) {}
 
     [[nodiscard]] DeviceSample read(std::size_t finger) noexcept {
@@ -58,16 +58,10 @@ public:
     }
 
 private:
-    [[nodiscard]] HandTarget hand_target(double time_s) noexcept {
-        if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
-        if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
-        return std::get_if<SteeredHand>(&hand_)->target(time_s);
-    }
-
     // Takes where the palm and the joints are now.
     void look() noexcept {
         now_ns_ = clock_.now_ns();
-        const HandTarget hand = hand_target(seconds(now_ns_ - start_ns_));
+        const HandTarget hand = target_of(hand_, seconds(now_ns_ - start_ns_));
         palm_ = {hand.position_device_m, hand.orientation_device};
         buttons_ = hand.buttons;
         GloveJoints joints{};
@@ -96,7 +90,7 @@ private:
 
     const GloveHand& shape_ = usual_hand();
     std::unique_ptr<GloveLink> link_;  // null: there is no glove
-    OmniHand hand_;
+    AnyHand hand_;
     Clock& clock_;
     Nanoseconds start_ns_, now_ns_ = 0;
     Pose palm_;
@@ -106,23 +100,9 @@ private:
     GloveForces forces_N_{};
 };
 
-class GlovePart final : public HapticDevice {
-public:
-    GlovePart(std::shared_ptr<GloveParts> all, std::size_t finger)
-        : all_(std::move(all)), finger_(finger), description_(glove_description()) {}
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-    [[nodiscard]] DeviceSample read() noexcept override { return all_->read(finger_); }
-    void write(const DeviceWrench& wrench) noexcept override { all_->write(finger_, wrench); }
-
-private:
-    std::shared_ptr<GloveParts> all_;
-    std::size_t finger_;
-    DeviceDescription description_;
-};
-
 }  // namespace
 
-Result<OpenedDevice> open_glove(const std::string& port, OmniHand hand, Clock& clock) {
+Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock) {
     std::unique_ptr<GloveLink> link;
     if (!port.empty()) {
         auto opened = GloveLink::open(port, clock);
@@ -130,10 +110,7 @@ Result<OpenedDevice> open_glove(const std::string& port, OmniHand hand, Clock& c
         link = std::move(*opened);
     }
     const auto all = std::make_shared<GloveParts>(std::move(link), std::move(hand), clock);
-    OpenedDevice device;
-    for (std::size_t i = 0; i < kGloveFingers; ++i)
-        device.parts.push_back({kPistonNames[i], std::make_unique<GlovePart>(all, i)});
-    return device;
+    return of_parts(all, glove_description(), kPistonNames);
 }
 
 }  // namespace burin::devices

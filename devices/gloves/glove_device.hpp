@@ -24,6 +24,6 @@ inline constexpr Nanoseconds kGloveLost_ns = 60'000'000;
 
 // port: of the serial line. Empty: a glove that is nowhere, with its fingers straight, for a recording that is done
 // again. `hand`: where the palm is, in the device frame. The clock must outlive the parts.
-[[nodiscard]] Result<OpenedDevice> open_glove(const std::string& port, OmniHand hand, Clock& clock);
+[[nodiscard]] Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock);
 
 }  // namespace burin::devices

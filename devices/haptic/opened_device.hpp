@@ -6,8 +6,11 @@
 // then each part's read() and write() are the haptic thread's (haptic_device.hpp).
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/haptic/amplifiers.hpp"
@@ -30,6 +33,33 @@ struct OpenedDevice {
     OpenedDevice opened;
     opened.amplifiers = amplifiers;
     opened.parts.push_back({{}, std::move(device)});
+    return opened;
+}
+
+// A part of a device whose parts are read and written by one object: Whole has
+// DeviceSample read(std::size_t part) noexcept and void write(std::size_t part, const DeviceWrench&) noexcept.
+template <typename Whole>
+class PartOf final : public HapticDevice {
+public:
+    PartOf(std::shared_ptr<Whole> whole, std::size_t part, const DeviceDescription& description)
+        : whole_(std::move(whole)), part_(part), description_(description) {}
+    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
+    [[nodiscard]] DeviceSample read() noexcept override { return whole_->read(part_); }
+    void write(const DeviceWrench& wrench) noexcept override { whole_->write(part_, wrench); }
+
+private:
+    std::shared_ptr<Whole> whole_;
+    std::size_t part_;
+    DeviceDescription description_;
+};
+
+// Returns the opened device whose parts are those of one object, all alike, and named in their order.
+template <typename Whole>
+[[nodiscard]] OpenedDevice of_parts(const std::shared_ptr<Whole>& whole, const DeviceDescription& description,
+                                    std::span<const char* const> names) {
+    OpenedDevice opened;
+    for (std::size_t part = 0; part < names.size(); ++part)
+        opened.parts.push_back({names[part], std::make_unique<PartOf<Whole>>(whole, part, description)});
     return opened;
 }
 

@@ -30,7 +30,7 @@ Vec3 clamped(const Vec3& force_N, double max_N) {
 
 }  // namespace
 
-SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock)
+SimulatedOmni::SimulatedOmni(AnyHand hand, const OmniModel& model, Clock* clock)
     : hand_(std::move(hand)), model_(model), clock_(clock) {
     description_.name = "simulated PHANTOM Omni";
     description_.workspace_m = model_.workspace_m;
@@ -46,21 +46,8 @@ SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock
     description_.watchdog_s = model_.watchdog_s;
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 half = 0.5 * model_.workspace_m;
-    position_m_ = glm::clamp(hand_target(0.0).position_device_m, -half, half);
+    position_m_ = glm::clamp(target_of(hand_, 0.0).position_device_m, -half, half);
     last_sample_ = honest_sample();
-}
-
-// Uses get_if instead of visit, which could throw. A variant of types whose moves do not throw always holds one.
-HandTarget SimulatedOmni::hand_target(double time_s) noexcept {
-    if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
-    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
-    return std::get_if<SteeredHand>(&hand_)->target(time_s);
-}
-
-const HandGrip& SimulatedOmni::grip() const noexcept {
-    if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->grip();
-    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->grip();
-    return std::get_if<SteeredHand>(&hand_)->grip();
 }
 
 void SimulatedOmni::advance(Nanoseconds dt_ns) noexcept {
@@ -88,8 +75,8 @@ void SimulatedOmni::update_acting_force() noexcept {
 }
 
 void SimulatedOmni::step() noexcept {
-    const HandGrip& grip = this->grip();
-    const HandTarget target = hand_target(seconds(time_ns_ + kStep_ns));
+    const HandGrip& grip = grip_of(hand_);
+    const HandTarget target = target_of(hand_, seconds(time_ns_ + kStep_ns));
     const double mass = model_.apparent_mass_kg + grip.mass_kg;
     const Vec3 pull = acting_force_N_ + grip.stiffness_N_per_m * (target.position_device_m - position_m_) +
                       grip.damping_Ns_per_m * target.velocity_device_m_per_s;
@@ -110,7 +97,7 @@ void SimulatedOmni::step() noexcept {
 }
 
 DeviceSample SimulatedOmni::honest_sample() noexcept {
-    const HandTarget target = hand_target(seconds(time_ns_));
+    const HandTarget target = target_of(hand_, seconds(time_ns_));
     DeviceSample sample;
     sample.time_ns = clock_start_ns_ + time_ns_;
     sample.position_device_m = quantised(position_m_, model_.resolution_m);

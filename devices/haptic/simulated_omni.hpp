@@ -15,11 +15,8 @@
 #pragma once
 
 #include <array>
-#include <variant>
 
-#include "devices/hand/directed_hand.hpp"
-#include "devices/hand/simulated_hand.hpp"
-#include "devices/hand/steered_hand.hpp"
+#include "devices/hand/any_hand.hpp"
 #include "devices/haptic/haptic_device.hpp"
 
 namespace burin::devices {
@@ -44,9 +41,6 @@ enum class InjectedFault : std::uint8_t {
     frozen,        // samples repeat, time stamp included, with no fault reported
 };
 
-// The hand that holds the stylus.
-using OmniHand = std::variant<SimulatedHand, SteeredHand, DirectedHand>;
-
 class SimulatedOmni final : public HapticDevice {
 public:
     static constexpr Nanoseconds kStep_ns = 50'000;
@@ -57,7 +51,7 @@ public:
 
     // clock may be null: then only advance() moves time. The clock must outlive the device. Starts at rest at the
     // hand's position at time 0.
-    explicit SimulatedOmni(OmniHand hand, const OmniModel& model = {}, Clock* clock = nullptr);
+    explicit SimulatedOmni(AnyHand hand, const OmniModel& model = {}, Clock* clock = nullptr);
 
     [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
     [[nodiscard]] DeviceSample read() noexcept override;
@@ -80,11 +74,9 @@ public:
 private:
     void step() noexcept;
     void update_acting_force() noexcept;
-    [[nodiscard]] HandTarget hand_target(double time_s) noexcept;
-    [[nodiscard]] const HandGrip& grip() const noexcept;
     [[nodiscard]] DeviceSample honest_sample() noexcept;
 
-    OmniHand hand_;
+    AnyHand hand_;
     OmniModel model_;
     Clock* clock_;
     Nanoseconds clock_start_ns_ = 0;  // the clock's reading at the hand's time 0

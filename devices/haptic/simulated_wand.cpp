@@ -59,7 +59,7 @@ bool exceeds(const Vec3& given, const Vec3& most) {
 
 }  // namespace
 
-SimulatedWand::SimulatedWand(OmniHand hand, WandDescription wand, Clock* clock)
+SimulatedWand::SimulatedWand(AnyHand hand, WandDescription wand, Clock* clock)
     : hand_(std::move(hand)), wand_(std::move(wand)), clock_(clock), description_(device_of(wand_)) {
     description_.felt_by_person = false;
     delay_ns_ = nanoseconds(wand_.arm.delay_s);
@@ -71,7 +71,7 @@ SimulatedWand::SimulatedWand(OmniHand hand, WandDescription wand, Clock* clock)
     stops_.highest_pitch = std::tan(highest.x);
     stops_.lowest_roll = std::sin(lowest.z);
     stops_.highest_roll = std::sin(highest.z);
-    const HandTarget start = hand_target(0.0);
+    const HandTarget start = target_of(hand_, 0.0);
     const Vec3 half = 0.5 * description_.workspace_m;
     pose_.position_m = glm::clamp(start.position_device_m, -half, half);
     target_ = start.orientation_device;
@@ -82,18 +82,6 @@ SimulatedWand::SimulatedWand(OmniHand hand, WandDescription wand, Clock* clock)
 }
 
 // A variant of types whose moves do not throw always holds one; visit could throw.
-HandTarget SimulatedWand::hand_target(double time_s) noexcept {
-    if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
-    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
-    return std::get_if<SteeredHand>(&hand_)->target(time_s);
-}
-
-const HandGrip& SimulatedWand::grip() const noexcept {
-    if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->grip();
-    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->grip();
-    return std::get_if<SteeredHand>(&hand_)->grip();
-}
-
 void SimulatedWand::advance(Nanoseconds dt_ns) noexcept {
     owed_ns_ += dt_ns;
     while (owed_ns_ >= kStep_ns) {
@@ -120,9 +108,9 @@ void SimulatedWand::let_motors_rest() noexcept {
 }
 
 void SimulatedWand::step() noexcept {
-    const HandTarget target = hand_target(seconds(time_ns_ + kStep_ns));
-    move(grip(), target);
-    turn(grip(), target);
+    const HandTarget target = target_of(hand_, seconds(time_ns_ + kStep_ns));
+    move(grip_of(hand_), target);
+    turn(grip_of(hand_), target);
 }
 
 void SimulatedWand::move(const HandGrip& grip, const HandTarget& target) noexcept {
@@ -189,7 +177,7 @@ DeviceSample SimulatedWand::read() noexcept {
     for (int axis = 0; axis < 3; ++axis)
         sample.position_device_m[axis] = on_grid(pose_.position_m[axis], wand_.arm.resolution_m);
     sample.orientation_device = on_grid(pose_.orientation, wand_.arm.orientation_step_rad);
-    sample.buttons = hand_target(seconds(time_ns_)).buttons;
+    sample.buttons = target_of(hand_, seconds(time_ns_)).buttons;
     if (off) sample.fault = DeviceFault::other;
     last_sample_ = sample;
     return sample;

@@ -23,7 +23,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <variant>
 
 #include "devices/haptic/amplifiers.hpp"
 #include "devices/haptic/simulated_omni.hpp"
@@ -45,7 +44,7 @@ public:
 
     // The hand's poses are in the device frame. The clock may be null, and must outlive the device. Starts at rest in
     // the hand's pose at time 0, as far as the stops allow it.
-    explicit SimulatedWand(OmniHand hand, WandDescription wand = {}, Clock* clock = nullptr);
+    explicit SimulatedWand(AnyHand hand, WandDescription wand = {}, Clock* clock = nullptr);
     SimulatedWand(const SimulatedWand&) = delete;
     SimulatedWand& operator=(const SimulatedWand&) = delete;
 
@@ -84,10 +83,8 @@ private:
     [[nodiscard]] bool within_stops(const Quat& orientation) const noexcept;
     void update_acting_wrench() noexcept;
     void let_motors_rest() noexcept;
-    [[nodiscard]] HandTarget hand_target(double time_s) noexcept;
-    [[nodiscard]] const HandGrip& grip() const noexcept;
 
-    OmniHand hand_;
+    AnyHand hand_;
     WandDescription wand_;
     Clock* clock_;
     Nanoseconds clock_start_ns_ = 0;  // the clock's reading at the hand's time 0

@@ -20,7 +20,7 @@ constexpr std::array<Vec3, kFingers> kTowardsFinger{Vec3{0.0, -1.0, 0.0}, Vec3{-
 // The hand that all fingers belong to.
 class FingersOfAHand {
 public:
-    FingersOfAHand(OmniHand hand, Clock& clock) : hand_(std::move(hand)), clock_(clock), start_ns_(clock.now_ns()) {
+    FingersOfAHand(AnyHand hand, Clock& clock) : hand_(std::move(hand)), clock_(clock), start_ns_(clock.now_ns()) {
         lead(0.0);
         for (std::size_t i = 0; i < kFingers; ++i) fingers_[i].emplace(DirectedHand(directions_[i]), model(), &clock);
     }
@@ -41,14 +41,9 @@ private:
         model.workspace_m += Vec3(2.0 * kOpen_m);
         return model;
     }
-    [[nodiscard]] HandTarget hand_target(double time_s) noexcept {
-        if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
-        if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
-        return std::get_if<SteeredHand>(&hand_)->target(time_s);
-    }
     // Directs each finger from where the hand is at this time.
     void lead(double time_s) noexcept {
-        const HandTarget hand = hand_target(time_s);
+        const HandTarget hand = target_of(hand_, time_s);
         const double step_m = kClosing_m_per_s * std::max(time_s - time_s_, 0.0);
         const double wanted_m = (hand.buttons & 1u) != 0 ? kClosed_m : kOpen_m;
         open_m_ += std::clamp(wanted_m - open_m_, -step_m, step_m);
@@ -60,7 +55,7 @@ private:
         }
     }
 
-    OmniHand hand_;
+    AnyHand hand_;
     Clock& clock_;
     Nanoseconds start_ns_;
     double time_s_ = 0.0, open_m_ = kOpen_m;
@@ -68,30 +63,13 @@ private:
     std::array<std::optional<SimulatedOmni>, kFingers> fingers_;
 };
 
-class SteeredFinger final : public HapticDevice {
-public:
-    SteeredFinger(std::shared_ptr<FingersOfAHand> hand, std::size_t finger)
-        : hand_(std::move(hand)), finger_(finger), description_(hand_->description()) {
-        description_.name = "simulated fingers";
-    }
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-    [[nodiscard]] DeviceSample read() noexcept override { return hand_->read(finger_); }
-    void write(const DeviceWrench& wrench) noexcept override { hand_->write(finger_, wrench); }
-
-private:
-    std::shared_ptr<FingersOfAHand> hand_;
-    std::size_t finger_;
-    DeviceDescription description_;
-};
-
 }  // namespace
 
-OpenedDevice simulated_fingers(OmniHand hand, Clock& clock) {
+OpenedDevice simulated_fingers(AnyHand hand, Clock& clock) {
     const auto shared = std::make_shared<FingersOfAHand>(std::move(hand), clock);
-    OpenedDevice opened;
-    for (std::size_t i = 0; i < kFingers; ++i)
-        opened.parts.push_back({kFingerNames[i], std::make_unique<SteeredFinger>(shared, i)});
-    return opened;
+    DeviceDescription description = shared->description();
+    description.name = "simulated fingers";
+    return of_parts(shared, description, kFingerNames);
 }
 
 }  // namespace burin::devices

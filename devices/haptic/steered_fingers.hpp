@@ -25,6 +25,6 @@ inline constexpr double kOpen_m = 0.035, kClosed_m = 0.006;
 inline constexpr double kClosing_m_per_s = 0.06;
 
 // The clock must outlive the parts.
-[[nodiscard]] OpenedDevice simulated_fingers(OmniHand hand, Clock& clock);
+[[nodiscard]] OpenedDevice simulated_fingers(AnyHand hand, Clock& clock);
 
 }  // namespace burin::devices

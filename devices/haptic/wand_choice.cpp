@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "base/text.hpp"
-#include "devices/haptic/wand_file.hpp"
 
 namespace burin::devices {
 namespace {
@@ -21,14 +20,6 @@ std::vector<WandPoint> points_between(const Vec3& from_m, const Vec3& to_m, std:
 }
 
 }  // namespace
-
-bool is_wand(std::string_view device) noexcept { return device.substr(0, device.find(':')) == kSimulatedWand; }
-
-Result<WandDescription> wand_named(std::string_view device) {
-    const std::size_t colon = device.find(':');
-    if (colon == std::string_view::npos || colon + 1 == device.size()) return WandDescription{};
-    return read_wand(device.substr(colon + 1));
-}
 
 Result<std::vector<WandPoint>> points_named(const WandDescription& wand, const std::string& text) {
     constexpr const char* kWhere = "--points";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a command line says of a wand: --device simulated-wand[:FILE], and which of its points touch. Threads: any.
+// What a command line says of a wand: its name, and which of its points touch. Threads: any.
 #pragma once
 
 #include <string>
@@ -12,11 +12,6 @@
 namespace burin::devices {
 
 inline constexpr std::string_view kSimulatedWand = "simulated-wand";
-
-// Whether a device's name is a wand's: "simulated-wand" or "simulated-wand:FILE".
-[[nodiscard]] bool is_wand(std::string_view device) noexcept;
-// Returns the description of a wand: that of its file, or the Quanser wand's where the name has none.
-[[nodiscard]] Result<WandDescription> wand_named(std::string_view device);
 
 // Returns the points that a text names: names of the description's with commas between them, "centre" for the handle's
 // origin, or a number of points evenly from the first to the last of the description's. Fails with the nearest name.

@@ -9,6 +9,7 @@
 #include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 
 namespace burin::devices {
@@ -21,8 +22,12 @@ Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& fil
     return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock));
 }
 
+Result<WandDescription> wand_described(const std::string& file) {
+    return file.empty() ? WandDescription{} : read_wand(file);
+}
+
 Result<OpenedDevice> open_simulated_wand(HapticHost host, const std::string& file) {
-    Result<WandDescription> wand = file.empty() ? WandDescription{} : read_wand(file);
+    Result<WandDescription> wand = wand_described(file);
     if (!wand) return std::unexpected(wand.error());
     auto opened = std::make_unique<SimulatedWand>(std::move(host.hand), std::move(*wand), &host.clock);
     Amplifiers* const amplifiers = opened.get();
@@ -47,36 +52,95 @@ Result<OpenedDevice> open_glove_at(HapticHost host, const std::string& port) {
 }
 
 constexpr std::array kKinds{
-    HapticKind{kDefaultHapticDevice, "a PHANTOM Omni in a simulated hand", 1, open_simulated_omni},
-    HapticKind{
-        "simulated-wand",
-        "a wand that is driven in three forces and two torques, in a simulated hand; simulated-wand:FILE.toml as "
-        "FILE describes it",
-        1, open_simulated_wand},
-    HapticKind{kSimulatedFingers, "four fingertips of a simulated hand, each pushed by itself", kFingers,
-               open_simulated_fingers},
-    HapticKind{kGlove, "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
-               kGloveFingers, open_glove_at},
+    HapticKind{.name = kDefaultHapticDevice,
+               .usage = "a PHANTOM Omni in a simulated hand",
+               .parts = 1,
+               .is_upright = false,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_simulated_omni},
+    HapticKind{.name = kSimulatedWand,
+               .usage = "a wand that is driven in three forces and two torques, in a simulated hand; "
+                        "simulated-wand:FILE.toml as FILE describes it",
+               .parts = 1,
+               .is_upright = true,
+               .felt_by_person = false,
+               .has_amplifiers = true,
+               .handle = wand_described,
+               .open = open_simulated_wand},
+    HapticKind{.name = kSimulatedFingers,
+               .usage = "four fingertips of a simulated hand, each pushed by itself",
+               .parts = kFingers,
+               .is_upright = true,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_simulated_fingers},
+    HapticKind{.name = kGlove,
+               .usage = "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
+               .parts = kGloveFingers,
+               .is_upright = true,
+               .felt_by_person = true,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_glove_at},
 };
 
-}  // namespace
+struct ChosenKind {
+    const HapticKind* kind = nullptr;
+    std::string file;
+};
 
-std::span<const HapticKind> haptic_kinds() { return kKinds; }
-
-Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
+// Splits NAME:FILE. Fails where there is no device of the name.
+Result<ChosenKind> chosen(std::string_view name) {
     const std::string_view kind_name = name.substr(0, name.find(':'));
     const auto kind = std::ranges::find(kKinds, kind_name, &HapticKind::name);
     if (kind != kKinds.end())
-        return kind->open(std::move(host), std::string(name.substr(std::min(name.size(), kind_name.size() + 1))));
+        return ChosenKind{&*kind, std::string(name.substr(std::min(name.size(), kind_name.size() + 1)))};
     std::array<std::string_view, kKinds.size()> names;
     std::ranges::transform(kKinds, names.begin(), &HapticKind::name);
     return fail("haptic device " + std::string(name), "is no device that Burin knows",
                 "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
 }
 
-std::size_t parts_of_device(std::string_view name) {
-    const auto kind = std::ranges::find(kKinds, name.substr(0, name.find(':')), &HapticKind::name);
-    return kind != kKinds.end() ? kind->parts : 0;
+}  // namespace
+
+std::span<const HapticKind> haptic_kinds() { return kKinds; }
+
+Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
+    const Result<ChosenKind> wanted = chosen(name);
+    if (!wanted) return std::unexpected(wanted.error());
+    return wanted->kind->open(std::move(host), wanted->file);
+}
+
+Result<DeviceNature> nature_of_device(std::string_view name) {
+    const Result<ChosenKind> wanted = chosen(name);
+    if (!wanted) return std::unexpected(wanted.error());
+    const HapticKind& kind = *wanted->kind;
+    DeviceNature nature{kind.parts, kind.is_upright, kind.felt_by_person, kind.has_amplifiers, {}};
+    if (kind.handle == nullptr) return nature;
+    Result<WandDescription> handle = kind.handle(wanted->file);
+    if (!handle) return std::unexpected(handle.error());
+    nature.handle = std::move(*handle);
+    return nature;
+}
+
+bool has_handle(std::string_view name) {
+    const Result<ChosenKind> wanted = chosen(name);
+    return wanted && wanted->kind->handle != nullptr;
+}
+
+std::string devices_with_handles() {
+    std::vector<std::string_view> names;
+    for (const HapticKind& kind : kKinds)
+        if (kind.handle != nullptr) names.push_back(kind.name);
+    return joined(names);
+}
+
+std::string handle_file_of(std::string_view name) {
+    const Result<ChosenKind> wanted = chosen(name);
+    return wanted && wanted->kind->handle != nullptr ? wanted->file : std::string();
 }
 
 std::string haptic_usage() {

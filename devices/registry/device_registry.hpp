@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,29 +15,54 @@
 #include "base/error.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "devices/haptic/wand_description.hpp"
 
 namespace burin::devices {
 
 // What a device needs of the program. The clock must outlive the device.
 struct HapticHost {
-    Clock& clock;   // of a device that is there it must be the machine's
-    OmniHand hand;  // what holds the stylus of a simulated device, and leads the palm of a glove
+    Clock& clock;  // of a device that is there it must be the machine's
+    AnyHand hand;  // what holds the stylus of a simulated device, and leads the palm of a glove
     // A recording is done again, and no device is looked for: whatever there is stands in for one, with the same
     // description. Its samples are the recording's.
     bool stands_in = false;
 };
 
+// What a device is, as far as it can be known before it is opened. Who wants a device asks for what it needs of this,
+// and for no device by its name.
+struct DeviceNature {
+    std::size_t parts = 1;        // that move by themselves
+    bool is_upright = false;      // held as a handle or a hand is, not as a pen
+    bool felt_by_person = true;   // false: by a simulated hand alone
+    bool has_amplifiers = false;  // that the program can switch
+    // A handle with points of its own that touch, in place of one tip, and with a jig to calibrate it in: its
+    // description, from the device's file or from the program. None: the device has none.
+    std::optional<WandDescription> handle;
+};
+
 struct HapticKind {
     std::string_view name;   // as --device spells it
     std::string_view usage;  // what it is, for the help
-    std::size_t parts;       // that move by themselves
+    // As in DeviceNature:
+    std::size_t parts;
+    bool is_upright, felt_by_person, has_amplifiers;
+    // Returns the handle's description: of the file, or the program's where none is named; null: it has no handle.
+    Result<WandDescription> (*handle)(const std::string& file);
     // `file` is what follows the name and a colon: a description of the device; empty: none was named.
     Result<OpenedDevice> (*open)(HapticHost host, const std::string& file);
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 
-// Returns how many parts the device of that name has; 0 where there is no such device.
-[[nodiscard]] std::size_t parts_of_device(std::string_view name);
+// Returns the nature of the device of that name, or of NAME:FILE. Fails where there is none of that name, and says
+// which there are, and where its description cannot be read.
+[[nodiscard]] Result<DeviceNature> nature_of_device(std::string_view name);
+// Returns whether the device of that name has a handle, whatever its description says of it; false where there is no
+// such device.
+[[nodiscard]] bool has_handle(std::string_view name);
+// Returns the names of all devices that have one, for people: "simulated-wand".
+[[nodiscard]] std::string devices_with_handles();
+// Returns the file that describes a device's handle: FILE of NAME:FILE; empty: none is named, or it has no handle.
+[[nodiscard]] std::string handle_file_of(std::string_view name);
 
 inline constexpr const char* kDefaultHapticDevice = "simulated";
 

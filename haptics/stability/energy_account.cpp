@@ -144,6 +144,12 @@ double longest_hold_s(const PromiseLimits& promise, const DeviceDescription& dev
     return device.watchdog_s > 0.0 ? std::min(hold_s, device.watchdog_s) : hold_s;
 }
 
+// Whether a sample was taken at the time of the last or a little before. A clock that was set back is none of these.
+bool is_overtaken(const EnergyAccount& account, Nanoseconds time_ns) {
+    constexpr Nanoseconds kLongest_ns = 100'000'000;
+    return time_ns <= account.time_ns && account.time_ns - time_ns < kLongest_ns;
+}
+
 bool wrenches_are_gone(const EnergyAccount& account, const PromiseLimits& promise, const DeviceDescription& device) {
     bool gone = true;
     const Nanoseconds later = account.time_ns + delay_ns(promise, device) + 1;
@@ -161,6 +167,9 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
                          const DeviceDescription& device) noexcept {
     AccountStep step{account};
     EnergyAccount& next = step.next;
+    // A sample that is no newer than the last says nothing of the way since: as if it had not come. The next one that
+    // is counts the whole way, with all commands that have acted on it.
+    if (in.known && account.counting && is_overtaken(account, in.time_ns)) return step;
     next.time_ns = in.time_ns;
     next.orientation_device = in.orientation_device;
     const Nanoseconds gap_ns = in.time_ns - account.time_ns;

@@ -36,8 +36,10 @@ Vec3 honest_velocity(const PassivityInput& in, const PassivitySettings& settings
 // Updates E, U, R and A for the motion since the last tick.
 void count(PassivityState& next, const PassivityState& before, const PassivityInput& in, double wanted_N,
            const PassivitySettings& settings, const devices::DeviceDescription& device, double dt_s) {
+    // No sample is of a time to come, whatever its stamp says.
+    const Nanoseconds taken_ns = in.now_ns > 0 ? std::min(in.time_ns, in.now_ns) : in.time_ns;
     const AccountStep step = count_energy(before.account,
-                                          {in.position_device_m, in.orientation_device, in.time_ns, in.turns,
+                                          {in.position_device_m, in.orientation_device, taken_ns, in.turns,
                                            in.in_contact, before.known, honest_velocity(in, settings)},
                                           promise_of(settings, dt_s), device);
     next.account = step.next;

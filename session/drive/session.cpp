@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/input_files.hpp"
@@ -64,11 +64,10 @@ Result<void> check(const SculptOptions& options) {
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
         return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
-    const auto is_wands = [](const NamedDevice& hand) { return devices::is_wand(hand.device); };
-    if (!options.points.empty() && !devices::is_wand(options.live.device) &&
-        std::ranges::none_of(options.live.hands, is_wands))
-        return fail("--points", "belongs to a wand, and the device is " + options.live.device,
-                    "give --device " + std::string(devices::kSimulatedWand) + ", or leave --points out");
+    const auto has_points = [](const NamedDevice& hand) { return devices::has_handle(hand.device); };
+    if (!options.points.empty() && std::ranges::none_of(devices_of(options.live), has_points))
+        return fail("--points", "belongs to a handle with points, and the device is " + options.live.device,
+                    "give --device " + devices::devices_with_handles() + ", or leave --points out");
     return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file
 }
 

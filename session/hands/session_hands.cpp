@@ -9,6 +9,11 @@
 
 namespace burin::session {
 
+Error of_hand(const std::string& name, Error error) {
+    if (!name.empty()) error.where = "hand " + name + ": " + error.where;
+    return error;
+}
+
 Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock, bool stands_in) {
     for (const HandToOpen& one : wanted)
         if (const auto opened = open_one(one, clock, stands_in); !opened) return opened;
@@ -39,9 +44,7 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
     hand->told.position_device_m = rest.position_device_m;
     hand->told.orientation_device = rest.orientation_device;
     auto opened = devices::open_haptic_device(wanted.device, {clock, std::move(*steered), stands_in});
-    if (!opened && wanted.name.empty()) return std::unexpected(opened.error());
-    if (!opened)
-        return fail("hand " + wanted.name + ": " + opened.error().where, opened.error().what, opened.error().remedy);
+    if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
     hand->device = std::move(*opened);
     for (std::size_t i = 0; i < hand->device.parts.size(); ++i)
         parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_, whole_ticks_));

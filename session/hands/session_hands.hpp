@@ -31,6 +31,9 @@ struct HandToOpen {
 
 using scene::PartOfHand;
 
+// Says whose device an Error is about, where hands have names.
+[[nodiscard]] Error of_hand(const std::string& name, Error error);
+
 class SessionHands {
 public:
     // records: ticks that the recording's ring of each part holds. pace: of the machine (haptics::WorkSettings).

@@ -97,10 +97,10 @@ scene::SceneThread::Order LiveSession::carving(sculpt::SculptOrder order) {
     };
 }
 
-// How far a wand's points are from the first of them, in the scene as large as it is shown now.
+// How far a handle's points are from the first of them, in the scene as large as it is shown now.
 double LiveSession::spread_of(std::size_t hand) const {
-    return wands_[hand]
-               ? wands_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
+    return handles_[hand]
+               ? handles_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
                : 0.0;
 }
 
@@ -111,7 +111,7 @@ void LiveSession::follow_spread(const Give& give) {
         if (spread_m == spreads_m_[hand]) continue;
         spreads_m_[hand] = spread_m;
         give([this, hand, spread_m] {
-            scene_->use_probe(hands_.first_part(hand), tools_around_m_[hand] + spread_m);  // a wand has one part
+            scene_->use_probe(hands_.first_part(hand), tools_around_m_[hand] + spread_m);  // a handle is one part
         });
     }
 }

@@ -151,7 +151,7 @@ public:
 private:
     LiveSession(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
-    [[nodiscard]] Result<void> hold_wands(const SculptOptions& options);
+    [[nodiscard]] Result<void> hold_handles(const SculptOptions& options);
     [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
@@ -196,9 +196,9 @@ private:
     bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
     // Of each hand:
-    std::vector<std::shared_ptr<const HeldWand>> wands_;  // null: a stylus, or a wand that holds a tool
-    std::vector<double> spreads_m_;                       // of its points, as the scene's thread has been told
-    std::vector<double> tools_around_m_;                  // of the tool at each; the scene's thread's
+    std::vector<std::shared_ptr<const HeldHandle>> handles_;  // null: a stylus, or one that holds a tool
+    std::vector<double> spreads_m_;                           // of its points, as the scene's thread has been told
+    std::vector<double> tools_around_m_;                      // of the tool at each; the scene's thread's
     SessionState state_;
     std::vector<haptics::ToolState> tools_;  // of each part, as the frame draws them
     Nanoseconds last_step_ns_ = 0;

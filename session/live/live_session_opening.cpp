@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/live/live_session.hpp"
 #include "session/record/input_files.hpp"
@@ -35,20 +36,11 @@ Room room_of(const SessionWall& wall) {
     return room;
 }
 
-// Has the desk steer a wand: upright where it rests, over a workspace of its own size.
-void use_wand(HandRoom& room, const devices::WandDescription& wand) {
+// Has the desk steer a handle over a workspace of its own size.
+void steer_over(HandRoom& room, const Vec3& workspace_device_m) {
     constexpr double kDepthPerWheelStep = 0.025;  // of the workspace's longest side, about as a stylus'
-    room.workspace_device_m = devices::device_of(wand).workspace_m;
-    room.desk.workspace_m = room.workspace_device_m;
-    room.desk.depth_per_wheel_step_m =
-        kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), room.workspace_device_m});
-    room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
-    room.desk.leans_sideways = true;
-}
-
-// Returns the devices of all hands: one without a name where there is one.
-std::vector<NamedDevice> hands_wanted(const LiveOptions& live) {
-    return live.hands.empty() ? std::vector<NamedDevice>{{"", live.device}} : live.hands;
+    room.workspace_device_m = room.desk.workspace_m = workspace_device_m;
+    room.desk.depth_per_wheel_step_m = kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), workspace_device_m});
 }
 
 }  // namespace
@@ -71,7 +63,7 @@ Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& op
 
 Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
     room_ = room_of(wall);
-    if (const auto held = hold_wands(options); !held) return held;
+    if (const auto held = hold_handles(options); !held) return held;
     const bool has_world = options.scene || !options.world.empty();
     if (!options.no_workpiece || !has_world)
         if (const auto loaded = load_workpiece(options); !loaded) return loaded;
@@ -87,25 +79,25 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     return {};
 }
 
-// Fits the room to the devices of all hands, and makes the wands ready whose points touch.
-Result<void> LiveSession::hold_wands(const SculptOptions& options) {
-    const std::vector<NamedDevice> hands = hands_wanted(options.live);
+// Fits the room to the devices of all hands, and makes the handles ready whose points touch.
+Result<void> LiveSession::hold_handles(const SculptOptions& options) {
+    const std::vector<NamedDevice> hands = devices_of(options.live);
     room_.others.assign(hands.size() - 1, room_);
-    wands_.assign(hands.size(), nullptr);
+    handles_.assign(hands.size(), nullptr);
     for (std::size_t i = 0; i < hands.size(); ++i) {
         HandRoom& room = i == 0 ? room_ : room_.others[i - 1];
-        if (devices::parts_of_device(hands[i].device) > 1) {  // a hand, which is held upright and not as a pen is
+        Result<devices::DeviceNature> nature = devices::nature_of_device(hands[i].device);
+        if (!nature) return std::unexpected(of_hand(hands[i].hand, nature.error()));
+        if (nature->is_upright) {
             room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
             room.desk.leans_sideways = true;
         }
-        if (!devices::is_wand(hands[i].device)) continue;
-        Result<devices::WandDescription> wand = devices::wand_named(hands[i].device);
-        if (!wand) return std::unexpected(wand.error());
-        use_wand(room, *wand);
+        if (!nature->handle) continue;
+        steer_over(room, devices::device_of(*nature->handle).workspace_m);
         if (options.points.empty()) continue;
-        Result<std::vector<devices::WandPoint>> points = devices::points_named(*wand, options.points);
+        auto points = devices::points_named(*nature->handle, options.points);
         if (!points) return std::unexpected(points.error());
-        wands_[i] = std::make_shared<const HeldWand>(std::move(*wand), std::move(*points));
+        handles_[i] = std::make_shared<const HeldHandle>(std::move(*nature->handle), std::move(*points));
     }
     return {};
 }
@@ -166,7 +158,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (!feel) return std::unexpected(feel.error());
     std::vector<std::string> names;
     for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
-    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), wands_, names);
+    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), handles_, names);
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = carving_ != nullptr;
     if (world_) state_.world = world_->objects();
@@ -182,7 +174,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
 
 Result<void> LiveSession::open_hands(const SculptOptions& options) {
     std::vector<HandToOpen> wanted;
-    for (const NamedDevice& hand : hands_wanted(options.live)) {
+    for (const NamedDevice& hand : devices_of(options.live)) {
         const std::size_t i = wanted.size();
         const Vec3& rest_device_m =
             i == state_.hand ? state_.desk.target_device_m : state_.hands[i].target.position_device_m;
@@ -197,9 +189,9 @@ Result<void> LiveSession::open_hands(const SculptOptions& options) {
 Vec3 LiveSession::place_at_rest(std::size_t hand) const {
     const Vec3& rest_device_m =
         hand == state_.hand ? state_.desk.target_device_m : state_.hands[hand].target.position_device_m;
-    const Vec3 first_device_m = wands_[hand]
-                                    ? wands_[hand]->first_point_device({rest_device_m, room_.of(hand).desk.rest_device})
-                                    : rest_device_m;
+    const Vec3 first_device_m =
+        handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room_.of(hand).desk.rest_device})
+                       : rest_device_m;
     return inverse(state_.world_from_object) * (hand_of(state_, hand).world_from_device * first_device_m);
 }
 
@@ -221,9 +213,9 @@ Result<void> LiveSession::make_scene(const sculpt::UseTool& use, std::size_t und
     for (std::size_t part = 0; part < hands_.parts(); ++part) {
         const std::size_t hand = hands_.part_of_hand(part).hand;
         // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
-        // ends of a wand are swung as well, at 6 rad/s.
+        // ends of a handle are swung as well, at 6 rad/s.
         const double scale = parameters_of(state_, room_, hand).workspace.object_from_device.scale;
-        const double reach_m = (wands_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
+        const double reach_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
         if (part == hands_.first_part(hand)) spreads_m_.push_back(spread_of(hand));
         touched.push_back({&hands_.channels(part), place_at_rest(hand), tools_around_m_[hand] + spreads_m_[hand],
                            reach_m, hands_.part_of_hand(part)});

@@ -103,7 +103,7 @@ Result<void> check_command(const CommandInput& input, SessionState state, const 
         if (const auto ok = check_output_name(file->name, file->kind); !ok) return ok;
     }
     if (std::holds_alternative<EditObject>(*command) || std::holds_alternative<SelectObject>(*command) ||
-        std::holds_alternative<LeadHand>(*command) || std::holds_alternative<CalibrateWand>(*command))
+        std::holds_alternative<LeadHand>(*command) || std::holds_alternative<CalibrateHandle>(*command))
         return {};  // which objects there are is not known yet, nor which device
     if (const auto* act = std::get_if<DoAct>(&*command)) return check_act(activity, act->words);
     SessionOrders ignored;

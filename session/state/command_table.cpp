@@ -221,8 +221,8 @@ Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
 Parsed parse_hand(Arguments words) { return LeadHand{words[0]}; }
 
 Parsed parse_calibrate(Arguments words) {
-    if (words.empty()) return CalibrateWand{};
-    if (words[0] == "reset") return CalibrateWand{.reset = true};
+    if (words.empty()) return CalibrateHandle{};
+    if (words[0] == "reset") return CalibrateHandle{.reset = true};
     return no_argument("calibrate", words[0], "write calibrate, or calibrate reset");
 }
 

@@ -136,16 +136,16 @@ struct DoAct {
     std::vector<std::string> words;
     bool operator==(const DoAct&) const = default;
 };
-// Takes the wand for being in its jig, or takes that back.
-struct CalibrateWand {
+// Takes the handle for being in its jig, or takes that back.
+struct CalibrateHandle {
     bool reset = false;
-    bool operator==(const CalibrateWand&) const = default;
+    bool operator==(const CalibrateHandle&) const = default;
 };
 
 using SessionCommand =
     std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
                  SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
-                 SelectObject, DoAct, CalibrateWand, SetAmplifiers, LeadHand>;
+                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand>;
 
 struct SessionState;
 

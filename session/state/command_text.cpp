@@ -56,7 +56,7 @@ struct Printer {
         for (std::size_t i = 1; i < property.numbers; ++i) value += "," + exact(c.value.at(i));
         return {"object", {c.object, std::string(property.name), value}};
     }
-    CommandInput operator()(const CalibrateWand& c) const {
+    CommandInput operator()(const CalibrateHandle& c) const {
         return {"calibrate", c.reset ? std::vector<std::string>{"reset"} : std::vector<std::string>{}};
     }
     CommandInput operator()(const SetCatchDrill& c) const { return {"catch-drill", {on_off(c.on)}}; }

@@ -9,8 +9,8 @@
 #include "devices/hand/simulated_hand.hpp"
 #include "haptics/workspace/technique.hpp"
 #include "sculpt/tool_options.hpp"
+#include "session/state/held_handle.hpp"
 #include "session/state/held_tool.hpp"
-#include "session/state/held_wand.hpp"
 
 namespace burin::session {
 
@@ -23,9 +23,9 @@ struct HandState {
     std::string hand_name;         // "right"; empty for the only hand
     Similarity world_from_device;  // where the hand's workspace is in the world
     sculpt::ToolSettings tool;
-    std::shared_ptr<const HeldTool> held;      // of tool.shape, after a step; null only where that cannot be made
-    std::shared_ptr<const HeldWand> wand;      // whose points touch, each as the tool's ball; null: the tool alone
-    Pose wand_reads_device, device_from_read;  // where the wand read to be last; its calibration
+    std::shared_ptr<const HeldTool> held;        // of tool.shape, after a step; null only where that cannot be made
+    std::shared_ptr<const HeldHandle> handle;    // whose points touch, each as the tool's ball; null: the tool alone
+    Pose handle_reads_device, device_from_read;  // where the handle read to be last; its calibration
     haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
     // Factors a of the exponentially weighted means of force (P11) and velocity; 0: off.
     double force_filter = 0.0, velocity_filter = 0.0;

@@ -74,7 +74,7 @@ public:
         state_.selected = *id;
         return {};
     }
-    Result<void> operator()(const CalibrateWand& wanted);
+    Result<void> operator()(const CalibrateHandle& wanted);
     Result<void> operator()(const LeadHand& wanted) { return lead_hand(state_, wanted.hand); }
     Result<void> operator()(const EditObject& wanted) {
         const WorldObjects none;
@@ -150,11 +150,11 @@ haptics::WorkspaceTechnique next_technique(haptics::WorkspaceTechnique technique
     return techniques()[(static_cast<std::size_t>(technique) + 1) % techniques().size()].technique;
 }
 
-Result<void> Runner::operator()(const CalibrateWand& wanted) {
-    if (!state_.wand)
+Result<void> Runner::operator()(const CalibrateHandle& wanted) {
+    if (!state_.handle)
         return fail("calibrate", "there is no wand", "open the session with --device simulated-wand and --points");
-    Result<WandCalibrated> done =
-        wanted.reset ? WandCalibrated{} : calibrated(state_.wand->wand, state_.wand_reads_device);
+    Result<HandleCalibrated> done =
+        wanted.reset ? HandleCalibrated{} : calibrated(state_.handle->description, state_.handle_reads_device);
     if (!done) return std::unexpected(done.error());
     state_.device_from_read = done->device_from_read;
     if (!done->message.empty()) orders_.messages.push_back({done->message, 0});

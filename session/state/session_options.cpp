@@ -27,6 +27,10 @@ Result<NamedDevice> parse_named_device(const std::string& text) {
     return named;
 }
 
+std::vector<NamedDevice> devices_of(const LiveOptions& live) {
+    return live.hands.empty() ? std::vector<NamedDevice>{{"", live.device}} : live.hands;
+}
+
 Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& given) {
     if (given.empty()) return {};
     // A device alone may have a = in the name of its file, behind the colon.

@@ -58,6 +58,9 @@ struct LiveOptions {
     bool stands_in = false;  // a recording is done again: no device is looked for
 };
 
+// Returns the devices of all hands: one without a name where there is one hand.
+[[nodiscard]] std::vector<NamedDevice> devices_of(const LiveOptions& live);
+
 class Activity;  // session/state/activity.hpp
 
 enum class HandChoice { rigid, simulated };
@@ -67,7 +70,7 @@ struct SculptOptions {
     std::string world;  // a file of objects that are touched besides the workpiece, or without one; empty: none
     std::shared_ptr<const scene::World> scene;  // the world itself, in place of a file; no option of the command line
     bool no_workpiece = false;                  // with a world
-    std::string points;  // of a wand, that touch (devices::points_named); empty: the tool is held in its middle
+    std::string points;  // of a handle, that touch (devices::points_named); empty: the tool is held in its middle
     sculpt::ToolOptions tool;
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep

@@ -19,7 +19,7 @@ namespace {
 constexpr double kHeightOnScreen = 0.52;
 // The same of a world, which is wide rather than high.
 constexpr double kWorldOnScreen = 0.8;
-// Size of a wand's workspace that is shown as large as a world of that size.
+// Size of a handle's workspace that is shown as large as a world of that size.
 constexpr double kOfWorkspace = 0.8;
 // Distance of its center behind the screen, as a share of its own longest side.
 constexpr double kBehindScreen = 0.4;
@@ -32,16 +32,16 @@ constexpr double kClearsBorder_m = 0.0005;
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
-// Returns the size that is to fill its share of the screen. With a wand it is at least a share of the workspace: in a
-// small world the resting wand would be right before the viewer's nose.
-double size_before_viewer_m(const Room& room, const HeldWand* held) {
+// Returns the size that is to fill its share of the screen. With a handle it is at least a share of the workspace: in a
+// small world the resting handle would be right before the viewer's nose.
+double size_before_viewer_m(const Room& room, const HeldHandle* held) {
     const double size_m = longest(room.workpiece_object.extent());
     if (held == nullptr) return size_m;
     const double scale = object_from_device(*held, room.workpiece_object).scale;
     return std::max(size_m, kOfWorkspace * scale * longest(room.workspace_device_m));
 }
 
-Similarity place_workpiece(const Room& room, const HeldWand* held) {
+Similarity place_workpiece(const Room& room, const HeldHandle* held) {
     const wall::Screen s = room.screen();
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const Vec3 out = glm::normalize(glm::cross(across, upright));
@@ -59,7 +59,7 @@ Similarity place_workpiece(const Room& room, const HeldWand* held) {
 
 // Places the hand's workspace with its center at the workpiece's front, large enough to cover its width and height.
 Similarity place_workspace(const Room& room, const HandRoom& hand, const Similarity& world_from_object,
-                           const HeldWand* held) {
+                           const HeldHandle* held) {
     if (held != nullptr) return world_from_object * object_from_device(*held, room.workpiece_object);
     const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
     const Vec3 needed = kWorkspaceCovers * size / hand.workspace_device_m;
@@ -70,7 +70,7 @@ Similarity place_workspace(const Room& room, const HandRoom& hand, const Similar
 }
 
 // Returns where the hand rests: this far before the workspace's front.
-Vec3 resting_hand_device(const HandRoom& hand, const HeldWand* held, double before_front_m) {
+Vec3 resting_hand_device(const HandRoom& hand, const HeldHandle* held, double before_front_m) {
     const Vec3 front = held != nullptr ? held->front_device() : Vec3(0.0, 0.0, 1.0);
     return (0.5 * glm::dot(glm::abs(front), hand.workspace_device_m) - before_front_m) * front;
 }
@@ -81,10 +81,11 @@ void move_into_comfort(SessionState& state, const Room& room) {
     const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
     if (!sight.visible) return;
     const double radius_m = 0.5 * state.world_from_object.scale * longest(room.workpiece_object.extent());
-    const Similarity world_from_device = place_workspace(room, room, state.world_from_object, state.wand.get());
+    const Similarity world_from_device = place_workspace(room, room, state.world_from_object, state.handle.get());
     const std::array<wall::ContentBall, 2> content{
         {{state.world_from_object * room.workpiece_object.center(), radius_m},
-         {world_from_device * resting_hand_device(room, state.wand.get(), 0.0), 0.2 * radius_m}}};  // the tool at rest
+         {world_from_device * resting_hand_device(room, state.handle.get(), 0.0),
+          0.2 * radius_m}}};  // the tool at rest
     const wall::ComfortFinding finding =
         wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {content, {}});
     if (!finding.move_m) return;
@@ -118,8 +119,8 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
     view.world_m_per_px = screen_m_per_px;
     view.picture_px_per_px = picture_px_per_px(output_on(room.wall, room.wall.main, state.output).mode);
     view.world_from_screen = world_from_screen(screen);
-    // A wand's axes need not be the screen's.
-    if (state.wand) view.device_from_screen = state.wand->device_from_scene_turn() * view.device_from_screen;
+    // A handle's axes need not be the screen's.
+    if (state.handle) view.device_from_screen = state.handle->device_from_scene_turn() * view.device_from_screen;
     view.pivot_world = state.world_from_object * room.workpiece_object.center();
     view.scene_scale = state.world_from_object.scale / state.home_world_from_object.scale;
     view.mouse_captured = seen.captured.mouse;
@@ -190,16 +191,16 @@ constexpr double kBeside = 0.22;
 
 // Gives each hand of several its workspace, and where it rests in there: the first to the right, the second to the
 // left.
-void begin_hands(SessionState& state, const Room& room, std::span<const std::shared_ptr<const HeldWand>> wands,
+void begin_hands(SessionState& state, const Room& room, std::span<const std::shared_ptr<const HeldHandle>> handles,
                  std::span<const std::string> names) {
     if (names.size() < 2) return;
     for (std::size_t i = 0; i < names.size(); ++i) {
         HandState hand = state;
         hand.hand_name = names[i];
-        hand.wand = i < wands.size() ? wands[i] : nullptr;
-        hand.world_from_device = place_workspace(room, room.of(i), state.world_from_object, hand.wand.get());
-        hand.target.position_device_m = resting_hand_device(room.of(i), hand.wand.get(), kClearsBorder_m);
-        const Quat device_from_scene = hand.wand ? hand.wand->device_from_scene_turn() : Quat(1.0, 0.0, 0.0, 0.0);
+        hand.handle = i < handles.size() ? handles[i] : nullptr;
+        hand.world_from_device = place_workspace(room, room.of(i), state.world_from_object, hand.handle.get());
+        hand.target.position_device_m = resting_hand_device(room.of(i), hand.handle.get(), kClearsBorder_m);
+        const Quat device_from_scene = hand.handle ? hand.handle->device_from_scene_turn() : Quat(1.0, 0.0, 0.0, 0.0);
         const double side = i % 2 == 0 ? 1.0 : -1.0;
         hand.target.position_device_m +=
             device_from_scene * Vec3(side * kBeside * room.of(i).workspace_device_m.x, 0.0, 0.0);
@@ -213,24 +214,25 @@ void begin_hands(SessionState& state, const Room& room, std::span<const std::sha
 
 SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
                            const wall::OutputSettings& output, std::shared_ptr<const ToolMeshes> meshes,
-                           std::span<const std::shared_ptr<const HeldWand>> wands, std::span<const std::string> hands) {
+                           std::span<const std::shared_ptr<const HeldHandle>> handles,
+                           std::span<const std::string> hands) {
     SessionState state;
-    if (!wands.empty()) state.wand = wands.front();
+    if (!handles.empty()) state.handle = handles.front();
     state.meshes = std::move(meshes);
     state.desk = desk_at_home(room.desk);
     state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
     state.interpupillary_m = interpupillary_m(room.wall.setup.eyes);
-    state.world_from_object = place_workpiece(room, state.wand.get());
+    state.world_from_object = place_workpiece(room, state.handle.get());
     move_into_comfort(state, room);
     state.home_world_from_object = state.world_from_object;
-    state.world_from_device = place_workspace(room, room, state.world_from_object, state.wand.get());
+    state.world_from_device = place_workspace(room, room, state.world_from_object, state.handle.get());
     // Let the hand rest in front of the workpiece.
-    state.desk.target_device_m = resting_hand_device(room, state.wand.get(), kClearsBorder_m);
+    state.desk.target_device_m = resting_hand_device(room, state.handle.get(), kClearsBorder_m);
     state.tool = tool;
     static_cast<void>(take_up(state));  // tool_of() says why it has none
     state.feel = feel;
     state.output = output;
-    begin_hands(state, room, wands, hands);
+    begin_hands(state, room, handles, hands);
     return state;
 }
 
@@ -270,7 +272,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
                          const SessionView& view) {
     SessionStep step;
     step.led_hand = state.hand;
-    if (state.wand) state.wand_reads_device = read_pose(view.tool);
+    if (state.handle) state.handle_reads_device = read_pose(view.tool);
     DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.of(state.hand).desk);
     state.desk = desk.state;
     const wall::StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
@@ -315,7 +317,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     Similarity world_from_device = hand.world_from_device;
     world_from_device.scale *= hand.workspace_gain;
     p.workspace.object_from_device = inverse(state.world_from_object) * world_from_device;
-    if (hand.wand) {
+    if (hand.handle) {
         const Pose& read = hand.device_from_read;
         p.workspace.object_from_device = p.workspace.object_from_device * Similarity{read.position_m, read.orientation};
     }
@@ -331,8 +333,8 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.action = state.carves ? sculpt::action_of(hand.tool.operation) : haptics::ToolAction::touch;
     p.materials.fill(material_under_tool(state, hand));
     if (state.world) state.world->materials.write(p.materials);
-    if (hand.wand) hand.wand->write(p, radius_m);
-    if (hand.wand && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it
+    if (hand.handle) hand.handle->write(p, radius_m);
+    if (hand.handle && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it
     p.signals.force_alpha = hand.force_filter;
     if (hand.velocity_filter > 0.0) {
         p.signals.velocity = haptics::VelocityMethod::moving_average;
@@ -347,7 +349,7 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     const sculpt::ToolSettings& tool = state.tool;
     if (const auto good = sculpt::check_tool(tool); !good) return std::unexpected(good.error());
     if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
-    if (state.wand && tool.shape.kind != sculpt::ToolKind::ball)
+    if (state.handle && tool.shape.kind != sculpt::ToolKind::ball)
         return fail("tool " + sculpt::text_of(tool.shape), "is no ball, and balls are at the points of a wand",
                     "take a ball, such as ball:0.004");
     const ToolMeshes none;
@@ -380,9 +382,9 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     Staging staging = staging_of(tool, tool_radius_m(state), room.of(state.hand).workspace_device_m);
     staging.held = state.held;
     staging.contact_shown = state.force_shown;
-    staging.tool_visible = staging.tool_visible && !state.wand;
+    staging.tool_visible = staging.tool_visible && !state.handle;
     stage(scene, staging, state.world_from_object);
-    if (state.wand) add_wand(scene, *state.wand, tool, tool_radius_m(state), state.world_from_object);
+    if (state.handle) add_handle(scene, *state.handle, tool, tool_radius_m(state), state.world_from_object);
     scene.tool.colour = tool_colour(state);
     if (scene.box.face_opacity > kBoxOpacity) scene.box.face_opacity = kBoxOpacity;
     return scene;
@@ -391,7 +393,7 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
 void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t number, const haptics::ToolState& tool) {
     if (tool.tick == 0) return;
     const HandState& hand = hand_of(state, number);
-    if (hand.wand) return add_wand(scene, *hand.wand, tool, tool_radius_m(hand), state.world_from_object);
+    if (hand.handle) return add_handle(scene, *hand.handle, tool, tool_radius_m(hand), state.world_from_object);
     static const auto kBall = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
     Similarity object_from_tool{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
     const bool is_ball = !hand.held->drawn;

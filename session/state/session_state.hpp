@@ -111,11 +111,12 @@ struct Room : HandRoom {
     [[nodiscard]] wall::Screen screen() const { return wall::screen_world(wall.setup, wall.setup.screens[wall.main]); }
 };
 // Places the workpiece before the viewer and returns the first state.
-// Each hand begins with the tool; wands: of each hand that has one, by number; hands: their names, none for one alone.
+// Each hand begins with the tool; handles: of each hand that has one, by number; hands: their names, none for one
+// alone.
 [[nodiscard]] SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool,
                                          const sculpt::FeelSettings& feel, const wall::OutputSettings& output,
                                          std::shared_ptr<const ToolMeshes> meshes = nullptr,
-                                         std::span<const std::shared_ptr<const HeldWand>> wands = {},
+                                         std::span<const std::shared_ptr<const HeldHandle>> handles = {},
                                          std::span<const std::string> hands = {});
 // Makes the tool of the settings of the hand in use ready to be held.
 [[nodiscard]] Result<void> take_up(SessionState& state);

@@ -125,10 +125,9 @@ struct GatherParameters {
     int count[3];
     uint stamp;  // different for each ball
     float spacing_m;
+    uint most_triangles;  // capacity for the triangles near the tool
+    uint most_vertices;
 };
-
-const int kBallVertices = 32768;  // capacity for the triangles near the tool; if exceeded, the ball is made smaller
-const int kBallTriangles = 65536;
 
 BURIN_SHARED_END
 
@@ -136,6 +135,6 @@ BURIN_SHARED_END
 static_assert(sizeof(burin::shared::TileRange) == 40 && sizeof(burin::shared::MeshCell) == 32 &&
               sizeof(burin::shared::MeshEdge) == 32 && sizeof(burin::shared::MeshCounters) == 100 &&
               sizeof(burin::shared::TileJob) == 4 * (12 + 324 + 2 * 289 + 2 * 972) &&
-              sizeof(burin::shared::MeshParameters) == 96 && sizeof(burin::shared::GatherParameters) == 112);
+              sizeof(burin::shared::MeshParameters) == 96 && sizeof(burin::shared::GatherParameters) == 120);
 #endif
 #endif

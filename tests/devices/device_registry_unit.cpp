@@ -6,6 +6,8 @@
 
 #include <set>
 
+#include "tests/support/run_command.hpp"
+
 namespace burin::devices {
 namespace {
 
@@ -35,10 +37,49 @@ TEST(HapticRegistry, OpensTheSimulatedOmniOnTheClockThatItIsGiven) {
         clock.sleep_until(tick * Nanoseconds{1'000'000});
         ASSERT_EQ(opened->parts.front().device->read().position_device_m, reference.read().position_device_m) << tick;
     }
-    EXPECT_EQ(opened->parts.size(), parts_of_device("simulated"));
-    EXPECT_EQ(parts_of_device("simulated-fingers"), 4u);
-    EXPECT_EQ(parts_of_device("simulatd"), 0u);
     EXPECT_GT(reference.read().position_device_m.x, 0.001) << "the hand moves it";
+}
+
+// What is known before is what the opened device then is.
+TEST(HapticRegistry, KnowsTheNatureOfEachDeviceBeforeItIsOpened) {
+    SimulatedClock clock;
+    for (const HapticKind& kind : haptic_kinds()) {
+        const auto nature = nature_of_device(kind.name);
+        ASSERT_TRUE(nature) << kind.name;
+        HapticHost host = host_of(clock);
+        host.stands_in = true;  // a glove needs no line then
+        const auto opened = open_haptic_device(kind.name, std::move(host));
+        ASSERT_TRUE(opened) << opened.error().line();
+        EXPECT_EQ(opened->parts.size(), nature->parts) << kind.name;
+        EXPECT_EQ(opened->amplifiers != nullptr, nature->has_amplifiers) << kind.name;
+        for (const DevicePart& part : opened->parts)
+            EXPECT_EQ(part.device->description().felt_by_person, nature->felt_by_person) << kind.name;
+        EXPECT_EQ(nature->handle.has_value(), has_handle(kind.name)) << kind.name;
+        if (!nature->handle) continue;
+        EXPECT_EQ(device_of(*nature->handle).workspace_m, opened->parts[0].device->description().workspace_m);
+    }
+}
+
+TEST(HapticRegistry, KnowsAHandleByTheFileThatDescribesIt) {
+    const Workplace at;
+    at.write("w.toml", "name = \"short\"\n[[point]]\nname = \"tip\"\noffset = [0, 0.03, 0]\n");
+    const std::string file = (at / "w.toml").string(), device = "simulated-wand:" + file;
+    const auto nature = nature_of_device(device);
+    ASSERT_TRUE(nature) << nature.error().line();
+    ASSERT_TRUE(nature->handle);
+    EXPECT_EQ(nature->handle->points.size(), 1u);
+    EXPECT_EQ(handle_file_of(device), file);
+    EXPECT_EQ(handle_file_of("simulated-wand"), "");
+    EXPECT_EQ(handle_file_of("glove:/dev/ttyUSB0"), "") << "a port describes nothing";
+    EXPECT_FALSE(has_handle("glove:/dev/ttyUSB0"));
+    EXPECT_EQ(devices_with_handles(), "simulated-wand");
+    const auto missing = nature_of_device("simulated-wand:none.toml");
+    ASSERT_FALSE(missing);
+    EXPECT_TRUE(missing.error().line().contains("none.toml")) << missing.error().line();
+    EXPECT_FALSE(has_handle("simulatd"));
+    const auto unknown = nature_of_device("simulatd");
+    ASSERT_FALSE(unknown);
+    EXPECT_TRUE(unknown.error().line().contains("did you mean simulated?")) << unknown.error().line();
 }
 
 TEST(HapticRegistry, RefusesWhatItDoesNotKnowAndSuggestsTheNearest) {

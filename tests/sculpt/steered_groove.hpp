@@ -146,7 +146,7 @@ inline Vec3 block_from_device() {
 }
 
 // Carves with a hand that holds an Omni. before_tick: tells the hand what it is to know by then.
-inline Groove carve_groove(devices::OmniHand hand, double duration_s,
+inline Groove carve_groove(devices::AnyHand hand, double duration_s,
                            const std::function<void(Nanoseconds)>& before_tick) {
     WorkerPool pool(1);
     WorkpieceOptions block{"block:" + std::to_string(kGrooveBlock_m.x) + "," + std::to_string(kGrooveBlock_m.y) + "," +

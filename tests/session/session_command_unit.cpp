@@ -50,7 +50,7 @@ SessionCommand any_command() {
         case 8: return SetEyeSwap{*rc::gen::arbitrary<bool>()};
         case 9: return SetForce{*rc::gen::arbitrary<bool>()};
         case 15: return SetAmplifiers{*rc::gen::arbitrary<bool>()};
-        case 14: return CalibrateWand{*rc::gen::arbitrary<bool>()};
+        case 14: return CalibrateHandle{*rc::gen::arbitrary<bool>()};
         case 13: return SetMaterial{any_of(sculpt::feel_presets()).preset};
         case 12: return SetCatchDrill{*rc::gen::arbitrary<bool>()};
         case 11: return SetForceShown{*rc::gen::arbitrary<bool>()};

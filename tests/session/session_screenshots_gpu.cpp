@@ -78,8 +78,8 @@ TEST(SessionScreenshots, LookAsTheyDidWhenSomebodyLooked) {
         GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
     const Workplace place;
     const auto outcome = place.run(std::string("BURIN_VULKAN_VALIDATION=1 ") + kBurinCommand +
-                                   " sculpt --workpiece ball:0.1 --tool ball:0.01 --offscreen --outputs . --input " +
-                                   kSessionsFolder + "/first-carve.txt");
+                                   " sculpt --workpiece ball:0.1 --tool ball:0.01 --samples 1 --offscreen" +
+                                   " --outputs . --input " + kSessionsFolder + "/first-carve.txt");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_EQ(outcome.output.find("Vulkan validation"), std::string::npos) << outcome.output;
     std::vector<Image> steps;

@@ -51,6 +51,7 @@ protected:
         device_.emplace(std::move(*created));
     }
     void TearDown() override {
+        if (IsSkipped()) return;
         device_.reset();
         EXPECT_EQ(gpu::validation_messages(), messages_before_) << "the validation layer complained";
     }

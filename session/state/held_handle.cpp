@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/state/held_wand.hpp"
+#include "session/state/held_handle.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -19,13 +19,14 @@ const Vec3 kRodColour{0.75, 0.76, 0.80}, kTopBall{0.86, 0.12, 0.10}, kBottomBall
 
 }  // namespace
 
-DrawnWand::DrawnWand(const devices::WandDescription& wand)
-    : rod_(renderer::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{kRodRadius * wand.handle_m, wand.handle_m}))),
+DrawnHandle::DrawnHandle(const devices::WandDescription& description)
+    : rod_(renderer::drawn_mesh(
+          sculpt::drawing_of(compute::CylinderTool{kRodRadius * description.handle_m, description.handle_m}))),
       ball_(renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}))),
-      tool_from_handle_(wand.device_tool_from_handle),
-      half_length_m_(0.5 * wand.handle_m) {}
+      tool_from_handle_(description.device_tool_from_handle),
+      half_length_m_(0.5 * description.handle_m) {}
 
-void DrawnWand::add_to(std::vector<renderer::DrawnObject>& objects, const Place& place) const {
+void DrawnHandle::add_to(std::vector<renderer::DrawnObject>& objects, const Place& place) const {
     // A cylinder stands on its origin.
     const Similarity tool_from_rod = Similarity{tool_from_handle_.position_m, tool_from_handle_.orientation, 1.0} *
                                      Similarity{{0.0, -half_length_m_, 0.0}, {1.0, 0.0, 0.0, 0.0}, 1.0};
@@ -37,36 +38,38 @@ void DrawnWand::add_to(std::vector<renderer::DrawnObject>& objects, const Place&
     }
 }
 
-HeldWand::HeldWand(devices::WandDescription described, std::vector<devices::WandPoint> touching)
-    : wand(std::move(described)), points(std::move(touching)), drawn(wand) {}
+HeldHandle::HeldHandle(devices::WandDescription described, std::vector<devices::WandPoint> touching)
+    : description(std::move(described)), points(std::move(touching)), drawn(description) {}
 
-void HeldWand::write(haptics::TickParameters& parameters, double radius_m) const {
+void HeldHandle::write(haptics::TickParameters& parameters, double radius_m) const {
     haptics::Probe& probe = parameters.probe;
     probe.count = static_cast<std::uint32_t>(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
-        probe.points[i] = {devices::offset_device_m(wand, points[i]), radius_m};
-    const devices::DeviceDescription device = devices::device_of(wand);
+        probe.points[i] = {devices::offset_device_m(description, points[i]), radius_m};
+    const devices::DeviceDescription device = devices::device_of(description);
     parameters.position_noise_m = device.resolution_m;
     parameters.limits.max_force_N = device.max_force_N;
 }
 
-double HeldWand::spread_m() const {
+double HeldHandle::spread_m() const {
     double farthest_m = 0.0;
     for (const devices::WandPoint& point : points)
         farthest_m = std::max(farthest_m, glm::length(point.offset_m - points.front().offset_m));
     return farthest_m;
 }
 
-Vec3 HeldWand::first_point_device(const Pose& pose_device) const {
-    return pose_device * devices::offset_device_m(wand, points.front());
+Vec3 HeldHandle::first_point_device(const Pose& pose_device) const {
+    return pose_device * devices::offset_device_m(description, points.front());
 }
 
-Quat HeldWand::device_from_scene_turn() const { return glm::conjugate(devices::scene_from_device(wand).orientation); }
+Quat HeldHandle::device_from_scene_turn() const {
+    return glm::conjugate(devices::scene_from_device(description).orientation);
+}
 
-Similarity object_from_device(const HeldWand& held, const Box& touched_object) {
+Similarity object_from_device(const HeldHandle& held, const Box& touched_object) {
     constexpr double kCovers = 1.1;  // of what is touched, where the description does not say
-    const Similarity described = devices::scene_from_device(held.wand);
-    const Vec3 half = 0.5 * devices::device_of(held.wand).workspace_m;
+    const Similarity described = devices::scene_from_device(held.description);
+    const Vec3 half = 0.5 * devices::device_of(held.description).workspace_m;
     const Box reached = renderer::placed_box({-half, half}, described);
     const Vec3 overlap = glm::min(reached.hi, touched_object.hi) - glm::max(reached.lo, touched_object.lo);
     if (std::min({overlap.x, overlap.y, overlap.z}) >= 0.0) return described;
@@ -74,35 +77,35 @@ Similarity object_from_device(const HeldWand& held, const Box& touched_object) {
     return {touched_object.center(), described.orientation, std::max({needed.x, needed.y, needed.z})};
 }
 
-Result<WandCalibrated> calibrated(const devices::WandDescription& wand, const Pose& read_device) {
-    const devices::CalibrationError error = devices::calibration_error(wand, read_device);
+Result<HandleCalibrated> calibrated(const devices::WandDescription& description, const Pose& read_device) {
+    const devices::CalibrationError error = devices::calibration_error(description, read_device);
     const std::string off = formatted("%.1f mm and %.2f degrees off the jig's pose", 1e3 * error.distance_m,
                                       error.angle_rad / devices::kDegree_rad);
     if (!error.within_tolerance) {
-        const Vec3& jig_m = wand.calibration.maker_from_handle.position_m;
-        return fail(
-            "calibrate",
-            "the wand reads " + off +
-                formatted(", where at most %.1f mm and %.2f degrees are allowed", 1e3 * wand.calibration.tolerance_m,
-                          wand.calibration.tolerance_rad / devices::kDegree_rad),
-            formatted("put it into the jig, which is at %g, %g, %g m in the maker's frame, and calibrate "
-                      "again; if it is there, switch the device off and on in the jig",
-                      jig_m.x, jig_m.y, jig_m.z));
+        const Vec3& jig_m = description.calibration.maker_from_handle.position_m;
+        return fail("calibrate",
+                    "the wand reads " + off +
+                        formatted(", where at most %.1f mm and %.2f degrees are allowed",
+                                  1e3 * description.calibration.tolerance_m,
+                                  description.calibration.tolerance_rad / devices::kDegree_rad),
+                    formatted("put it into the jig, which is at %g, %g, %g m in the maker's frame, and calibrate "
+                              "again; if it is there, switch the device off and on in the jig",
+                              jig_m.x, jig_m.y, jig_m.z));
     }
-    const Pose jig = devices::jig_pose_device(wand);
+    const Pose jig = devices::jig_pose_device(description);
     const Similarity device_from_read = Similarity{jig.position_m, jig.orientation, 1.0} *
                                         inverse(Similarity{read_device.position_m, read_device.orientation, 1.0});
-    return WandCalibrated{{device_from_read.position_m, glm::normalize(device_from_read.orientation)},
-                          "calibrated: the wand read " + off};
+    return HandleCalibrated{{device_from_read.position_m, glm::normalize(device_from_read.orientation)},
+                            "calibrated: the wand read " + off};
 }
 
-void add_wand(renderer::Scene& scene, const HeldWand& held, const haptics::ToolState& tool, double radius_object_m,
-              const Similarity& world_from_object) {
+void add_handle(renderer::Scene& scene, const HeldHandle& held, const haptics::ToolState& tool, double radius_object_m,
+                const Similarity& world_from_object) {
     if (tool.tick == 0) return;
     const Similarity& object_from_device = tool.workspace.object_from_device;
     const Similarity object_from_tool{object_from_device * tool.position_device_m, tool.orientation_object,
                                       object_from_device.scale};
-    DrawnWand::Place place{world_from_object * object_from_tool, {}, world_from_object.scale * radius_object_m};
+    DrawnHandle::Place place{world_from_object * object_from_tool, {}, world_from_object.scale * radius_object_m};
     for (std::uint32_t i = 0; i < tool.point_count; ++i)
         place.points_world.push_back(world_from_object * tool.proxies_object_m[i]);
     held.drawn.add_to(scene.objects, place);
