@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
 #include <random>
 #include <vector>
 
+#include "devices/haptic/simulated_omni.hpp"
 #include "tests/haptics/bodies.hpp"
 
 namespace burin::haptics {
@@ -35,11 +37,13 @@ struct Pressed {
 };
 
 // A plate that goes up and down by up to 3 mm under a held stylus, after the ramp of the first contact.
-Pressed press(double speed_m_per_s, bool announced, bool at_random = false) {
+Pressed press(double speed_m_per_s, bool announced, bool at_random = false, bool in_session = false) {
     Zigzag way{speed_m_per_s, 0.0, 100};
     while (way.speed_m_per_s * 1e-3 * way.ticks > 0.003 && way.ticks > 10) way.ticks -= 10;
     test::Bodies bodies;
-    bodies.parameters.passivity.control = false;  // what the wall gives out is judged elsewhere
+    bodies.parameters.passivity.control = in_session;  // else what the wall gives out is judged elsewhere
+    if (in_session)
+        bodies.device = devices::SimulatedOmni(*devices::SimulatedHand::create({{0.0, Vec3(0.0)}})).description();
     bodies.announced = announced;
     bodies.surface = test::around({{test::plate(0.05, 0.01), 0}});
     bodies.motions = {
@@ -87,6 +91,19 @@ TEST(MovingBodies, OfAMotionThatNobodyAnnouncesOnlyThePartThatItAddsFadesIn) {
         EXPECT_GT(felt.mean_N, 0.4 * 1.5) << speed << ": the contact as such stays";
     }
     EXPECT_EQ(press(0.02, false).ramping, 0) << "below half a millimetre a publication nothing fades";
+}
+
+// With an Omni and the account of energy, as in a session: what a body does that nobody announces, the hand has not put
+// in, so that most of it is kept from the hand.
+TEST(MovingBodies, InASessionAnUnannouncedPlateIsFeltFaintlyAndAnAnnouncedOneAsItIs) {
+    for (const double speed : {0.1, 0.3}) {
+        const Pressed silent = press(speed, false, false, true), told = press(speed, true, false, true);
+        std::cout << speed << " m/s: announced " << told.mean_N << " N, not announced " << silent.mean_N << " N of "
+                  << told.expected_mean_N << '\n';
+        EXPECT_GT(told.mean_N, 0.5 * told.expected_mean_N);
+        EXPECT_LT(silent.mean_N, told.mean_N);
+        EXPECT_GT(silent.mean_N, 0.05);
+    }
 }
 
 // As a physics engine publishes it: at random intervals, with the velocity that holds then, and turning back in
