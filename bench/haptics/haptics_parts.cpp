@@ -65,7 +65,7 @@ private:
     double count(WalkingPart& part) {
         haptics::TickRecord record;
         if (!part.channels.records.pop(record)) return 0.0;
-        for (haptics::StrokeSample read; part.channels.stroke.pop(read);) continue;
+        for (haptics::TickRecord read; part.channels.ticks.pop(read);) continue;
         ++figures_.ticks;
         part.waits = record.turn.held_over ? part.waits + 1 : 0;
         figures_.held_over += record.turn.held_over ? 1 : 0;
