@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "activities/grasp/grasp.hpp"
 #include "activities/seek/seek.hpp"
 #include "activities/train/recorded_visit.hpp"
 
@@ -16,8 +17,15 @@ Result<session::MadeActivity> seek_as_recorded(const std::string& settings, cons
     return session::MadeActivity{std::make_shared<Seek>(*options), nullptr};
 }
 
+Result<session::MadeActivity> grasp_as_recorded(const std::string& settings, const session::RecordedFact& /*fact*/) {
+    const Result<GraspOptions> options = grasp_options_of(settings);
+    if (!options) return std::unexpected(options.error());
+    return session::MadeActivity{std::make_shared<Grasp>(*options), nullptr};
+}
+
 constexpr std::array kActivityKinds{
     ActivityKind{"seek", "Objects of a world are touched as they are named", seek_as_recorded},
+    ActivityKind{"hand", "A hand in a glove grasps and carries the objects of a world", grasp_as_recorded},
     ActivityKind{kVisitName, "A participant goes through the stages of a study", visit_as_recorded},
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "activities/grasp/grasp_options.hpp"
 #include "app/command_line.hpp"
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
@@ -66,6 +67,15 @@ struct SeekSession {
 };
 void add_seek_options(Command command, SeekSession& seek);
 [[nodiscard]] Result<void> seek(const SeekSession& options);
+
+// burin hand: a hand in a glove among rigid things (activities/grasp/grasp.hpp).
+struct HandSession {
+    session::SculptOptions session;
+    std::string grasp;  // a scripted hand that closes so; empty: none
+    activities::GraspOptions options;
+};
+void add_hand_options(Command command, HandSession& hand);
+[[nodiscard]] Result<void> hand(const HandSession& options);
 
 // A subcommand of burin bench with options of its own; BenchCommand runs the one that was parsed.
 struct BenchSubcommand {

@@ -11,7 +11,7 @@ namespace burin::app {
 
 struct GloveCommand::Options {
     devices::GloveMotion motion = devices::GloveMotion::closing;
-    double for_s = 0.0;
+    double for_s = 0.0, silent_from_s = 0.0, silent_for_s = 0.0;
     Command emulate;
 };
 
@@ -27,6 +27,13 @@ GloveCommand::GloveCommand(Command app)
     options_->emulate.option("--seconds", options_->for_s, "End after so many; 0: when it is ended by a signal")
         .within(0.0, 86400.0)
         .show_default();
+    options_->emulate
+        .option("--silent-from", options_->silent_from_s,
+                "A drill: send nothing from so many seconds on after a session has begun, as a glove whose cable is "
+                "pulled; 0: never")
+        .within(0.0, 86400.0);
+    options_->emulate.option("--silent-for", options_->silent_for_s, "... for so many seconds; 0: for good")
+        .within(0.0, 86400.0);
 }
 
 GloveCommand::~GloveCommand() = default;
@@ -42,8 +49,9 @@ Result<void> GloveCommand::run() const {
     MonotonicClock clock;
     const Nanoseconds begun_ns = clock.now_ns();
     const double for_s = options_->for_s;
-    port->run({.motion = options_->motion},
-              [&] { return signals.came() || (for_s > 0.0 && seconds(clock.now_ns() - begun_ns) >= for_s); });
+    port->run(
+        {.motion = options_->motion, .silent_from_s = options_->silent_from_s, .silent_for_s = options_->silent_for_s},
+        [&] { return signals.came() || (for_s > 0.0 && seconds(clock.now_ns() - begun_ns) >= for_s); });
     return {};
 }
 

@@ -210,6 +210,10 @@ int run(int argc, char** argv) {
     Command combine = app.subcommand("combine", "Unite, subtract or intersect two closed meshes");
     add_combine_options(combine, combine_options);
 
+    HandSession hand_options;
+    Command hand = app.subcommand("hand", "Close, feel, grasp, carry and point with a drawn hand");
+    add_hand_options(hand, hand_options);
+
     SeekSession seek_options;
     Command seek = app.subcommand("seek", "Touch the objects of a world as they are named, against the clock");
     add_seek_options(seek, seek_options);
@@ -240,6 +244,7 @@ int run(int argc, char** argv) {
         return 2;
     }
     if (world.parsed()) return finish(world.run());
+    if (hand.parsed()) return finish(app::hand(hand_options));
     if (seek.parsed()) return finish(app::seek(seek_options));
     if (demo.parsed()) return finish(demo.run());
     if (profile.parsed()) return finish(profile.run());

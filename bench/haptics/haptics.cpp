@@ -19,6 +19,7 @@ HapticsOptions quick_haptics() {
     quick.contact_ticks = 5'000;
     quick.edits = 5;
     quick.parts_turns = 200;
+    quick.shape_ticks = 100;
     quick.wand_ticks = 1'000;
     quick.solid_resolutions = {48};
     quick.ask_for_realtime = false;
@@ -34,6 +35,7 @@ Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
     if (auto done = measure_edits(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_accuracy(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_parts(all, notify); !done) return std::unexpected(done.error());
+    if (auto done = measure_shapes(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_wand(all, notify); !done) return std::unexpected(done.error());
     if (options.ask_for_realtime) {
         const haptics::RealtimeNotice notice = haptics::ask_for_realtime();

@@ -32,6 +32,7 @@ struct HapticsOptions {
     std::uint64_t contact_ticks = 1'000'000;
     std::uint64_t edits = 100;
     std::uint64_t parts_turns = 12'000;            // of each scene and number of parts, in simulated time
+    std::uint64_t shape_ticks = 6'000;             // of each scene and shape, in simulated time
     std::uint64_t wand_ticks = 10'000;             // through the tube, with each choice of ends; in simulated time
     std::vector<int> solid_resolutions{256, 512};  // cells along the side of a ball of 100 mm that is carved
     bool ask_for_realtime = true;                  // real-time priority and locked memory, where the system grants them
@@ -96,14 +97,25 @@ struct LostContact {
     std::uint64_t ticks = 0, inside = 0, lost = 0, felt_outside = 0;
 };
 
-// Parts of one device that share a turn's work, each a ball of 2 mm on a walk of its own.
+// Parts of one device that share a turn's work, each on a walk of its own: a ball of 2 mm, or a fingertip of five
+// points.
 struct PartsShare {
     std::string scene;
-    std::size_t triangles = 0, parts = 0;
-    std::vector<double> turn_cost_us;  // as counted, of all parts
+    std::size_t triangles = 0, parts = 0, points = 1;  // of each part
+    std::vector<double> turn_cost_us;                  // as counted, of all parts
     // Ticks of parts: in all; in contact; held over, since no work was left in their turn; with the ball caught far
-    // from the hand; in which the watch let go. And the most turns in a row for which a part was held over.
+    // from the hand; in which the watch let go. And the most turns in a row for which a part or points of it were held
+    // over.
     std::uint64_t ticks = 0, in_contact = 0, held_over = 0, left_behind = 0, let_go = 0, longest_wait = 0;
+};
+
+// Ticks of a tool that touches with its shape, while the hand is down and moves.
+struct ShapeTicks {
+    std::string scene, tool;
+    std::size_t triangles = 0;
+    // In contact; of which the work or the steps ran out; and in which the tool stood still for that.
+    std::uint64_t ticks = 0, in_contact = 0, limited = 0, frozen = 0, frozen_in_a_row = 0;
+    std::vector<double> cost_us;  // of each, as counted
 };
 
 // A wand in a tube: the work of a tick as counted, with both ends, or with one alone.
@@ -148,6 +160,7 @@ struct Haptics {
     EditCosts edits;
     std::vector<ForceJumps> jumps;
     std::vector<PartsShare> parts;
+    std::vector<ShapeTicks> shapes;
     std::vector<WandWork> wand;  // both ends first, then each; empty where the tube is not here
 };
 
@@ -162,6 +175,7 @@ using Tell = std::function<void(const std::string&)>;
 [[nodiscard]] Result<void> measure_peer_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_accuracy(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_parts(Haptics& all, const Tell& notify);
+[[nodiscard]] Result<void> measure_shapes(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_wand(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_edits(Haptics& all, const Tell& notify);
 

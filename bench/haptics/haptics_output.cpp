@@ -50,17 +50,39 @@ Json jump_of(const ForceJumps& j) {
 }
 
 Json parts_of(const PartsShare& p) {
-    Json row = {{"scene", p.scene},
-                {"triangles", p.triangles},
-                {"parts", p.parts},
-                {"ticks", p.ticks},
-                {"in_contact", p.in_contact},
-                {"held_over", p.held_over},
-                {"left_behind", p.left_behind},
-                {"let_go", p.let_go},
-                {"longest_wait_turns", p.longest_wait}};
+    Json row = {{"scene", p.scene},         {"triangles", p.triangles},
+                {"parts", p.parts},         {"points", p.points},
+                {"ticks", p.ticks},         {"in_contact", p.in_contact},
+                {"held_over", p.held_over}, {"left_behind", p.left_behind},
+                {"let_go", p.let_go},       {"longest_wait_turns", p.longest_wait}};
     row.update(quantiles("turn_cost", "us", p.turn_cost_us));
     return row;
+}
+
+Json shape_of(const ShapeTicks& s) {
+    Json row = {{"scene", s.scene},           {"tool", s.tool},
+                {"triangles", s.triangles},   {"ticks", s.ticks},
+                {"in_contact", s.in_contact}, {"limited", s.limited},
+                {"frozen", s.frozen},         {"frozen_in_a_row", s.frozen_in_a_row}};
+    row.update(quantiles("tick_cost", "us", s.cost_us));
+    return row;
+}
+
+std::string shapes_table(const std::vector<ShapeTicks>& shapes) {
+    if (shapes.empty()) return "";
+    std::string text = formatted(
+        "tools that touch with their shape, work of a tick as counted (us: p50, p99.9, most)\n"
+        "%-16s %-10s %9s %8s %8s %8s %11s %8s %7s %9s\n",
+        "scene", "tool", "triangles", "p50", "p99.9", "most", "in contact", "limited", "frozen", "in a row");
+    for (const ShapeTicks& s : shapes) {
+        const double ticks = static_cast<double>(std::max<std::uint64_t>(s.ticks, 1));
+        text +=
+            formatted("%-16s %-10s %9zu %8.1f %8.1f %8.1f %10.1f%% %7.2f%% %7llu %9llu\n", s.scene.c_str(),
+                      s.tool.c_str(), s.triangles, median(s.cost_us), quantile(s.cost_us, 0.999), most(s.cost_us),
+                      100.0 * static_cast<double>(s.in_contact) / ticks, 100.0 * static_cast<double>(s.limited) / ticks,
+                      static_cast<unsigned long long>(s.frozen), static_cast<unsigned long long>(s.frozen_in_a_row));
+    }
+    return text + "\n";
 }
 
 // Returns how many times the work of one end, the mean of both alone, both together take.
@@ -95,9 +117,9 @@ std::string wand_table(const std::vector<WandWork>& wand) {
 std::string parts_table(const std::vector<PartsShare>& parts) {
     if (parts.empty()) return "";
     std::string text = formatted(
-        "parts of one device, balls of 2 mm, work of a turn as counted (us: mean, p99.9, most), and of the parts' "
-        "ticks\n"
-        "%-16s %9s %5s %8s %8s %8s %11s %9s %12s %12s %7s\n",
+        "parts of one device, a ball of 2 mm or five points each, work of a turn as counted (us: mean, p99.9, most), "
+        "and of the parts' ticks\n"
+        "%-16s %9s %6s %8s %8s %8s %11s %9s %12s %12s %7s\n",
         "scene", "triangles", "parts", "mean", "p99.9", "most", "in contact", "held over", "longest wait",
         "left behind", "let go");
     for (const PartsShare& p : parts) {
@@ -105,8 +127,8 @@ std::string parts_table(const std::vector<PartsShare>& parts) {
         for (const double us : p.turn_cost_us) sum += us;
         const double ticks = static_cast<double>(std::max<std::uint64_t>(p.ticks, 1));
         text += formatted(
-            "%-16s %9zu %5zu %8.1f %8.1f %8.1f %10.1f%% %8.2f%% %12llu %11.2f%% %7llu\n", p.scene.c_str(), p.triangles,
-            p.parts, sum / static_cast<double>(std::max<std::size_t>(p.turn_cost_us.size(), 1)),
+            "%-16s %9zu %2zu x %1zu %8.1f %8.1f %8.1f %10.1f%% %8.2f%% %12llu %11.2f%% %7llu\n", p.scene.c_str(),
+            p.triangles, p.parts, p.points, sum / static_cast<double>(std::max<std::size_t>(p.turn_cost_us.size(), 1)),
             quantile(p.turn_cost_us, 0.999), most(p.turn_cost_us), 100.0 * static_cast<double>(p.in_contact) / ticks,
             100.0 * static_cast<double>(p.held_over) / ticks, static_cast<unsigned long long>(p.longest_wait),
             100.0 * static_cast<double>(p.left_behind) / ticks, static_cast<unsigned long long>(p.let_go));
@@ -121,6 +143,7 @@ std::string haptics_table(const Haptics& all) {
     for (const std::string& note : all.notes) text += note + "\n";
     text += "\n" + peers_table(all.peers);
     text += parts_table(all.parts);
+    text += shapes_table(all.shapes);
     text += wand_table(all.wand);
     const ProxyErrors& e = all.errors;
     text += formatted("proxy on %zu triangles at 100 mm/s (mesh within %.4f mm of the surface), mm: median, p99, max\n",
@@ -161,6 +184,8 @@ Json haptics_json(const Haptics& all) {
     report["peer_ratios"] = peer_ratios(all.peers);
     report["parts"] = Json::array();
     for (const PartsShare& p : all.parts) report["parts"].push_back(parts_of(p));
+    report["shapes"] = Json::array();
+    for (const ShapeTicks& s : all.shapes) report["shapes"].push_back(shape_of(s));
     report["wand"] = wand_of(all.wand);
     report["proxy_error"] = errors_of(all.errors);
     report["contact"] = Json::array();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <memory>
+#include <utility>
 
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
@@ -14,6 +15,15 @@ namespace burin::bench {
 namespace {
 
 constexpr double kPartBall_m = 0.002;
+
+// A point and its four neighbours, 2 mm apart.
+haptics::Probe fingertip() {
+    haptics::Probe probe;
+    probe.count = 0;
+    for (const auto& [x, z] : {std::pair{0.0, 0.0}, {0.002, 0.0}, {-0.002, 0.0}, {0.0, 0.002}, {0.0, -0.002}})
+        probe.points[probe.count++] = {{x, 0.0, z}, 0.0};
+    return probe;
+}
 
 struct WalkingPart {
     PressedWalk path;
@@ -33,8 +43,7 @@ public:
             all.push_back({parts_.back().device, parts_.back().channels});
         }
         loop_ = std::make_unique<haptics::HapticLoop>(all, clock_);
-        haptics::Probe probe = haptics::ball_probe(kPartBall_m);
-        on_ = session_parameters(probe, true);
+        on_ = session_parameters(figures.points == 1 ? haptics::ball_probe(kPartBall_m) : fingertip(), true);
         off_ = on_;
         off_.enabled = false;
     }
@@ -67,8 +76,9 @@ private:
         if (!part.channels.records.pop(record)) return 0.0;
         for (haptics::TickRecord read; part.channels.ticks.pop(read);) continue;
         ++figures_.ticks;
-        part.waits = record.turn.held_over ? part.waits + 1 : 0;
-        figures_.held_over += record.turn.held_over ? 1 : 0;
+        const bool held_over = (record.flags & haptics::kTickHeldOver) != 0;
+        part.waits = held_over ? part.waits + 1 : 0;
+        figures_.held_over += held_over ? 1 : 0;
         figures_.longest_wait = std::max(figures_.longest_wait, part.waits);
         figures_.in_contact += record.in_contact() ? 1 : 0;
         figures_.let_go += (record.flags & haptics::kTickLetGo) != 0 ? 1 : 0;
@@ -94,11 +104,13 @@ Result<void> measure_parts(Haptics& all, const Tell& notify) {
         const auto scene = touched(wanted);
         if (!scene) continue;  // measure_ticks() has told
         notify("measuring: parts on " + wanted.name);
-        for (const std::size_t parts : {1u, 5u, 20u}) {
+        // The last is a glove of four fingertips.
+        for (const auto& [parts, points] : {std::pair<std::size_t, std::size_t>{1, 1}, {5, 1}, {20, 1}, {4, 5}}) {
             PartsShare& share = all.parts.emplace_back();
             share.scene = wanted.name;
             share.triangles = (*scene)->snapshot->triangles();
             share.parts = parts;
+            share.points = points;
             PartsRun(**scene, parts, share).take(all.options.parts_turns);
         }
     }

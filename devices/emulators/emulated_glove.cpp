@@ -20,18 +20,15 @@ namespace burin::devices {
 namespace {
 
 constexpr double kSet_s = 1.0 / 120.0;
-// A fist: its first joint's flexion, the second's as a share of it, and the times of closing and of resting.
-constexpr double kClosed_rad = 1.1, kFollows = 0.8, kCloses_s = 2.0, kRests_s = 1.5;
+// Of the script: for how long the hand rests open, is closed or closing, and open again.
+constexpr double kOpen_s = 2.0, kClosed_s = 5.0, kAll_s = 9.0;
 // The approximate lever arm of the piston's force about the first joint.
 constexpr double kArm_m = 0.07;
 
-// The share of a closed hand that the script wants.
-double wanted_share(GloveMotion motion, double time_s) {
-    if (motion == GloveMotion::still) return 0.0;
-    const double phase_s = std::fmod(time_s, 2.0 * (kCloses_s + kRests_s));
-    const double closing = phase_s / kCloses_s, opening = (phase_s - kCloses_s - kRests_s) / kCloses_s;
-    const double share = phase_s < kCloses_s + kRests_s ? std::min(closing, 1.0) : std::max(1.0 - opening, 0.0);
-    return 0.5 - 0.5 * std::cos(std::numbers::pi * share);
+// Whether the script wants a closed hand.
+bool wants_closed(const EmulatedGlove& glove) {
+    const double phase_s = std::fmod(glove.scripted_s, kAll_s);
+    return glove.motion == GloveMotion::closing && phase_s >= kOpen_s && phase_s < kOpen_s + kClosed_s;
 }
 
 }  // namespace
@@ -41,12 +38,14 @@ EmulatedGlove stepped(EmulatedGlove glove) {
     glove.since_command_s += EmulatedGlove::kStep_s;
     if (glove.since_command_s > EmulatedGlove::kWatchdog_s) glove.commanded_N = {};
     const double follows = 1.0 - std::exp(-2.0 * std::numbers::pi * EmulatedGlove::kBand_Hz * EmulatedGlove::kStep_s);
-    const double share = wanted_share(glove.motion, glove.time_s);
-    for (std::size_t i = 0; i < kGloveFingers; ++i) {
+    if (glove.commanded) glove.scripted_s += EmulatedGlove::kStep_s;
+    for (std::size_t i = 0; i < kGloveFingers; ++i)
         glove.given_N[i] += follows * (glove.commanded_N[i] - glove.given_N[i]);
-        const double opened_rad = glove.given_N[i] * kArm_m / EmulatedGlove::kGrip_Nm_per_rad;
-        const double first_rad = std::max(share * kClosed_rad - opened_rad, -0.2);
-        glove.joints[i] = {0.0, first_rad, kFollows * std::max(first_rad, 0.0), 0.5 * std::max(first_rad, 0.0)};
+    glove.grip = stepped(glove.grip, wants_closed(glove) ? 1.0 : 0.0, glove.given_N, EmulatedGlove::kStep_s);
+    for (std::size_t i = 0; i < kGloveFingers; ++i) {
+        glove.joints[i] = bent_in(GripShape::whole, i, glove.grip.closed[i]);
+        glove.joints[i][1] =
+            std::max(glove.joints[i][1] - glove.given_N[i] * kArm_m / EmulatedGlove::kGrip_Nm_per_rad, -0.5);
     }
     return glove;
 }
@@ -54,7 +53,13 @@ EmulatedGlove stepped(EmulatedGlove glove) {
 EmulatedGlove with_command(EmulatedGlove glove, const GloveCommand& command) {
     glove.commanded_N = command.stop ? GloveForces{} : command.forces_N;
     glove.since_command_s = 0.0;
+    glove.commanded = true;
     return glove;
+}
+
+bool is_silent(const EmulatedGlove& glove) {
+    const double since_s = glove.scripted_s - glove.silent_from_s;
+    return glove.silent_from_s > 0.0 && since_s >= 0.0 && (glove.silent_for_s == 0.0 || since_s < glove.silent_for_s);
 }
 
 GloveSet set_of(const EmulatedGlove& glove) {
@@ -109,7 +114,7 @@ void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends) {
         for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i].store(glove.given_N[i], std::memory_order_relaxed);
         if (glove.time_s < next_set_s) continue;
         next_set_s = std::max(next_set_s + kSet_s, glove.time_s - kSet_s);
-        if (is_silent_.load(std::memory_order_relaxed)) continue;
+        if (is_silent_.load(std::memory_order_relaxed) || is_silent(glove)) continue;
         const GloveBytes frame = frame_of(set_of(glove));
         ++glove.number;
         // Frames that nobody reads are lost, as on a real serial line.

@@ -2,10 +2,11 @@
 // The controller of a glove that is not there: what it does in a step, pure, and the pseudo-terminal on which it talks
 // as a glove on a serial line does.
 //
-// Model: a hand whose fingers mean to follow a script of flexions, each held with kGrip_Nm_per_rad; the piston's force
-// opens the finger against that grip. A piston follows its command as a low-pass of kBand_Hz, as the paper's glove does
-// from 10 to 50 Hz, and gives nothing when no command has come for kWatchdog_s.
-// Line: 38,400 bit/s carry 3,840 bytes a second, so a set of 32 bytes leaves each 8.3 ms. Units: SI.
+// Model: a hand whose fingers close by a script (grip_shape.hpp), each until its piston pushes with 2 N, and held with
+// kGrip_Nm_per_rad; the piston's force opens the finger against that grip. The script begins when a host first
+// commands, so that a session finds the hand open. A piston follows its command as a low-pass of kBand_Hz, as the
+// paper's glove does from 10 to 50 Hz, and gives nothing when no command has come for kWatchdog_s. Line: 38,400 bit/s
+// carry 3,840 bytes a second, so a set of 32 bytes leaves each 8.3 ms. Units: SI.
 #pragma once
 
 #include <array>
@@ -16,17 +17,24 @@
 
 #include "base/error.hpp"
 #include "devices/gloves/glove_hand.hpp"
+#include "devices/gloves/grip_shape.hpp"
 
 namespace burin::devices {
 
-enum class GloveMotion { still, closing };  // closing: closes within two seconds, rests, and opens again, and so on
+// closing: rests for some seconds, closes, rests, and opens again, and so on.
+enum class GloveMotion { still, closing };
 
 struct EmulatedGlove {
     static constexpr double kStep_s = 0.002;  // the controller's loop of 500 Hz
     static constexpr double kBand_Hz = 25.0, kGrip_Nm_per_rad = 1.5, kWatchdog_s = 0.1;
 
     GloveMotion motion = GloveMotion::closing;
-    double time_s = 0.0;
+    // A drill: sends nothing from then on, in seconds of the script, for so many seconds; from 0: never, for 0: for
+    // good.
+    double silent_from_s = 0.0, silent_for_s = 0.0;
+    double time_s = 0.0, scripted_s = 0.0;
+    bool commanded = false;  // ever
+    Grip grip = {};
     GloveForces commanded_N{}, given_N{};
     double since_command_s = kWatchdog_s;
     GloveJoints joints{};
@@ -35,6 +43,7 @@ struct EmulatedGlove {
 // Takes the controller on by a step.
 [[nodiscard]] EmulatedGlove stepped(EmulatedGlove glove);
 [[nodiscard]] EmulatedGlove with_command(EmulatedGlove glove, const GloveCommand& command);
+[[nodiscard]] bool is_silent(const EmulatedGlove& glove);
 // Returns the set that it sends now.
 [[nodiscard]] GloveSet set_of(const EmulatedGlove& glove);
 

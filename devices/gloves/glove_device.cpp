@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "devices/gloves/glove_link.hpp"
@@ -13,9 +16,9 @@ namespace {
 
 constexpr std::array<const char*, kGloveFingers> kPistonNames{"thumb", "index", "middle", "ring"};
 
-DeviceDescription glove_description() {
+DeviceDescription glove_description(bool on_a_line) {
     DeviceDescription d;
-    d.name = "glove on a serial line";
+    d.name = on_a_line ? "glove on a serial line" : "simulated glove";
     // The palm's way, as a stylus' on a desk, and a hand around it.
     d.workspace_m = Vec3(0.4, 0.4, 0.35);
     d.resolution_m = 0.0001;  // a twelfth of a degree at the end of a finger
@@ -24,14 +27,20 @@ DeviceDescription glove_description() {
     d.rate_Hz = 1000.0;
     d.apparent_mass_kg = 0.03;  // of a piston and a fingertip: assumed
     d.damping_Ns_per_m = 0.5;
-    d.delay_s = seconds(GloveLink::kSend_ns);
+    d.delay_s = on_a_line ? seconds(GloveLink::kSend_ns) : 0.0;
+    d.joints.count = kFingerJoints;
+    d.felt_by_person = on_a_line;
     return d;
 }
 
 class GloveParts {
 public:
-    GloveParts(std::unique_ptr<GloveLink> link, AnyHand hand, Clock& clock)
-        : link_(std::move(link)), hand_(std::move(hand)), clock_(clock), start_ns_(clock.now_ns()) {}
+    GloveParts(std::unique_ptr<GloveLink> link, std::optional<GripShape> simulated, AnyHand hand, Clock& clock)
+        : link_(std::move(link)),
+          simulated_(simulated),
+          hand_(std::move(hand)),
+          clock_(clock),
+          start_ns_(clock.now_ns()) {}
 
     [[nodiscard]] DeviceSample read(std::size_t finger) noexcept {
         if (finger == 0) look();
@@ -41,6 +50,7 @@ public:
         sample.position_device_m = palm_ * tip.position_m;
         sample.orientation_device = glm::normalize(palm_.orientation * tip.orientation);
         sample.buttons = buttons_;
+        std::ranges::copy(joints_[finger], sample.joints.begin());
         if (is_lost_) {
             sample.fault = DeviceFault::disconnected;
             sample.fault_is_of_all = true;
@@ -60,18 +70,29 @@ public:
 private:
     // Takes where the palm and the joints are now.
     void look() noexcept {
-        now_ns_ = clock_.now_ns();
+        const Nanoseconds before_ns = std::exchange(now_ns_, clock_.now_ns());
         const HandTarget hand = target_of(hand_, seconds(now_ns_ - start_ns_));
         palm_ = {hand.position_device_m, hand.orientation_device};
         buttons_ = hand.buttons;
-        GloveJoints joints{};
+        joints_ = {};
+        if (simulated_) close(seconds(before_ns > 0 ? now_ns_ - before_ns : 0));
         if (link_) {
             const GloveHeard& heard = link_->newest();
             is_lost_ = heard.time_ns == 0 || now_ns_ - heard.time_ns > kGloveLost_ns;
             has_fault_ = heard.set.fault;
-            joints = joints_at(heard);
+            joints_ = joints_at(heard);
         }
-        for (std::size_t i = 0; i < kGloveFingers; ++i) places_[i] = place_of(shape_[i], joints[i]);
+        for (std::size_t i = 0; i < kGloveFingers; ++i) places_[i] = place_of(shape_[i], joints_[i]);
+    }
+
+    // Takes the simulated fingers on by so long: pistons follow what they are to give as the paper's do, from 10 to 50
+    // Hz.
+    void close(double time_s) noexcept {
+        constexpr double kBand_Hz = 25.0;
+        const double follows = 1.0 - std::exp(-2.0 * std::numbers::pi * kBand_Hz * time_s);
+        for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i] += follows * (forces_N_[i] - given_N_[i]);
+        grip_ = stepped(grip_, (buttons_ & 1u) != 0 ? 1.0 : 0.0, given_N_, time_s);
+        for (std::size_t i = 0; i < kGloveFingers; ++i) joints_[i] = bent_in(*simulated_, i, grip_.closed[i]);
     }
 
     // On the way from the set before to the newest, as far as the time since its arrival is of that between them.
@@ -89,7 +110,8 @@ private:
     }
 
     const GloveHand& shape_ = usual_hand();
-    std::unique_ptr<GloveLink> link_;  // null: there is no glove
+    std::unique_ptr<GloveLink> link_;     // null: there is no glove
+    std::optional<GripShape> simulated_;  // none: it is no simulated one
     AnyHand hand_;
     Clock& clock_;
     Nanoseconds start_ns_, now_ns_ = 0;
@@ -97,10 +119,17 @@ private:
     std::uint32_t buttons_ = 0;
     bool is_lost_ = false, has_fault_ = false;
     std::array<FingertipPlace, kGloveFingers> places_{};
-    GloveForces forces_N_{};
+    GloveJoints joints_{};
+    GloveForces forces_N_{}, given_N_{};
+    Grip grip_;
 };
 
 }  // namespace
+
+OpenedDevice simulated_glove(GripShape shape, AnyHand hand, Clock& clock) {
+    const auto all = std::make_shared<GloveParts>(nullptr, shape, std::move(hand), clock);
+    return of_parts(all, glove_description(false), kPistonNames);
+}
 
 Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock) {
     std::unique_ptr<GloveLink> link;
@@ -109,8 +138,8 @@ Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& cl
         if (!opened) return std::unexpected(opened.error());
         link = std::move(*opened);
     }
-    const auto all = std::make_shared<GloveParts>(std::move(link), std::move(hand), clock);
-    return of_parts(all, glove_description(), kPistonNames);
+    const auto all = std::make_shared<GloveParts>(std::move(link), std::nullopt, std::move(hand), clock);
+    return of_parts(all, glove_description(true), kPistonNames);
 }
 
 }  // namespace burin::devices

@@ -5,25 +5,38 @@
 // which the glove reads (glove_hand.hpp). Sets come each 8.3 ms: a fingertip goes from one to the next on a straight
 // line of its joints, one period of sets late, so that a tick each millisecond sees a motion and no steps. A line that
 // has been silent for kLost_ns is a fault of all parts.
+// A sample's joints are the finger's four angles, so that the hand can be drawn, now and of a recording.
+// A simulated glove has the same parts without a line: the hand's first button closes its fingers (grip_shape.hpp), and
+// what a piston gives pushes its finger open.
 // A piston pushes one way alone: of a force at the fingertip it gives what does the same work (piston_force()).
 // Threads: as haptic_device.hpp; the first part's read() leads the hand and takes the newest set for all, the last
 // part's write() hands the forces over.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "base/clock.hpp"
 #include "devices/gloves/glove_hand.hpp"
+#include "devices/gloves/grip_shape.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 
 namespace burin::devices {
 
 inline constexpr const char* kGlove = "glove";
+inline constexpr const char* kSimulatedGlove = "simulated-glove";
 inline constexpr Nanoseconds kGloveLost_ns = 60'000'000;
+
+// Returns whether a device of that name (--device) is a glove, simulated or not.
+[[nodiscard]] inline bool is_glove(std::string_view name) {
+    const std::string_view kind = name.substr(0, name.find(':'));
+    return kind == kGlove || kind == kSimulatedGlove;
+}
 
 // port: of the serial line. Empty: a glove that is nowhere, with its fingers straight, for a recording that is done
 // again. `hand`: where the palm is, in the device frame. The clock must outlive the parts.
 [[nodiscard]] Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock);
+[[nodiscard]] OpenedDevice simulated_glove(GripShape shape, AnyHand hand, Clock& clock);
 
 }  // namespace burin::devices

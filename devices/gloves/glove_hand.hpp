@@ -12,16 +12,17 @@
 
 namespace burin::devices {
 
-// A chain of three segments. Its first joint lies at base; straight, it points along the base's +Y, and it flexes
-// towards the base's -Z.
+// A chain of three segments. Its first joint lies at base; straight, it points about along the base's +Y, and it flexes
+// towards the base's -Z. The last segment ends in the pad of the fingertip, where it touches.
 struct FingerChain {
     Pose hand_from_base;
-    std::array<double, 3> lengths_m{};
-    Vec3 piston_hand_m{0.0};  // where its piston stands on the palm
+    std::array<Vec3, 3> segments_base_m{};  // of the straight finger
+    Vec3 piston_hand_m{0.0};                // where its piston stands on the palm
 };
 using GloveHand = std::array<FingerChain, kGloveFingers>;
 
-// A right hand of about middle size: thumb, index, middle, ring. Its lengths are assumed, not measured on anybody.
+// A right hand: thumb, index, middle, ring. Its figures are those of the hand that is drawn
+// (geometry/hand/hand_model.hpp), measured on nobody; its pistons' places are assumed.
 [[nodiscard]] const GloveHand& usual_hand();
 
 // A fingertip, and how its piston meets it.

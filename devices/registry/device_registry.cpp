@@ -51,6 +51,14 @@ Result<OpenedDevice> open_glove_at(HapticHost host, const std::string& port) {
     return open_glove(port, std::move(host.hand), host.clock);
 }
 
+Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& shape) {
+    const auto grip = shape.empty() ? GripShape::whole : grip_named(shape);
+    if (!grip)
+        return fail("haptic device " + std::string(kSimulatedGlove), "closes in no way that is called " + shape,
+                    "write one of " + joined(kGripNames));
+    return simulated_glove(*grip, std::move(host.hand), host.clock);
+}
+
 constexpr std::array kKinds{
     HapticKind{.name = kDefaultHapticDevice,
                .usage = "a PHANTOM Omni in a simulated hand",
@@ -85,6 +93,15 @@ constexpr std::array kKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_glove_at},
+    HapticKind{.name = kSimulatedGlove,
+               .usage = "the same without a line, in a simulated hand that the first button closes; "
+                        "simulated-glove:pinch or simulated-glove:point as it closes",
+               .parts = kGloveFingers,
+               .is_upright = true,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_simulated_glove},
 };
 
 struct ChosenKind {

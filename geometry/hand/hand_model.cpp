@@ -126,6 +126,17 @@ Result<HandModel> read_hand_model(const std::filesystem::path& path) {
     return hand_model_of(*mesh, path.string());
 }
 
+const HandModel& known_hand_model(bool is_left) {
+    const auto made = [](bool left) {
+        const auto mesh = read_skinned_glb(known_hand(left), left ? "left hand" : "right hand");
+        const auto hand = mesh ? hand_model_of(*mesh, "hand") : Result<HandModel>(std::unexpected(mesh.error()));
+        BURIN_CHECK(hand.has_value());
+        return hand.value_or(HandModel{});
+    };
+    static const HandModel left = made(true), right = made(false);
+    return is_left ? left : right;
+}
+
 HandBend bend_at_rest(const HandModel& hand) {
     HandBend bend{};
     for (std::size_t i = 0; i < kHandFingers; ++i) bend[i] = hand.fingers[i].rest;

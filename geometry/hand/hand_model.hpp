@@ -10,8 +10,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,10 @@ struct HandModel {
 // Returns an Error that names what is missing. `name` stands for the file in messages.
 [[nodiscard]] Result<HandModel> hand_model_of(const SkinnedMesh& mesh, const std::string& name);
 [[nodiscard]] Result<HandModel> read_hand_model(const std::filesystem::path& path);
+
+// Returns the file of a hand that comes with the program (assets/hands), and the hand itself.
+[[nodiscard]] std::span<const std::byte> known_hand(bool is_left);
+[[nodiscard]] const HandModel& known_hand_model(bool is_left);
 
 // Returns the hand with a finer skin: each triangle becomes four, and every place moves to where the surface that
 // Loop's rules subdivide without end comes nearer (Loop, Smooth Subdivision Surfaces Based on Triangles, 1987).

@@ -262,13 +262,16 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
     const double half_angle = glm::length(Vec3(turn.x, turn.y, turn.z));
     const bool moved = glm::length(in.proxy_object_m - known.place_object_m) > kLookAgain * tool.size_m ||
                        half_angle > 0.5 * kLookAgain;
-    if (known.surface_sequence == surface.sequence && !moved) return {known, {}};
-    EngagementLook look = look_around(surface, tool, in.proxy_object_m, in.orientation_object, known.stride, most);
+    const bool serves = !known.for_bearing || !in.cutting;
+    if (known.surface_sequence == surface.sequence && !moved && serves) return {known, {}};
+    EngagementLook look = look_around(surface, tool, in.proxy_object_m, in.orientation_object, known.stride, most,
+                                      in.cutting ? LookFor::cutting : LookFor::bearing);
     if (!look.complete) {
         LookedAt as_before{known, look.work};
+        // Where a look has never been complete the part seen is better than nothing, until the next tick looks again.
+        if (known.surface_sequence == 0 || !serves)
+            as_before.known = look.engagement, as_before.known.surface_sequence = 0;
         as_before.known.stride = std::min(known.stride * 2, kMostStride);
-        // Where a look has never been complete the part seen is better than nothing.
-        if (known.surface_sequence == 0) as_before.known = look.engagement;
         return as_before;
     }
     if (known.stride > 1 && 3 * look.work.pieces < most.pieces) look.engagement.stride = known.stride / 2;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/contact/local_surface_search.hpp"
 
@@ -21,6 +22,8 @@ constexpr float kBeside = 2.0f;
 // many of those beside it: on a plane, where a ball's alone turn, to none; at the rim of a bed to half of them.
 constexpr float kNotOpposite = 0.9f, kOpposite = 0.98f;
 constexpr float kNoneAlike = 0.15f, kEnoughAlike = 0.4f;
+// Of the tool's size: how far a look for bearing goes.
+constexpr double kBearingReach = 0.25;
 // Turns by less than this, in radians, are none.
 constexpr float kFlat = 0.05f;
 
@@ -72,6 +75,26 @@ public:
             }
         return true;
     }
+    // Adds a vertex that stands for the triangles around it; false when no more are allowed.
+    bool add_vertex(const Vec3f& place_m, const Vec3f& normal) {
+        if (left_ == 0) return false;
+        --left_;
+        const std::uint8_t nearest = owner_of(place_m, normal);
+        if (nearest == ToolSurface::kNone) return true;
+        Sum& sum = sums_[nearest];
+        sum.normal += normal;
+        sum.offset += glm::dot(normal, place_m);
+        ++sum.vertices;
+        return true;
+    }
+    // Where vertices are as dense as on average before the samples that have any, they cover the sample.
+    void spread_vertices() {
+        float own_m2 = 0.0f, vertices = 0.0f;
+        for (std::uint32_t i = 0; i < tool_.count; ++i)
+            if (sums_[i].vertices > 0) own_m2 += tool_.samples[i].area_m2, vertices += vertices_of(i);
+        if (!(vertices > 0.0f)) return;
+        for (std::uint32_t i = 0; i < tool_.count; ++i) sums_[i].covered_m2 += vertices_of(i) * own_m2 / vertices;
+    }
     [[nodiscard]] std::uint32_t used() const { return most_ - left_; }
 
     // The samples that something faces, relative to the tool's place, in the object's axes.
@@ -120,18 +143,24 @@ private:
         return std::clamp(opposite, 0.0f, 1.0f) * std::clamp(enough, 0.0f, 1.0f);
     }
 
-    bool add_piece(const Vec3f& place_m, const Vec3f& area_m2) {
-        if (left_ == 0) return false;
-        --left_;
-        const std::uint8_t nearest = tool_.nearest_facing(place_m, area_m2);
-        if (nearest == ToolSurface::kNone) return true;
+    [[nodiscard]] float vertices_of(std::uint32_t i) const { return static_cast<float>(sums_[i].vertices); }
+    // The sample that a piece of surface belongs to; kNone: none.
+    [[nodiscard]] std::uint8_t owner_of(const Vec3f& place_m, const Vec3f& out_of_material) const {
+        const std::uint8_t nearest = tool_.nearest_facing(place_m, out_of_material);
+        if (nearest == ToolSurface::kNone) return nearest;
         const ToolSample& sample = tool_.samples[nearest];
-        const float facing = -glm::dot(area_m2, sample.normal);
         const Vec3f way = place_m - sample.position_m;
         const float out = glm::dot(way, sample.normal);
         const float beside2 = glm::dot(way, way) - out * out;
         const float most = kBeside * sample.half_width_m;
-        if (out > static_cast<float>(tool_.reach_m) || beside2 > most * most) return true;
+        return out > static_cast<float>(tool_.reach_m) || beside2 > most * most ? ToolSurface::kNone : nearest;
+    }
+    bool add_piece(const Vec3f& place_m, const Vec3f& area_m2) {
+        if (left_ == 0) return false;
+        --left_;
+        const std::uint8_t nearest = owner_of(place_m, area_m2);
+        if (nearest == ToolSurface::kNone) return true;
+        const float facing = -glm::dot(area_m2, tool_.samples[nearest].normal);
         Sum& sum = sums_[nearest];
         sum.normal += weight_ * area_m2;
         sum.offset += weight_ * glm::dot(area_m2, place_m);
@@ -142,6 +171,7 @@ private:
     struct Sum {
         Vec3f normal{0.0f};
         float offset = 0.0f, covered_m2 = 0.0f;
+        std::uint32_t vertices = 0;
     };
     const ToolSurface& tool_;
     float weight_, longest_m_;
@@ -159,15 +189,34 @@ Box around(const ToolSurface& tool, const Quat& object_from_tool) {
     return box;
 }
 
+// The same tool by the segment along its longest side, near which vertices are looked for.
+geometry::Near near_axis(const ToolSurface& tool, const Vec3& place, const Quat& object_from_tool, double reach_m) {
+    Vec3 across = 0.5 * Vec3(tool.hi_m - tool.lo_m);
+    const Vec3 middle = place + object_from_tool * (0.5 * Vec3(tool.hi_m + tool.lo_m));
+    const int longest = across.x >= across.y && across.x >= across.z ? 0 : (across.y >= across.z ? 1 : 2);
+    Vec3 half(0.0);
+    std::swap(half[longest], across[longest]);
+    const Vec3 from = middle - object_from_tool * half, to = middle + object_from_tool * half;
+    return {.lo = glm::min(from, to),
+            .hi = glm::max(from, to),
+            .reach_m = glm::length(across) + reach_m,
+            .by_way = true,
+            .from = from,
+            .to = to};
+}
+
 }  // namespace
 
 EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurface& tool, const Vec3& place_object_m,
-                           const Quat& orientation_object, std::uint32_t stride, const EngagementWork& most) noexcept {
+                           const Quat& orientation_object, std::uint32_t stride, const EngagementWork& most,
+                           LookFor purpose) noexcept {
+    const bool bearing = purpose == LookFor::bearing;
     EngagementLook look;
     look.engagement.place_object_m = place_object_m;
     look.engagement.orientation_object = orientation_object;
     look.engagement.surface_sequence = surface.sequence;
     look.engagement.stride = stride;
+    look.engagement.for_bearing = bearing;
     if (tool.count == 0) return look;
     const Vec3 place = place_object_m - surface.origin_object;
     const Box box = around(tool, orientation_object);
@@ -177,10 +226,24 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
     const std::uint32_t each = std::max(1u, stride / kByLength);
     Pieces pieces(tool, stride, static_cast<float>(each), most.pieces);
     std::uint32_t visited = 0;
-    look.complete = geometry::for_each_triangle_near(surface, near, [&](std::uint32_t, const geometry::Triangle& t) {
+    const auto add_triangle = [&](std::uint32_t, const geometry::Triangle& t) {
         if (visited++ % each != 0) return true;
         return pieces.add(turned(Vec3f(t.a - place)), turned(Vec3f(t.b - place)), turned(Vec3f(t.c - place)));
-    });
+    };
+    if (bearing) {
+        const auto add_vertex = [&](const geometry::SurfacePoint& point) {
+            return pieces.add_vertex(turned(Vec3f(point.position - place)), turned(Vec3f(point.normal())));
+        };
+        near = near_axis(tool, place, orientation_object, kBearingReach * tool.size_m);
+        near.looks_left = most.looks;
+        look.complete = geometry::for_each_near(
+            surface, near,
+            geometry::MixedVisitor{add_triangle, add_vertex,
+                                   geometry::Fineness{static_cast<double>(kPiece) * tool.size_m, each}});
+        pieces.spread_vertices();
+    } else {
+        look.complete = geometry::for_each_triangle_near(surface, near, add_triangle);
+    }
     look.work = {most.looks - near.looks_left, pieces.used()};
     pieces.collect(orientation_object, look.engagement);
     return look;

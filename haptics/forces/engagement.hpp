@@ -43,6 +43,7 @@ struct Engagement {
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     std::uint64_t surface_sequence = 0;
     std::uint32_t stride = 1;  // how coarsely it was looked at: with about one piece in so many
+    bool for_bearing = false;  // it says where the tool bears, not what it would cut
 };
 
 struct EngagementWork {
@@ -56,10 +57,15 @@ struct EngagementLook {
     bool complete = true;  // false: there were more pieces than allowed; the next look takes twice the stride
 };
 
+// What a look is for. For bearing it goes less far, and the vertices of fine meshes stand for their triangles, so that
+// it suffices however fine they are: a sample's area is then its own where as many vertices as elsewhere are before it.
+enum class LookFor : std::uint8_t { cutting, bearing };
+
 // Looks at the surface around a tool.
 [[nodiscard]] EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurface& tool,
                                          const Vec3& place_object_m, const Quat& orientation_object,
-                                         std::uint32_t stride, const EngagementWork& most) noexcept;
+                                         std::uint32_t stride, const EngagementWork& most,
+                                         LookFor purpose = LookFor::cutting) noexcept;
 
 // Returns the unit direction into the material near a place, from the vector area of the surface that faces it within
 // reach_m; zero where there is none. A vector area depends on a surface's border alone, so a groove that lies wholly

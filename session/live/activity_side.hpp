@@ -37,6 +37,7 @@ public:
     void adjust(PartOfHand of, haptics::TickParameters& parameters) const {
         if (activity_) activity_->adjust(of, parameters);
     }
+    [[nodiscard]] bool draws_hands() const { return activity_ && activity_->draws_hands(); }
     void stage(renderer::Scene& scene, std::size_t screen) const {
         if (activity_) activity_->stage(scene, screen);
     }

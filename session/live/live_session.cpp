@@ -171,12 +171,13 @@ void LiveSession::take_news(std::uint64_t updates) {
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (room_.wall.is_panel(screen)) return std::nullopt;
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
-    for (std::size_t part = 0; scene && part < hands_.parts(); ++part)
+    for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands_.parts(); ++part)
         if (part != hands_.first_part(state_.hand))
             add_tool(*scene, state_, hands_.part_of_hand(part).hand, tools_[part]);
     if (scene && scene_.world() != nullptr)
         std::ranges::move(scene_.world()->drawn().in_world(state_.world_from_object),
                           std::back_inserter(scene->objects));
+    if (scene && activity_.draws_hands()) scene->tool.visible = false;
     if (scene) activity_.stage(*scene, screen);
     return scene;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/opened_room.hpp"
 
+#include <numbers>
 #include <utility>
 
+#include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
@@ -28,6 +30,17 @@ void steer_over(HandRoom& room, const Vec3& workspace_device_m) {
     room.desk.depth_per_wheel_step_m = kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), workspace_device_m});
 }
 
+// Has the desk lead the palm of a glove: palm down, fingers away from the viewer and to the left, over a workspace that
+// an arm reaches. (The device's own is larger by a hand, for its fingertips.)
+void use_glove(HandRoom& room) {
+    constexpr Vec3 kReach_m{0.33, 0.3, 0.264};
+    constexpr double kToTheLeft_rad = 0.85, kDown_rad = 0.25, kDepthPerWheelStep_m = 0.01;
+    room.workspace_device_m = room.desk.workspace_m = kReach_m;
+    room.desk.depth_per_wheel_step_m = kDepthPerWheelStep_m;
+    room.desk.rest_device = glm::angleAxis(kToTheLeft_rad, Vec3(0.0, 1.0, 0.0)) *
+                            glm::angleAxis(-0.5 * std::numbers::pi - kDown_rad, Vec3(1.0, 0.0, 0.0));
+}
+
 }  // namespace
 
 Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wall) {
@@ -43,6 +56,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
             room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
             room.desk.leans_sideways = true;
         }
+        if (devices::is_glove(hands[i].device)) use_glove(room);
         if (!nature->handle) continue;
         steer_over(room, devices::device_of(*nature->handle).workspace_m);
         if (options.points.empty()) continue;

@@ -136,6 +136,8 @@ public:
     [[nodiscard]] virtual bool is_running() const { return false; }
     // Changes the parameters of a part's next ticks, such as guidance, once all else is in them.
     virtual void adjust(PartOfHand /*of*/, haptics::TickParameters& /*parameters*/) const {}
+    // Returns whether stage() draws the hands, so that no tools are drawn for them.
+    [[nodiscard]] virtual bool draws_hands() const { return false; }
     // Changes what a screen shows.
     virtual void stage(renderer::Scene& /*scene*/, std::size_t /*screen*/) const {}
     [[nodiscard]] virtual ActivityPanel panel() const = 0;

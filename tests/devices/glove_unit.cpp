@@ -63,7 +63,8 @@ TEST(GloveHands, FlexingBringsEveryTipNearerToThePalmWhichItsPistonOpposes) {
 TEST(GloveHands, StraightFingersAreAsLongAsTheirSegments) {
     for (const FingerChain& finger : usual_hand()) {
         const FingertipPlace place = place_of(finger, {});
-        const double length_m = finger.lengths_m[0] + finger.lengths_m[1] + finger.lengths_m[2];
+        const double length_m =
+            glm::length(finger.segments_base_m[0] + finger.segments_base_m[1] + finger.segments_base_m[2]);
         EXPECT_NEAR(glm::distance(place.hand_from_tip.position_m, finger.hand_from_base.position_m), length_m, 1e-12);
     }
 }

@@ -23,7 +23,9 @@
 #include "geometry/contact/touch_mesh.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
+#include "haptics/contact/separation.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "tests/haptics/session_tools.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics {
@@ -181,8 +183,8 @@ std::uint64_t number_in(const char* name, std::uint64_t otherwise) {
 class LetGoRun {
 public:
     LetGoRun(const LetGoScene& scene, std::size_t parts, double radius_m, double budget_us, double friction,
-             std::uint64_t seed)
-        : scene_(scene), radius_m_(radius_m), devices_(parts), channels_(parts) {
+             std::uint64_t seed, const sculpt::FeltTool& tool = {})
+        : scene_(scene), radius_m_(radius_m), shape_(tool.shape), devices_(parts), channels_(parts) {
         std::vector<LoopPart> all;
         for (std::size_t i = 0; i < parts; ++i) {
             channels_[i] = std::make_unique<HapticChannels>(64, 64);
@@ -193,6 +195,8 @@ public:
         held_.assign(parts, 0);
         parameters_.sequence = 1;
         parameters_.probe = ball_probe(radius_m);
+        if (shape_.touches())
+            parameters_.probe = tool.probe, parameters_.shape = shape_, parameters_.tool = tool.surface;
         parameters_.clearance_ratio = 0.0;
         parameters_.max_surface_age_s = 0.0;
         parameters_.work.pace = 1e6 / 3.0 / (1e3 * budget_us);
@@ -256,19 +260,49 @@ private:
                         std::to_string(record.flags) + ", hand " + std::to_string(1e3 * solid.distance_m(hand)) +
                         " mm off, proxy " + std::to_string(1e3 * solid.distance_m(proxy)) + " mm, apart " +
                         std::to_string(1e3 * glm::length(proxy - hand)) + " mm";
+        if (shape_.touches()) figures.worst += ", with a shape";
     }
 
     [[nodiscard]] bool is_free(const Touchable& solid, const Vec3& hand, int held) const {
+        // A ball around the tool, which is held upright.
+        if (shape_.touches())
+            return (held + 1) % kTicksBetweenLooks != 0 || solid.distance_m(hand) > 1.05 * shape_.reach_m;
         return (held + 1) % kTicksBetweenLooks != 0 || solid.distance_m(hand) > 1.05 * radius_m_;
     }
     [[nodiscard]] bool is_sound(const Touchable& solid, const Vec3& proxy, const Vec3& hand) const {
+        if (shape_.touches()) return stands_between(solid, proxy, hand);
         const double distance_m = solid.distance_m(proxy);
         return distance_m > 0.75 * radius_m_ && distance_m < 1.2 * radius_m_ &&
                !solid.is_way_clear(proxy, hand, 0.95 * radius_m_);
     }
 
+    // Whether the tool meets the mesh somewhere on its straight way from the proxy to the hand.
+    [[nodiscard]] bool stands_between(const Touchable& solid, const Vec3& proxy, const Vec3& hand) const {
+        const int parts = 1 + static_cast<int>(glm::length(hand - proxy) / (0.1 * shape_.size_m));
+        for (int i = 0; i <= parts; ++i) {
+            const Vec3 at = proxy + (static_cast<double>(i) / parts) * (hand - proxy);
+            if (solid.distance_m(at) > shape_.reach_m) continue;
+            for (const auto& t : solid.mesh().triangles)
+                if (is_met(at, {solid.mesh().positions_m[t[0]], solid.mesh().positions_m[t[1]],
+                                solid.mesh().positions_m[t[2]]}))
+                    return true;
+        }
+        return false;
+    }
+    [[nodiscard]] bool is_met(const Vec3& at, const geometry::Triangle& t) const {
+        const Vec3 lo = glm::min(glm::min(t.a, t.b), t.c) - at, hi = glm::max(glm::max(t.a, t.b), t.c) - at;
+        const Vec3 off = glm::max(glm::max(lo - shape_.bounds.hi, shape_.bounds.lo - hi), Vec3(0.0));
+        if (off != Vec3(0.0)) return false;
+        for (std::uint32_t i = 0; i < shape_.piece_count; ++i) {
+            const Separation s = separation(shape_, shape_.pieces[i], t, {at, at - t.a, HUGE_VAL, 1e-9});
+            if (s.overlaps || s.gap_m < 0.95 * shape_.rounding_m) return true;
+        }
+        return false;
+    }
+
     const LetGoScene& scene_;
     double radius_m_;
+    ToolShape shape_;
     std::vector<Unread> devices_;
     std::vector<std::unique_ptr<HapticChannels>> channels_;
     std::vector<Hand> hands_;
@@ -342,6 +376,38 @@ TEST(LetGo, AHandInFreeAirIsNotHeld) {
               << " of them of one part with 333 us; " << sum.violations << " violations\n";
     EXPECT_GT(sum.contacts, ticks / 20);
     EXPECT_GT(sum.looks_free, 0u);
+}
+
+// The same for tools that touch with their shape, so many ticks of each. The way to the hand is looked at with the
+// shape itself, triangle by triangle.
+TEST(LetGo, AHandInFreeAirIsNotHeldByAShape) {
+    const std::uint64_t ticks = number_in("BURIN_SOAK_OPERATIONS", 12'000), seed = number_in("BURIN_TEST_SEED", 1);
+    const std::vector<LetGoScene> all = scenes();
+    const std::vector<std::pair<const char*, compute::ToolShape>> tools{
+        {"mill", compute::CylinderTool{0.001, 0.006}},
+        {"cone", compute::ConeTool{0.0005, 0.002, 0.006}},
+        {"bull-nose", compute::BullNoseTool{0.0015, 0.0005, 0.006}},
+        {"box", compute::BoxTool{{0.002, 0.0015, 0.0025}}},
+        {"mesh", compute::MeshTool{std::make_shared<geometry::TriangleMesh>(test::six_sided_bar(0.0015, 0.005))}}};
+    for (const auto& [name, shape] : tools) {
+        const sculpt::FeltTool felt = sculpt::felt_tool(shape);
+        LetGoFigures sum;
+        for (std::uint64_t run = 0; sum.ticks < ticks; ++run) {
+            const double budget_us = std::array{333.0, 100.0, 33.0}[run % 3];
+            LetGoFigures figures;
+            LetGoRun(all[run % all.size()], 1, 0.0, budget_us, run % 2 == 0 ? 0.0 : 0.4, seed + 100 * run, felt)
+                .go(1000, figures);
+            if (figures.violations > 0)
+                ADD_FAILURE() << name << ", run " << run << ", " << budget_us << " us: " << figures.violations
+                              << " times; " << figures.worst;
+            sum.ticks += figures.ticks, sum.contacts += figures.contacts, sum.violations += figures.violations;
+            sum.looks_free += figures.looks_free, sum.sound += figures.sound, sum.let_go += figures.let_go;
+        }
+        std::cout << name << ": " << sum.ticks << " ticks, " << sum.contacts << " in contact; held in free air at "
+                  << sum.looks_free << " looks, soundly at " << sum.sound << "; let go by the watch " << sum.let_go
+                  << " times; " << sum.violations << " violations\n";
+        EXPECT_GT(sum.contacts, sum.ticks / 50) << name;
+    }
 }
 
 }  // namespace burin::haptics

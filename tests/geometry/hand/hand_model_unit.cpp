@@ -71,6 +71,13 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Hands, BothHands, testing::Values("left", "right"));
 
+TEST_P(BothHands, ComeWithTheProgramAsTheyAreInTheirFile) {
+    const HandModel& known = known_hand_model(hand_.is_left);
+    EXPECT_EQ(known.skin_m, hand_.skin_m);
+    EXPECT_EQ(known.bindings, hand_.bindings);
+    EXPECT_EQ(known.triangles, hand_.triangles);
+}
+
 TEST_P(BothHands, AreClosedOnceWelded) {
     EXPECT_EQ(hand_.skin_m.size(), 1159u);
     EXPECT_EQ(hand_.triangles.size(), 2314u);

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "activities/grasp/grasp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "devices/gloves/grip_shape.hpp"
+
+namespace burin::activities {
+namespace {
+
+constexpr scene::ObjectId kBall = 1, kTable = 2;
+
+// A ball on a table, as a world's objects.
+session::WorldObjects world() {
+    const auto cube = [](double half_m) {
+        auto mesh = std::make_shared<geometry::TriangleMesh>();
+        for (int i = 0; i < 8; ++i)
+            mesh->positions_m.push_back(
+                {(i & 1) != 0 ? half_m : -half_m, (i & 2) != 0 ? half_m : -half_m, (i & 4) != 0 ? half_m : -half_m});
+        return mesh;
+    };
+    session::WorldObjects objects;
+    for (const auto& [id, name, half_m] : {std::tuple(kBall, "ball", 0.03), std::tuple(kTable, "table", 0.3)}) {
+        scene::SceneObject object;
+        object.id = id;
+        object.name = name;
+        object.mesh = cube(half_m);
+        objects.objects.push_back(std::make_shared<const scene::SceneObject>(object));
+    }
+    return objects;
+}
+
+// A hand whose fingers are bent, with contacts as they are set.
+class ActedHand {
+public:
+    void bend(devices::GripShape shape, double closed) {
+        for (std::size_t i = 0; i < kFelt; ++i) joints_[i] = devices::bent_in(shape, i, closed);
+    }
+    void touch(std::size_t finger, scene::ObjectId object, const Vec3& normal) {
+        objects_[finger] = object;
+        normals_[finger] = normal;
+    }
+    void touch_nothing() { objects_ = {}; }
+    void move_to(const Pose& palm) { palm_ = palm; }
+
+    [[nodiscard]] haptics::TickRecord tick(std::size_t finger) const {
+        const Pose tip = devices::place_of(devices::usual_hand()[finger], joints_[finger]).hand_from_tip;
+        haptics::TickRecord record;
+        record.tick = tick_;
+        record.time_ns = static_cast<Nanoseconds>(tick_) * 1'000'000;
+        record.sample.position_device_m = palm_ * tip.position_m;
+        record.sample.orientation_device = palm_.orientation * tip.orientation;
+        std::copy(joints_[finger].begin(), joints_[finger].end(), record.sample.joints.begin());
+        record.contact.point_count = 1;
+        if (objects_[finger] == 0) return record;
+        record.flags = haptics::kTickInContact;
+        record.contact.points[0].object = static_cast<std::uint32_t>(objects_[finger]);
+        record.contact.points[0].normal_object = normals_[finger];
+        record.contact.points[0].hip_object_m = record.sample.position_device_m;
+        record.contact.points[0].proxy_object_m = record.sample.position_device_m + 0.002 * normals_[finger];
+        return record;
+    }
+    // Has the activity go on by so many turns of this hand.
+    session::ActivityOrders go_on(Grasp& activity, int turns) {
+        session::ActivityOrders all;
+        const session::WorldObjects objects = world();
+        for (int i = 0; i < turns; ++i) {
+            ++tick_;
+            std::array<std::vector<haptics::TickRecord>, kFelt> ticks;
+            std::vector<session::PartView> parts;
+            for (std::size_t finger = 0; finger < kFelt; ++finger) {
+                ticks[finger] = {tick(finger)};
+                parts.push_back({"", ticks[finger], {}});
+            }
+            const std::array hands{session::HandView{{}, parts}};
+            session::ActivityOrders orders;
+            activity.step({0, hands, {}, &objects}, orders);
+            for (auto& hold : orders.holds) all.holds.push_back(hold);
+            for (auto& edit : orders.edits) all.edits.push_back(edit);
+        }
+        return all;
+    }
+
+private:
+    std::uint64_t tick_ = 1000;
+    Pose palm_{{0.1, 0.2, 0.3}, glm::normalize(Quat(0.7, -0.6, 0.2, 0.1))};
+    devices::GloveJoints joints_{};
+    std::array<scene::ObjectId, kFelt> objects_{};
+    std::array<Vec3, kFelt> normals_{};
+};
+
+void hold_ball(ActedHand& hand) {
+    hand.bend(devices::GripShape::whole, 0.7);
+    hand.touch(0, kBall, {0.0, 0.0, -1.0});
+    hand.touch(1, kBall, {0.0, 0.1, 1.0});
+    hand.touch(2, kBall, {0.1, 0.0, 1.0});
+}
+
+}  // namespace
+
+TEST(HandReading, KnowsWhereTheHandIsByItsThumb) {
+    ActedHand acted;
+    acted.bend(devices::GripShape::pinch, 0.4);
+    const Pose palm{{-0.1, 0.05, 0.2}, glm::normalize(Quat(0.1, 0.6, -0.2, 0.7))};
+    acted.move_to(palm);
+    std::array<haptics::TickRecord, kFelt> ticks;
+    for (std::size_t i = 0; i < kFelt; ++i) ticks[i] = acted.tick(i);
+    const HandReading hand = reading_of({&ticks[0], &ticks[1], &ticks[2], &ticks[3]});
+    EXPECT_LT(glm::length(hand.scene_from_hand.position_m - palm.position_m), 1e-12);
+    EXPECT_NEAR(std::abs(glm::dot(hand.scene_from_hand.orientation, palm.orientation)), 1.0, 1e-12);
+    EXPECT_EQ(hand.bend[4], hand.bend[3]) << "the little finger follows the ring";
+}
+
+TEST(HandReading, DrawsAFingertipWhereItRestsOnTheSurface) {
+    ActedHand acted;
+    acted.bend(devices::GripShape::whole, 0.7);
+    std::array<haptics::TickRecord, kFelt> ticks;
+    for (std::size_t i = 0; i < kFelt; ++i) ticks[i] = acted.tick(i);
+    HandReading hand = reading_of({&ticks[0], &ticks[1], &ticks[2], &ticks[3]});
+    const devices::FingertipPlace place = devices::place_of(devices::usual_hand()[1], hand.bend[1]);
+    // The index is 6 mm inside, and the surface faces the way by which it came.
+    hand.fingers[1].object = kBall;
+    hand.fingers[1].out_scene_m = hand.scene_from_hand.orientation * (-0.006 * place.flexes_hand);
+    const geometry::HandBend drawn = drawn_bend(hand);
+    const Vec3 moved =
+        devices::place_of(devices::usual_hand()[1], drawn[1]).hand_from_tip.position_m - place.hand_from_tip.position_m;
+    EXPECT_NEAR(glm::dot(moved, -place.flexes_hand), 0.006, 1e-4);
+    EXPECT_LT(drawn[1][1], hand.bend[1][1]) << "it is opened";
+    EXPECT_EQ(drawn[2], hand.bend[2]) << "a finger that touches nothing is drawn as it is read";
+}
+
+TEST(HandReading, FingersOnOneSideOfAThingHoldNothing) {
+    ActedHand acted;
+    hold_ball(acted);
+    acted.touch(0, kBall, {0.0, 0.1, 1.0});  // the thumb beside the others, as on a table
+    std::array<haptics::TickRecord, kFelt> ticks;
+    for (std::size_t i = 0; i < kFelt; ++i) ticks[i] = acted.tick(i);
+    const std::array<std::uint64_t, geometry::kHandFingers> none{};
+    EXPECT_EQ(opposed_contacts(reading_of({&ticks[0], &ticks[1], &ticks[2], &ticks[3]})), none);
+}
+
+TEST(Grasp, TakesHoldWithTheFingersThatTouchAndLetsGoWhenTheyOpen) {
+    Grasp activity({});
+    ActedHand hand;
+    hand.bend(devices::GripShape::whole, 0.7);
+    EXPECT_TRUE(hand.go_on(activity, 50).holds.empty()) << "a closed hand without contact is no grasp";
+    hold_ball(hand);
+    const auto begun = hand.go_on(activity, 50);
+    ASSERT_EQ(begun.holds.size(), 1u);
+    EXPECT_EQ(begun.holds[0], (session::HoldObject{"ball", {{0, 0}, {0, 1}, {0, 2}}, true}));
+    hand.move_to({{0.2, 0.2, 0.3}, glm::normalize(Quat(0.7, -0.6, 0.2, 0.1))});
+    EXPECT_TRUE(hand.go_on(activity, 50).holds.empty());
+    hand.touch_nothing();
+    hand.bend(devices::GripShape::whole, 0.2);
+    const auto ended = hand.go_on(activity, 200);
+    ASSERT_EQ(ended.holds.size(), 1u);
+    EXPECT_EQ(ended.holds[0], (session::HoldObject{"ball", {}, false}));
+    ASSERT_EQ(activity.grasps().size(), 1u);
+    EXPECT_EQ(activity.grasps()[0].gesture, geometry::Gesture::whole);
+    EXPECT_GT(activity.grasps()[0].ended_ns, activity.grasps()[0].begun_ns);
+}
+
+TEST(Grasp, TakesNoTable) {
+    Grasp activity({});
+    ActedHand hand;
+    hold_ball(hand);
+    for (std::size_t i = 0; i < 3; ++i) hand.touch(i, kTable, i == 0 ? Vec3(0.0, 0.0, -1.0) : Vec3(0.0, 0.0, 1.0));
+    EXPECT_TRUE(hand.go_on(activity, 50).holds.empty());
+}
+
+TEST(Grasp, GivesEachFingertipAPatchWhosePointsShareTheStiffness) {
+    for (const unsigned points : {1u, 2u, 5u})
+        for (const PatchStiffness stiffness : {PatchStiffness::shared, PatchStiffness::literal}) {
+            const Grasp activity({.points = points, .stiffness = stiffness});
+            for (std::size_t part = 0; part < kFelt; ++part) {
+                haptics::TickParameters parameters;
+                parameters.materials.fill({.stiffness_N_per_m = 600.0, .damping_Ns_per_m = 1.0});
+                activity.adjust({0, part}, parameters);
+                ASSERT_EQ(parameters.probe.count, points);
+                EXPECT_EQ(parameters.probe.points[0].offset_device_m, Vec3(0.0));
+                const double all = parameters.materials[3].stiffness_N_per_m * points;
+                EXPECT_NEAR(all, stiffness == PatchStiffness::shared ? 600.0 : 600.0 * points, 1e-9);
+                for (std::uint32_t i = 1; i < points; ++i) {
+                    EXPECT_GT(glm::length(parameters.probe.points[i].offset_device_m), 0.001);
+                    EXPECT_LT(glm::length(parameters.probe.points[i].offset_device_m), 0.006);
+                }
+            }
+        }
+}
+
+TEST(Grasp, IsMadeAnewOfItsSettings) {
+    for (const GraspOptions& options : {GraspOptions{}, GraspOptions{3, PatchStiffness::literal}}) {
+        const std::string settings = Grasp(options).settings();
+        const auto again = grasp_options_of(settings);
+        ASSERT_TRUE(again) << settings;
+        EXPECT_EQ(Grasp(*again).settings(), settings);
+    }
+    for (const char* wrong :
+         {"hand", "hand --points 0 --mesh shared", "hand --points 5 --mesh soft", "seek --points 5"})
+        EXPECT_FALSE(grasp_options_of(wrong)) << wrong;
+}
+
+// The fingers that the device knows are those of the hand that is drawn, to its figures' last digit.
+TEST(GloveHands, AreTheHandThatIsDrawn) {
+    const geometry::HandModel& drawn = geometry::known_hand_model(false);
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        const auto finger = static_cast<geometry::Finger>(i);
+        const auto patch = geometry::fingertip_patch(drawn, finger, {.points = 1, .extent_m = 0.004});
+        ASSERT_TRUE(patch);
+        const Vec3 pad = patch->front().place_tip_m - 0.001 * patch->front().normal_tip;
+        for (const double closed : {0.0, 0.5, 1.0}) {
+            const devices::FingerAngles bent = devices::bent_in(devices::GripShape::whole, i, closed);
+            const Pose tip = devices::place_of(devices::usual_hand()[i], bent).hand_from_tip;
+            const Pose own = geometry::hand_from_tip(drawn, finger, bent);
+            EXPECT_LT(glm::length(tip.position_m - own * pad), 1e-5) << i << " closed by " << closed;
+            EXPECT_NEAR(std::abs(glm::dot(tip.orientation, own.orientation)), 1.0, 1e-6);
+        }
+    }
+}
+
+}  // namespace burin::activities

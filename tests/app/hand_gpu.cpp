@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// A hand among rigid things by the command line: scripted, in a glove at the far end of a line, and when that is
+// pulled.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+class HandSessions : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    }
+    // burin hand in the world that comes with it, with a script that does too; that means a window of its size.
+    [[nodiscard]] std::string hand(const std::string& script) const {
+        const std::string sessions = kSessionsFolder;
+        return std::string(kBurinCommand) + " hand " + sessions + "/../worlds/hand.toml --input " + sessions +
+               "/hand-" + script + ".txt --outputs out";
+    }
+    // The emulated glove ends by itself, whatever becomes of the session.
+    [[nodiscard]] std::string with_glove(const std::string& options, const std::string& command) const {
+        return "(" + std::string(kBurinCommand) + " glove emulate --seconds 40 " + options +
+               " > port.txt &) ; while ! test -s port.txt; do sleep 0.05; done; " + command +
+               " --offscreen --device glove:$(cat port.txt)";
+    }
+    const Workplace at;
+};
+
+// The columns of a table, by their names.
+std::map<std::string, std::vector<double>> table_of(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line, word;
+    std::getline(lines, line);
+    std::vector<std::string> names;
+    for (std::istringstream words(line); std::getline(words, word, ',');) names.push_back(word);
+    std::map<std::string, std::vector<double>> table;
+    while (std::getline(lines, line)) {
+        std::istringstream words(line);
+        for (std::size_t i = 0; std::getline(words, word, ',') && i < names.size(); ++i)
+            table[names[i]].push_back(std::strtod(word.c_str(), nullptr));
+    }
+    return table;
+}
+
+}  // namespace
+
+TEST_F(HandSessions, GraspsAndCarriesABall) {
+    const auto whole = at.run(hand("whole") + " --grasp whole");
+    EXPECT_EQ(whole.status, 0) << whole.output;
+    EXPECT_TRUE(whole.output.contains("\ngrasped ball, carried ")) << whole.output;
+    EXPECT_FALSE(whole.output.contains("carried 0 mm")) << whole.output;
+    EXPECT_TRUE(whole.output.contains(", held for ")) << whole.output;
+    EXPECT_FALSE(whole.output.contains("grasped table")) << whole.output;
+}
+
+TEST_F(HandSessions, PinchesACardAndPointsAtABall) {
+    const auto pinch = at.run(hand("pinch") + " --grasp pinch");
+    EXPECT_EQ(pinch.status, 0) << pinch.output;
+    EXPECT_TRUE(pinch.output.contains("\npinched card, carried ")) << pinch.output;
+    const auto point = at.run(hand("point") + " --grasp point");
+    EXPECT_EQ(point.status, 0) << point.output;
+    EXPECT_TRUE(point.output.contains("the hand points at ball")) << point.output;
+    EXPECT_TRUE(point.output.contains("nothing was grasped")) << point.output;
+}
+
+TEST_F(HandSessions, GraspsInAGloveAndIsDoneAgainToTheBitWithoutIt) {
+    const auto recorded = at.run(with_glove("", hand("glove") + " --record h.session"));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("\ngrasped ball, carried ")) << recorded.output;
+    EXPECT_FALSE(recorded.output.contains("carried 0 mm")) << recorded.output;
+    const auto replayed = at.run(std::string(kBurinCommand) + " replay h.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("the hand grasps ball")) << replayed.output;
+}
+
+TEST_F(HandSessions, ALineThatIsPulledInMidGraspEndsTheForceInAllPartsAtOnceAndTheSessionGoesOn) {
+    // The fingers close from two seconds after the session began until seven; the line is pulled between.
+    const auto recorded = at.run(with_glove("--silent-from 5 --silent-for 1", hand("glove") + " --record h.session"));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the hand grasps ball")) << recorded.output;
+    std::array<std::map<std::string, std::vector<double>>, 4> parts;
+    constexpr std::array<const char*, 4> kNames{"thumb", "index", "middle", "ring"};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::string file = std::string(kNames[i]) + ".csv";
+        ASSERT_EQ(
+            at.run(std::string(kBurinCommand) + " convert h.session " + file + " --to csv --part " + kNames[i]).status,
+            0);
+        parts[i] = table_of(at.read(file));
+        ASSERT_EQ(parts[i]["fault"].size(), parts[0]["fault"].size());
+    }
+    const std::vector<double>& fault = parts[0]["fault"];
+    const auto pulled =
+        static_cast<std::size_t>(std::ranges::find_if(fault, [](double f) { return f != 0.0; }) - fault.begin());
+    ASSERT_LT(pulled, fault.size()) << "the line was pulled";
+    const auto back = static_cast<std::size_t>(
+        std::find(fault.begin() + static_cast<std::ptrdiff_t>(pulled), fault.end(), 0.0) - fault.begin());
+    ASSERT_LT(back, fault.size()) << "the session goes on, and the line comes back";
+    double before_N = 0.0, after_N = 0.0;
+    for (std::size_t tick = 0; tick < fault.size(); ++tick)
+        for (auto& part : parts) {
+            double force_N = 0.0;
+            for (const char* axis : {"x", "y", "z"})
+                force_N += std::abs(part[std::string("commanded_force_device_") + axis + "_N"][tick]);
+            EXPECT_EQ(part["fault"][tick] != 0.0, fault[tick] != 0.0) << tick;
+            if (fault[tick] != 0.0) {
+                EXPECT_EQ(force_N, 0.0) << tick;
+            }
+            if (tick + 1 == pulled) before_N += force_N;
+            if (tick > back) after_N = std::max(after_N, force_N);
+        }
+    EXPECT_GT(before_N, 0.0) << "it was pulled in mid-grasp";
+    EXPECT_GT(after_N, 0.0) << "force comes back with the line";
+}
+
+TEST_F(HandSessions, SaysWhatItTakes) {
+    const std::string burin = kBurinCommand;
+    const auto stylus = at.run(burin + " hand --device simulated");
+    EXPECT_EQ(stylus.status, 1);
+    EXPECT_TRUE(stylus.output.contains("is no glove")) << stylus.output;
+    const auto both = at.run(burin + " hand --grasp whole --device glove:/dev/ttyUSB0");
+    EXPECT_EQ(both.status, 1);
+    EXPECT_TRUE(both.output.contains("--device names glove:/dev/ttyUSB0")) << both.output;
+    EXPECT_EQ(at.run(burin + " hand --points 6").status, 2);
+    const auto shape = at.run(hand("whole") + " --offscreen --device simulated-glove:claw");
+    EXPECT_EQ(shape.status, 1);
+    EXPECT_TRUE(shape.output.contains("whole, pinch, point")) << shape.output;
+}
+
+}  // namespace burin::app
