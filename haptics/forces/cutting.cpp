@@ -12,6 +12,9 @@ namespace {
 // Of the tool's size or of one radian: so much motion asks for another look.
 constexpr double kLookAgain = 0.1;
 constexpr std::uint32_t kMostStride = 1024;
+// Pieces from which on a look that was not complete was too fine. With fewer the contact has taken this tick's work,
+// and the next one may have more; only after so many ticks in a row the look is made coarser all the same.
+constexpr std::uint32_t kFairPieces = 1000, kMostMissed = 20;
 // Least share of the half width over which a sample becomes engaged, and least cosine of a way onto a plane.
 constexpr double kLeastSpread = 0.05, kLeastApproach = 0.2;
 // The search begins with a stress that rises over this much, of the tool's size, and so without sharp corners.
@@ -271,7 +274,11 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
         // Where a look has never been complete the part seen is better than nothing, until the next tick looks again.
         if (known.surface_sequence == 0 || !serves)
             as_before.known = look.engagement, as_before.known.surface_sequence = 0;
-        as_before.known.stride = std::min(known.stride * 2, kMostStride);
+        as_before.known.missed = known.missed + 1;
+        if (most.pieces >= kFairPieces || as_before.known.missed >= kMostMissed) {
+            as_before.known.stride = std::min(known.stride * 2, kMostStride);
+            as_before.known.missed = 0;
+        }
         return as_before;
     }
     if (known.stride > 1 && 3 * look.work.pieces < most.pieces) look.engagement.stride = known.stride / 2;

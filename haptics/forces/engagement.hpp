@@ -44,6 +44,7 @@ struct Engagement {
     std::uint64_t surface_sequence = 0;
     std::uint32_t stride = 1;  // how coarsely it was looked at: with about one piece in so many
     bool for_bearing = false;  // it says where the tool bears, not what it would cut
+    std::uint32_t missed = 0;  // ticks since, in which there was too little work left to look
 };
 
 struct EngagementWork {

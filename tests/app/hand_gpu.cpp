@@ -100,12 +100,16 @@ TEST_F(HandSessions, ALineThatIsPulledInMidGraspEndsTheForceInAllPartsAtOnceAndT
         parts[i] = table_of(at.read(file));
         ASSERT_EQ(parts[i]["fault"].size(), parts[0]["fault"].size());
     }
+    // The longest time without sets: a machine that is busy may let the line wait at other times as well.
     const std::vector<double>& fault = parts[0]["fault"];
-    const auto pulled =
-        static_cast<std::size_t>(std::ranges::find_if(fault, [](double f) { return f != 0.0; }) - fault.begin());
-    ASSERT_LT(pulled, fault.size()) << "the line was pulled";
-    const auto back = static_cast<std::size_t>(
-        std::find(fault.begin() + static_cast<std::ptrdiff_t>(pulled), fault.end(), 0.0) - fault.begin());
+    std::size_t pulled = 0, back = 0;
+    for (std::size_t tick = 0; tick < fault.size();) {
+        std::size_t end = tick;
+        while (end < fault.size() && (fault[end] != 0.0) == (fault[tick] != 0.0)) ++end;
+        if (fault[tick] != 0.0 && end - tick > back - pulled) pulled = tick, back = end;
+        tick = end;
+    }
+    ASSERT_GT(back - pulled, 500u) << "the line was pulled for a second";
     ASSERT_LT(back, fault.size()) << "the session goes on, and the line comes back";
     double before_N = 0.0, after_N = 0.0;
     for (std::size_t tick = 0; tick < fault.size(); ++tick)
@@ -117,7 +121,7 @@ TEST_F(HandSessions, ALineThatIsPulledInMidGraspEndsTheForceInAllPartsAtOnceAndT
             if (fault[tick] != 0.0) {
                 EXPECT_EQ(force_N, 0.0) << tick;
             }
-            if (tick + 1 == pulled) before_N += force_N;
+            if (tick < pulled && tick + 300 >= pulled) before_N = std::max(before_N, force_N);
             if (tick > back) after_N = std::max(after_N, force_N);
         }
     EXPECT_GT(before_N, 0.0) << "it was pulled in mid-grasp";

@@ -8,42 +8,19 @@
 #include <numbers>
 #include <random>
 
-#include "tests/haptics/cutting_ball.hpp"
-#include "tests/haptics/surfaces.hpp"
+#include "tests/haptics/pressed_ball.hpp"
 
 namespace burin::haptics {
 namespace {
 
 constexpr double kDt = 1e-3;
-constexpr double kRadius_m = 0.003;
-constexpr double kStiffness = 600.0;
-constexpr EngagementWork kPlenty{1'000'000, 1'000'000};
-
-const ToolSurface& ball() {
-    static const ToolSurface tool = test::ball_tool(kRadius_m);
-    return tool;
-}
-const geometry::LocalSurface& flat() {
-    static const test::Surface plane = test::plane(0.05, 200);
-    return *plane;
-}
+using test::ball, test::flat, test::kPlenty, test::kRadius_m, test::kStiffness, test::pressing;
 
 TouchMaterial material_of(double hardness_Ns_per_m3, double yield_Pa = 0.0) {
     TouchMaterial material;
     material.hardness_Ns_per_m3 = hardness_Ns_per_m3;
     material.cutting_yield_Pa = yield_Pa;
     return material;
-}
-
-// A hand whose ball's lowest point is at this depth under the plane at height 0.
-CuttingInput pressing(double depth_m, double dt_s = kDt) {
-    CuttingInput in;
-    in.hip_object_m = {0.0, kRadius_m - depth_m, 0.0};
-    in.proxy_object_m = {0.0, kRadius_m, 0.0};
-    in.cutting = true;
-    in.stiffness_N_per_m = kStiffness;
-    in.dt_s = dt_s;
-    return in;
 }
 
 Vec3 force_on_hand_N(const CuttingInput& in, const CuttingStep& step) {
@@ -403,83 +380,6 @@ TEST(Cutting, DragIsViscousOverTheEngagedArea) {
     EXPECT_LT(glm::length(step.drag_device_N + 2e4 * step.engaged_area_m2 * in.velocity_device_m_per_s), 1e-15);
     in.cutting = false;
     EXPECT_EQ(cut(state, in, ball(), material).drag_device_N, Vec3(0.0));
-}
-
-TEST(Engagement, OnAPlaneItIsTheCapWhateverTheTriangles) {
-    for (const int squares : {4, 80, 400}) {
-        const test::Surface plane = test::plane(0.05, squares);
-        const Vec3 place(0.0011, kRadius_m, 0.0007);
-        const Engagement seen = look_around(*plane, ball(), place, Quat(1, 0, 0, 0), 1, kPlenty).engagement;
-        for (const double depth : {0.0006, 0.001, 0.0015}) {
-            double section_m2 = 0.0;
-            for (std::uint32_t i = 0; i < seen.count; ++i) {
-                const EngagedSample& s = seen.samples[i];
-                const ToolSample& on_tool = ball().samples[s.sample];
-                const double height =
-                    glm::dot(Vec3(s.normal), Vec3(on_tool.position_m)) - static_cast<double>(s.offset_m);
-                EXPECT_GT(s.normal.y, 0.999f);
-                if (height < depth) section_m2 -= static_cast<double>(s.area_m2 * on_tool.normal.y);
-            }
-            const double expected = test::engaged_areas(kRadius_m, depth).section_m2;
-            EXPECT_NEAR(section_m2, expected, 0.15 * expected) << squares << ' ' << depth;
-        }
-    }
-    const Engagement away =
-        look_around(flat(), ball(), {0.0, 2.5 * kRadius_m, 0.0}, Quat(1, 0, 0, 0), 1, kPlenty).engagement;
-    EXPECT_EQ(away.count, 0u);
-}
-
-TEST(Engagement, WorkComesToAnEndAndTheNextLookIsCoarser) {
-    const test::Surface fine = test::plane(0.006, 200);
-    CuttingState state;
-    const CuttingInput in = pressing(0.001);
-    const EngagementWork little{100'000, 2'000};
-    std::uint32_t looks = 0;
-    do {
-        CuttingInput moved = in;
-        moved.proxy_object_m.x += 0.11 * kRadius_m * (looks + 1);
-        const LookedAt looked = look_at(state, moved, ball(), *fine, little);
-        EXPECT_LE(looked.work.pieces, little.pieces);
-        state.known = looked.known;
-    } while (++looks < 12);
-    EXPECT_GT(state.known.stride, 1u);
-    ASSERT_GT(state.known.count, 10u);
-    double area_m2 = 0.0;
-    for (std::uint32_t i = 0; i < state.known.count; ++i)
-        area_m2 += static_cast<double>(state.known.samples[i].area_m2);
-    const Engagement whole =
-        look_around(*fine, ball(), state.known.place_object_m, Quat(1, 0, 0, 0), 1, kPlenty).engagement;
-    double whole_m2 = 0.0;
-    for (std::uint32_t i = 0; i < whole.count; ++i) whole_m2 += static_cast<double>(whole.samples[i].area_m2);
-    EXPECT_NEAR(area_m2, whole_m2, 0.1 * whole_m2);
-}
-
-TEST(Engagement, LooksAgainWhenTheSurfaceIsAnotherOrTheToolHasMovedOrTurned) {
-    const test::Surface plane = test::plane(0.05, 40);
-    CuttingInput in = pressing(0.001);
-    CuttingState state;
-    const auto looks = [&] {
-        const LookedAt looked = look_at(state, in, ball(), *plane, kPlenty);
-        state.known = looked.known;
-        return looked.work.looks > 0;
-    };
-    EXPECT_TRUE(looks());
-    EXPECT_FALSE(looks()) << "nothing is new";
-    in.proxy_object_m.y -= 0.05 * kRadius_m;
-    EXPECT_FALSE(looks());
-    in.proxy_object_m.y -= 0.1 * kRadius_m;
-    EXPECT_TRUE(looks());
-    in.orientation_object = glm::angleAxis(0.15, Vec3(1.0, 0.0, 0.0));
-    EXPECT_TRUE(looks());
-    plane->sequence = 2;
-    EXPECT_TRUE(looks());
-}
-
-TEST(Engagement, TheWayIntoTheMaterialIsAcrossItsFaceAndAGrooveDoesNotTiltIt) {
-    EXPECT_GT(glm::dot(into_material(flat(), {0.001, 0.002, 0.0}, 0.005), Vec3(0.0, -1.0, 0.0)), 0.999);
-    const test::Surface groove = test::groove(kRadius_m, 0.05, 24, 200, 0.0);
-    EXPECT_GT(glm::dot(into_material(*groove, Vec3(0.0), 1.6 * kRadius_m), Vec3(0.0, -1.0, 0.0)), 0.999);
-    EXPECT_EQ(into_material(flat(), {0.0, 0.02, 0.0}, 0.005), Vec3(0.0));
 }
 
 }  // namespace burin::haptics
