@@ -267,12 +267,18 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     manner.picture_every_ns = nanoseconds(how.every_s);
     manner.witness = &*judge;
     manner.ticks = &reader;
+    std::vector<session::TrialMark> trials;
+    manner.trials = &trials;
     const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
     LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
     if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
     std::uint64_t rows = 0;
     for (const record::HandRecord& part : reader.hands()) rows += part.rows();
     replayed.left = rows - std::min(rows, judge->repeated());
+    const bool whole = reader.is_closed() && replayed.left == 0 && replayed.unrecorded == 0;
+    if (done && !replayed.comparison.difference)
+        if (const auto same = session::compare_trials(reader, trials, whole); !same)
+            return std::unexpected(same.error());
     return replayed;
 }
 

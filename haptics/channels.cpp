@@ -3,24 +3,6 @@
 
 namespace burin::haptics {
 
-StrokeSample stroke_of(const TickRecord& record) noexcept {
-    const PointRecord& first = record.contact.points[0];
-    StrokeSample stroke;
-    stroke.tick = record.tick;
-    stroke.time_ns = record.time_ns;
-    stroke.position_object_m = first.hip_object_m;
-    stroke.cut_object_m = record.contact.cut_object_m;
-    stroke.proxy_object_m = first.proxy_object_m;
-    stroke.orientation_object = record.motion.orientation_object;
-    stroke.force_object_N = record.motion.object_from_device.orientation * record.gate.given.force_device_N;
-    stroke.buttons = record.sample.buttons;
-    stroke.flags = record.flags;
-    stroke.surface_sequence = record.surface_sequence;
-    stroke.parameter_sequence = record.parameter_sequence;
-    stroke.phase = record.motion.workspace.phase;
-    return stroke;
-}
-
 ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks, std::uint64_t dropped_samples) noexcept {
     const ContactRecord& contact = record.contact;
     const PointRecord& deepest = record.deepest();

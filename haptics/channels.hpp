@@ -4,8 +4,8 @@
 // (geometry/contact/local_surface.hpp).
 //
 // Data flow: parameters and surface come in (newest value wins, borrowed); the tool's state goes out to the frame
-// (newest value wins), stroke samples go to the carving side and tick records to the recorder (rings: in order, losses
-// are counted). Units are SI; a name carries its frame. "Object" is the workpiece's frame, in which carving and contact
+// (newest value wins), tick records go whole to the scene and to the recorder, by a ring each (in order, losses are
+// counted). Units are SI; a name carries its frame. "Object" is the workpiece's frame, in which carving and contact
 // happen.
 #pragma once
 
@@ -76,23 +76,6 @@ struct TickParameters {
     WorkSettings work;
 };
 
-// The view of a tick for the carving side (stroke_of): it sweeps the tool from the sample before to this one.
-struct StrokeSample {
-    std::uint64_t tick = 0;
-    Nanoseconds time_ns = 0;
-    Vec3 position_object_m{0.0};  // HIP: where the hand is
-    // Cutting point: how far the tool has cut (haptics/forces/cutting.hpp). A cut sweeps along it.
-    Vec3 cut_object_m{0.0};
-    Vec3 proxy_object_m{0.0};  // IHIP: where the tool rests on the surface; the HIP itself in free space
-    Quat orientation_object{1.0, 0.0, 0.0, 0.0};
-    Vec3 force_object_N{0.0};  // commanded to the device, in the object frame, in newtons at the device
-    std::uint32_t buttons = 0;
-    std::uint32_t flags = 0;  // TickFlag bits
-    std::uint64_t surface_sequence = 0;
-    std::uint64_t parameter_sequence = 0;
-    WorkspacePhase phase = WorkspacePhase::editing;  // nothing is carved in any phase but editing
-};
-
 // Flags of a degraded or noteworthy tick: bits of TickRecord::flags.
 enum TickFlag : std::uint32_t {
     kTickLate = 1u << 0,          // began more than half a period after its deadline
@@ -108,7 +91,7 @@ enum TickFlag : std::uint32_t {
     kTickSlewLimited = 1u << 9,     // the change of force was reduced to the slew limit
     kTickRamping = 1u << 10,        // force is being faded in
     kTickFault = 1u << 11,          // the gate gave zero force; TickRecord::cause says why
-    kTickSampleDropped = 1u << 12,  // the carving side's ring was full: this stroke sample was lost
+    kTickSampleDropped = 1u << 12,  // the scene's ring was full: it has lost this tick
     // a material is stiffer than what the device renders passively; StiffnessBound says why
     kTickStiffnessLimited = 1u << 13,
     kTickPassivityActs = 1u << 14,  // the passivity controller adds damping, or scales the wrench
@@ -179,9 +162,9 @@ struct TurnShare {
     [[nodiscard]] double of(double budget_ns) const noexcept { return std::max(budget_ns - spent_ns - kept_ns, 0.0); }
 };
 
-// Everything a tick used and did; the other records are views of it. With the surface and the parameters of the
-// sequence numbers recorded here it replays to the same bits. tick() (haptics/tick.hpp) fills it but for the gate,
-// full_tick() adds the gate, and HapticLoop the tick number, the lateness and its own flags.
+// Everything a tick used and did, and what everybody gets of it; ToolState is a view of it. With the surface and the
+// parameters of the sequence numbers recorded here it replays to the same bits. tick() (haptics/tick.hpp) fills it but
+// for the gate, full_tick() adds the gate, and HapticLoop the tick number, the lateness and its own flags.
 struct TickRecord {
     std::uint64_t tick = 0;
     Nanoseconds time_ns = 0;      // the loop's clock when the tick began
@@ -230,33 +213,25 @@ struct ToolState {
     GateCause cause = GateCause::none;
     Nanoseconds let_go_ns = 0;          // time of the last tick in which the watch let the hand go; 0: there was none
     std::uint64_t late_ticks = 0;       // since the start
-    std::uint64_t dropped_samples = 0;  // stroke samples lost to a full ring since the start
+    std::uint64_t dropped_samples = 0;  // ticks that the scene has lost to a full ring since the start
 };
 
-[[nodiscard]] StrokeSample stroke_of(const TickRecord& record) noexcept;
 [[nodiscard]] ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks,
                                 std::uint64_t dropped_samples) noexcept;
 
 // The five channels in one place, of one part of a device. The session owns them and outlives the threads. Allocates in
 // the constructor only.
-// Capacities: four seconds of ticks for a carving side that stalls, one second for a recorder that writes.
+// Capacities: four seconds of ticks for a scene that stalls, one second for a recorder that writes.
 struct HapticChannels {
-    static constexpr std::size_t kStrokes = 4096, kRecords = 1024;
-    // whole_ticks: somebody in the scene asks for the ticks whole, not as strokes alone.
-    explicit HapticChannels(std::size_t stroke_capacity = kStrokes, std::size_t record_capacity = kRecords,
-                            bool whole_ticks = false)
-        : stroke(stroke_capacity), records(record_capacity) {
-        if (whole_ticks) whole.emplace(stroke_capacity);
-    }
+    static constexpr std::size_t kTicks = 4096, kRecords = 1024;
+    explicit HapticChannels(std::size_t tick_capacity = kTicks, std::size_t record_capacity = kRecords)
+        : ticks(tick_capacity), records(record_capacity) {}
 
-    NewestSlot<geometry::LocalSurface> surface;  // carving side -> haptic thread
+    NewestSlot<geometry::LocalSurface> surface;  // scene -> haptic thread
     NewestSlot<TickParameters> parameters;       // frame or study -> haptic thread
-    Ring<StrokeSample> stroke;                   // haptic thread -> carving side
-    // The same channel's ticks whole, each pushed before its stroke, so that whoever has read a stroke finds its tick
-    // here. Without kTickSampleDropped, which only the stroke's push can tell.
-    std::optional<Ring<TickRecord>> whole;
-    Ring<TickRecord> records;                    // haptic thread -> recorder
-    NewestSlot<ToolState> tool;                  // haptic thread -> frame
+    Ring<TickRecord> ticks;      // haptic thread -> scene; without kTickSampleDropped of the tick itself
+    Ring<TickRecord> records;    // haptic thread -> recorder
+    NewestSlot<ToolState> tool;  // haptic thread -> frame
 };
 
 }  // namespace burin::haptics

@@ -83,11 +83,10 @@ TickRecord HapticLoop::tick_part(Part& part, const TurnShare& share, Nanoseconds
     record.lateness_ns = lateness_ns;
     if (lateness_ns > period_ns_ / 2) record.flags |= kTickLate;
     HapticChannels& channels = *part.channels;
-    if (channels.whole) channels.whole->push(record);  // a full ring counts the records it refuses
-    if (!channels.stroke.push(stroke_of(record))) record.flags |= kTickSampleDropped;
+    if (!channels.ticks.push(record)) record.flags |= kTickSampleDropped;
     channels.records.push(record);  // a full ring counts the records it refuses
     if ((record.flags & kTickLetGo) != 0) part.let_go_ns = now_ns;
-    channels.tool.draft() = tool_of(record, late_ticks_, channels.stroke.refused());
+    channels.tool.draft() = tool_of(record, late_ticks_, channels.ticks.refused());
     channels.tool.draft().let_go_ns = part.let_go_ns;
     channels.tool.publish();
     return record;

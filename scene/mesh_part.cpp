@@ -134,15 +134,16 @@ std::optional<HandPose> MeshPart::frame_of(std::span<const std::size_t> hands) c
     return poses.empty() ? std::nullopt : std::optional(grip_frame(poses));
 }
 
-void MeshPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) {
+void MeshPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
     const auto known = hands_.find(hand);
-    if (samples.empty()) {  // no news: it stands still
+    if (ticks.empty()) {  // no news: it stands still
         if (known != hands_.end())
             known->second.velocity_m_per_s = known->second.angular_velocity_rad_per_s = Vec3(0.0);
         return;
     }
-    const haptics::StrokeSample& newest = samples.back();
-    HandPose pose{.scene_from_hand = {newest.position_object_m, newest.orientation_object}, .time_ns = newest.time_ns};
+    const haptics::TickRecord& newest = ticks.back();
+    HandPose pose{.scene_from_hand = {newest.contact.points[0].hip_object_m, newest.motion.orientation_object},
+                  .time_ns = newest.time_ns};
     const bool goes_on = known != hands_.end() && known->second.time_ns > 0 && newest.time_ns > known->second.time_ns;
     if (goes_on) {
         const Velocities v = velocities_between(known->second.scene_from_hand, pose.scene_from_hand,
@@ -151,19 +152,18 @@ void MeshPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSam
         pose.angular_velocity_rad_per_s = v.angular_rad_per_s;
     }
     move_hand(hand, pose);
-    if (const auto grip_of = grips_.find(hand); grip_of != grips_.end()) grip(hand, grip_of->second, samples);
+    if (const auto grip_of = grips_.find(hand); grip_of != grips_.end()) grip(hand, grip_of->second, ticks);
 }
 
 // While the workspace moves (a phase other than editing) the same button means something else.
-void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::StrokeSample> samples) {
+void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::TickRecord> ticks) {
     ObjectId wanted = grip.held;
-    for (const haptics::StrokeSample& sample : samples) {
-        const bool down = (sample.buttons & grip.button) != 0;
+    for (const haptics::TickRecord& tick : ticks) {
+        const bool down = (tick.sample.buttons & grip.button) != 0;
         const bool pressed = down && !std::exchange(grip.down, down);
         if (!down) wanted = 0;
-        if (pressed && sample.phase == haptics::WorkspacePhase::editing &&
-            (sample.flags & haptics::kTickInContact) != 0)
-            wanted = nearest_felt(sample.proxy_object_m, grip.around_m);
+        if (pressed && tick.motion.workspace.phase == haptics::WorkspacePhase::editing && tick.in_contact())
+            wanted = nearest_felt(tick.contact.points[0].proxy_object_m, grip.around_m);
     }
     if (wanted == grip.held) return;
     // An activity may have given it into other hands meanwhile.

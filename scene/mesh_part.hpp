@@ -52,9 +52,9 @@ public:
                                                                   MaterialTable& materials);
     ~MeshPart() override;
 
-    // ScenePart. The first update is the time at which paths begin. A hand's newest sample tells where it is; its
-    // velocities are the mean over the samples of an update. Its buttons take hold (grip_with).
-    void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override;
+    // ScenePart. The first update is the time at which paths begin. A hand's newest tick tells where it is; its
+    // velocities are the mean over the ticks of an update. Its buttons take hold (grip_with).
+    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override;
     [[nodiscard]] const PartSeen& seen() const override { return seen_; }
     // Leaves out what the hand itself holds, unless it is to be felt by it.
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] Result<void> take_hold(ObjectId id, std::size_t hand) { return take_hold(id, {&hand, 1}); }
     [[nodiscard]] Result<void> let_go(ObjectId id);
     // Has a hand take hold of the object that its tool touches when a button goes down, and let go with the button.
-    // button: bits of StrokeSample::buttons. around_m: how far the touched surface is from where the tool rests, at
+    // button: bits of DeviceSample::buttons. around_m: how far the touched surface is from where the tool rests, at
     // most.
     void grip_with(std::size_t hand, std::uint32_t button, double around_m) { grips_[hand] = {button, around_m}; }
     // Tells where a hand is; what it holds follows with the next update.
@@ -120,7 +120,7 @@ private:
         bool down = false;
         ObjectId held = 0;  // 0: none
     };
-    void grip(std::size_t hand, Grip& grip, std::span<const haptics::StrokeSample> samples);
+    void grip(std::size_t hand, Grip& grip, std::span<const haptics::TickRecord> ticks);
     [[nodiscard]] std::optional<HandPose> frame_of(std::span<const std::size_t> hands) const;
     [[nodiscard]] ObjectId nearest_felt(const Vec3& place_scene, double around_m);
     void offer(const Placed& placed, const ProbeBall& ball, geometry::LocalSurface& draft);

@@ -2,7 +2,7 @@
 // A part of a scene: what it owns in there is touched, seen and edited through it alone. A carved workpiece is a part,
 // the meshes of a world are one, bodies another.
 //
-// Data flow of an update: the scene's service (scene/scene_service.hpp) hands each part the stroke samples of all
+// Data flow of an update: the scene's service (scene/scene_service.hpp) hands each part the ticks of all
 // hands, calls its update(), and then has the touch publisher (scene/touch_publisher.hpp) ask every part for what lies
 // near each hand's probe. What a part draws, and the orders that it carries out, are its own affair: whoever knows
 // which part it is asks it.
@@ -42,13 +42,11 @@ public:
     ScenePart(const ScenePart&) = delete;
     ScenePart& operator=(const ScenePart&) = delete;
 
-    // Takes what a hand has done since the last update, in order, just before the next one. A part that needs none of
-    // it leaves it.
-    virtual void take_samples(std::size_t /*hand*/, std::span<const haptics::StrokeSample> /*samples*/) {}
-    // Takes the same ticks whole, where the hand's channels have them (HapticChannels::whole).
+    // Takes what a hand has done since the last update, tick by tick, just before the next one. A part that needs none
+    // of it leaves it.
     virtual void take_ticks(std::size_t /*hand*/, std::span<const haptics::TickRecord> /*ticks*/) {}
     // Takes what all hands have begun and ended to touch since the last update, in the order of time, after their
-    // ticks. Of hands whose channels have no whole ticks there are none.
+    // ticks.
     virtual void take_contacts(std::span<const ContactEvent> /*events*/) {}
     // Brings the part to the present. `recorded`: what a recorded update saw, which this one sees again; null in a live
     // one. Fails when the part cannot go on; it is then as it was before the update.

@@ -37,39 +37,31 @@ Result<void> SceneService::repeat(const SceneUpdate& recorded) {
     return update(recorded.time_ns, &whole);
 }
 
-void SceneService::read_samples(std::size_t hand, std::uint64_t last_tick) {
-    Ring<haptics::StrokeSample>& ring = hands_[hand].channels->stroke;
-    samples_.clear();
-    while (const haptics::StrokeSample* oldest = ring.oldest()) {
+void SceneService::read_ticks(std::size_t hand, std::uint64_t last_tick) {
+    Ring<haptics::TickRecord>& ring = hands_[hand].channels->ticks;
+    ticks_.clear();
+    while (const haptics::TickRecord* oldest = ring.oldest()) {
         if (oldest->tick > last_tick) break;
-        samples_.push_back(*oldest);
+        ticks_.push_back(*oldest);
         ring.drop();
     }
-    ticks_.clear();
-    if (samples_.empty()) return;
-    if (auto& whole = hands_[hand].channels->whole) {
-        while (const haptics::TickRecord* oldest = whole->oldest()) {
-            if (oldest->tick > samples_.back().tick) break;
-            ticks_.push_back(*oldest);
-            whole->drop();
-        }
-    }
-    seen_.last_ticks[hand] = samples_.back().tick;
-    places_[hand] = samples_.back().proxy_object_m;
-    sunk_m_[hand] = glm::length(samples_.back().position_object_m - places_[hand]);
+    if (ticks_.empty()) return;
+    const haptics::PointRecord& first = ticks_.back().contact.points[0];
+    seen_.last_ticks[hand] = ticks_.back().tick;
+    places_[hand] = first.proxy_object_m;
+    sunk_m_[hand] = glm::length(first.hip_object_m - places_[hand]);
 }
 
 Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorded) {
     const Nanoseconds since_ns = now_ns - std::exchange(seen_.time_ns, now_ns);
     seen_.orders = recorded != nullptr ? recorded->orders : 0;
-    // While a hand stands still its loop rests and gives a tenth of the samples: twice as many mean that it moves.
+    // While a hand stands still its loop rests and gives a tenth of the ticks: twice as many mean that it moves.
     const auto few = static_cast<std::size_t>(std::max<Nanoseconds>(2 * since_ns / haptics::HapticLoop::kRest_ns, 1));
     hands_move_ = false;
     contacts_.clear();
     for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-        read_samples(hand, recorded != nullptr ? recorded->last_ticks[hand] : UINT64_MAX);
-        hands_move_ = hands_move_ || samples_.size() > few;
-        for (ScenePart* part : parts_) part->take_samples(hand, samples_);
+        read_ticks(hand, recorded != nullptr ? recorded->last_ticks[hand] : UINT64_MAX);
+        hands_move_ = hands_move_ || ticks_.size() > few;
         for (ScenePart* part : parts_) part->take_ticks(hand, ticks_);
         for (const haptics::TickRecord& tick : ticks_) followers_[hand].follow(tick, contacts_);
     }

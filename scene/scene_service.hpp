@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The service of a scene: has its parts do what the hands have done, and publishes what the hands touch.
 //
-// Data flow of an update: the stroke samples of each hand are read from its ring, of which the service is the only
+// Data flow of an update: the ticks of each hand are read from its ring, of which the service is the only
 // reader -> contact events are made of them (scene/contact_events.hpp) -> every part takes both -> every part updates,
 // in the order in which they were given -> the touch publisher writes each hand's local surface around where its tool
 // rests -> parts do what hands need not wait for. The service knows no part by its kind: orders and what the frame
 // shows go between the frame and the part itself, on the thread of the service (scene/scene_thread.hpp). Replay: an
-// update depends on orders, time, samples and on what its parts have seen. seen() has all but the orders, and repeat()
+// update depends on orders, time, ticks and on what its parts have seen. seen() has all but the orders, and repeat()
 // does it again to the bit.
 // Frame: the scene's. Threads: one at a time, a SceneThread's or, where time is simulated, the caller's.
 #pragma once
@@ -35,7 +35,7 @@ struct SceneHand {
 struct SceneUpdate {
     Nanoseconds time_ns = 0;
     std::size_t orders = 0;                 // carried out just before it; counted by whoever gives them
-    std::vector<std::uint64_t> last_ticks;  // for each hand, of the last stroke sample that was read
+    std::vector<std::uint64_t> last_ticks;  // for each hand, the last one that was read
     std::vector<PartSeen> parts;            // for each part
     friend bool operator==(const SceneUpdate&, const SceneUpdate&) = default;
 };
@@ -71,17 +71,16 @@ public:
 
 private:
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const SceneUpdate* recorded);
-    void read_samples(std::size_t hand, std::uint64_t last_tick);
+    void read_ticks(std::size_t hand, std::uint64_t last_tick);
 
     std::vector<ScenePart*> parts_;
     std::vector<SceneHand> hands_;
     TouchPublisher publisher_;
-    std::vector<Vec3> places_;                    // of each hand's tool
-    std::vector<double> sunk_m_;                  // how far each hand was beyond where its tool rested
-    std::vector<haptics::StrokeSample> samples_;  // of one hand in one update
-    std::vector<haptics::TickRecord> ticks_;      // the same whole, where its channels have them
-    std::vector<ContactFollower> followers_;      // of each hand
-    std::vector<ContactEvent> contacts_;          // of one update
+    std::vector<Vec3> places_;                // of each hand's tool
+    std::vector<double> sunk_m_;              // how far each hand was beyond where its tool rested
+    std::vector<haptics::TickRecord> ticks_;  // of one hand in one update
+    std::vector<ContactFollower> followers_;  // of each hand
+    std::vector<ContactEvent> contacts_;      // of one update
     bool hands_move_ = false;
     SceneUpdate seen_;
 };

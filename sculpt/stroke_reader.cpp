@@ -41,10 +41,10 @@ void StrokeReader::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
     working_ = false;
 }
 
-void StrokeReader::take(std::span<const haptics::StrokeSample> samples) {
-    samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(read_));
+void StrokeReader::take(std::span<const haptics::TickRecord> ticks) {
+    ticks_.erase(ticks_.begin(), ticks_.begin() + static_cast<std::ptrdiff_t>(read_));
     read_ = 0;
-    samples_.insert(samples_.end(), samples.begin(), samples.end());
+    ticks_.insert(ticks_.end(), ticks.begin(), ticks.end());
 }
 
 SweptSamples StrokeReader::read() {
@@ -59,36 +59,37 @@ SweptSamples StrokeReader::read() {
         run.clear();
         continues = false;
     };
-    while (!swept.stroke_ended && read_ < samples_.size()) {
-        const haptics::StrokeSample& sample = samples_[read_++];
-        const bool was_pressed = std::exchange(pressed_, (sample.buttons & 1u) != 0);
+    while (!swept.stroke_ended && read_ < ticks_.size()) {
+        const haptics::TickRecord& tick = ticks_[read_++];
+        const bool was_pressed = std::exchange(pressed_, (tick.sample.buttons & 1u) != 0);
         swept.stroke_ended = was_pressed && !pressed_;
-        const std::optional<Vec3> point = working_point(sample);
+        const std::optional<Vec3> point = working_point(tick);
         working_ = point.has_value();
         if (!working_) {
             end_run();
             continue;
         }
-        last_pose_object_ = {*point, tool_.turns() ? sample.orientation_object : Quat{1, 0, 0, 0}};
-        last_worked_ns_ = sample.time_ns;
+        last_pose_object_ = {*point, tool_.turns() ? tick.motion.orientation_object : Quat{1, 0, 0, 0}};
+        last_worked_ns_ = tick.time_ns;
         if (run.empty() || run.back() != last_pose_object_) run.push_back(last_pose_object_);
     }
     end_run();
     return swept;
 }
 
-// Returns where the tool works in this sample; nothing where it only moves.
-std::optional<Vec3> StrokeReader::working_point(const haptics::StrokeSample& sample) const {
-    if ((sample.buttons & 1u) == 0 || sample.phase != haptics::WorkspacePhase::editing) return std::nullopt;
+// Returns where the tool works in this tick; nothing where it only moves.
+std::optional<Vec3> StrokeReader::working_point(const haptics::TickRecord& tick) const {
+    if ((tick.sample.buttons & 1u) == 0 || tick.motion.workspace.phase != haptics::WorkspacePhase::editing)
+        return std::nullopt;
     switch (tool_.operation) {
         case compute::Operation::cut:
-            if (hardness_Ns_per_m3_ == 0.0) return sample.position_object_m;
-            if ((sample.flags & haptics::kTickCutting) != 0) return sample.cut_object_m;
+            if (hardness_Ns_per_m3_ == 0.0) return tick.contact.points[0].hip_object_m;
+            if ((tick.flags & haptics::kTickCutting) != 0) return tick.contact.cut_object_m;
             return std::nullopt;
-        case compute::Operation::fill: return sample.proxy_object_m;
+        case compute::Operation::fill: return tick.contact.points[0].proxy_object_m;
         case compute::Operation::paint:
         case compute::Operation::smooth:
-            if ((sample.flags & haptics::kTickInContact) != 0) return sample.position_object_m;
+            if ((tick.flags & haptics::kTickInContact) != 0) return tick.contact.points[0].hip_object_m;
             return std::nullopt;
     }
     return std::nullopt;

@@ -2,7 +2,7 @@
 // Reads the stroke samples that the haptic thread has written and turns them into sweeps of the tool.
 //
 // Where the tool works depends on its operation:
-//   cut            at the cutting point (StrokeSample::cut_object_m) while the tool eats its way in; material without
+//   cut            at the cutting point (ContactRecord::cut_object_m) while the tool eats its way in; material without
 //                  hardness gives way wherever the hand is
 //   fill           where the tool rests on the surface
 //   paint, smooth  where the hand is, while it touches
@@ -38,7 +38,7 @@ public:
     StrokeReader(const Tool& tool, double hardness_Ns_per_m3, double cell_m);
 
     // Takes samples, in order, behind those that have not been read yet.
-    void take(std::span<const haptics::StrokeSample> samples);
+    void take(std::span<const haptics::TickRecord> ticks);
     // Reads the samples taken, and stops after one in which the button came up: then more may wait.
     [[nodiscard]] SweptSamples read();
     // Changes the tool from the next sample on. Its material must be in the solid's table.
@@ -53,10 +53,10 @@ public:
     [[nodiscard]] Nanoseconds last_worked_ns() const { return last_worked_ns_; }
 
 private:
-    [[nodiscard]] std::optional<Vec3> working_point(const haptics::StrokeSample& sample) const;
+    [[nodiscard]] std::optional<Vec3> working_point(const haptics::TickRecord& tick) const;
 
-    std::vector<haptics::StrokeSample> samples_;
-    std::size_t read_ = 0;  // of samples_
+    std::vector<haptics::TickRecord> ticks_;
+    std::size_t read_ = 0;  // of ticks_
     Tool tool_;
     double hardness_Ns_per_m3_;
     double around_m_, tolerance_m_;

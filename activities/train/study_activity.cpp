@@ -62,22 +62,31 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
     const Result<OperatorCommand> command = operator_command(text);
     if (!command) return std::unexpected(command.error());
     if (const auto ok = check_order(*command); !ok) return fail("do " + words[0], ok.error().what, ok.error().remedy);
-    run_.command(*command, now_ns_);
     if (command->says == OperatorSays::start) {
-        if (keeper_.begun) tell(keeper_.begun(run_), orders);
-        trials_ = {};
-        open_world(orders);
-        orders.parameters = true;
+        // On a busy machine frames come before the first tick.
+        starts_with_first_tick_ = now_ns_ == 0;
+        if (starts_with_first_tick_)
+            orders.messages.emplace_back("the stage begins with the first tick of the device");
+        else
+            begin_stage(orders);
+        return {};
     }
+    run_.command(*command, now_ns_);
     return {};
+}
+
+void StudyActivity::begin_stage(session::ActivityOrders& orders) {
+    run_.command({OperatorSays::start, {}}, now_ns_);
+    if (keeper_.begun) tell(keeper_.begun(run_), orders);
+    trials_ = {};
+    open_world(orders);
+    orders.parameters = true;
 }
 
 // Checks that the operator may give this order now.
 Result<void> StudyActivity::check_order(const OperatorCommand& command) const {
     const bool starts = command.says == OperatorSays::start;
     if (const auto ok = run_.check(command); !ok) return ok;
-    if (starts && now_ns_ == 0)
-        return fail("", "no tick has come from the device yet", "wait a moment, or see to the device");
     if (!jig_off_.empty() && (starts || command.says == OperatorSays::go_on))
         return fail("", "the wand read " + jig_off_ + " in its jig",
                     "put it there and say do jig until it reads right");
@@ -103,6 +112,7 @@ Result<void> StudyActivity::check_jig(session::ActivityOrders& orders) {
         return {};
     }
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
+    starts_with_first_tick_ = false;
     if (in_stage) run_.command({OperatorSays::pause, {}}, now_ns_);
     const Vec3& jig_m = wand.calibration.maker_from_handle.position_m;
     return fail(
@@ -130,6 +140,7 @@ void StudyActivity::step(const session::ActivityView& view, session::ActivityOrd
 
 void StudyActivity::follow(const haptics::TickRecord& tick, session::ActivityOrders& orders) {
     now_ns_ = tick.time_ns;
+    if (std::exchange(starts_with_first_tick_, false)) begin_stage(orders);
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
     const std::size_t known = run_.session()->events().size();
     const haptics::TickRecord own = in_stage_world(tick);

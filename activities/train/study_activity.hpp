@@ -71,6 +71,7 @@ private:
     [[nodiscard]] bool ends_by_operator() const;
     [[nodiscard]] Result<void> check_order(const OperatorCommand& command) const;
     [[nodiscard]] Result<void> check_jig(session::ActivityOrders& orders);
+    void begin_stage(session::ActivityOrders& orders);
     void follow(const haptics::TickRecord& tick, session::ActivityOrders& orders);
     void place_proxies(std::size_t known, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
@@ -97,9 +98,10 @@ private:
     std::optional<bool> tube_pressed_;  // as last ordered
     Nanoseconds now_ns_ = 0;            // of the last tick
     haptics::ProxyPlacement placement_;
-    Pose reads_device_;    // where the wand read to be in the last step
-    std::string jig_off_;  // by how much the wand was off in its jig; empty: it was not
-    std::string jig_row_;  // the same as short as the panel has room for
+    Pose reads_device_;                    // where the wand read to be in the last step
+    bool starts_with_first_tick_ = false;  // it was started before there was one
+    std::string jig_off_;                  // by how much the wand was off in its jig; empty: it was not
+    std::string jig_row_;                  // the same as short as the panel has room for
     std::size_t ended_ = 0;
 };
 

@@ -6,8 +6,8 @@
 
 #include "haptics/haptic_loop.hpp"
 #include "record/record_writer.hpp"
+#include "record/touched_columns.hpp"
 #include "scene/scene_service.hpp"
-#include "session/record/session_recording.hpp"
 
 namespace burin::activities {
 namespace {
@@ -52,9 +52,9 @@ Result<std::unique_ptr<record::RecordWriter>> record_wand(const WandOptions& opt
     if (options.record.empty()) return nullptr;
     const record::RowShape shape = record::shape_of(device, probe);
     record::RecordedHand hand{device.name, device, probe, &channels.records};
-    hand.more_columns = session::touched_columns(shape);
+    hand.more_columns = record::touched_columns(shape);
     hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
-        session::append_touched(tick, shape, row);
+        record::append_touched(tick, shape, row);
     };
     record::WriterOptions writer;
     writer.facts = options.facts;
@@ -89,7 +89,7 @@ Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& mate
     const devices::HandTarget start = hand->target(0.0);
 
     SimulatedClock clock;
-    haptics::HapticChannels channels(haptics::HapticChannels::kStrokes,
+    haptics::HapticChannels channels(haptics::HapticChannels::kTicks,
                                      options.record.empty() ? haptics::HapticChannels::kRecords : record::kRingTicks);
     devices::SimulatedWand wand(std::move(*hand), options.wand, &clock);
     const haptics::TickParameters parameters = wand_parameters(options, wand.description(), materials);

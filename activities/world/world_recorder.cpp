@@ -3,14 +3,9 @@
 
 #include <algorithm>
 
-namespace burin::activities {
+#include "record/touched_columns.hpp"
 
-std::vector<record::Column> object_columns(std::uint32_t points) {
-    std::vector<record::Column> columns;
-    for (std::uint32_t i = 0; i < points; ++i)
-        columns.push_back({"object" + std::to_string(i), "", "", record::ColumnType::u32});
-    return columns;
-}
+namespace burin::activities {
 
 Result<std::unique_ptr<WorldRecorder>> WorldRecorder::create(
     const std::string& path, const devices::DeviceDescription& device, const haptics::Probe& probe, Facts facts,
@@ -18,7 +13,7 @@ Result<std::unique_ptr<WorldRecorder>> WorldRecorder::create(
     std::unique_ptr<WorldRecorder> recorder(new WorldRecorder);
     recorder->points_ = std::min(probe.count, haptics::kMostProbePoints);
     record::RecordedHand hand{device.name, device, probe, &recorder->ticks_};
-    hand.more_columns = object_columns(recorder->points_);
+    hand.more_columns = record::touched_columns({.points = recorder->points_});
     hand.more_values = [r = recorder.get()](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
         r->append_objects(tick, row);
     };

@@ -16,8 +16,6 @@
 
 namespace burin::activities {
 
-// The columns of a tick's objects, after those that every tick has.
-[[nodiscard]] std::vector<record::Column> object_columns(std::uint32_t points);
 inline constexpr const char* kUpdateLine = "update ";
 
 class WorldRecorder {

@@ -8,6 +8,7 @@
 #include "activities/world/repeated_hand.hpp"
 #include "activities/world/world_recorder.hpp"
 #include "activities/world/world_touch.hpp"
+#include "record/touched_columns.hpp"
 
 namespace burin::activities {
 namespace {
@@ -66,7 +67,7 @@ private:
 
 std::vector<record::Column> columns_of_a_world() {
     std::vector<record::Column> columns = record::columns_for(record::RowShape{0, 1});
-    const std::vector<record::Column> objects = object_columns(1);
+    const std::vector<record::Column> objects = record::touched_columns({.points = 1});
     columns.insert(columns.end(), objects.begin(), objects.end());
     return columns;
 }

@@ -74,7 +74,7 @@ private:
     double count(WalkingPart& part) {
         haptics::TickRecord record;
         if (!part.channels.records.pop(record)) return 0.0;
-        for (haptics::StrokeSample read; part.channels.stroke.pop(read);) continue;
+        for (haptics::TickRecord read; part.channels.ticks.pop(read);) continue;
         ++figures_.ticks;
         const bool held_over = (record.flags & haptics::kTickHeldOver) != 0;
         part.waits = held_over ? part.waits + 1 : 0;

@@ -41,7 +41,7 @@ public:
         }
         for (haptics::TickRecord read; channels_->records.pop(read);) {
         }
-        for (haptics::StrokeSample read; channels_->stroke.pop(read);) {
+        for (haptics::TickRecord read; channels_->ticks.pop(read);) {
         }
         orientation_ = path.orientation();
     }

@@ -82,7 +82,7 @@ public:
             loop_.step();
             haptics::TickRecord record;
             if (!channels_->records.pop(record)) continue;
-            for (haptics::StrokeSample read; channels_->stroke.pop(read);) continue;
+            for (haptics::TickRecord read; channels_->ticks.pop(read);) continue;
             if (path_.pressed()) count(record), ++counted;
             proxy_m_ = record.deepest().proxy_object_m;
         }

@@ -74,7 +74,7 @@ public:
             if (tick % TouchRun::kTicksAnUpdate == 0) publish(tick + 1);
             const haptics::TickRecord record = loop_.step();
             for (haptics::TickRecord read; channels_.records.pop(read);) continue;
-            for (haptics::StrokeSample read; channels_.stroke.pop(read);) continue;
+            for (haptics::TickRecord read; channels_.ticks.pop(read);) continue;
             figures_.cost_us.push_back(1e-3 * haptics::cost_ns(record.contact.work));
             figures_.in_contact += record.in_contact() ? 1 : 0;
         }

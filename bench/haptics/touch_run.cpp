@@ -111,7 +111,7 @@ void TouchRun::tick(Nanoseconds lateness_ns) {
     for (haptics::TickRecord read; channels_->records.pop(read);) {
     }
     if (cuts_) return;
-    for (haptics::StrokeSample read; channels_->stroke.pop(read);) {
+    for (haptics::TickRecord read; channels_->ticks.pop(read);) {
     }
 }
 

@@ -67,7 +67,7 @@ Json lose_ticks(double pressed_N, int lost) {
             clock.sleep_until(clock.now_ns() + kWholeTick_ns);
             record = loop.step();
             for (haptics::TickRecord read; channels.records.pop(read);) continue;
-            for (haptics::StrokeSample read; channels.stroke.pop(read);) continue;
+            for (haptics::TickRecord read; channels.ticks.pop(read);) continue;
             lowest_m = std::min(lowest_m, record.sample.position_device_m.y);
         }
     };

@@ -176,8 +176,8 @@ SessionRecord LiveFrames::record() const {
 void add_threads(SessionRecord& record, LiveSession& session) {
     const haptics::HapticLoop& loop = session.loop();
     record.carve_update = summarised(session.carving_duration());
-    record.machine_pace = session.pace();
-    record.lost_targets = session.lost_targets();
+    record.machine_pace = session.hands().pace();
+    record.lost_targets = session.hands().lost_targets();
     record.ticks = loop.ticks();
     record.late_ticks = loop.late_ticks();
     record.missed_deadlines = loop.skipped_deadlines();
@@ -251,7 +251,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         session.notify_of_event(std::to_string(record.lost_targets) +
                                 " places of the hand were lost: its ticks stood still for too long");
     }
-    if (const auto whole = session.outcome(); !whole) return std::unexpected(whole.error());
+    if (const auto whole = session.files().outcome(); !whole) return std::unexpected(whole.error());
     return record;
 }
 

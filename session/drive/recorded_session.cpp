@@ -33,6 +33,7 @@ public:
     [[nodiscard]] Result<void> finish_as_recorded() {
         if (const auto run = replay_.run_to_end(); !run) return run;
         if (const auto done = finish(replay_); !done) return done;
+        if (manner_.trials != nullptr) *manner_.trials = recorder_.take_trials();
         if (log_.end_check && *log_.end_check != check_of(session_) && !departed_)
             departed_ = Error{"the replay leaves another scene than the recording did", name_, kRemedy};
         return {};
@@ -58,7 +59,7 @@ private:
         if (seen.refused) session_.go_back_to(*seen.refused);
         if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the recording decides
         if (manner_.picture_every_ns <= 0 || time_ns_ < next_picture_ns_) return;
-        session_.ask_for_picture(formatted("%08.3f.png", seconds(time_ns_)));
+        session_.files().ask_for_picture(formatted("%08.3f.png", seconds(time_ns_)));
         next_picture_ns_ = (time_ns_ / manner_.picture_every_ns + 1) * manner_.picture_every_ns;
     }
 
@@ -153,7 +154,7 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
     // An export may be under way where the log breaks off.
     session.finish_scene();
     if (frames.departed()) return std::unexpected(*frames.departed());
-    return manner.only_compares ? Result<void>{} : session.outcome();
+    return manner.only_compares ? Result<void>{} : session.files().outcome();
 }
 
 }  // namespace burin::session

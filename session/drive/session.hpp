@@ -11,6 +11,7 @@
 #include "session/drive/tick_witness.hpp"
 #include "session/present/direct_output.hpp"
 #include "session/record/input_source.hpp"
+#include "session/state/activity.hpp"
 #include "session/state/session_options.hpp"
 #include "session/state/session_screens.hpp"
 #include "session/timing/session_times.hpp"
@@ -29,9 +30,10 @@ namespace burin::session {
 
 // How a recording is replayed.
 struct ReplayManner {
-    bool draws = true;                      // its frames' pictures; their screenshots, too
-    TickWitness* witness = nullptr;         // judges every tick; null: only the frames' checksums are compared
-    record::RecordReader* ticks = nullptr;  // the session file that has the ticks, where the log has none
+    bool draws = true;                         // its frames' pictures; their screenshots, too
+    TickWitness* witness = nullptr;            // judges every tick; null: only the frames' checksums are compared
+    record::RecordReader* ticks = nullptr;     // the session file that has the ticks, where the log has none
+    std::vector<TrialMark>* trials = nullptr;  // takes what the activity has begun and ended; null: nobody wants it
     // What the log asked for and did not get then either is no failure of the replay.
     bool only_compares = false;
     Nanoseconds picture_every_ns = 0;  // with draws: of session time, as SECONDS.png; 0: none

@@ -65,7 +65,7 @@ Result<void> SessionFrames::finish(Executor& executor) {
 bool SessionFrames::look_for_signal() {
     if (!end_.came()) return false;
     cut_short_ = true;
-    session_.notify_of_loss("the session was ended by a signal; what follows in the log was not done");
+    session_.files().notify_of_loss("the session was ended by a signal; what follows in the log was not done");
     return true;
 }
 
@@ -94,7 +94,7 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     if (const auto driven = drive(executor, frames); !driven) return driven;
     session.finish_scene();
-    return session.outcome();
+    return session.files().outcome();
 }
 
 }  // namespace burin::session

@@ -69,7 +69,7 @@ protected:
     [[nodiscard]] std::optional<FrameInput> next_input() override;
     void stepped() override;
     // Without an output, only frames that become screenshots are drawn.
-    [[nodiscard]] bool wants_picture() override { return presenter_.shows() || session_.wants_screenshots(); }
+    [[nodiscard]] bool wants_picture() override { return presenter_.shows() || session_.files().wants_pictures(); }
 };
 
 }  // namespace burin::session

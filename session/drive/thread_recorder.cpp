@@ -15,7 +15,8 @@ bool same(const wall::OutputPlace& a, const wall::OutputPlace& b) {
 }  // namespace
 
 ThreadClock clock_of(LiveSession& session) {
-    return {session.start_ns(), session.loop().period_ns(), session.device().resolution_m, session.pace()};
+    return {session.start_ns(), session.loop().period_ns(), session.hands().device(0).resolution_m,
+            session.hands().pace()};
 }
 
 std::uint64_t check_of(const LiveSession& session) {
@@ -51,7 +52,7 @@ ThreadRecorder::ThreadRecorder(InputSource& input, LiveSession& session)
 
 void ThreadRecorder::outside() {
     const LiveSession::Outside outside = session_.take_outside();
-    if (recording_ && !input_.records()) session_.notify_of_loss(input_.recording_error()->line());
+    if (recording_ && !input_.records()) session_.files().notify_of_loss(input_.recording_error()->line());
     recording_ = input_.records();
     if (file_) session_.note_acknowledged(file_->progress().acknowledged, recording_);
     if (!recording_) return;
@@ -97,13 +98,18 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
     }
     if (!file_) return;
     // Its ticks go on where its log has ended.
-    if (const auto closed = file_->close(); !closed && recording_) session_.notify_of_loss(closed.error().line());
+    if (const auto closed = file_->close(); !closed && recording_)
+        session_.files().notify_of_loss(closed.error().line());
 }
 
 // A text log has no table of them.
 void ThreadRecorder::write_trials() {
-    for (const TrialMark& mark : session_.take_trials())
-        if (file_) file_->trial(mark);
+    for (TrialMark& mark : session_.take_trials()) {
+        if (file_)
+            file_->trial(mark);
+        else
+            trials_.push_back(std::move(mark));
+    }
 }
 
 void ThreadRecorder::write_ticks() {

@@ -40,6 +40,8 @@ public:
                const std::vector<wall::OutputPlace>& places);
     // Ends the recording, and closes a session file.
     void finish(const std::vector<scene::SceneUpdate>& updates);
+    // Returns the trials that no session file has taken, since the last call.
+    [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
 
 private:
     void write_trials();
@@ -55,6 +57,7 @@ private:
     UpdateText update_text_;
     std::uint64_t ticks_ = 0, updates_ = 0;  // written so far
     std::vector<wall::OutputPlace> places_;
+    std::vector<TrialMark> trials_;  // in no file
     SessionCheck check_;
     std::shared_ptr<SessionRecording> file_;  // null: a text file, or nothing
     bool recording_;

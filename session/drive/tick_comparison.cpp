@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "record/examination.hpp"
+#include "record/touched_columns.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -38,7 +39,7 @@ Result<void> TickComparison::add_part(std::size_t table) {
     const std::vector<record::Column>& columns = reader_->table(table).columns;
     const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m")};
     std::vector<record::Column> expected = record::columns_for(shape);
-    std::ranges::copy(touched_columns(shape), std::back_inserter(expected));
+    std::ranges::copy(record::touched_columns(shape), std::back_inserter(expected));
     if (columns != expected)
         return fail(reader_->path(), "has other columns than this program's recordings",
                     "replay it with the program that recorded it; its data can be read and converted");
@@ -95,6 +96,44 @@ Result<void> TickComparison::take(std::size_t part, const haptics::TickRecord& a
         return fail(reader_->path(), "differs: " + found_.difference->line());
     }
     ++found_.ticks;
+    return {};
+}
+
+Result<void> compare_trials(record::RecordReader& reader, std::span<const TrialMark> again, bool whole) {
+    const Result<std::vector<record::TrialRecord>> recorded = reader.trials();
+    if (!recorded) return std::unexpected(recorded.error());
+    std::vector<record::TrialRecord> now;
+    for (const TrialMark& mark : again) {
+        if (!mark.name.empty())
+            now.push_back({static_cast<std::int64_t>(now.size() + 1), mark.name, "open", mark.time_ns, 0});
+        else if (!now.empty() && now.back().ended_ns == 0)
+            now.back().state = mark.state, now.back().ended_ns = mark.time_ns;
+    }
+    constexpr const char* kRemedy = "it was changed since, or another program recorded it: replay it with that one";
+    for (std::size_t i = 0; i < recorded->size(); ++i) {
+        const record::TrialRecord& was = (*recorded)[i];
+        const std::string which = "trial " + std::to_string(i + 1) + " (" + was.name + ")";
+        if (i >= now.size() && !whole) return {};
+        if (i >= now.size()) return fail(reader.path(), which + " is not there when it is done again", kRemedy);
+        const record::TrialRecord& is = now[i];
+        const bool open = !whole && (was.ended_ns == 0 || is.ended_ns == 0);
+        if (is.name != was.name) return fail(reader.path(), which + " is done again as " + is.name, kRemedy);
+        if (is.begun_ns != was.begun_ns)
+            return fail(
+                reader.path(),
+                which + " began at " + std::to_string(was.begun_ns) + " ns, again at " + std::to_string(is.begun_ns),
+                kRemedy);
+        if (!open && (is.ended_ns != was.ended_ns || is.state != was.state))
+            return fail(reader.path(),
+                        which + " ended as '" + was.state + "' at " + std::to_string(was.ended_ns) + " ns, again as '" +
+                            is.state + "' at " + std::to_string(is.ended_ns),
+                        kRemedy);
+    }
+    if (whole && now.size() > recorded->size())
+        return fail(reader.path(),
+                    "has " + std::to_string(recorded->size()) + " trials, and " + std::to_string(now.size()) +
+                        " when it is done again",
+                    kRemedy);
     return {};
 }
 

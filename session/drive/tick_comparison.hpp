@@ -2,11 +2,13 @@
 // Compares the ticks of a replayed session with those in its session file: every column, bit for bit. One thread.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "record/compare.hpp"
 #include "record/motion.hpp"
 #include "session/drive/tick_witness.hpp"
+#include "session/state/activity.hpp"
 
 namespace burin::session {
 
@@ -52,5 +54,10 @@ private:
     record::Comparison found_;
     AtDifference then_;
 };
+
+// Compares the trials of a session that was done again with the rows that the recording has of them. Fails with the
+// first that differs: by name, beginning, end, or how it ended. whole: its log and its rows go to the same end; else
+// what both have is compared.
+[[nodiscard]] Result<void> compare_trials(record::RecordReader& reader, std::span<const TrialMark> again, bool whole);
 
 }  // namespace burin::session

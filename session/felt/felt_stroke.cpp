@@ -260,7 +260,7 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     if (!hand) return std::unexpected(hand.error());
 
     // A recorder may be busy with the disk for seconds.
-    haptics::HapticChannels channels(haptics::HapticChannels::kStrokes,
+    haptics::HapticChannels channels(haptics::HapticChannels::kTicks,
                                      options.record.empty() ? haptics::HapticChannels::kRecords : record::kRingTicks);
     haptics::TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;

@@ -47,7 +47,7 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
     if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
     hand->device = std::move(*opened);
     for (std::size_t i = 0; i < hand->device.parts.size(); ++i)
-        parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_, whole_ticks_));
+        parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_));
     hands_.push_back(std::move(hand));
     return {};
 }

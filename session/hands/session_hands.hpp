@@ -37,9 +37,7 @@ using scene::PartOfHand;
 class SessionHands {
 public:
     // records: ticks that the recording's ring of each part holds. pace: of the machine (haptics::WorkSettings).
-    // whole_ticks: an activity goes by them.
-    SessionHands(std::size_t records, double pace, bool whole_ticks)
-        : records_(records), pace_(pace), whole_ticks_(whole_ticks) {}
+    SessionHands(std::size_t records, double pace) : records_(records), pace_(pace) {}
 
     // Opens a device for each hand, simulated ones with their hand at rest. Fails, and names the hand, where one does
     // not open, or where they do not tick at one rate. stands_in: of a recording that is done again (HapticHost). The
@@ -99,8 +97,8 @@ private:
         std::size_t first_part = 0;
     };
     struct Part {
-        Part(PartOfHand of_hand, std::size_t records, bool whole_ticks)
-            : of(of_hand), channels(haptics::HapticChannels::kStrokes, records, whole_ticks) {}
+        Part(PartOfHand of_hand, std::size_t records)
+            : of(of_hand), channels(haptics::HapticChannels::kTicks, records) {}
         PartOfHand of;
         haptics::HapticChannels channels;
         std::uint64_t parameter_sequence = 0;
@@ -109,7 +107,6 @@ private:
 
     std::size_t records_;
     double pace_;
-    bool whole_ticks_;
     std::vector<std::unique_ptr<Hand>> hands_;
     std::vector<std::unique_ptr<Part>> parts_;
     std::optional<haptics::HapticLoop> loop_;  // after what it ticks

@@ -29,6 +29,16 @@ PanelSource hand_source(const PanelContext& context, std::size_t part) {
     return {name, led ? "simulated, steered by the mouse" : "simulated, rests", Condition::good};
 }
 
+PanelTouch touch_of(const HandState& hand, const haptics::ToolState& tool) {
+    PanelTouch touch;
+    touch.force_on = hand.force_on;
+    touch.in_contact = (tool.flags & haptics::kTickInContact) != 0;
+    touch.cause = tool.cause;
+    touch.was_let_go = tool.let_go_ns > 0 && tool.time_ns - tool.let_go_ns < kTold_ns;
+    touch.flags = tool.flags & haptics::kTickInContact;
+    return touch;
+}
+
 PanelSource tracker_source(const wall::TrackerReport& report) {
     if (report.state == wall::TrackerState::ok) return {"Head tracker", "follows the head", Condition::good};
     return {"Head tracker", report.cause,
@@ -95,13 +105,13 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.exporting = context.exporting;
     m.activity = context.activity;
     m.message = message;
-    m.touch.force_on = state.force_on;
-    m.touch.in_contact = (tool_state.flags & haptics::kTickInContact) != 0;
-    m.touch.cause = tool_state.cause;
-    m.touch.was_let_go = tool_state.let_go_ns > 0 && tool_state.time_ns - tool_state.let_go_ns < kTold_ns;
-    m.touch.flags = tool_state.flags & haptics::kTickInContact;
+    m.touch = touch_of(state, tool_state);
     for (std::size_t part = 0; part < context.tools.size(); ++part) m.sources.push_back(hand_source(context, part));
-    for (const HandState& hand : state.hands) m.hand_names.push_back(hand.hand_name);
+    for (std::size_t i = 0; i < state.hands.size(); ++i) {
+        const HandState& hand = hand_of(state, i);
+        m.hands.push_back({hand.hand_name, touch_of(hand, context.tools[context.hands.first_part(i)]),
+                           hand.velocity_filter, hand.force_filter});
+    }
     m.hand = state.hand;
     if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));
     feed_.show_on(m);

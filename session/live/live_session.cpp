@@ -24,7 +24,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     times_.sampled(start_ns_ + head_sampled_ns(input), tool.time_ns);
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
     last_step_ns_ = input.time_ns;
-    if (!input.events.empty()) last_line_ = input.events.back().line;
+    if (!input.events.empty()) files_.note_line(input.events.back().line);
     const SceneInput left = feed_panel(input);
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     SessionStep step =
@@ -37,7 +37,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     }
     if (before) hold_governed(*before, step.orders);
     activity_.step(state_, step.orders, input.time_ns, hands_, tools_);
-    news_.frames_for_ticks(activity_.is_running());
+    scene_.news().frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     hands_.move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), give);
@@ -81,54 +81,11 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
     return {{input.events.begin(), input.events.end()}, {}};
 }
 
-// A tool is the one of the hand in use.
-scene::SceneThread::Order LiveSession::carving(sculpt::SculptOrder order) {
-    return [this, order = std::move(order), hand = state_.hand, spread_m = spreads_m_[state_.hand]] {
-        const std::size_t first = hands_.first_part(hand), parts = hands_.parts_of(hand);
-        const auto* use = std::get_if<sculpt::UseTool>(&order);
-        if (carved_ && use == nullptr) carved_->order(order);
-        if (use == nullptr) return;
-        for (std::size_t part = first; carved_ && part < first + parts; ++part) carved_->order(*use, part);
-        tools_around_m_[hand] = carved_ ? carved_->around_m(first) : sculpt::around_m(use->tool);
-        for (std::size_t part = first; part < first + parts; ++part) {
-            scene_->use_probe(part, tools_around_m_[hand] + spread_m);
-            if (world_) world_->part().grip_with(part, kGrips, tools_around_m_[hand]);
-        }
-    };
-}
-
 // How far a handle's points are from the first of them, in the scene as large as it is shown now.
 double LiveSession::spread_of(std::size_t hand) const {
     return handles_[hand]
                ? handles_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
                : 0.0;
-}
-
-// The scene has been scaled, or the motion: what is known around the first point has to reach the others.
-void LiveSession::follow_spread(const Give& give) {
-    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
-        const double spread_m = spread_of(hand);
-        if (spread_m == spreads_m_[hand]) continue;
-        spreads_m_[hand] = spread_m;
-        give([this, hand, spread_m] {
-            scene_->use_probe(hands_.first_part(hand), tools_around_m_[hand] + spread_m);  // a handle is one part
-        });
-    }
-}
-
-scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
-    return [this, order = std::move(order)] {
-        if (const auto done = world_->part().edit(order.object, order.edit); !done) news_.notify(done.error().line());
-    };
-}
-
-scene::SceneThread::Order LiveSession::holding(HoldOrder order) {
-    return [this, order = std::move(order)] {
-        scene::MeshPart& part = world_->part();
-        const auto done =
-            order.parts.empty() ? part.let_go(order.object) : part.take_hold(order.object, order.parts, order.felt);
-        if (!done) news_.notify(done.error().line());
-    };
 }
 
 void LiveSession::publish_parameters() {
@@ -150,46 +107,44 @@ void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
     const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
                                    : "those of " + std::string(hands_.device(hands_.first_part(state_.hand)).name) +
                                          " cannot be switched from here";
-    log_.notify_of_event("amplifiers: " + why, {failed_on(asked.line), {}});
+    log_.notify_of_event("amplifiers: " + why, {files_.failed_on(asked.line), {}});
 }
 
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
     if (orders.parameters) publish_parameters();
-    if (orders.parameters) follow_spread(give);
+    // The scene has been scaled, or the motion.
+    for (std::size_t hand = 0; orders.parameters && hand < hands_.hands(); ++hand)
+        scene_.spread(hand, spread_of(hand), give);
     for (sculpt::SculptOrder& order : orders.carving) {
         if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
-        if (wanted != nullptr && !outputs_.write()) continue;
-        if (wanted != nullptr) place(*wanted);
-        give(carving(std::move(order)));
+        if (wanted != nullptr && !files_.write()) continue;
+        if (wanted != nullptr) files_.place(*wanted);
+        give(scene_.carving(std::move(order), state_.hand));
     }
-    for (WorldOrder& order : orders.world) give(editing(std::move(order)));
-    for (HoldOrder& order : orders.holds) give(holding(std::move(order)));
-    if (const auto lamp = carving_ ? lamp_.look(state_) : std::nullopt) give(carving(sculpt::LightFrom{*lamp}));
+    for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
+    for (HoldOrder& order : orders.holds) give(scene_.holding(std::move(order)));
+    if (const auto lamp = scene_.carved() != nullptr ? lamp_.look(state_) : std::nullopt)
+        give(scene_.carving(sculpt::LightFrom{*lamp}, state_.hand));
     for (const Asked& message : orders.messages) {
         if (message.line == 0) {
             notify(message.text);
         } else {
-            log_.notify(message.text, {failed_on(message.line), {}});
+            log_.notify(message.text, {files_.failed_on(message.line), {}});
         }
     }
-    if (outputs_.write()) std::ranges::move(orders.screenshots, std::back_inserter(screenshots_));
+    files_.ask_for_pictures(std::move(orders.screenshots));
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
 }
 
 // Says once, until tool and workpiece suit one another again, that they do not.
 void LiveSession::warn_of_misfit(const sculpt::Tool& tool) {
     if (!warns_of_misfit_) return;
-    const auto misfit = sculpt::misfit(state_.tool, tool, sculpt::longest_side_m(room_.workpiece_object), spacing_m());
+    const auto misfit =
+        sculpt::misfit(state_.tool, tool, sculpt::longest_side_m(room_.workpiece_object), scene_.spacing_m());
     if (misfit && !misfits_) notify(*misfit);
     misfits_ = misfit.has_value();
-}
-
-SculptOptions LiveSession::settled(SculptOptions options) const {
-    options.workpiece.units = unit_;
-    options.tool = tool_options_;
-    return options;
 }
 
 void LiveSession::watch(Nanoseconds time_ns) {
@@ -198,23 +153,19 @@ void LiveSession::watch(Nanoseconds time_ns) {
 }
 
 void LiveSession::take_loaded() {
-    if (!carved_) return;
-    if (auto loaded = carved_->take_surface_update()) take(std::move(*loaded));
+    if (scene_.carved() == nullptr) return;
+    if (auto loaded = scene_.carved()->take_surface_update()) take(std::move(*loaded));
 }
 
 void LiveSession::take_news(std::uint64_t updates) {
-    SceneNews::Taken news = news_.take(updates);
+    SceneNews::Taken news = scene_.news().take(updates);
     if (news.surface) take(std::move(*news.surface));
     for (const std::string& message : news.messages) notify(message);
     activity_.take(std::move(news.hands));
-    if (!world_) return;
-    world_->drawn().take(news.objects);
+    if (scene_.world() == nullptr) return;
+    scene_.world()->drawn().take(news.objects);
     state_.world = followed(std::move(state_.world), news.objects, news.materials ? &*news.materials : nullptr);
     if (news.materials) publish_parameters();
-}
-
-Vec3 LiveSession::lattice_origin_object() const {
-    return carving_ ? carving_->surface().lattice().origin_object : Vec3(0.0);
 }
 
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
@@ -223,32 +174,39 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands_.parts(); ++part)
         if (part != hands_.first_part(state_.hand))
             add_tool(*scene, state_, hands_.part_of_hand(part).hand, tools_[part]);
-    if (scene && world_)
-        std::ranges::move(world_->drawn().in_world(state_.world_from_object), std::back_inserter(scene->objects));
+    if (scene && scene_.world() != nullptr)
+        std::ranges::move(scene_.world()->drawn().in_world(state_.world_from_object),
+                          std::back_inserter(scene->objects));
     if (scene && activity_.draws_hands()) scene->tool.visible = false;
     if (scene) activity_.stage(*scene, screen);
     return scene;
 }
 
 void LiveSession::finish_scene() {
-    scene_->finish();
+    scene_.service().finish();
     collect({});
     take_news(UINT64_MAX);
     // What the activity orders now has nobody to carry it out, but for its words.
     SessionOrders orders;
     activity_.step(state_, orders, last_step_ns_, hands_, tools_);
     for (const Asked& message : orders.messages) notify(message.text);
-    if (const auto done = activity_.finish(); !done) notify_of_loss(done.error().line());
+    if (const auto done = activity_.finish(); !done) files_.notify_of_loss(done.error().line());
 }
 
 void LiveSession::take(sculpt::SurfaceUpdate news) {
     for (const std::string& message : news.messages) notify(message);
-    for (const sculpt::ExportOutcome& ended : news.exports) take(ended);
+    for (const sculpt::ExportOutcome& ended : news.exports) files_.tell(ended);
     undoable_ = news.undoable;
     redoable_ = news.redoable;
     exporting_ = news.exporting;
     times_.cut(news.cut_ns);
     updates_.push_back(std::move(news));
+}
+
+void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {
+    state_.output.mode = working;
+    refused_ = working;
+    notify_of_event(error.line());
 }
 
 }  // namespace burin::session

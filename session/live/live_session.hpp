@@ -12,23 +12,19 @@
 // (session/drive/thread_replay.hpp).
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scene/scene_thread.hpp"
-#include "sculpt/carved_part.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/live/activity_side.hpp"
+#include "session/live/asked_files.hpp"
 #include "session/live/live_panel.hpp"
 #include "session/live/message_log.hpp"
-#include "session/live/scene_news.hpp"
+#include "session/live/scene_side.hpp"
 #include "session/live/session_watch.hpp"
-#include "session/live/world_side.hpp"
 #include "session/record/input_source.hpp"
-#include "session/record/log_outputs.hpp"
 #include "session/state/session_options.hpp"
 #include "session/state/session_state.hpp"
 
@@ -36,9 +32,6 @@ namespace burin::session {
 
 class LiveSession {
 public:
-    // The stylus' second button takes hold of an object.
-    static constexpr std::uint32_t kGrips = 2;
-
     // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the
     // clock must outlive the session. pace: how much slower than the reference core the machine is
     // (haptics::WorkSettings); as measured where time is real (session/timing/machine_pace.hpp), as recorded in a
@@ -50,7 +43,7 @@ public:
     // Applies one frame's input. `output` is the main screen's output, `tools` the tools as the frame draws them, one
     // of each part of the hands. Orders to the scene's parts are passed to `give`. panel_output: size of the panel's
     // own window; empty: there is none.
-    using Give = std::function<void(scene::SceneThread::Order)>;
+    using Give = SceneSide::Give;
     void step(const FrameInput& input, const wall::OutputPlace& output, std::span<const haptics::ToolState> tools,
               const Give& give, ImageSize panel_output = {});
     // Likewise of a session whose hand has one part.
@@ -62,7 +55,7 @@ public:
     [[nodiscard]] const haptics::ToolState& newest_tool() { return hands_.newest_tool(0); }
     // Collects what the scene's parts report of the update that has just ended; returns whether it is anything. The
     // scene's thread.
-    bool collect(const scene::SceneThread::Ended& update) { return news_.collect(update); }
+    bool collect(const scene::SceneThread::Ended& update) { return scene_.news().collect(update); }
     // Takes over what the parts report at the beginning, before the scene's thread starts.
     void take_loaded();
     // Takes over what so many of the collected updates have reported.
@@ -74,7 +67,7 @@ public:
     // ---- What the frame draws.
     // Returns the surface updates since the last call, and the origin of their tiles' positions.
     [[nodiscard]] std::vector<sculpt::SurfaceUpdate> take_surface_updates() { return std::exchange(updates_, {}); }
-    [[nodiscard]] Vec3 lattice_origin_object() const;
+    [[nodiscard]] Vec3 lattice_origin_object() const { return scene_.lattice_origin_object(); }
     // Returns the scene of a screen; nothing where it stays dark.
     [[nodiscard]] std::optional<renderer::Scene> scene_on(std::size_t screen) const;
     // Returns the panel's picture on a screen, valid until the next step; nothing where it is not shown.
@@ -89,13 +82,8 @@ public:
     // Reports that a screen cannot be shown in the requested mode, and changes the session to the mode that works.
     void refuse_mode(wall::StereoMode working, const Error& error);
     void go_back_to(wall::StereoMode mode) { state_.output.mode = mode; }
-    // Screenshots that were asked for since the last call, by their names.
-    [[nodiscard]] bool wants_screenshots() const { return !screenshots_.empty(); }
-    [[nodiscard]] std::vector<Asked> take_screenshots() { return std::exchange(screenshots_, {}); }
-    // Has the next picture written under this name, as a command would.
-    void ask_for_picture(const std::string& name) { screenshots_.push_back({name}); }
-    // Writes a screenshot to the place of its name, and tells of it.
-    void keep_screenshot(const Asked& wanted, const Result<Image>& image);
+    // The files that were asked for, and what became of them.
+    [[nodiscard]] AskedFiles& files() { return files_; }
 
     // Returns the options with what the session found out in place of what they leave open: the unit of the workpiece's
     // file and the tool.
@@ -104,22 +92,15 @@ public:
     [[nodiscard]] const Room& room() const { return room_; }
     [[nodiscard]] SessionHands& hands() { return hands_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return hands_.loop(); }
-    [[nodiscard]] double pace() const { return hands_.pace(); }
-    [[nodiscard]] std::uint64_t lost_targets() const { return hands_.lost_targets(); }
-    [[nodiscard]] scene::SceneService& scene() { return *scene_; }
+    [[nodiscard]] scene::SceneService& scene() { return scene_.service(); }
     // Returns the durations of the scene's updates in which the carved surface changed.
-    [[nodiscard]] const haptics::Histogram& carving_duration() const { return news_.carving_duration(); }
+    [[nodiscard]] const haptics::Histogram& carving_duration() const { return scene_.news().carving_duration(); }
     [[nodiscard]] SessionTimes& times() { return times_; }
     [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
     [[nodiscard]] bool wants_full_screen_exchanged() { return std::exchange(exchange_full_screen_, false); }
     // See MessageLog.
     void notify(const std::string& message) { log_.notify(message); }
     void notify_of_event(const std::string& message) { log_.notify_of_event(message); }
-    // Reports that what the session should leave is lost: a recording that ended, the rest of a log. It then fails at
-    // its end.
-    void notify_of_loss(const std::string& message);
-    // Returns whether all that a log asked for was done, once the session is over.
-    [[nodiscard]] Result<void> outcome() const;
     void replay_events(std::span<const std::string> recorded) { log_.replay_events(recorded); }
     // Tells the panel the last tick that a session file has on the disk, and whether its recording goes on.
     void note_acknowledged(std::uint64_t tick, bool goes_on) {
@@ -136,27 +117,28 @@ public:
     };
     [[nodiscard]] Outside take_outside() { return {log_.take_events(), std::exchange(refused_, std::nullopt)}; }
 
-    // Returns the device of the first hand.
-    [[nodiscard]] const devices::DeviceDescription& device() const { return hands_.device(0); }
     [[nodiscard]] bool has_activity() const { return activity_.is_there(); }
     // Returns the trials that the activity has begun and ended since the last call.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return activity_.take_trials(); }
     [[nodiscard]] haptics::HapticChannels& channels(std::size_t part = 0) { return hands_.channels(part); }
     [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts() { return hands_.channels_of_parts(); }
     // Returns the surface as it is carved now; null without a workpiece.
-    [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }
+    [[nodiscard]] const compute::Surface* surface() const {
+        return scene_.workpiece() != nullptr ? &scene_.workpiece()->surface() : nullptr;
+    }
     // Returns the objects of the world as they are now; null without one.
-    [[nodiscard]] const scene::MeshPart* objects() const { return world_ ? &world_->part() : nullptr; }
+    [[nodiscard]] const scene::MeshPart* objects() const {
+        return scene_.world() != nullptr ? &scene_.world()->part() : nullptr;
+    }
 
 private:
     LiveSession(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
-    [[nodiscard]] Result<void> hold_handles(const SculptOptions& options);
     [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] Result<void> open_hands(const SculptOptions& options);
-    [[nodiscard]] Result<void> make_scene(const sculpt::UseTool& use, std::size_t undo_bytes);
+    [[nodiscard]] std::vector<SceneSide::Beginning> beginnings() const;
     [[nodiscard]] Vec3 place_at_rest(std::size_t hand) const;
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands_.first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
@@ -164,17 +146,8 @@ private:
     void carry_out(SessionOrders orders, const Give& give);
     void publish_parameters();
     void switch_amplifiers(const AskedAmplifiers& asked);
-    [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
-    [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
-    [[nodiscard]] scene::SceneThread::Order holding(HoldOrder order);
     [[nodiscard]] double spread_of(std::size_t hand) const;
-    void follow_spread(const Give& give);
-    [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
     void take(sculpt::SurfaceUpdate news);
-    void place(sculpt::ExportSurface& wanted) const;
-    void take(const sculpt::ExportOutcome& ended);
-    // Returns the log's line, for the terminal; counts a failure there.
-    [[nodiscard]] std::string failed_on(std::size_t line);
     void watch(Nanoseconds time_ns);
     void warn_of_misfit(const sculpt::Tool& tool);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
@@ -182,23 +155,16 @@ private:
     Clock& clock_;
     Nanoseconds start_ns_ = 0;
     WorkerPool pool_;
-    std::unique_ptr<sculpt::Sculpture> carving_;
     SessionHands hands_;
-    std::optional<sculpt::CarvedPart> carved_;  // with carving_
-    std::unique_ptr<WorldSide> world_;          // null: none
-    std::optional<scene::SceneService> scene_;
-    SceneNews news_;
     ActivitySide activity_;
+    SceneSide scene_{hands_};  // after what its parts refer to
     PanelWorkpiece workpiece_;
     LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
     sculpt::ToolOptions tool_options_;  // as the session began
     ToolSizeRange tool_sizes_;
     bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
-    // Of each hand:
-    std::vector<std::shared_ptr<const HeldHandle>> handles_;  // null: a stylus, or one that holds a tool
-    std::vector<double> spreads_m_;                           // of its points, as the scene's thread has been told
-    std::vector<double> tools_around_m_;                      // of the tool at each; the scene's thread's
+    std::vector<std::shared_ptr<const HeldHandle>> handles_;  // of each hand (OpenedRoom)
     SessionState state_;
     std::vector<haptics::ToolState> tools_;  // of each part, as the frame draws them
     Nanoseconds last_step_ns_ = 0;
@@ -209,11 +175,7 @@ private:
     bool exporting_ = false;
     LivePanel panel_;
     MessageLog log_;
-    SessionOutputs outputs_;
-    std::string log_name_;            // of the input; empty: a user's
-    std::vector<Asked> screenshots_;  // that the next picture gives
-    std::size_t last_line_ = 0;       // of the log, that was seen by a step
-    std::size_t failures_ = 0;        // of what a log asked for, and of the recording
+    AskedFiles files_;
     SessionTimes times_{clock_};
     ComfortWatch comfort_;
     TrackerWatch tracker_;

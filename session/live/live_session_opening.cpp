@@ -2,15 +2,11 @@
 // Opens a session: workpiece, world, tool, hands and the scene that they touch.
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include "base/text.hpp"
-#include "devices/gloves/glove_device.hpp"
-#include "devices/haptic/wand_choice.hpp"
-#include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/live/live_session.hpp"
-#include "session/record/input_files.hpp"
+#include "session/live/opened_room.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -28,43 +24,14 @@ std::size_t ring_for(const std::string& recording) {
     return is_session_file(recording) ? record::kRingTicks : kTicksToLog;
 }
 
-Room room_of(const SessionWall& wall) {
-    Room room;
-    room.wall = wall;
-    const Pose fallback = wall.setup.fallback_head_tracker;
-    room.desk.home_head_world = {wall.setup.world_from_tracker * fallback.position_m,
-                                 wall.setup.world_from_tracker.orientation * fallback.orientation};
-    if (wall.desk) room.desk.head_world = {{-2.0, 0.4, 0.3}, {2.0, 2.4, 6.0}};
-    return room;
-}
-
-// Has the desk steer a handle over a workspace of its own size.
-void steer_over(HandRoom& room, const Vec3& workspace_device_m) {
-    constexpr double kDepthPerWheelStep = 0.025;  // of the workspace's longest side, about as a stylus'
-    room.workspace_device_m = room.desk.workspace_m = workspace_device_m;
-    room.desk.depth_per_wheel_step_m = kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), workspace_device_m});
-}
-
-// Has the desk lead the palm of a glove: palm down, fingers away from the viewer and to the left, over a workspace that
-// an arm reaches. (The device's own is larger by a hand, for its fingertips.)
-void use_glove(HandRoom& room) {
-    constexpr Vec3 kReach_m{0.33, 0.3, 0.264};
-    constexpr double kToTheLeft_rad = 0.85, kDown_rad = 0.25, kDepthPerWheelStep_m = 0.01;
-    room.workspace_device_m = room.desk.workspace_m = kReach_m;
-    room.desk.depth_per_wheel_step_m = kDepthPerWheelStep_m;
-    room.desk.rest_device = glm::angleAxis(kToTheLeft_rad, Vec3(0.0, 1.0, 0.0)) *
-                            glm::angleAxis(-0.5 * std::numbers::pi - kDown_rad, Vec3(1.0, 0.0, 0.0));
-}
-
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
       pool_(options.threads),
-      hands_(ring_for(options.live.record), pace, options.activity != nullptr),
+      hands_(ring_for(options.live.record), pace),
       activity_(options.activity),
-      outputs_(options.live, inputs_of(options).list()),
-      log_name_(options.live.input) {}
+      files_(options, log_) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
                                                          Clock& clock, double pace) {
@@ -75,8 +42,10 @@ Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& op
 }
 
 Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
-    room_ = room_of(wall);
-    if (const auto held = hold_handles(options); !held) return held;
+    Result<OpenedRoom> opened = open_room(options, wall);
+    if (!opened) return std::unexpected(opened.error());
+    room_ = std::move(opened->room);
+    handles_ = std::move(opened->handles);
     const bool has_world = options.scene || !options.world.empty();
     if (!options.no_workpiece || !has_world)
         if (const auto loaded = load_workpiece(options); !loaded) return loaded;
@@ -84,35 +53,12 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
         if (const auto loaded = load_world(options); !loaded) return loaded;
     const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
     tool_options_ = options.tool;
-    if (!carving_ && tool_options_.shape.empty())
+    const bool carves = scene_.workpiece() != nullptr;
+    if (!carves && tool_options_.shape.empty())
         tool_options_.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
     tool_options_ = sculpt::with_tool(tool_options_, longest_side_m);
     if (!options.from_before_units) tool_sizes_ = tool_sizes_for(longest_side_m);
-    warns_of_misfit_ = !options.from_before_units && carving_;
-    return {};
-}
-
-// Fits the room to the devices of all hands, and makes the handles ready whose points touch.
-Result<void> LiveSession::hold_handles(const SculptOptions& options) {
-    const std::vector<NamedDevice> hands = devices_of(options.live);
-    room_.others.assign(hands.size() - 1, room_);
-    handles_.assign(hands.size(), nullptr);
-    for (std::size_t i = 0; i < hands.size(); ++i) {
-        HandRoom& room = i == 0 ? room_ : room_.others[i - 1];
-        Result<devices::DeviceNature> nature = devices::nature_of_device(hands[i].device);
-        if (!nature) return std::unexpected(of_hand(hands[i].hand, nature.error()));
-        if (nature->is_upright) {
-            room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
-            room.desk.leans_sideways = true;
-        }
-        if (devices::is_glove(hands[i].device)) use_glove(room);
-        if (!nature->handle) continue;
-        steer_over(room, devices::device_of(*nature->handle).workspace_m);
-        if (options.points.empty()) continue;
-        auto points = devices::points_named(*nature->handle, options.points);
-        if (!points) return std::unexpected(points.error());
-        handles_[i] = std::make_shared<const HeldHandle>(std::move(*nature->handle), std::move(*points));
-    }
+    warns_of_misfit_ = !options.from_before_units && carves;
     return {};
 }
 
@@ -124,7 +70,7 @@ Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
     room_.workpiece_object = sculpt::workpiece_bounds(workpiece->solid.lattice);
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
-    carving_ = std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_);
+    scene_.take(std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_));
     workpiece_ = {
         .name = std::filesystem::path(options.workpiece.source).filename().string(),
         .size = in_millimetres(workpiece->size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};
@@ -137,8 +83,8 @@ Result<void> LiveSession::load_world(const SculptOptions& options) {
     const std::size_t count = read->objects.size();
     Result<std::unique_ptr<WorldSide>> made = WorldSide::create(std::move(*read));
     if (!made) return std::unexpected(made.error());
-    world_ = std::move(*made);
-    const Box seen = world_->drawn().bounds_scene();
+    const Box seen = (*made)->drawn().bounds_scene();
+    scene_.take(std::move(*made));
     Box& all = room_.workpiece_object;
     if (!seen.empty()) {
         all.include(seen.lo);
@@ -147,7 +93,7 @@ Result<void> LiveSession::load_world(const SculptOptions& options) {
     if (all.empty()) all = {Vec3(-0.05), Vec3(0.05)};  // of a world in which nothing is seen
     room_.covers_depth = true;
     const std::string objects = std::to_string(count) + (count == 1 ? " object" : " objects");
-    if (!carving_)
+    if (scene_.workpiece() == nullptr)
         workpiece_ = {
             .name = options.scene ? options.scene->name : std::filesystem::path(options.world).filename().string(),
             .size = in_millimetres(all.extent()) + ", " + objects};
@@ -174,8 +120,8 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
     state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), handles_, names);
     state_.export_unit = options.export_units.value_or(unit_);
-    state_.carves = carving_ != nullptr;
-    if (world_) state_.world = world_->objects();
+    state_.carves = scene_.workpiece() != nullptr;
+    if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
     warn_of_misfit(use->tool);
@@ -183,7 +129,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     start_ns_ = clock_.now_ns();
     if (const auto opened = open_hands(options); !opened) return opened;
     publish_parameters();
-    return make_scene(*use, options.undo_memory_MiB << 20);
+    return scene_.begin(*use, options.undo_memory_MiB << 20, beginnings(), activity_.tap(), start_ns_);
 }
 
 Result<void> LiveSession::open_hands(const SculptOptions& options) {
@@ -209,35 +155,22 @@ Vec3 LiveSession::place_at_rest(std::size_t hand) const {
     return inverse(state_.world_from_object) * (hand_of(state_, hand).world_from_device * first_device_m);
 }
 
-Result<void> LiveSession::make_scene(const sculpt::UseTool& use, std::size_t undo_bytes) {
-    std::vector<scene::ScenePart*> parts;
-    if (carving_) {
-        carved_.emplace(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
-        for (std::size_t part = 0; part < hands_.parts(); ++part) carved_->order(use, part);
-        parts.push_back(&*carved_);
-    }
-    tools_around_m_.assign(hands_.hands(), sculpt::around_m(use.tool));
-    if (world_) {
-        for (std::size_t part = 0; part < hands_.parts(); ++part)
-            world_->part().grip_with(part, kGrips, tools_around_m_[hands_.part_of_hand(part).hand]);
-        parts.push_back(&world_->part());
-    }
-    if (activity_.tap() != nullptr) parts.push_back(activity_.tap());
-    std::vector<scene::SceneHand> touched;
-    for (std::size_t part = 0; part < hands_.parts(); ++part) {
-        const std::size_t hand = hands_.part_of_hand(part).hand;
+std::vector<SceneSide::Beginning> LiveSession::beginnings() const {
+    std::vector<SceneSide::Beginning> all;
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
         // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
         // ends of a handle are swung as well, at 6 rad/s.
         const double scale = parameters_of(state_, room_, hand).workspace.object_from_device.scale;
-        const double reach_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
-        if (part == hands_.first_part(hand)) spreads_m_.push_back(spread_of(hand));
-        touched.push_back({&hands_.channels(part), place_at_rest(hand), tools_around_m_[hand] + spreads_m_[hand],
-                           reach_m, hands_.part_of_hand(part)});
+        const double reach_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * scene_.spacing_m();
+        all.push_back({place_at_rest(hand), reach_m, spread_of(hand)});
     }
-    scene_.emplace(std::move(parts), std::move(touched));
-    news_.report_of(carved_ ? &*carved_ : nullptr, world_ ? &world_->part() : nullptr,
-                    world_ ? &world_->materials() : nullptr, activity_.tap());
-    return scene_->update(start_ns_);
+    return all;
+}
+
+SculptOptions LiveSession::settled(SculptOptions options) const {
+    options.workpiece.units = unit_;
+    options.tool = tool_options_;
+    return options;
 }
 
 }  // namespace burin::session

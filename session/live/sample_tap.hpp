@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keeps what hands have done for an activity: every tick of each part whose stroke the scene's service has read, whole
-// and in order, and what they have begun and ended to touch. A part of the scene that touches nothing: so both reach
-// the frames with the number of the update that read them, live as in a replay. Threads: as any part's
-// (scene/scene_part.hpp).
+// Keeps what hands have done for an activity: every tick of each part, and what they have begun and ended to touch. A
+// part of the scene that touches nothing: so both reach the frames with the number of the update that read them, live
+// as in a replay. Threads: as any part's (scene/scene_part.hpp).
 #pragma once
 
 #include <algorithm>

@@ -251,6 +251,7 @@ private:
             panel::show_workspace(kit_, model);
             panel::show_view(kit_, model);
             panel::show_history(kit_, model);
+            panel::show_touch_of_others(kit_, model);
         }
         panel::show_state(kit_, model);
     }

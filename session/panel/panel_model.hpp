@@ -47,6 +47,15 @@ struct PanelTouch {
     bool operator==(const PanelTouch&) const = default;
 };
 
+// What a hand has of its own beside the others.
+struct PanelHand {
+    std::string name;
+    PanelTouch touch;
+    double velocity_filter = 0.0, force_filter = 0.0;
+
+    bool operator==(const PanelHand&) const = default;
+};
+
 // Measured figures; none where no frame has the figure, and in simulated time.
 struct PanelFigures {
     double frames_per_s = 0.0;  // 0: at rest
@@ -103,8 +112,8 @@ struct PanelModel {
     std::vector<std::string> object_names;  // of a world
     std::optional<PanelObject> object;      // none: there is no world
     bool carves = true;                     // there is a workpiece
-    std::vector<std::string> hand_names;    // where there are several
-    std::size_t hand = 0;                   // that mouse, keys and panel lead; tool and touch are its
+    std::vector<PanelHand> hands;           // where there are several
+    std::size_t hand = 0;                   // that mouse, keys and panel lead; tool, touch and filters are its
     sculpt::ToolSpec tool;
     ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;

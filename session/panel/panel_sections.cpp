@@ -203,12 +203,12 @@ void show_operations(Kit& kit, const PanelModel& model) {
 }  // namespace
 
 void show_hands(Kit& kit, const PanelModel& model) {
-    if (model.hand_names.size() < 2) return;
+    if (model.hands.size() < 2) return;
     if (kit.begin_card("Hands", "mouse and keys lead")) {
         std::vector<Item> items;
-        for (const std::string& name : model.hand_names) items.push_back(item_of("hand", name, name));
+        for (const PanelHand& hand : model.hands) items.push_back(item_of("hand", hand.name, hand.name));
         const auto chosen = kit.segments(items, model.hand);
-        if (chosen && *chosen != model.hand) kit.give(LeadHand{model.hand_names[*chosen]});
+        if (chosen && *chosen != model.hand) kit.give(LeadHand{model.hands[*chosen].name});
     }
     kit.end_card();
 }
@@ -242,7 +242,8 @@ void show_material(Kit& kit, const PanelModel& model) {
 }
 
 void show_touch(Kit& kit, const PanelModel& model) {
-    if (kit.begin_card("Touch")) {
+    const std::string whose = model.hands.empty() ? std::string() : ", " + model.hands[model.hand].name;
+    if (kit.begin_card(("Touch" + whose).c_str())) {
         if (kit.toggle("force", "Force", model.touch.force_on)) kit.give(SetForce{!model.touch.force_on});
         if (model.carves) {  // of the workpiece
             kit.quantity(Quantity::stiffness, "Stiffness", model.stiffness_N_per_m,
@@ -254,6 +255,24 @@ void show_touch(Kit& kit, const PanelModel& model) {
         kit.quantity(Quantity::force_filter, "Force filter", model.force_filter, filter_text(model.force_filter));
     }
     kit.end_card();
+}
+
+// Below all others, so that what stands above them is where it is with one hand.
+void show_touch_of_others(Kit& kit, const PanelModel& model) {
+    for (std::size_t i = 0; i < model.hands.size(); ++i) {
+        if (i == model.hand) continue;
+        const PanelHand& hand = model.hands[i];
+        kit.speak_for({hand.name, model.hands[model.hand].name});
+        if (kit.begin_card(("Touch, " + hand.name).c_str(), touch_text(hand.touch))) {
+            if (kit.toggle("force " + hand.name, "Force", hand.touch.force_on))
+                kit.give(SetForce{!hand.touch.force_on});
+            kit.quantity(Quantity::velocity_filter, "Velocity filter", hand.velocity_filter,
+                         filter_text(hand.velocity_filter));
+            kit.quantity(Quantity::force_filter, "Force filter", hand.force_filter, filter_text(hand.force_filter));
+        }
+        kit.end_card();
+        kit.speak_for({});
+    }
 }
 
 void show_workspace(Kit& kit, const PanelModel& model) {

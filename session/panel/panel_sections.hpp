@@ -18,6 +18,9 @@ void show_tool(Kit& kit, const PanelModel& model);
 void show_material(Kit& kit, const PanelModel& model);
 void show_objects(Kit& kit, const PanelModel& model);
 void show_touch(Kit& kit, const PanelModel& model);
+void show_touch_of_others(Kit& kit, const PanelModel& model);
+// Says what a hand touches, and what its ticks tell of themselves: "in contact, sticking"; or why it gets no force.
+[[nodiscard]] std::string touch_text(const PanelTouch& touch);
 void show_workspace(Kit& kit, const PanelModel& model);
 void show_view(Kit& kit, const PanelModel& model);
 void show_history(Kit& kit, const PanelModel& model);

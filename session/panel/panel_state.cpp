@@ -72,6 +72,11 @@ void show_savings(Kit& kit, const PanelSavings& s) {
 
 }  // namespace
 
+std::string touch_text(const PanelTouch& touch) {
+    if (!touch.force_on) return "force is off";
+    return touch.cause != haptics::GateCause::none ? text(touch.cause) : flags_text(touch);
+}
+
 void show_header(Kit& kit, const PanelModel& model) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float whole = ImGui::GetContentRegionAvail().x, height = kit.px(36.0f);

@@ -61,13 +61,21 @@ std::string written(const char* format, double value) {
     return text.data();
 }
 
-void Kit::give(const SessionCommand& command) { actions.push_back(as_input(command)); }
+void Kit::give(const SessionCommand& command) { add(as_input(command)); }
 
 void Kit::give_held(const SessionCommand& command) {
     CommandInput input = as_input(command);
-    if (input == memory.last) return;
+    if (input == memory.last && for_hand.name == memory.last_for) return;
     memory.last = input;
+    memory.last_for = for_hand.name;
+    add(std::move(input));
+}
+
+void Kit::add(CommandInput input) {
+    if (for_hand.name.empty()) return actions.push_back(std::move(input));
+    actions.push_back(as_input(LeadHand{for_hand.name}));
     actions.push_back(std::move(input));
+    actions.push_back(as_input(LeadHand{for_hand.in_use}));
 }
 
 void Kit::note(const std::string& label) {
@@ -210,8 +218,8 @@ std::optional<double> Kit::slider(const std::string& label, std::string_view tit
 
 void Kit::quantity(Quantity quantity, std::string_view title, double value, std::string_view text) {
     const QuantityDescriptor& range = descriptor_of(quantity);
-    const auto part =
-        slider(std::string(range.name), title, part_of(value, range.from, range.to, range.by_ratio), text);
+    const auto part = slider(std::string(range.name) + (for_hand.name.empty() ? "" : " " + for_hand.name), title,
+                             part_of(value, range.from, range.to, range.by_ratio), text);
     if (!part) return;
     // A quantity that may be none is none at the slider's left end.
     const bool none = *part <= 0.0 && quantity == Quantity::hardness;

@@ -24,6 +24,7 @@ struct Memory {
     std::string model_path;           // the model's path that it was copied from
     // Last command of the held widget, so that a hand at rest gives it once.
     CommandInput last;
+    std::string last_for;   // the hand that it was for; empty: the one in use
     std::string open_list;  // the label of the list that is open
     std::string asking;     // the label of the activity's button whose question stands there
     std::string field;      // text of the activity's field
@@ -33,6 +34,11 @@ struct Item {
     std::string label;  // also its command's, for Panel::place_of
     std::string text;
     bool enabled = true;
+};
+
+// The hand that commands are for, and the one in use, which is led again after each.
+struct ForHand {
+    std::string name, in_use;  // both empty: the hand in use
 };
 
 struct Kit {
@@ -47,11 +53,16 @@ struct Kit {
     ImVec2 visible_lo{}, visible_hi{};
     float card_top = 0.0f;
     bool first_in_card = true;
+    ForHand for_hand;
 
     [[nodiscard]] float px(float length) const { return length * scale; }
     void give(const SessionCommand& command);
+    // Has what is given from now on be for another hand than the one in use, which is led for as long as it takes;
+    // neither: for the hand in use again. Labels of quantities bear the name of such a hand.
+    void speak_for(ForHand hand) { for_hand = std::move(hand); }
     // Gives the command once for each value, however long the hand rests on it.
     void give_held(const SessionCommand& command);
+    void add(CommandInput input);
     // Records the last item's rectangle under its label.
     void note(const std::string& label);
 

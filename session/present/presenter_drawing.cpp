@@ -109,7 +109,7 @@ Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, Live
     ScreenStage& screen = screens_[i];
     SessionPicture& picture = *screen.picture;
     if (const auto painted = picture.paint(commands, session.panel_on(i)); !painted) return painted;
-    picture.draw_in_full(session.wants_screenshots());
+    picture.draw_in_full(session.files().wants_pictures());
     const auto drawn = picture.draw(commands, session.scene_on(i), screen.place.size, screen.settings);
     if (!drawn) return drawn;
     if (i == wall_->main) session.note_drawn(picture.stats());
@@ -211,8 +211,8 @@ Result<void> Presenter::show_in(ScreenStage& screen, const Outlet& outlet) {
 }
 
 void Presenter::take_screenshots(LiveSession& session) {
-    if (!session.wants_screenshots()) return;
-    const std::vector<Asked> wanted = session.take_screenshots();
+    if (!session.files().wants_pictures()) return;
+    const std::vector<Asked> wanted = session.files().take_pictures();
     for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, wanted);
 }
 
@@ -224,7 +224,7 @@ void Presenter::photograph(std::size_t i, LiveSession& session, const std::vecto
     const std::string& name = wall_->screens[i].name;
     const auto keep = [&](const Result<Image>& image) {
         for (const Asked& one : wanted)
-            session.keep_screenshot(
+            session.files().keep_picture(
                 {name.empty() || screens_.size() == 1 ? one.text : named_after(one.text, name), one.line}, image);
     };
     if (is_empty(place.size)) return keep(fail("screen " + name, "is minimised: no picture was taken", "show it"));

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "record/export/table_export.hpp"
+#include "record/touched_columns.hpp"
 #include "session/input/input_line.hpp"
 #include "session/record/input_log.hpp"
 
@@ -12,21 +13,9 @@ namespace burin::session {
 
 bool is_session_file(const std::string& path) { return std::filesystem::path(path).extension() == ".session"; }
 
-void append_touched(const haptics::TickRecord& tick, const record::RowShape& shape, std::vector<record::Word>& row) {
-    for (std::uint32_t i = 0; i < shape.points; ++i)
-        row.push_back(i < tick.contact.point_count ? tick.contact.points[i].object : 0u);
-}
-
-std::vector<record::Column> touched_columns(const record::RowShape& shape) {
-    std::vector<record::Column> columns;
-    for (std::uint32_t i = 0; i < shape.points; ++i)
-        columns.push_back({"object" + std::to_string(i), "", "", record::ColumnType::u32});
-    return columns;
-}
-
 std::vector<record::Word> session_row(const haptics::TickRecord& tick, const record::RowShape& shape) {
     std::vector<record::Word> row = record::row_of(tick, shape);
-    append_touched(tick, shape, row);
+    record::append_touched(tick, shape, row);
     return row;
 }
 
@@ -39,9 +28,9 @@ Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::st
     for (const RecordedPart& part : own.parts) {
         record::RecordedHand hand{part.name.empty() ? part.device.name : part.name, part.device, part.probe, part.ring};
         const record::RowShape shape = record::shape_of(part.device, part.probe);
-        hand.more_columns = touched_columns(shape);
+        hand.more_columns = record::touched_columns(shape);
         hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
-            append_touched(tick, shape, row);
+            record::append_touched(tick, shape, row);
         };
         hands.push_back(std::move(hand));
     }

@@ -37,11 +37,7 @@ inline constexpr const char* kDeviceFact = "device";
 // Number of the carved workpiece in the columns of touched objects; the objects of a world count from 1; 0: nothing.
 inline constexpr std::uint32_t kWorkpieceObject = geometry::LocalSurface::kUnnumbered;
 
-// The columns after those of record::columns_for(): object0, object1, ..., what each point of the probe touches.
-[[nodiscard]] std::vector<record::Column> touched_columns(const record::RowShape& shape);
-// Appends what the points of a tick touch to its row.
-void append_touched(const haptics::TickRecord& tick, const record::RowShape& shape, std::vector<record::Word>& row);
-// Returns a tick's values in the order of columns_for() and touched_columns().
+// Returns a tick's values in the order of record::columns_for() and record::touched_columns().
 [[nodiscard]] std::vector<record::Word> session_row(const haptics::TickRecord& tick, const record::RowShape& shape);
 
 // Returns whether a recording of this name is a session file: it ends in .session. Any other name is a text log's.

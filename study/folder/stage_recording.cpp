@@ -7,6 +7,7 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "record/motion.hpp"
+#include "record/touched_columns.hpp"
 
 namespace burin::study {
 namespace {
@@ -28,29 +29,17 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand(const devices::Wa
     return {{record::kWandTextFact, text}, {record::kWandDigestFact, sha256(text)}, {record::kWandPointsFact, points}};
 }
 
-std::vector<record::Column> touched_objects(const record::RowShape& shape) {
-    std::vector<record::Column> columns;
-    for (std::uint32_t i = 0; i < shape.points; ++i)
-        columns.push_back({"object" + std::to_string(i), "", "", record::ColumnType::u32});
-    return columns;
-}
-
-void append_objects(const haptics::TickRecord& tick, const record::RowShape& shape, std::vector<record::Word>& row) {
-    for (std::uint32_t i = 0; i < shape.points; ++i)
-        row.push_back(i < tick.contact.point_count ? tick.contact.points[i].object : 0u);
-}
-
 }  // namespace
 
 std::vector<record::Column> stage_columns(const record::RowShape& shape) {
     std::vector<record::Column> columns = record::columns_for(shape);
-    std::ranges::move(touched_objects(shape), std::back_inserter(columns));
+    std::ranges::move(record::touched_columns(shape), std::back_inserter(columns));
     return columns;
 }
 
 std::vector<record::Word> stage_row(const haptics::TickRecord& tick, const record::RowShape& shape) {
     std::vector<record::Word> row = record::row_of(tick, shape);
-    append_objects(tick, shape, row);
+    record::append_touched(tick, shape, row);
     return row;
 }
 
@@ -70,9 +59,9 @@ Result<std::unique_ptr<StageRecording>> StageRecording::create(const std::filesy
     if (stage != options.facts.end()) made->stage_ = stage->second;
     const record::RowShape shape = record::shape_of(touch.device(), touch.parameters().probe);
     record::RecordedHand hand{kRecordedHand, touch.device(), touch.parameters().probe, &made->ring_};
-    hand.more_columns = touched_objects(shape);
+    hand.more_columns = record::touched_columns(shape);
     hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
-        append_objects(tick, shape, row);
+        record::append_touched(tick, shape, row);
     };
     std::vector<record::RecordedHand> hands;
     hands.push_back(std::move(hand));

@@ -38,23 +38,6 @@ TickRecord distinct_record() {
     return r;
 }
 
-TEST(RecordViews, CarvingIsToldWhereTheFirstPointIsAndWhereItCuts) {
-    const TickRecord r = distinct_record();
-    const StrokeSample s = stroke_of(r);
-    EXPECT_EQ(s.tick, 11u);
-    EXPECT_EQ(s.time_ns, 12);
-    EXPECT_EQ(s.surface_sequence, 13u);
-    EXPECT_EQ(s.parameter_sequence, 14u);
-    EXPECT_EQ(s.position_object_m, Vec3(4.0, 0.0, 0.0));
-    EXPECT_EQ(s.proxy_object_m, Vec3(5.0, 0.0, 0.0));
-    EXPECT_EQ(s.cut_object_m, Vec3(8.0, 0.0, 0.0));
-    EXPECT_EQ(s.orientation_object, r.motion.orientation_object);
-    EXPECT_NEAR(glm::length(s.force_object_N - Vec3(0.0, 2.0, 0.0)), 0.0, 1e-12) << "commanded, in the object frame";
-    EXPECT_EQ(s.buttons, 5u);
-    EXPECT_EQ(s.flags, r.flags);
-    EXPECT_EQ(s.phase, WorkspacePhase::dragging);
-}
-
 TEST(RecordViews, TheFrameIsToldTheDeepestPointAndWhatTheHandFeels) {
     const TickRecord r = distinct_record();
     const ToolState t = tool_of(r, 15, 16);

@@ -103,7 +103,7 @@ struct PartsRig {
         std::vector<TickRecord> records(channels.size());
         for (std::size_t i = 0; i < channels.size(); ++i) {
             channels[i].records.pop(records[i]);
-            for (StrokeSample read; channels[i].stroke.pop(read);) continue;
+            for (TickRecord read; channels[i].ticks.pop(read);) continue;
         }
         return records;
     }

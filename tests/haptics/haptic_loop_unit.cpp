@@ -57,18 +57,17 @@ TEST(HapticLoop, PublishesEveryTickInOrderWithItsNumbers) {
     rig.publish(*test::plane(), 7);
     rig.publish(tool(), 3);
     const auto told = rig.ticks(1000);
-    TickRecord record;
-    StrokeSample stroke;
+    TickRecord record, of_scene;
     for (std::uint64_t i = 1; i <= 1000; ++i) {
         ASSERT_TRUE(rig.channels.records.pop(record));
-        ASSERT_TRUE(rig.channels.stroke.pop(stroke));
+        ASSERT_TRUE(rig.channels.ticks.pop(of_scene));
         EXPECT_EQ(record.tick, i);
-        EXPECT_EQ(stroke.tick, i);
-        EXPECT_EQ(stroke.position_object_m, record.deepest().hip_object_m);
-        EXPECT_EQ(stroke.proxy_object_m, record.deepest().proxy_object_m);
-        EXPECT_EQ(stroke.buttons, record.sample.buttons);
+        EXPECT_EQ(of_scene.tick, i);
+        EXPECT_EQ(of_scene.deepest().hip_object_m, record.deepest().hip_object_m);
+        EXPECT_EQ(of_scene.deepest().proxy_object_m, record.deepest().proxy_object_m);
+        EXPECT_EQ(of_scene.sample.buttons, record.sample.buttons);
         EXPECT_EQ(record.surface_sequence, 7u);
-        EXPECT_EQ(stroke.parameter_sequence, 3u);
+        EXPECT_EQ(of_scene.parameter_sequence, 3u);
         EXPECT_EQ(record.time_ns, static_cast<Nanoseconds>(i) * kMs);
         EXPECT_EQ(record.gate.given.force_device_N, told[i - 1].gate.given.force_device_N);
     }
@@ -84,7 +83,7 @@ TEST(HapticLoop, AFullRingIsFlaggedAndCounted) {
     HapticChannels channels(4, 4);
     HapticLoop loop(omni, clock, channels);
     loop.run_ticks(6);
-    EXPECT_EQ(channels.stroke.refused(), 2u);
+    EXPECT_EQ(channels.ticks.refused(), 2u);
     EXPECT_EQ(channels.tool.newest().dropped_samples, 2u);
     EXPECT_NE(channels.tool.newest().flags & kTickSampleDropped, 0u);
 }
@@ -388,18 +387,18 @@ TEST(HapticLoop, TheFrameIsToldTheToolAsItIsInTheRecord) {
     EXPECT_EQ(told.orientation_object, p.workspace.object_from_device.orientation * record.sample.orientation_device);
     EXPECT_EQ(told.position_device_m, record.sample.position_device_m);
     EXPECT_EQ(told.buttons, record.sample.buttons);
-    // The record is of the deepest point, the stroke of the first, which carves.
+    // What is told is of the deepest point; the first one carves.
     EXPECT_GT(record.contact.points[1].penetration_m, record.contact.points[0].penetration_m);
     EXPECT_EQ(record.deepest().proxy_object_m, record.contact.points[1].proxy_object_m);
     EXPECT_EQ(record.deepest().penetration_m, record.contact.points[1].penetration_m);
-    StrokeSample stroke;
-    while (rig.channels.stroke.pop(stroke)) continue;
-    EXPECT_EQ(stroke.tick, record.tick);
-    EXPECT_EQ(stroke.proxy_object_m, record.contact.points[0].proxy_object_m);
-    EXPECT_EQ(stroke.position_object_m, record.contact.points[0].hip_object_m);
+    TickRecord of_scene;
+    while (rig.channels.ticks.pop(of_scene)) continue;
+    EXPECT_EQ(of_scene.tick, record.tick);
+    EXPECT_EQ(of_scene.contact.points[0].proxy_object_m, record.contact.points[0].proxy_object_m);
+    EXPECT_EQ(of_scene.contact.points[0].hip_object_m, record.contact.points[0].hip_object_m);
 }
 
-TEST(HapticLoop, TheStrokeSaysTheForceInTheObjectsFrame) {
+TEST(HapticLoop, AnObjectThatStandsOnItsSidePushesAlongItsOwnNormal) {
     // The object stands on its side before the device: pushed along the device's x the tool meets the face whose normal
     // is the object's y.
     Rig rig({{0.0, Vec3(0.015, 0.0, 0.0)}, {0.5, Vec3(-0.001, 0.0, 0.0)}});
@@ -412,10 +411,9 @@ TEST(HapticLoop, TheStrokeSaysTheForceInTheObjectsFrame) {
     rig.publish(p, 1);
     const TickRecord record = rig.ticks(900).back();
     ASSERT_GT(record.gate.given.force_device_N.x, 0.5);
-    StrokeSample stroke;
-    while (rig.channels.stroke.pop(stroke)) continue;
-    EXPECT_NEAR(stroke.force_object_N.y, record.gate.given.force_device_N.x, 1e-12);
-    EXPECT_NEAR(stroke.force_object_N.x, 0.0, 1e-5);  // of a plane in float
+    const Vec3 force_object_N = record.motion.object_from_device.orientation * record.gate.given.force_device_N;
+    EXPECT_NEAR(force_object_N.y, record.gate.given.force_device_N.x, 1e-12);
+    EXPECT_NEAR(force_object_N.x, 0.0, 1e-5);  // of a plane in float
 }
 
 TEST(HapticLoop, LateTicksAreToldToTheCarvingSideAndTheFrameToo) {
@@ -426,8 +424,8 @@ TEST(HapticLoop, LateTicksAreToldToTheCarvingSideAndTheFrameToo) {
     loop.run_ticks(1);
     clock.extra = 700'000;  // more than half a period
     loop.run_ticks(1);
-    StrokeSample first, second;
-    ASSERT_TRUE(channels.stroke.pop(first) && channels.stroke.pop(second));
+    TickRecord first, second;
+    ASSERT_TRUE(channels.ticks.pop(first) && channels.ticks.pop(second));
     EXPECT_EQ(first.flags & kTickLate, 0u);
     EXPECT_NE(second.flags & kTickLate, 0u);
     EXPECT_EQ(channels.tool.newest().late_ticks, 1u);

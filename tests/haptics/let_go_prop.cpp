@@ -232,7 +232,7 @@ private:
     void judge(std::size_t part, const Touchable& solid, int turn, LetGoFigures& figures) {
         TickRecord record;
         ASSERT_TRUE(channels_[part]->records.pop(record));
-        for (StrokeSample s; channels_[part]->stroke.pop(s);) continue;
+        for (TickRecord s; channels_[part]->ticks.pop(s);) continue;
         ++figures.ticks;
         figures.contacts += record.in_contact() ? 1 : 0;
         figures.let_go += (record.flags & kTickLetGo) != 0 ? 1 : 0;

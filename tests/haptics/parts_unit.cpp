@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <string>
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/bodies.hpp"
@@ -89,6 +90,32 @@ TEST(Parts, OneOfFiveTicksAsItDoesAlone) {
     EXPECT_GT(touched, 1000);
 }
 
+// Two hands, and a hand of four fingers: as the work is counted, on the reference core.
+TEST(Parts, CostTogetherAtMostWhatTheyCostAlone) {
+    const test::Surface sphere = test::fingertip_sphere();
+    for (const std::size_t count : {2u, 4u}) {
+        PartsRig together(test::point_hands(count, 1.0));
+        std::deque<PartsRig> alone;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::vector<devices::SimulatedHand> hand{test::point_hand(i, 1.0)};
+            alone.emplace_back(std::move(hand)).publish(*sphere);
+            alone.back().publish_to_all(test::point_parameters());
+        }
+        together.publish(*sphere);
+        together.publish_to_all(test::point_parameters());
+        double together_ns = 0.0, alone_ns = 0.0;
+        for (int turn = 0; turn < 2000; ++turn) {
+            for (const TickRecord& record : together.turn()) together_ns += cost_ns(record.contact.work);
+            for (PartsRig& one : alone) alone_ns += cost_ns(one.turn()[0].contact.work);
+        }
+        EXPECT_LE(together_ns, alone_ns) << count;
+        EXPECT_GT(together_ns, 0.5 * alone_ns) << count << ": they do not do less";
+        const std::string parts = std::to_string(count) + "_parts";
+        RecordProperty(parts + "_ns_a_turn", std::to_string(together_ns / 2000));
+        RecordProperty(parts + "_alone_ns_a_turn", std::to_string(alone_ns / 2000));
+    }
+}
+
 // A loop of one part against the pure tick, run as a loop without parts runs it.
 TEST(Parts, ALoopOfOneGivesTheBitsOfTheTickAlone) {
     PartsRig rig(test::point_hands(1, 2.0));
@@ -133,7 +160,7 @@ TEST(Parts, ARecordedTurnOfSeveralIsRepeatedToTheBit) {
         for (std::size_t i = 0; i < 5; ++i) {
             TickRecord repeated;
             ASSERT_TRUE(again.channels[i].records.pop(repeated));
-            for (StrokeSample read; again.channels[i].stroke.pop(read);) continue;
+            for (TickRecord read; again.channels[i].ticks.pop(read);) continue;
             expect_same(records[i], repeated);
         }
     }

@@ -100,7 +100,7 @@ private:
     double judge(std::size_t part, const ProbeState& before, GloveFigures& figures) {
         TickRecord record;
         EXPECT_TRUE(channels_[part]->records.pop(record));
-        for (StrokeSample s; channels_[part]->stroke.pop(s);) continue;
+        for (TickRecord s; channels_[part]->ticks.pop(s);) continue;
         figures.let_go += (record.flags & kTickLetGo) != 0 ? 1 : 0;
         const ProbeState& after = loop_->state(part).tick.probe;
         for (std::uint32_t i = 0; i < case_.points; ++i) {

@@ -150,7 +150,7 @@ TEST(HapticLoop, TurnsOfTwentyPartsAllocateLockThrowAndOpenNothing) {
         for (HapticChannels& one : rig.channels) {
             TickRecord record;
             one.records.pop(record);
-            for (StrokeSample read; one.stroke.pop(read);) continue;
+            for (TickRecord read; one.ticks.pop(read);) continue;
             in_contact += record.in_contact() ? 1 : 0;
             faulty += record.gate.cause != GateCause::none ? 1 : 0;
             spent_ns += cost_ns(record.contact.work);

@@ -149,13 +149,10 @@ private:
 }  // namespace
 
 TEST(ContactEvents, OfAllHandsComeInTheOrderOfTimeWithTheUpdateThatReadsTheirTicks) {
-    haptics::HapticChannels left(64, 64, true), right(64, 64, true);
+    haptics::HapticChannels left(64, 64), right(64, 64);
     ContactsSeen part;
     SceneService service({&part}, {{&left, {}, 0.01, 0.02, {0, 0}}, {&right, {}, 0.01, 0.02, {1, 3}}});
-    const auto push = [](haptics::HapticChannels& to, const haptics::TickRecord& tick) {
-        to.whole->push(tick);
-        to.stroke.push(haptics::stroke_of(tick));
-    };
+    const auto push = [](haptics::HapticChannels& to, const haptics::TickRecord& tick) { to.ticks.push(tick); };
     push(left, touching_tick(1, {0}));
     push(left, touching_tick(2, {5}));
     push(left, touching_tick(3, {0}));

@@ -222,12 +222,12 @@ TEST(SceneMotion, TheFrameOfAGripIsThatOfItsOnlyPartOrInTheMiddleOfAll) {
 namespace {
 
 // A hand whose tool rests on the first cube's top, with its second button up or down.
-haptics::StrokeSample gripping_sample(std::uint64_t tick, const Vec3& at_m, bool down) {
-    haptics::StrokeSample sample;
+haptics::TickRecord gripping_sample(std::uint64_t tick, const Vec3& at_m, bool down) {
+    haptics::TickRecord sample;
     sample.tick = tick;
     sample.time_ns = static_cast<Nanoseconds>(tick) * 1'000'000;
-    sample.position_object_m = sample.proxy_object_m = at_m;
-    sample.buttons = down ? 2u : 0u;
+    sample.contact.points[0].hip_object_m = sample.contact.points[0].proxy_object_m = at_m;
+    sample.sample.buttons = down ? 2u : 0u;
     sample.flags = haptics::kTickInContact;
     return sample;
 }
@@ -241,7 +241,7 @@ TEST(MeshPart, AButtonTakesHoldOfWhatIsTouchedAndLetsGoOfIt) {
     std::uint64_t tick = 0;
     const auto update = [&](const Vec3& at_m, bool down) {
         const std::array samples{gripping_sample(++tick, at_m, down)};
-        part->take_samples(0, samples);
+        part->take_ticks(0, samples);
         ASSERT_TRUE(part->update(static_cast<Nanoseconds>(tick) * 1'000'000, nullptr));
     };
     const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
@@ -264,11 +264,11 @@ TEST(MeshPart, AButtonLetsGoOfWhatItsHandAloneHolds) {
     for (const std::size_t hand : {0u, 1u}) part->move_hand(hand, {});
     part->grip_with(0, 2u, 0.008);
     const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
-    part->take_samples(0, std::array{gripping_sample(1, on_top, true)});
+    part->take_ticks(0, std::array{gripping_sample(1, on_top, true)});
     ASSERT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion));
     const std::array<std::size_t, 2> both{0, 1};
     ASSERT_TRUE(part->take_hold(1, both));
-    part->take_samples(0, std::array{gripping_sample(2, on_top, false)});
+    part->take_ticks(0, std::array{gripping_sample(2, on_top, false)});
     const auto* held = std::get_if<HeldMotion>(&part->object(1).motion);
     ASSERT_NE(held, nullptr);
     EXPECT_EQ(held->parts.size(), 2u);
@@ -278,18 +278,18 @@ TEST(MeshPart, NothingIsTakenInTheAirOrWhileTheWorkspaceMoves) {
     MaterialTable materials;
     auto part = *MeshPart::create(cubes(2), materials);
     part->grip_with(0, 2u, 0.008);
-    haptics::StrokeSample up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
-    haptics::StrokeSample in_the_air = gripping_sample(2, up.proxy_object_m, true);
+    haptics::TickRecord up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
+    haptics::TickRecord in_the_air = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
     in_the_air.flags = 0;
-    haptics::StrokeSample paused = gripping_sample(2, up.proxy_object_m, true);
-    paused.phase = haptics::WorkspacePhase::paused;
-    const haptics::StrokeSample far_away = gripping_sample(2, {0.0, kHalf_m + 0.03, 0.0}, true);
-    for (const haptics::StrokeSample& pressed : {in_the_air, paused, far_away}) {
+    haptics::TickRecord paused = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
+    paused.motion.workspace.phase = haptics::WorkspacePhase::paused;
+    const haptics::TickRecord far_away = gripping_sample(2, {0.0, kHalf_m + 0.03, 0.0}, true);
+    for (const haptics::TickRecord& pressed : {in_the_air, paused, far_away}) {
         const std::array samples{up, pressed};
-        part->take_samples(0, samples);
+        part->take_ticks(0, samples);
         for (const ObjectId id : {1u, 2u}) EXPECT_FALSE(std::holds_alternative<HeldMotion>(part->object(id).motion));
         const std::array released{up};
-        part->take_samples(0, released);
+        part->take_ticks(0, released);
     }
 }
 
@@ -301,10 +301,10 @@ TEST(MeshPart, AButtonTakesHoldInNoPhaseOfTheWorkspaceButEditing) {
         MaterialTable materials;
         auto part = *MeshPart::create(cubes(2), materials);
         part->grip_with(0, 2u, 0.008);
-        const haptics::StrokeSample up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
-        haptics::StrokeSample pressed = gripping_sample(2, up.proxy_object_m, true);
-        pressed.phase = phase;
-        part->take_samples(0, std::array{up, pressed});
+        const haptics::TickRecord up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
+        haptics::TickRecord pressed = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
+        pressed.motion.workspace.phase = phase;
+        part->take_ticks(0, std::array{up, pressed});
         EXPECT_EQ(std::holds_alternative<HeldMotion>(part->object(1).motion), phase == Phase::editing)
             << static_cast<int>(phase);
     }
@@ -315,16 +315,16 @@ TEST(MeshPart, WhatOneHandHoldsNoOtherHandTakesAway) {
     auto part = *MeshPart::create(cubes(2), materials);
     for (const std::size_t hand : {0u, 1u}) part->grip_with(hand, 2u, 0.008);
     const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
-    for (const std::size_t hand : {0u, 1u}) part->take_samples(hand, std::array{gripping_sample(1, on_top, false)});
-    part->take_samples(0, std::array{gripping_sample(2, on_top, true)});
-    part->take_samples(1, std::array{gripping_sample(2, on_top, true)});
+    for (const std::size_t hand : {0u, 1u}) part->take_ticks(hand, std::array{gripping_sample(1, on_top, false)});
+    part->take_ticks(0, std::array{gripping_sample(2, on_top, true)});
+    part->take_ticks(1, std::array{gripping_sample(2, on_top, true)});
     const auto* held = std::get_if<HeldMotion>(&part->object(1).motion);
     ASSERT_NE(held, nullptr);
     EXPECT_EQ(held->parts, (std::vector<std::size_t>{0}));
     // The second hand, which holds nothing, lets nothing go either.
-    part->take_samples(1, std::array{gripping_sample(3, on_top, false)});
+    part->take_ticks(1, std::array{gripping_sample(3, on_top, false)});
     ASSERT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion));
-    part->take_samples(0, std::array{gripping_sample(3, on_top, false)});
+    part->take_ticks(0, std::array{gripping_sample(3, on_top, false)});
     EXPECT_TRUE(std::holds_alternative<FixedMotion>(part->object(1).motion));
 }
 

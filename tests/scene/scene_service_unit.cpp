@@ -15,8 +15,8 @@ namespace {
 // Writes down what it is given.
 class NotedPart final : public ScenePart {
 public:
-    void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override {
-        for (const haptics::StrokeSample& sample : samples) ticks.emplace_back(hand, sample.tick);
+    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> samples) override {
+        for (const haptics::TickRecord& sample : samples) ticks.emplace_back(hand, sample.tick);
     }
     Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override {
         ++updates;
@@ -43,11 +43,11 @@ private:
     PartSeen seen_;
 };
 
-haptics::StrokeSample sample_at(std::uint64_t tick, const Vec3& at_m) {
-    haptics::StrokeSample sample;
+haptics::TickRecord sample_at(std::uint64_t tick, const Vec3& at_m) {
+    haptics::TickRecord sample;
     sample.tick = tick;
     sample.time_ns = static_cast<Nanoseconds>(1'000'000 * tick);
-    sample.position_object_m = sample.proxy_object_m = at_m;
+    sample.contact.points[0].hip_object_m = sample.contact.points[0].proxy_object_m = at_m;
     return sample;
 }
 
@@ -62,7 +62,7 @@ using Ticks = std::vector<std::pair<std::size_t, std::uint64_t>>;
 
 TEST(SceneService, EveryPartGetsEverySampleAndEachHandItsSurface) {
     TwoHands scene;
-    for (const std::uint64_t tick : {1u, 2u}) (void)scene.left.stroke.push(sample_at(tick, {0.0, 0.5, 0.0}));
+    for (const std::uint64_t tick : {1u, 2u}) (void)scene.left.ticks.push(sample_at(tick, {0.0, 0.5, 0.0}));
     ASSERT_TRUE(scene.service.update(50));
     EXPECT_EQ(scene.first.ticks, (Ticks{{0, 1}, {0, 2}}));
     EXPECT_EQ(scene.second.ticks, scene.first.ticks);
@@ -82,16 +82,16 @@ TEST(SceneService, AnUpdateIsRepeatedWithTheSamplesThatItHad) {
     for (const Nanoseconds now_ns : {10, 20, 30}) {
         for (int i = 0; i < 3; ++i) {
             ++tick;
-            (void)live.left.stroke.push(sample_at(tick, Vec3(0.0)));
-            (void)live.right.stroke.push(sample_at(tick + 7, Vec3(0.0)));
+            (void)live.left.ticks.push(sample_at(tick, Vec3(0.0)));
+            (void)live.right.ticks.push(sample_at(tick + 7, Vec3(0.0)));
         }
         ASSERT_TRUE(live.service.update(now_ns));
         recorded.push_back(live.service.seen());
     }
     EXPECT_TRUE(recorded[1].parts[0].background_ended);
     for (std::uint64_t t = 1; t <= tick; ++t) {  // all are there from the first replayed update on
-        (void)again.left.stroke.push(sample_at(t, Vec3(0.0)));
-        (void)again.right.stroke.push(sample_at(t + 7, Vec3(0.0)));
+        (void)again.left.ticks.push(sample_at(t, Vec3(0.0)));
+        (void)again.right.ticks.push(sample_at(t + 7, Vec3(0.0)));
     }
     for (const SceneUpdate& update : recorded) {
         ASSERT_TRUE(again.service.repeat(update));
@@ -108,24 +108,24 @@ TEST(SceneService, TheShortestPeriodOfItsPartsCountsAndThatOfAMovingHand) {
     scene.second.period = 25'000'000;
     ASSERT_TRUE(scene.service.update(1'000'000'000));
     EXPECT_EQ(scene.service.period_ns(), 25'000'000);
-    for (std::uint64_t tick = 1; tick <= 25; ++tick) (void)scene.right.stroke.push(sample_at(tick, Vec3(0.0)));
+    for (std::uint64_t tick = 1; tick <= 25; ++tick) (void)scene.right.ticks.push(sample_at(tick, Vec3(0.0)));
     ASSERT_TRUE(scene.service.update(1'025'000'000));
     EXPECT_EQ(scene.service.period_ns(), SceneService::kHandsMove_ns);
-    (void)scene.right.stroke.push(sample_at(26, Vec3(0.0)));
+    (void)scene.right.ticks.push(sample_at(26, Vec3(0.0)));
     ASSERT_TRUE(scene.service.update(1'035'000'000));
     EXPECT_EQ(scene.service.period_ns(), 25'000'000) << "its loop rests";
 }
 
 TEST(SceneService, TheSurfaceIsKnownAroundAHandThatHasSunkDeep) {
     TwoHands scene;
-    haptics::StrokeSample sample = sample_at(1, {1.0, 0.0, 0.0});
-    (void)scene.left.stroke.push(sample);
+    haptics::TickRecord sample = sample_at(1, {1.0, 0.0, 0.0});
+    (void)scene.left.ticks.push(sample);
     ASSERT_TRUE(scene.service.update(1));
     EXPECT_NEAR(scene.first.balls.front().radius_m, 0.03, 1e-12) << "of the probe and its reach";
     scene.first.balls.clear();
     sample = sample_at(2, {1.0, 0.0, 0.0});
-    sample.position_object_m.y = -0.2;
-    (void)scene.left.stroke.push(sample);
+    sample.contact.points[0].hip_object_m.y = -0.2;
+    (void)scene.left.ticks.push(sample);
     ASSERT_TRUE(scene.service.update(2));
     const ProbeBall& ball = scene.first.balls.front();
     EXPECT_EQ(ball.center_scene, Vec3(1.0, 0.0, 0.0)) << "where the tool rests";
@@ -148,12 +148,12 @@ TEST(SceneService, AHandTakesAnObjectAlongAndPutsItDown) {
     haptics::HapticChannels channels(64, 64);
     SceneService service({part->get()}, {{&channels, Vec3(0.0), 0.01, 0.5}});
     EXPECT_FALSE((*part)->take_hold(1, 0).has_value()) << "nobody knows where the hand is";
-    (void)channels.stroke.push(sample_at(1, {0.0, 0.0, 0.0}));
+    (void)channels.ticks.push(sample_at(1, {0.0, 0.0, 0.0}));
     ASSERT_TRUE(service.update(1'000'000));
     ASSERT_TRUE((*part)->take_hold(1, 0));
-    haptics::StrokeSample turned = sample_at(101, {0.0, 0.2, 0.0});
-    turned.orientation_object = glm::angleAxis(0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
-    (void)channels.stroke.push(turned);
+    haptics::TickRecord turned = sample_at(101, {0.0, 0.2, 0.0});
+    turned.motion.orientation_object = glm::angleAxis(0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
+    (void)channels.ticks.push(turned);
     ASSERT_TRUE(service.update(101'000'000));
     EXPECT_LT(glm::length((*part)->pose(1).position_m - Vec3(0.0, 0.2, -0.1)), 1e-12) << "as a stick in the hand";
     geometry::LocalSurface others;
@@ -163,7 +163,7 @@ TEST(SceneService, AHandTakesAnObjectAlongAndPutsItDown) {
     EXPECT_NEAR(velocity.y, 2.0, 1e-9);
     EXPECT_NEAR(velocity.x, -0.5 * std::numbers::pi, 1e-9);
     ASSERT_TRUE((*part)->let_go(1));
-    (void)channels.stroke.push(sample_at(102, {0.0, 0.9, 0.0}));
+    (void)channels.ticks.push(sample_at(102, {0.0, 0.9, 0.0}));
     ASSERT_TRUE(service.update(102'000'000));
     EXPECT_LT(glm::length((*part)->pose(1).position_m - Vec3(0.0, 0.2, -0.1)), 1e-12);
 }

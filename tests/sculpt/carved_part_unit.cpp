@@ -35,12 +35,12 @@ struct Bench {
     static Tool tool() { return {compute::BallTool{0.02}}; }
     // The tool at a place, with its button up or down; material without hardness goes away where the hand is.
     void sample(const Vec3& place, bool pressed) {
-        haptics::StrokeSample s;
+        haptics::TickRecord s;
         s.tick = ++ticks;
         s.time_ns = static_cast<Nanoseconds>(ticks) * 1'000'000;
-        s.position_object_m = s.cut_object_m = s.proxy_object_m = place;
-        s.buttons = pressed ? 1u : 0u;
-        ASSERT_TRUE(channels.stroke.push(s));
+        s.contact.points[0].hip_object_m = s.contact.cut_object_m = s.contact.points[0].proxy_object_m = place;
+        s.sample.buttons = pressed ? 1u : 0u;
+        ASSERT_TRUE(channels.ticks.push(s));
     }
     void stroke() {
         for (int i = 0; i < 10; ++i) sample({0.01 * i - 0.05, 0.0, 0.1}, true);
@@ -180,7 +180,7 @@ TEST(CarvedPart, QuickClicksAreStrokesOfTheirOwnAlsoWithinOneUpdate) {
         release_at(bench, x);
     }
     ASSERT_TRUE(bench.desk.update(0));
-    EXPECT_FALSE(bench.channels.stroke.oldest()) << "all samples were taken";
+    EXPECT_FALSE(bench.channels.ticks.oldest()) << "all samples were taken";
     expect_each_is_undone_alone(bench, strokes);
 }
 
@@ -238,15 +238,15 @@ namespace {
 // Pushes a pressed sample whose hand and proxy are apart, with its flags and phase.
 void push(Bench& bench, const Vec3& hand, const Vec3& proxy, std::uint32_t flags,
           haptics::WorkspacePhase phase = haptics::WorkspacePhase::editing) {
-    haptics::StrokeSample s;
+    haptics::TickRecord s;
     s.tick = ++bench.ticks;
     s.time_ns = static_cast<Nanoseconds>(s.tick) * 1'000'000;
-    s.position_object_m = s.cut_object_m = hand;
-    s.proxy_object_m = proxy;
-    s.buttons = 1;
+    s.contact.points[0].hip_object_m = s.contact.cut_object_m = hand;
+    s.contact.points[0].proxy_object_m = proxy;
+    s.sample.buttons = 1;
     s.flags = flags;
-    s.phase = phase;
-    ASSERT_TRUE(bench.channels.stroke.push(s));
+    s.motion.workspace.phase = phase;
+    ASSERT_TRUE(bench.channels.ticks.push(s));
 }
 
 std::uint64_t changed_rays(Bench& bench) {

@@ -19,17 +19,18 @@ std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
 }
 
 // A sample of material without hardness, which gives way where the hand is.
-haptics::StrokeSample sample_of(std::uint64_t tick, const Vec3& place, bool pressed) {
-    haptics::StrokeSample sample;
+haptics::TickRecord sample_of(std::uint64_t tick, const Vec3& place, bool pressed) {
+    haptics::TickRecord sample;
     sample.tick = tick;
     sample.time_ns = static_cast<Nanoseconds>(tick) * 1'000'000;
-    sample.position_object_m = sample.cut_object_m = sample.proxy_object_m = place;
-    sample.buttons = pressed ? 1u : 0u;
+    sample.contact.points[0].hip_object_m = sample.contact.cut_object_m = sample.contact.points[0].proxy_object_m =
+        place;
+    sample.sample.buttons = pressed ? 1u : 0u;
     return sample;
 }
 
 void push_sample(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& place, bool pressed) {
-    ASSERT_TRUE(channels.stroke.push(sample_of(tick, place, pressed)));
+    ASSERT_TRUE(channels.ticks.push(sample_of(tick, place, pressed)));
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
 
 TEST(StrokeReader, GoesOnBehindWhatItHasRead) {
     StrokeReader reader(kBall, 0.0, 0.005);
-    std::vector<haptics::StrokeSample> samples;
+    std::vector<haptics::TickRecord> samples;
     for (std::uint64_t tick = 1; tick <= 4; ++tick)
         samples.push_back(sample_of(tick, {0.01 * static_cast<double>(tick), 0.0, 0.1}, true));
     const std::span all(samples);

@@ -14,6 +14,7 @@
 #include "session/drive/session_frames.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/live/live_session.hpp"
+#include "session/panel/panel.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {
@@ -191,6 +192,50 @@ TEST(SessionHands, AHandOfFourFingersHasFourToolsThatCloseAndFeelByThemselves) {
     desk.frame({MouseClick{MouseButton::left, true, {}}});
     desk.frames(80);
     EXPECT_LT(glm::distance(desk.tool(0).hip_object_m, desk.tool(2).hip_object_m), 0.6 * open_m);
+}
+
+TEST(SessionHands, EachHasATouchSectionOfItsOwnOnThePanel) {
+    PanelModel model;
+    const auto labels_of = [&](ImageSize size = {340, 2400}) {
+        Panel panel = Panel::create({.size = size}).value();
+        static_cast<void>(panel.show(model, 0));
+        return panel.labels();
+    };
+    const auto has = [](const std::vector<std::string>& labels, const std::string& label) {
+        return std::ranges::find(labels, label) != labels.end();
+    };
+    const std::vector<std::string> of_one = labels_of();
+    EXPECT_TRUE(has(of_one, "Touch"));
+    model.hands = {{"right", {}, 0.0, 0.0}, {"left", {.force_on = false}, 0.3, 0.0}};
+    model.hand = 0;
+    const std::vector<std::string> of_two = labels_of();
+    for (const char* label : {"Touch, right", "Touch, left", "force", "force left", "velocity-filter left"})
+        EXPECT_TRUE(has(of_two, label)) << label;
+    EXPECT_FALSE(has(of_two, "force right")) << "the hand in use needs no name";
+
+    // What is said of the other hand leads it for as long as it takes.
+    Panel panel = Panel::create({.size = {340, 2400}}).value();
+    static_cast<void>(panel.show(model, 0));
+    const auto at = panel.place_of("force left");
+    ASSERT_TRUE(at);
+    const Vec2 middle(at->x + 0.5 * at->width, at->y + 0.5 * at->height);
+    panel.feed(std::vector<InputEvent>{{0, MouseMove{middle}},
+                                       {0, MouseClick{MouseButton::left, true, {}}},
+                                       {0, MouseClick{MouseButton::left, false, {}}}});
+    const std::vector<CommandInput> expected{lead("left"), {"force", {"on"}}, lead("right")};
+    EXPECT_EQ(panel.show(model, 16'000'000).actions, expected);
+}
+
+TEST(SessionHands, TheForceOfTheOtherIsSwitchedWhileTheFirstIsLed) {
+    HandsAtABall desk({"right=simulated", "left=simulated"});
+    desk.frames(3);
+    const Vec3 target_m = desk.session->state().desk.target_device_m;
+    desk.frame({lead("left"), CommandInput{"force", {"off"}}, lead("right")});
+    desk.frames(3);
+    EXPECT_TRUE(desk.session->channels(0).parameters.newest().enabled);
+    EXPECT_FALSE(desk.session->channels(1).parameters.newest().enabled);
+    EXPECT_EQ(desk.session->state().hand_name, "right");
+    EXPECT_EQ(desk.session->state().desk.target_device_m, target_m) << "and stays where it was led";
 }
 
 TEST(SessionHands, SayWhichHandsThereAreWhereAnotherIsAskedFor) {

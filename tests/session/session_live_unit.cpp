@@ -70,7 +70,7 @@ std::size_t files_asked_for(bool writes_nothing) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(place / "."))
             if (entry.path().extension() == ".stl") meshes += std::filesystem::remove(entry.path()) ? 1 : 0;
     });
-    return meshes + session->take_screenshots().size();
+    return meshes + session->files().take_pictures().size();
 }
 
 }  // namespace

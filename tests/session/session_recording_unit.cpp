@@ -68,8 +68,8 @@ struct Recorded {
         const SculptOptions options = short_options(path);
         session = std::move(*LiveSession::create(options, *session_wall(options.live), clock));
         RecordingOf of;
-        of.parts.push_back(
-            {"", session->device(), session->channels().parameters.newest().probe, &session->channels().records});
+        of.parts.push_back({"", session->hands().device(0), session->channels().parameters.newest().probe,
+                            &session->channels().records});
         of.clock = clock_of(*session);
         of.settings = settings_line(options);
         of.vfs = vfs;
@@ -125,7 +125,7 @@ std::uint64_t record_live(const SculptOptions& options, const std::string& scrip
     EXPECT_TRUE(drive(threads, frames));
     recorded.recorder->finish(threads.take_updates()->updates);
     s.finish_scene();
-    EXPECT_TRUE(s.outcome());
+    EXPECT_TRUE(s.files().outcome());
     return s.loop().ticks();
 }
 
@@ -146,6 +146,7 @@ public:
         return {};
     }
     [[nodiscard]] std::size_t departed() const { return departed_; }
+    [[nodiscard]] std::vector<TrialMark> trials() { return recorder_.take_trials(); }
 
 private:
     LiveSession& session_;
@@ -159,6 +160,7 @@ private:
 
 struct Judged {
     Result<void> done;
+    std::vector<TrialMark> trials;
     std::size_t departed = 0;  // frames
     record::Comparison found;
     std::uint64_t unrecorded = 0;
@@ -179,6 +181,7 @@ Judged judged(InputLog log, const std::string& path, const SculptOptions& option
     result.done = drive(replay, frames);
     if (result.done) result.done = replay.run_to_end();
     (*session)->finish_scene();
+    result.trials = frames.trials();
     result.departed = frames.departed();
     result.found = judge->found();
     result.unrecorded = judge->unrecorded();
@@ -201,13 +204,16 @@ public:
                 touching_.erase(event.by.part);
         }
         const bool pressed = (view.first_part().tool.buttons & 1u) != 0;
-        if (!held_ && pressed && touching_.size() >= 2) {
+        const haptics::TickRecord* last = view.first_part().ticks.empty() ? nullptr : &view.first_part().ticks.back();
+        if (!held_ && pressed && touching_.size() >= 2 && last != nullptr) {
             held_ = true;
+            orders.trials.push_back({last->time_ns, "grasp"});
             HoldObject hold{"block", {}, true};
             for (const std::size_t part : touching_) hold.by.push_back({0, part});
             holds.push_back(hold);
-        } else if (held_ && !pressed) {
+        } else if (held_ && !pressed && last != nullptr) {
             held_ = false;
+            orders.trials.push_back({last->time_ns, "", "let go"});
             holds.push_back({"block", {}, false});
         } else {
             return;
@@ -355,6 +361,26 @@ TEST(SessionRecording, OfAnActivityThatGraspsWithFourFingersIsDoneAgainToTheBit)
     EXPECT_EQ(repeated->contacts, live->contacts);
     EXPECT_EQ(repeated->holds, live->holds);
     EXPECT_EQ(repeated->at, live->at);
+
+    // Its trial is compared, and a row that was changed is told.
+    auto reader = record::RecordReader::open(path);
+    ASSERT_TRUE(reader);
+    std::vector<TrialMark> trials = is.trials;
+    ASSERT_EQ(trials.size(), 2u);
+    const auto same = compare_trials(*reader, trials, true);
+    EXPECT_TRUE(same) << same.error().line();
+    const auto told = [&](const std::vector<TrialMark>& others, bool whole) {
+        const auto compared = compare_trials(*reader, others, whole);
+        return compared ? std::string("nothing") : compared.error().line();
+    };
+    EXPECT_TRUE(told({{trials[0].time_ns, "reach"}, trials[1]}, true).contains("is done again as reach"));
+    EXPECT_TRUE(told({{trials[0].time_ns + 1, "grasp"}, trials[1]}, true).contains("began at"));
+    EXPECT_TRUE(told({trials[0], {trials[1].time_ns, "", "given up"}}, true).contains("again as 'given up'"));
+    EXPECT_TRUE(told({trials[0], {trials[1].time_ns + 1, "", "let go"}}, true).contains("ended as 'let go'"));
+    EXPECT_TRUE(told({}, true).contains("is not there"));
+    EXPECT_TRUE(told({trials[0], trials[1], {trials[1].time_ns, "grasp"}}, true).contains("has 1 trials, and 2"));
+    EXPECT_EQ(told({}, false), "nothing") << "of a log that was torn off before";
+    EXPECT_EQ(told({trials[0]}, false), "nothing") << "or within it";
 }
 
 TEST(SessionRecording, LosesNothingWhereTheFramesStandStill) {
@@ -408,7 +434,7 @@ TEST(SessionRecording, EndsItsLogAndCountsWhatIsLostWhereTheDiskStandsStillForTo
     ASSERT_TRUE(recorded.input->recording_error());
     EXPECT_NE(recorded.input->recording_error()->line().find("ticks were lost after tick"), std::string::npos);
     EXPECT_NE(told_by(recorded).find("ticks were lost"), std::string::npos);
-    EXPECT_FALSE(recorded.session->outcome());
+    EXPECT_FALSE(recorded.session->files().outcome());
     disk.reset();
 
     auto reader = record::RecordReader::open(path);
@@ -441,7 +467,7 @@ TEST(SessionRecording, NamesADiskThatFailsAndTheSessionGoesOn) {
     std::filesystem::remove(place / "a.session");
     const std::string told = told_by(recorded);
     EXPECT_NE(told.find("taken away"), std::string::npos) << told;
-    EXPECT_FALSE(recorded.session->outcome());
+    EXPECT_FALSE(recorded.session->files().outcome());
     disk.reset();
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The files that a session is asked for, and what becomes of those that are missing.
-#include <cstdio>
+#include "session/live/asked_files.hpp"
+
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "renderer/png.hpp"
-#include "session/live/live_session.hpp"
+#include "session/record/input_files.hpp"
+#include "session/state/session_options.hpp"
 
 namespace burin::session {
 namespace {
@@ -19,8 +22,10 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 
 }  // namespace
 
-// A refused export is ordered as well, since a recording counts the orders.
-void LiveSession::place(sculpt::ExportSurface& wanted) const {
+AskedFiles::AskedFiles(const SculptOptions& options, MessageLog& log)
+    : log_(log), outputs_(options.live, inputs_of(options).list()), log_name_(options.live.input) {}
+
+void AskedFiles::place(sculpt::ExportSurface& wanted) const {
     const auto placed = outputs_.place_of(wanted.path, OutputKind::mesh);
     if (!placed) {
         wanted.refused = placed.error();
@@ -30,7 +35,7 @@ void LiveSession::place(sculpt::ExportSurface& wanted) const {
     wanted.path = placed->string();
 }
 
-void LiveSession::take(const sculpt::ExportOutcome& ended) {
+void AskedFiles::tell(const sculpt::ExportOutcome& ended) {
     if (ended.written) {
         log_.notify(ended.message, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
     } else if (outputs_.refuse_meshes()) {
@@ -40,7 +45,7 @@ void LiveSession::take(const sculpt::ExportOutcome& ended) {
     }
 }
 
-void LiveSession::keep_screenshot(const Asked& wanted, const Result<Image>& image) {
+void AskedFiles::keep_picture(const Asked& wanted, const Result<Image>& image) {
     const auto place = image ? outputs_.place_of(wanted.text, OutputKind::picture) : std::unexpected(image.error());
     std::error_code ignored;
     const bool was_there = place && std::filesystem::exists(*place, ignored);
@@ -53,19 +58,19 @@ void LiveSession::keep_screenshot(const Asked& wanted, const Result<Image>& imag
     }
 }
 
-std::string LiveSession::failed_on(std::size_t line) {
+std::string AskedFiles::failed_on(std::size_t line) {
     if (log_name_.empty()) return {};
     ++failures_;
     return line == 0 ? log_name_ + ": " : log_name_ + ":" + std::to_string(line) + ": ";
 }
 
-void LiveSession::notify_of_loss(const std::string& message) {
+void AskedFiles::notify_of_loss(const std::string& message) {
     const std::string where = failed_on(last_line_);
     if (where.empty()) ++failures_;
     log_.notify(message, {where, {}});
 }
 
-Result<void> LiveSession::outcome() const {
+Result<void> AskedFiles::outcome() const {
     if (failures_ == 0) return {};
     return fail(log_name_.empty() ? "the session" : log_name_,
                 failures_ == 1 ? "one thing that was asked for is missing"
@@ -73,10 +78,8 @@ Result<void> LiveSession::outcome() const {
                 "see above what, and why");
 }
 
-void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {
-    state_.output.mode = working;
-    refused_ = working;
-    notify_of_event(error.line());
+void AskedFiles::ask_for_pictures(std::vector<Asked> wanted) {
+    if (outputs_.write()) std::ranges::move(wanted, std::back_inserter(pictures_));
 }
 
 }  // namespace burin::session

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/opened_room.hpp"
+
+#include <numbers>
+#include <utility>
+
+#include "devices/gloves/glove_device.hpp"
+#include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/hands/session_hands.hpp"
+
+namespace burin::session {
+namespace {
+
+Room room_of(const SessionWall& wall) {
+    Room room;
+    room.wall = wall;
+    const Pose fallback = wall.setup.fallback_head_tracker;
+    room.desk.home_head_world = {wall.setup.world_from_tracker * fallback.position_m,
+                                 wall.setup.world_from_tracker.orientation * fallback.orientation};
+    if (wall.desk) room.desk.head_world = {{-2.0, 0.4, 0.3}, {2.0, 2.4, 6.0}};
+    return room;
+}
+
+// Has the desk steer a handle over a workspace of its own size.
+void steer_over(HandRoom& room, const Vec3& workspace_device_m) {
+    constexpr double kDepthPerWheelStep = 0.025;  // of the workspace's longest side, about as a stylus'
+    room.workspace_device_m = room.desk.workspace_m = workspace_device_m;
+    room.desk.depth_per_wheel_step_m = kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), workspace_device_m});
+}
+
+// Has the desk lead the palm of a glove: palm down, fingers away from the viewer and to the left, over a workspace that
+// an arm reaches. (The device's own is larger by a hand, for its fingertips.)
+void use_glove(HandRoom& room) {
+    constexpr Vec3 kReach_m{0.33, 0.3, 0.264};
+    constexpr double kToTheLeft_rad = 0.85, kDown_rad = 0.25, kDepthPerWheelStep_m = 0.01;
+    room.workspace_device_m = room.desk.workspace_m = kReach_m;
+    room.desk.depth_per_wheel_step_m = kDepthPerWheelStep_m;
+    room.desk.rest_device = glm::angleAxis(kToTheLeft_rad, Vec3(0.0, 1.0, 0.0)) *
+                            glm::angleAxis(-0.5 * std::numbers::pi - kDown_rad, Vec3(1.0, 0.0, 0.0));
+}
+
+}  // namespace
+
+Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wall) {
+    OpenedRoom opened{room_of(wall), {}};
+    const std::vector<NamedDevice> hands = devices_of(options.live);
+    opened.room.others.assign(hands.size() - 1, opened.room);
+    opened.handles.assign(hands.size(), nullptr);
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+        HandRoom& room = i == 0 ? opened.room : opened.room.others[i - 1];
+        Result<devices::DeviceNature> nature = devices::nature_of_device(hands[i].device);
+        if (!nature) return std::unexpected(of_hand(hands[i].hand, nature.error()));
+        if (nature->is_upright) {
+            room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
+            room.desk.leans_sideways = true;
+        }
+        if (devices::is_glove(hands[i].device)) use_glove(room);
+        if (!nature->handle) continue;
+        steer_over(room, devices::device_of(*nature->handle).workspace_m);
+        if (options.points.empty()) continue;
+        auto points = devices::points_named(*nature->handle, options.points);
+        if (!points) return std::unexpected(points.error());
+        opened.handles[i] = std::make_shared<const HeldHandle>(std::move(*nature->handle), std::move(*points));
+    }
+    return opened;
+}
+
+}  // namespace burin::session
