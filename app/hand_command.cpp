@@ -10,6 +10,7 @@
 #include "app/live_replay.hpp"
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/registry/device_registry.hpp"
 
 namespace burin::app {
 namespace {
@@ -68,7 +69,9 @@ Result<void> hand(const HandSession& options) {
         if (live.input.empty()) live.input = kScripts + options.grasp + ".txt";
         live.offscreen = true;
     }
-    if (!devices::is_glove(live.device))
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device);
+    if (!nature) return std::unexpected(nature.error());
+    if (!nature->is_worn)
         return fail("--device " + live.device, "is no glove",
                     "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
     // A glove whose arm nobody leads grasps by a script.

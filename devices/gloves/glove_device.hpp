@@ -14,7 +14,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "base/clock.hpp"
 #include "devices/gloves/glove_hand.hpp"
@@ -27,12 +26,6 @@ namespace burin::devices {
 inline constexpr const char* kGlove = "glove";
 inline constexpr const char* kSimulatedGlove = "simulated-glove";
 inline constexpr Nanoseconds kGloveLost_ns = 60'000'000;
-
-// Returns whether a device of that name (--device) is a glove, simulated or not.
-[[nodiscard]] inline bool is_glove(std::string_view name) {
-    const std::string_view kind = name.substr(0, name.find(':'));
-    return kind == kGlove || kind == kSimulatedGlove;
-}
 
 // port: of the serial line. Empty: a glove that is nowhere, with its fingers straight, for a recording that is done
 // again. `hand`: where the palm is, in the device frame. The clock must outlive the parts.

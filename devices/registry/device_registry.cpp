@@ -64,6 +64,7 @@ constexpr std::array kKinds{
                .usage = "a PHANTOM Omni in a simulated hand",
                .parts = 1,
                .is_upright = false,
+               .is_worn = false,
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
@@ -73,6 +74,7 @@ constexpr std::array kKinds{
                         "simulated-wand:FILE.toml as FILE describes it",
                .parts = 1,
                .is_upright = true,
+               .is_worn = false,
                .felt_by_person = false,
                .has_amplifiers = true,
                .handle = wand_described,
@@ -81,6 +83,7 @@ constexpr std::array kKinds{
                .usage = "four fingertips of a simulated hand, each pushed by itself",
                .parts = kFingers,
                .is_upright = true,
+               .is_worn = false,
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
@@ -89,6 +92,7 @@ constexpr std::array kKinds{
                .usage = "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
                .parts = kGloveFingers,
                .is_upright = true,
+               .is_worn = true,
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
@@ -98,6 +102,7 @@ constexpr std::array kKinds{
                         "simulated-glove:pinch or simulated-glove:point as it closes",
                .parts = kGloveFingers,
                .is_upright = true,
+               .is_worn = true,
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
@@ -135,7 +140,7 @@ Result<DeviceNature> nature_of_device(std::string_view name) {
     const Result<ChosenKind> wanted = chosen(name);
     if (!wanted) return std::unexpected(wanted.error());
     const HapticKind& kind = *wanted->kind;
-    DeviceNature nature{kind.parts, kind.is_upright, kind.felt_by_person, kind.has_amplifiers, {}};
+    DeviceNature nature{kind.parts, kind.is_upright, kind.is_worn, kind.felt_by_person, kind.has_amplifiers, {}};
     if (kind.handle == nullptr) return nature;
     Result<WandDescription> handle = kind.handle(wanted->file);
     if (!handle) return std::unexpected(handle.error());

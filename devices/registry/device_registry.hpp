@@ -33,6 +33,7 @@ struct HapticHost {
 struct DeviceNature {
     std::size_t parts = 1;        // that move by themselves
     bool is_upright = false;      // held as a handle or a hand is, not as a pen
+    bool is_worn = false;         // on a hand, whose bending fingers are its parts
     bool felt_by_person = true;   // false: by a simulated hand alone
     bool has_amplifiers = false;  // that the program can switch
     // A handle with points of its own that touch, in place of one tip, and with a jig to calibrate it in: its
@@ -45,7 +46,7 @@ struct HapticKind {
     std::string_view usage;  // what it is, for the help
     // As in DeviceNature:
     std::size_t parts;
-    bool is_upright, felt_by_person, has_amplifiers;
+    bool is_upright, is_worn, felt_by_person, has_amplifiers;
     // Returns the handle's description: of the file, or the program's where none is named; null: it has no handle.
     Result<WandDescription> (*handle)(const std::string& file);
     // `file` is what follows the name and a colon: a description of the device; empty: none was named.

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
@@ -56,7 +55,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
             room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
             room.desk.leans_sideways = true;
         }
-        if (devices::is_glove(hands[i].device)) use_glove(room);
+        if (nature->is_worn) use_glove(room);
         if (!nature->handle) continue;
         steer_over(room, devices::device_of(*nature->handle).workspace_m);
         if (options.points.empty()) continue;
