@@ -96,6 +96,7 @@ bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit, Ski
     const SurfaceGrid& grid = piece.search;
     if (grid.listed == 0) return true;
     const auto look_at = [&](std::uint32_t i) {
+        if (near.passes_by()) return true;
         if (!near.look()) return false;
         const glm::vec4& sphere = grid.spheres[i];
         const Vec3 center(sphere), outside = upper_of(upper_of(near.lo - center, center - near.hi), Vec3(0.0));

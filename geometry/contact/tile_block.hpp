@@ -146,6 +146,7 @@ public:
 
     // Adds the quad whose triangles are i and i + 1. Returns false when visit returned false or no looks are left.
     [[nodiscard]] bool add(std::uint32_t i) {
+        if (near_.passes_by()) return true;
         if (!near_.look()) {
             end();
             return false;
@@ -155,6 +156,7 @@ public:
     }
     // Tests one triangle that is part of a fan.
     [[nodiscard]] bool add_alone(std::uint32_t i) {
+        if (near_.passes_by()) return true;
         if (!near_.look()) return false;
         const std::uint32_t* const corner = indices_ + std::size_t{3} * i;
         const Vec3Lanes a = in_all_lanes(place_of(vertices_[corner[0]])),

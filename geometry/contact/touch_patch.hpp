@@ -213,6 +213,7 @@ private:
     template <typename Visitor>
     bool in_triangle(const TouchPatch& patch, const std::array<std::uint16_t, 3>& corner, std::uint32_t number,
                      const Visitor& visit) {
+        if (near_.passes_by()) return true;
         if (!near_.look()) return false;
         const Vec3f &a = patch.positions_m[corner[0]], &b = patch.positions_m[corner[1]],
                     &c = patch.positions_m[corner[2]];

@@ -47,10 +47,21 @@ struct Near {
     // `to`, or whose planes are. Those are most triangles around a ball in its own groove.
     bool by_way = false;
     Vec3 from{0.0}, to{0.0};
+    // Of the triangles, or pairs of them, only each so manieth is looked at, and the others are passed by: for sums
+    // over very many. Passing by a few costs as much as a look.
+    std::uint32_t thin = 1;
+    std::uint32_t met = 0;
 
     [[nodiscard]] bool look() noexcept {
         if (looks_left == 0) return false;
         --looks_left;
+        return true;
+    }
+    // Whether this one is passed by.
+    [[nodiscard]] bool passes_by() noexcept {
+        constexpr std::uint32_t kPassedInALook = 16;
+        if (thin == 1 || met++ % thin == 0) return false;
+        if (met % kPassedInALook == 0 && looks_left > 0) --looks_left;
         return true;
     }
 };

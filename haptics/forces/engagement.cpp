@@ -223,11 +223,11 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
     geometry::Near near{place + box.lo, place + box.hi, tool.reach_m};
     near.looks_left = most.looks;
     const Turn turned(orientation_object);
-    const std::uint32_t each = std::max(1u, stride / kByLength);
+    // Odd, since rows of a tile have 16 cells: every 16th quad of a plane would be of one column.
+    const std::uint32_t each = std::max(1u, stride / kByLength) | 1u;
     Pieces pieces(tool, stride, static_cast<float>(each), most.pieces);
-    std::uint32_t visited = 0;
+    near.thin = each;
     const auto add_triangle = [&](std::uint32_t, const geometry::Triangle& t) {
-        if (visited++ % each != 0) return true;
         return pieces.add(turned(Vec3f(t.a - place)), turned(Vec3f(t.b - place)), turned(Vec3f(t.c - place)));
     };
     if (bearing) {
@@ -236,6 +236,7 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
         };
         near = near_axis(tool, place, orientation_object, kBearingReach * tool.size_m);
         near.looks_left = most.looks;
+        near.thin = each;
         look.complete = geometry::for_each_near(
             surface, near,
             geometry::MixedVisitor{add_triangle, add_vertex,
