@@ -134,15 +134,21 @@ TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
     // Ticks of a millisecond until the fingers have closed a good deal, but no longer than some seconds.
     Vec3 first_m(0.0), last_m(0.0);
     double longest_step_m = 0.0, given_N = 0.0;
+    bool has_paused = false;
     for (int tick = 0; tick < 4000 && (glm::distance(first_m, last_m) < 0.03 || given_N < 1.0); ++tick) {
         clock.sleep_until(clock.now_ns() + 1'000'000);
         for (std::size_t i = 0; i < 4; ++i) {
             const DeviceSample sample = opened->parts[i].device->read();
-            ASSERT_EQ(sample.fault, DeviceFault::none) << tick;
+            // A busy machine may keep the emulated controller from sending for a while, which is a fault, and told so.
+            const bool is_late = sample.fault == DeviceFault::disconnected;
+            ASSERT_TRUE(is_late || sample.fault == DeviceFault::none) << tick;
             if (i != 1) continue;
-            if (tick > 0) longest_step_m = std::max(longest_step_m, glm::distance(sample.position_device_m, last_m));
+            has_paused = has_paused || is_late;
+            if (tick > 0 && !has_paused)
+                longest_step_m = std::max(longest_step_m, glm::distance(sample.position_device_m, last_m));
             if (tick == 0) first_m = sample.position_device_m;
             last_m = sample.position_device_m;
+            if (!is_late) has_paused = false;
         }
         for (std::size_t i = 0; i < 4; ++i)
             opened->parts[i].device->write({i == 1 ? Vec3(0.0, 0.0, 2.0) : Vec3(0.0), Vec3(0.0)});
