@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -49,6 +50,9 @@ Result<std::unique_ptr<GloveLink>> GloveLink::open(const std::string& port, Cloc
     const int file = ::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return no_port(port, errno);
     std::unique_ptr<GloveLink> link(new GloveLink(file, clock));
+    // TIOCEXCL keeps others out, but not root; so two programs also agree by a lock.
+    if (::flock(file, LOCK_EX | LOCK_NB) != 0)
+        return fail("glove " + port, "is in use by another program", "end that program, or name another port");
     if (const auto ready = set_up_line(file, port); !ready) return std::unexpected(ready.error());
     if (::ioctl(file, TIOCEXCL) != 0) return no_port(port, errno);
     MonotonicClock watch;  // the session's own clock may stand still until the session begins
@@ -71,7 +75,8 @@ GloveLink::~GloveLink() {
     // relaxed: the flag says nothing of other memory.
     ends_.store(true, std::memory_order_relaxed);
     if (thread_.joinable()) thread_.join();
-    send({.number = ++number_, .stop = true});
+    // Another device, which was taken for a glove, gets no byte.
+    if (last_.time_ns != 0) send({.number = ++number_, .stop = true});
     ::close(file_);
 }
 

@@ -160,6 +160,16 @@ TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
     EXPECT_LT(longest_step_m, 0.02) << "a tick sees a motion, and no jumps from set to set";
 }
 
+TEST(Gloves, AreNotSharedByTwoPrograms) {
+    RunningGlove running(GloveMotion::still);
+    MonotonicClock clock;
+    const auto first = open_haptic_device("glove:" + running.port().name(), {clock, still_hand()});
+    ASSERT_TRUE(first) << first.error().line();
+    const auto second = open_haptic_device("glove:" + running.port().name(), {clock, still_hand()});
+    ASSERT_FALSE(second);
+    EXPECT_TRUE(second.error().line().contains("in use by another program")) << second.error().line();
+}
+
 TEST(Gloves, ALineThatFallsSilentIsAFaultOfAllParts) {
     RunningGlove running(GloveMotion::still);
     MonotonicClock clock;
