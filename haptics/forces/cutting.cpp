@@ -11,7 +11,7 @@ namespace {
 
 // Of the tool's size or of one radian: so much motion asks for another look.
 constexpr double kLookAgain = 0.1;
-constexpr std::uint32_t kMostStride = 1024;
+constexpr std::uint32_t kMostStride = 1024, kStrideOfPieces = 64;
 // Pieces from which on a look that was not complete was too fine. With fewer the contact has taken this tick's work,
 // and the next one may have more; only after so many ticks in a row the look is made coarser all the same.
 constexpr std::uint32_t kFairPieces = 1000, kMostMissed = 20;
@@ -281,7 +281,10 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
         }
         return as_before;
     }
-    if (known.stride > 1 && 3 * look.work.pieces < most.pieces) look.engagement.stride = known.stride / 2;
+    // From some stride on it is the looks that were too few (look_around), and a finer one would run out of them again.
+    const bool has_looks = known.stride <= kStrideOfPieces || 3 * look.work.looks < most.looks;
+    const bool has_room = 3 * look.work.pieces < most.pieces && has_looks;
+    if (known.stride > 1 && has_room) look.engagement.stride = known.stride / 2;
     return {look.engagement, look.work};
 }
 

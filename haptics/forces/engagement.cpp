@@ -15,7 +15,7 @@ namespace {
 constexpr float kPiece = 0.12f, kLonger = 0.3f;
 constexpr std::uint32_t kMostParts = 48;
 // A coarser look has longer pieces first, up to twice as long and so a quarter as many, and then fewer triangles.
-constexpr std::uint32_t kByLength = 4;
+constexpr std::uint32_t kByLength = 4, kEvenly = 8;
 // A piece belongs to a sample no farther to its side than this, of the sample's half width.
 constexpr float kBeside = 2.0f;
 // The surface around a sample fits it where both normals are opposite by so much, and turn alike from the sample to so
@@ -223,11 +223,17 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
     geometry::Near near{place + box.lo, place + box.hi, tool.reach_m};
     near.looks_left = most.looks;
     const Turn turned(orientation_object);
-    // Odd, since rows of a tile have 16 cells: every 16th quad of a plane would be of one column.
-    const std::uint32_t each = std::max(1u, stride / kByLength) | 1u;
+    // Of the triangles each so manieth is taken, evenly; beyond kEvenly they are too many to be looked at, and pairs of
+    // them are passed by. By an odd number: rows of a tile have 16 cells, and every 16th quad of a plane would be of
+    // one column.
+    const std::uint32_t wanted = std::max(1u, stride / kByLength);
+    const std::uint32_t thin = wanted < 4 * kEvenly ? 1 : wanted / kEvenly - 1;
+    const std::uint32_t evenly = thin == 1 ? wanted : kEvenly, each = thin * evenly;
     Pieces pieces(tool, stride, static_cast<float>(each), most.pieces);
-    near.thin = each;
+    near.thin = thin;
+    std::uint32_t visited = 0;
     const auto add_triangle = [&](std::uint32_t, const geometry::Triangle& t) {
+        if (visited++ % evenly != 0) return true;
         return pieces.add(turned(Vec3f(t.a - place)), turned(Vec3f(t.b - place)), turned(Vec3f(t.c - place)));
     };
     if (bearing) {
@@ -236,7 +242,7 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
         };
         near = near_axis(tool, place, orientation_object, kBearingReach * tool.size_m);
         near.looks_left = most.looks;
-        near.thin = each;
+        near.thin = thin;
         look.complete = geometry::for_each_near(
             surface, near,
             geometry::MixedVisitor{add_triangle, add_vertex,
