@@ -340,7 +340,7 @@ TEST(SessionRecording, OfAnActivityThatGraspsWithFourFingersIsDoneAgainToTheBit)
 0.9 mouse 330 170
 1.0 mouse 350 160
 1.4 button release left
-1.8 close
+4.0 close
 )";
     const Workplace place;
     const std::string path = (place / "a.session").string();
