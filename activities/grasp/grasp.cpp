@@ -35,7 +35,8 @@ std::string name_of(const session::WorldObjects& world, scene::ObjectId id) {
     return object != nullptr ? object->name : std::string();
 }
 
-// What is larger than a hand is no thing to take, nor to point at: a table is around all that stands on it.
+// Radius of the largest object that a hand takes or points at. A table is larger, and its ball is around all that
+// stands on it.
 constexpr double kLargest_m = 0.12;
 
 // Returns the ball around an object: its middle in the scene and its radius.
@@ -45,7 +46,7 @@ std::pair<Vec3, double> ball_around(const scene::SceneObject& object) {
     return {object.pose * (object.scale * bounds.center()), 0.5 * object.scale * glm::length(bounds.extent())};
 }
 
-// Whether all of a mesh's corners are as far from its middle, to a fiftieth.
+// Tells a ball: all corners of the mesh are at one distance from its middle, within 2 % of it.
 bool is_round(const geometry::TriangleMesh& mesh) {
     Box bounds;
     for (const Vec3& p : mesh.positions_m) bounds.include(p);

@@ -25,7 +25,7 @@
 
 namespace burin::activities {
 
-// What the hand has done with an object.
+// One grasp of an object, from when the hand took it until it let go.
 struct Grasped {
     std::string object;
     geometry::Gesture gesture = geometry::Gesture::none;

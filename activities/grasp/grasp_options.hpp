@@ -9,7 +9,7 @@
 
 namespace burin::activities {
 
-// How the stiffness of a surface is shared by the points of a patch.
+// The stiffness that each point of a fingertip's patch renders, from that of the surface.
 enum class PatchStiffness : std::uint8_t {
     shared,   // each point has its share, so that a patch is as stiff as one point
     literal,  // each point has all of it, as the paper has it: more points make a harder ball

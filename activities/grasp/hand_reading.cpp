@@ -49,7 +49,7 @@ HandReading reading_of(const std::array<const haptics::TickRecord*, kFelt>& tick
 geometry::HandBend drawn_bend(const HandReading& hand) {
     constexpr int kSteps = 4;
     constexpr double kMostStep_rad = 0.15;
-    // How much of the turn each joint takes; the joints near the palm move the tip most.
+    // Share of a turn that each joint takes, from the palm on: a joint near the palm moves the tip most.
     constexpr std::array<double, 3> kTakes{1.0, 0.7, 0.4};
     geometry::HandBend bend = hand.bend;
     const Quat hand_from_scene = glm::conjugate(hand.scene_from_hand.orientation);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a glove's ticks say of the hand: how its fingers are bent, where it is, and what of it touches. Pure.
+// Reads a hand out of a glove's ticks: the bend of its fingers, its pose, and the objects that each finger touches.
+// Pure.
 // Frames: the scene's (the object frame of the ticks) and the hand's (geometry/hand/hand_model.hpp).
 #pragma once
 

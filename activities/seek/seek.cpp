@@ -89,7 +89,8 @@ void Seek::step(const session::ActivityView& view, session::ActivityOrders& orde
         last_ns_ = tick.time_ns;
         last_place_scene_ = place_of(tick);
     }
-    // Of other parts, whose ticks the scene has read further.
+    // Takes the events that are left: they are later than the first part's ticks, since the scene has read more ticks
+    // of other parts.
     for (; event != view.contacts.end(); ++event) feel(*event, *view.world, orders);
     if (phase_ == Phase::seeking && !its_colour_) let_glow(*view.world, orders);
 }

@@ -19,8 +19,8 @@ Vec3 normal_at(const Vec3& place, PressedOn on, double ball_m) {
     return on == PressedOn::plate ? Vec3(0.0, 0.0, 1.0) : glm::normalize(place - Vec3(0.0, 0.0, -ball_m));
 }
 
-// How far the turned pad is to be lifted for its deepest place to be at the depth: bisection, since depth falls with
-// height.
+// Finds the height to which the turned pad is lifted so that its deepest place is at the depth. By bisection: the
+// higher the pad, the less deep it is.
 double lift_of(const Patch& pad, const Quat& turn, PressedOn on, const PressTask& task) {
     const auto deepest = [&](double lift) {
         double depth = -HUGE_VAL;
@@ -49,7 +49,7 @@ std::vector<double> forces_over(const Patch& patch, const Patch& pad, const std:
     return forces;
 }
 
-// As a share of the reference's force at that angle, or of its force when flat.
+// The force that a departure is divided by: the reference's at the same angle, or the reference's when flat.
 enum class ShareOf { force, flat_force };
 
 Departure departure_of(const std::vector<double>& forces, const std::vector<double>& reference,

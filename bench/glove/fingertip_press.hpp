@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How well a few points feel what a fingertip's skin feels: the measurement that the haptic glove's authors lacked when
-// they said that a mesh of points feels better than one.
+// Measures how near the force of a few points comes to that of a fingertip's whole skin. The haptic glove's authors
+// said that a mesh of points feels better than one, and had no such measurement.
 //
 // A fingertip is held with the deepest place of its pad at one depth in a plate or a ball, and rolled about its bone or
 // pitched across it. The force is that of requirement G4, F = sum k s_m d_m N_m: d_m the depth of point m along the
@@ -26,13 +26,13 @@ struct PressTask {
     double most_rad = 0.6981317007977318;  // 40 degrees to either side
     std::size_t angles = 81;
     std::size_t reference_points = 2000;
-    // Of the pad that the reference feels with: the largest that the fingertip has skin for, up to this.
+    // Greatest extent of the reference's pad, which is the largest that the fingertip has skin for.
     double pad_m = 0.01;
     std::vector<std::size_t> points{1, 5, 9, 20, 50};
     std::vector<double> extents_m{0.002, 0.003, 0.004, 0.005, 0.006, 0.007, 0.008, 0.009, 0.01};
 };
 
-// How the force of a patch departs from the pad's while the finger turns, as a share of the pad's.
+// Error of a patch's force against the pad's over all angles, as a share of the pad's force at the same angle.
 struct Departure {
     double rms = 0.0, worst = 0.0;
     double worst_rad = 0.0;  // the angle

@@ -26,6 +26,20 @@ HapticsOptions quick_haptics() {
     return quick;
 }
 
+Result<void> on_rough_scenes(const Haptics& all, const Tell& notify, const std::string& what,
+                             const std::function<Result<void>(const TouchedScene&)>& measure) {
+    const Result<TouchScenes> scenes = touch_scenes(all.options.scenes);
+    if (!scenes) return std::unexpected(scenes.error());
+    for (const TouchScene& wanted : scenes->scenes) {
+        if (wanted.smooth) continue;
+        const auto scene = touched(wanted);
+        if (!scene) continue;
+        notify("measuring: " + what + " on " + wanted.name);
+        if (const auto done = measure(**scene); !done) return done;
+    }
+    return {};
+}
+
 Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
     Haptics all;
     all.options = options;

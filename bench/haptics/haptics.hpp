@@ -170,6 +170,10 @@ using Tell = std::function<void(const std::string&)>;
 [[nodiscard]] Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify);
 
 // Measure one part each, into its fields of `all`.
+// Has each scene that is rough, as what is touched in use is, measured: `what` is told with the scene's name. A scene
+// that cannot be touched is left out; measure_ticks() tells of it.
+[[nodiscard]] Result<void> on_rough_scenes(const Haptics& all, const Tell& notify, const std::string& what,
+                                           const std::function<Result<void>(const TouchedScene&)>& measure);
 [[nodiscard]] Result<void> measure_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_carving_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_peer_ticks(Haptics& all, const Tell& notify);

@@ -97,24 +97,18 @@ private:
 }  // namespace
 
 Result<void> measure_parts(Haptics& all, const Tell& notify) {
-    const Result<TouchScenes> scenes = touch_scenes(all.options.scenes);
-    if (!scenes) return std::unexpected(scenes.error());
-    for (const TouchScene& wanted : scenes->scenes) {
-        if (wanted.smooth) continue;  // easier than what is touched in use
-        const auto scene = touched(wanted);
-        if (!scene) continue;  // measure_ticks() has told
-        notify("measuring: parts on " + wanted.name);
+    return on_rough_scenes(all, notify, "parts", [&](const TouchedScene& scene) -> Result<void> {
         // The last is a glove of four fingertips.
         for (const auto& [parts, points] : {std::pair<std::size_t, std::size_t>{1, 1}, {5, 1}, {20, 1}, {4, 5}}) {
             PartsShare& share = all.parts.emplace_back();
-            share.scene = wanted.name;
-            share.triangles = (*scene)->snapshot->triangles();
+            share.scene = scene.name;
+            share.triangles = scene.snapshot->triangles();
             share.parts = parts;
             share.points = points;
-            PartsRun(**scene, parts, share).take(all.options.parts_turns);
+            PartsRun(scene, parts, share).take(all.options.parts_turns);
         }
-    }
-    return {};
+        return {};
+    });
 }
 
 }  // namespace burin::bench

@@ -174,16 +174,12 @@ Result<void> touch_groove_with(Haptics& all, int resolution, const ShapeTool& to
 }  // namespace
 
 Result<void> measure_shapes(Haptics& all, const Tell& notify) {
-    const Result<TouchScenes> scenes = touch_scenes(all.options.scenes);
-    if (!scenes) return std::unexpected(scenes.error());
-    for (const TouchScene& wanted : scenes->scenes) {
-        if (wanted.smooth) continue;  // easier than what is touched in use
-        const auto scene = touched(wanted);
-        if (!scene) continue;  // measure_ticks() has told
-        notify("shapes on " + wanted.name);
+    const auto on_meshes = on_rough_scenes(all, notify, "shapes", [&](const TouchedScene& scene) -> Result<void> {
         for (const ShapeTool& tool : shape_tools())
-            if (const auto done = touch_mesh_with(all, **scene, tool); !done) return done;
-    }
+            if (const auto done = touch_mesh_with(all, scene, tool); !done) return done;
+        return {};
+    });
+    if (!on_meshes) return on_meshes;
     for (const int resolution : all.options.solid_resolutions)
         for (const ShapeTool& tool : shape_tools()) {
             notify("shapes in a groove, " + std::to_string(resolution) + " cells, " + tool.name);

@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "haptics/tick.hpp"
 #include "tests/haptics/bodies.hpp"
+#include "tests/haptics/ticked_hand.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -15,28 +15,14 @@ namespace {
 constexpr double kWatchedBall_m = 0.002;
 
 // Whole ticks of a hand that goes where it is told.
-struct WatchedHand {
-    geometry::LocalSurface surface;
-    TickParameters parameters;
-    FullTickState state;
-    Nanoseconds now_ns = 1'000'000'000;
-    TickRecord record;
-
-    explicit WatchedHand(geometry::LocalSurface touched) : surface(std::move(touched)) {
+struct WatchedHand : test::TickedHand {
+    explicit WatchedHand(geometry::LocalSurface touched) {
+        surface = std::move(touched);
         parameters.probe = ball_probe(kWatchedBall_m);
         parameters.clearance_ratio = 0.0;
         parameters.limit_stiffness = false;
         parameters.passivity.control = false;
         parameters.max_surface_age_s = 0.0;
-    }
-    const TickRecord& tick(const Vec3& hand_m) {
-        now_ns += 1'000'000;
-        devices::DeviceSample sample;
-        sample.time_ns = now_ns;
-        sample.position_device_m = hand_m;
-        FullTick full = full_tick(state, sample, surface, parameters, test::kStrongDevice, now_ns, 1e-3);
-        state = full.next;
-        return record = full.record;
     }
     [[nodiscard]] double force_N() const { return glm::length(record.gate.given.force_device_N); }
 };

@@ -10,9 +10,8 @@
 #include "bench/measure/rough_surfaces.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
-#include "haptics/tick.hpp"
 #include "tests/haptics/session_tools.hpp"
-#include "tests/haptics/surfaces.hpp"
+#include "tests/haptics/ticked_hand.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -43,24 +42,24 @@ struct FreeTool {
     double reach_m = 0.0;   // of what contains it, about its place
 };
 
-class FreeHand {
+class FreeHand : test::TickedHand {
 public:
     FreeHand(const geometry::TriangleMesh& mesh, const FreeTool& tool, double budget_us, bool both_sides = true)
         : mesh_(mesh), tree_(mesh.positions_m, mesh.triangles), reach_m_(tool.reach_m) {
-        surface_.sequence = 1;
-        surface_.radius_m = 1e3;
-        surface_.meshes = {{geometry::TouchMesh::create(mesh)->snapshot(), 0, both_sides}};
-        parameters_.sequence = 1;
-        parameters_.probe = ball_probe(tool.radius_m);
-        parameters_.shape = tool.shape;
-        parameters_.clearance_ratio = 0.0;
-        parameters_.max_surface_age_s = 0.0;
-        parameters_.work.pace = (1000.0 / 3.0) / budget_us;
+        surface.sequence = 1;
+        surface.radius_m = 1e3;
+        surface.meshes = {{geometry::TouchMesh::create(mesh)->snapshot(), 0, both_sides}};
+        parameters.sequence = 1;
+        parameters.probe = ball_probe(tool.radius_m);
+        parameters.shape = tool.shape;
+        parameters.clearance_ratio = 0.0;
+        parameters.max_surface_age_s = 0.0;
+        parameters.work.pace = (1000.0 / 3.0) / budget_us;
     }
 
     // Wanders near the mesh and never touches it.
     void wander(int ticks, std::uint64_t seed, FreeFigures& figures) {
-        state_ = {};  // the hand begins elsewhere
+        state = {};  // the hand begins elsewhere
         std::mt19937_64 dice(seed);
         std::uniform_real_distribution<double> part(-1.0, 1.0);
         Vec3 at = mesh_.positions_m[dice() % mesh_.positions_m.size()], way(0.0);
@@ -75,8 +74,8 @@ public:
             if (is_free(next)) at = next;
             tick(at);
             ++figures.ticks;
-            figures.felt += record_.in_contact() || record_.gate.given.force_device_N != Vec3(0.0) ? 1 : 0;
-            figures.left_behind += glm::distance(record_.deepest().proxy_object_m, at) > reach_m_ ? 1 : 0;
+            figures.felt += record.in_contact() || record.gate.given.force_device_N != Vec3(0.0) ? 1 : 0;
+            figures.left_behind += glm::distance(record.deepest().proxy_object_m, at) > reach_m_ ? 1 : 0;
         }
     }
 
@@ -85,24 +84,10 @@ private:
         return mesh_.positions_m[mesh_.triangles[tree_.nearest(at, 0).triangle][0]];
     }
     [[nodiscard]] bool is_free(const Vec3& at) const { return tree_.nearest(at, 0).distance_m > 1.05 * reach_m_; }
-    void tick(const Vec3& at) {
-        now_ns_ += 1'000'000;
-        devices::DeviceSample sample;
-        sample.time_ns = now_ns_;
-        sample.position_device_m = at;
-        FullTick full = full_tick(state_, sample, surface_, parameters_, test::kStrongDevice, now_ns_, 1e-3);
-        state_ = full.next;
-        record_ = full.record;
-    }
 
     const geometry::TriangleMesh& mesh_;
     geometry::TriangleTree tree_;
     double reach_m_;
-    geometry::LocalSurface surface_;
-    TickParameters parameters_;
-    FullTickState state_;
-    TickRecord record_;
-    Nanoseconds now_ns_ = 1'000'000'000;
 };
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include "bench/measure/rough_surfaces.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
-#include "haptics/tick.hpp"
-#include "tests/haptics/surfaces.hpp"
+#include "tests/haptics/ticked_hand.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -19,44 +18,44 @@ struct AnewFigures {
     int starts = 0, never_found = 0, slowest = 0, felt_unfit = 0, far = 0;
 };
 
-class AnewHand {
+class AnewHand : test::TickedHand {
 public:
     AnewHand(const geometry::TriangleMesh& mesh, double radius_m, double friction)
         : mesh_(mesh), tree_(mesh.positions_m, mesh.triangles), radius_m_(radius_m) {
-        surface_.sequence = 1;
-        surface_.radius_m = 1e3;
-        surface_.meshes = {{geometry::TouchMesh::create(mesh)->snapshot(), 0}};
-        parameters_.sequence = 1;
-        parameters_.probe = ball_probe(radius_m);
-        parameters_.clearance_ratio = 0.0;
-        parameters_.max_surface_age_s = 0.0;
-        for (TouchMaterial& m : parameters_.materials) m.static_friction = m.dynamic_friction = friction;
+        surface.sequence = 1;
+        surface.radius_m = 1e3;
+        surface.meshes = {{geometry::TouchMesh::create(mesh)->snapshot(), 0}};
+        parameters.sequence = 1;
+        parameters.probe = ball_probe(radius_m);
+        parameters.clearance_ratio = 0.0;
+        parameters.max_surface_age_s = 0.0;
+        for (TouchMaterial& m : parameters.materials) m.static_friction = m.dynamic_friction = friction;
     }
 
     // Presses at a vertex, switches the force off for 20 ticks and on again, and waits for a second.
     void start(std::size_t vertex, double depth_m, AnewFigures& figures) {
         const Vec3 normal = normal_at(vertex), rest = mesh_.positions_m[vertex] + (radius_m_ - depth_m) * normal;
-        state_ = {};
+        state = {};
         for (int i = 0; i < 150; ++i) tick(rest + std::max(0.006 - 6e-5 * i, 0.0) * normal, true);
-        if (!record_.in_contact()) return;
+        if (!record.in_contact()) return;
         ++figures.starts;
         for (int i = 0; i < 20; ++i) tick(rest, false);
         int found = -1;
         for (int i = 0; i < 1000 && found < 0; ++i) {
             tick(rest, true);
-            const bool is_felt = record_.in_contact();
+            const bool is_felt = record.in_contact();
             if (!is_felt) {
-                EXPECT_EQ(glm::length(record_.gate.given.force_device_N), 0.0);
+                EXPECT_EQ(glm::length(record.gate.given.force_device_N), 0.0);
                 continue;
             }
             found = i;
-            const double distance_m = tree_.nearest(record_.deepest().proxy_object_m, 0).distance_m;
+            const double distance_m = tree_.nearest(record.deepest().proxy_object_m, 0).distance_m;
             figures.felt_unfit += distance_m < 0.95 * radius_m_ ? 1 : 0;
         }
         figures.never_found += found < 0 ? 1 : 0;
         figures.slowest = std::max(figures.slowest, found);
         for (int i = 0; i < 300; ++i) tick(rest, true);
-        figures.far += record_.deepest().penetration_m > 3.0 * radius_m_ + depth_m ? 1 : 0;
+        figures.far += record.deepest().penetration_m > 3.0 * radius_m_ + depth_m ? 1 : 0;
     }
 
 private:
@@ -69,24 +68,13 @@ private:
         return glm::normalize(sum);
     }
     void tick(const Vec3& at, bool enabled) {
-        now_ns_ += 1'000'000;
-        devices::DeviceSample sample;
-        sample.time_ns = now_ns_;
-        sample.position_device_m = at;
-        parameters_.enabled = enabled;
-        FullTick full = full_tick(state_, sample, surface_, parameters_, test::kStrongDevice, now_ns_, 1e-3);
-        state_ = full.next;
-        record_ = full.record;
+        parameters.enabled = enabled;
+        TickedHand::tick(at);
     }
 
     const geometry::TriangleMesh& mesh_;
     geometry::TriangleTree tree_;
     double radius_m_;
-    geometry::LocalSurface surface_;
-    TickParameters parameters_;
-    FullTickState state_;
-    TickRecord record_;
-    Nanoseconds now_ns_ = 1'000'000'000;
 };
 
 }  // namespace
