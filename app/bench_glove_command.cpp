@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "activities/grasp/grasp_options.hpp"
 #include "app/commands.hpp"
 #include "app/output_files.hpp"
 #include "bench/glove/glove_output.hpp"
@@ -62,11 +63,19 @@ Result<void> run_glove_bench(const GloveBench& options) {
     auto press = bench::press_fingertip(*hand, geometry::Finger::index, figures.task);
     if (!press) return std::unexpected(press.error());
     figures.press = std::move(*press);
+    const activities::GraspOptions usual;
+    figures.default_points = usual.points;
+    figures.default_extent_m = 1e-3 * usual.extent_mm;
     figures.lines = bench::compare_lines({9'600, 19'200, 38'400, 57'600, 115'200});
     if (!options.without_line) {
         const auto rate = sets_per_s();
         if (!rate) return std::unexpected(rate.error());
         figures.measured_sets_per_s = *rate;
+        for (const bench::MadeAt at : {bench::MadeAt::controller, bench::MadeAt::host}) {
+            const auto trial = bench::try_line(at);
+            if (!trial) return std::unexpected(trial.error());
+            figures.trials.push_back(*trial);
+        }
     }
     if (options.json != kStandardOutput && options.svg != kStandardOutput)
         std::fputs(bench::glove_table(figures).c_str(), stdout);
@@ -81,7 +90,8 @@ BenchSubcommand add_bench_glove(Command bench) {
         "glove", "What a few points feel of a fingertip, and what a serial line does to a glove's force");
     const auto options = std::make_shared<GloveBench>();
     command.option("--hand", options->hand, "A skinned hand, as assets/hands/README.md describes").show_default();
-    command.flag("--without-line", options->without_line, "Leave out the three seconds of the emulated glove's line");
+    command.flag("--without-line", options->without_line,
+                 "Leave out what runs on the emulated glove's line in real time, about a minute");
     command.option("--svg", options->svg, "A file for the figure; - for standard output");
     command.option("--json", options->json, "A file for all figures; - for standard output");
     return {command, [options] { return run_glove_bench(*options); }};

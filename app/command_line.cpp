@@ -2,14 +2,16 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
+#include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace burin::app {
 namespace {
@@ -169,11 +171,18 @@ CommandOption Command::add_choice(const std::string& name, const std::string& he
                                   const std::vector<std::pair<std::string, int>>& words,
                                   const std::function<void(int)>& choose) {
     enum class Chosen : int {};
-    std::map<std::string, Chosen> values;
-    for (const auto& [word, value] : words) values[word] = Chosen{value};
+    std::string known;
+    for (const auto& [word, value] : words) known += (known.empty() ? "" : ", ") + word;
+    // CLI11's own transformer lists the numbers behind the words too, in its help and its errors.
+    const auto to_number = [words, known](std::string& text) -> std::string {
+        const auto found = std::ranges::find(words, text, &std::pair<std::string, int>::first);
+        if (found == words.end()) return "'" + text + "' is none of: " + known;
+        text = std::to_string(found->second);
+        return {};
+    };
     auto* option = app_->add_option_function<Chosen>(
         name, [choose](const Chosen& chosen) { choose(static_cast<int>(chosen)); }, help);
-    option->transform(CLI::CheckedTransformer(values));
+    option->transform(CLI::Validator(to_number, "{" + known + "}"));
     return CommandOption(option);
 }
 

@@ -41,6 +41,8 @@ GloveCommand::~GloveCommand() = default;
 bool GloveCommand::parsed() const { return command_.parsed(); }
 
 Result<void> GloveCommand::run() const {
+    if (options_->silent_for_s > 0.0 && options_->silent_from_s == 0.0)
+        return fail("--silent-for", "says for how long, and nothing says from when on", "give --silent-from too");
     auto port = devices::GlovePort::create();
     if (!port) return std::unexpected(port.error());
     std::printf("%s\n", port->name().c_str());

@@ -50,9 +50,19 @@ void add_hand_options(Command command, HandSession& hand) {
     command.option("--points", hand.options.points, "Of the patch by which a fingertip feels")
         .within(1, static_cast<int>(activities::kMostFingertipPoints))
         .show_default();
-    command.choice("--mesh", hand.options.stiffness,
-                   "shared: the points of a patch share a surface's stiffness; literal: each has all of it",
-                   {{"shared", activities::PatchStiffness::shared}, {"literal", activities::PatchStiffness::literal}});
+    command
+        .option("--extent", hand.options.extent_mm, "From the patch's middle to its neighbours, along the skin, in mm")
+        .within(activities::kLeastExtent_mm, activities::kMostExtent_mm)
+        .show_default();
+    command.choice(
+        "--mesh", hand.options.stiffness,
+        "shared: the points of a patch share a surface's stiffness by their areas; literal: each has all of it",
+        {{"shared", activities::PatchStiffness::shared}, {"literal", activities::PatchStiffness::literal}});
+    command.choice(
+        "--rendering", hand.options.rendering,
+        "Where the force of a contact that rests is made: distributed: here; local: at the controller of a "
+        "glove on a line, which knows the piston's length alone",
+        {{"distributed", activities::GloveRendering::distributed}, {"local", activities::GloveRendering::local}});
     add_live_options(command, hand.session.live);
 }
 
@@ -65,8 +75,15 @@ Result<void> hand(const HandSession& options) {
         if (live.device != devices::kSimulatedGlove)
             return fail("--grasp", "is of a simulated hand, and --device names " + live.device,
                         "leave one of them out");
+        if (!live.input.empty())
+            return fail("--grasp " + options.grasp, "leads the hand by a script, and --input names another",
+                        "leave one of them out");
+        if (session.world != kWorld)
+            return fail("--grasp " + options.grasp,
+                        "goes by a script for " + std::string(kWorld) + ", and " + session.world + " is another world",
+                        "lead the hand there with --input");
         live.device = std::string(devices::kSimulatedGlove) + ":" + options.grasp;
-        if (live.input.empty()) live.input = kScripts + options.grasp + ".txt";
+        live.input = kScripts + options.grasp + ".txt";
         live.offscreen = true;
     }
     const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device);
@@ -74,8 +91,18 @@ Result<void> hand(const HandSession& options) {
     if (!nature->is_worn)
         return fail("--device " + live.device, "is no glove",
                     "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
-    // A glove whose arm nobody leads grasps by a script.
-    if (live.offscreen && live.input.empty()) live.input = std::string(kScripts) + "glove.txt";
+    const bool has_line = live.device.starts_with(std::string(devices::kGlove) + ":");
+    if (options.options.rendering == activities::GloveRendering::local && !has_line)
+        return fail("--rendering local", "needs a glove's controller, and " + live.device + " has none",
+                    "name --device glove:PORT, or leave it out");
+    // A glove whose arm nobody leads grasps by a script; a simulated one closes by its script's buttons.
+    if (live.offscreen && live.input.empty() && session.world != kWorld)
+        return fail(
+            "--offscreen",
+            "has the arm go by a script for " + std::string(kWorld) + ", and " + session.world + " is another world",
+            "lead the hand there with --input");
+    if (live.offscreen && live.input.empty())
+        live.input = std::string(kScripts) + (has_line ? "glove" : "whole") + ".txt";
     const auto activity = std::make_shared<activities::Grasp>(options.options);
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "hand");

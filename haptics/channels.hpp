@@ -67,6 +67,8 @@ struct TickParameters {
     GuidanceCurve curve;
     // The noise bound of the velocity estimate, in the device frame: the encoder's step.
     double position_noise_m = 0.000055;
+    // A device whose controller can is offered the law of a contact that rests (haptics/local_law.hpp).
+    bool local_rendering = false;
     bool enabled = true;  // false: no contact, zero force, the proxy stays with the HIP
     // A drill: a proxy in contact stays where it is, as if its work never sufficed. The watch lets the hand go.
     bool catch_drill = false;

@@ -73,6 +73,10 @@ TickRecord HapticLoop::tick_part(Part& part, const TurnShare& share, Nanoseconds
     FullTick full =
         full_tick(part.state, sample, *surface, *parameters, part.device->description(), now_ns, dt_s_, share);
     TickRecord& record = full.record;
+    if (sample.drive.is_one()) {
+        part.law = step_local_law(part.law, record, full.next.tick, *parameters, part.device->description(), dt_s_);
+        part.device->offer(part.law.law);
+    }
     part.device->write(record.gate.given);
     watch_stillness(part.still, record);
     part.state = full.next;

@@ -34,6 +34,7 @@
 #include "base/error.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/histogram.hpp"
+#include "haptics/local_law.hpp"
 #include "haptics/tick.hpp"
 
 namespace burin::haptics {
@@ -124,6 +125,7 @@ private:
         devices::DeviceSample sample;       // of the last tick
         Vec3 velocity_device_m_per_s{0.0};  // of the last tick
         Still still;                        // the state last seen to change, and when
+        LocalLawState law;                  // offered to a part that drives one way
         Nanoseconds let_go_ns = 0;          // when the watch last let the hand go
     };
 

@@ -21,18 +21,31 @@ struct RenderedWall {
 
 // The points that touch at once.
 struct Touching {
-    std::uint32_t points = 0;
+    double shares = 0.0;           // of the points: how many they are where each renders all of its surface
     double squared_arms_m2 = 0.0;  // sum; 0 with one point
 };
 
+// How much stiffer a wall of this normal is along a drive of one way than at the handle: the square of how far the
+// handle moves along the normal with it; 1 at least, since a wall is not rendered stiffer than it is.
+double squared_lever(const PointContact& point, const ProbeInput& in) {
+    const devices::OneWayDrive& drive = in.sample.drive;
+    if (!drive.is_one()) return 1.0;
+    const Vec3 normal_device = glm::conjugate(in.motion.object_from_device.orientation) * point.record().normal_object;
+    const double moves = glm::dot(normal_device, drive.moves_device);
+    return std::max(1.0, moves * moves);
+}
+
 // The wall as the device may render it: through the coupling, and limited to the stiffness at which it stays passive.
 // Points that touch at once are parallel springs whose stiffnesses add up where their normals agree, so each gets its
-// share of the limit; and so does the resistance to rotation that they make up together.
-RenderedWall rendered(const TouchMaterial& material, const ProbeInput& input, const Touching& touching) {
+// share of the limit, as of the stiffness (ProbePoint::share); and so does the resistance to rotation that they make up
+// together.
+RenderedWall rendered(const PointContact& point, double share, const ProbeInput& input, const Touching& touching) {
     const TickParameters& parameters = input.parameters;
-    const CoupledWall wall = through(parameters.coupling, {material.stiffness_N_per_m, material.damping_Ns_per_m});
-    if (!parameters.limit_stiffness) return {wall};
-    const double points = std::max(touching.points, 1u);
+    const TouchMaterial& material = point.material();
+    const CoupledWall wall =
+        through(parameters.coupling, {share * material.stiffness_N_per_m, share * material.damping_Ns_per_m});
+    if (!parameters.limit_stiffness || share == 0.0) return {wall};
+    const double points = std::max(touching.shares / share, 1.0) * squared_lever(point, input);
     ContactDemand demand;
     demand.stiffness_N_per_m = wall.stiffness_N_per_m * points;
     demand.damping_Ns_per_m = wall.damping_Ns_per_m * points;
@@ -160,7 +173,7 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     Touching touching;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         if (!points[i]->in_contact()) continue;
-        ++touching.points;
+        touching.shares += input.parameters.probe.points[i].share;
         if (contact.point_count > 1 || points[i]->has_shape()) touching.squared_arms_m2 += points[i]->squared_arm_m2();
     }
     std::array<PointForce, kMostProbePoints> forces;
@@ -169,7 +182,7 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     SurfaceVelocity surface;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         PointContact& point = *points[i];
-        const RenderedWall rendered_wall = rendered(point.material(), input, touching);
+        const RenderedWall rendered_wall = rendered(point, input.parameters.probe.points[i].share, input, touching);
         if (rendered_wall.bound != StiffnessBound::none) {
             step.flags |= kTickStiffnessLimited;
             contact.stiffness_bound = rendered_wall.bound;

@@ -32,6 +32,12 @@ MotionState with_sample(MotionState state, const devices::DeviceSample& sample, 
     // Also after a clock that was set back.
     if (gap_s > 1.5 * dt_s || gap_s < 0.0) state.window.count = state.turning.count = 0;
     state.window = with_position(state.window, sample.position_device_m);
+    if (sample.drive.is_one()) {
+        const Vec3 foot_device_m = sample.position_device_m - sample.drive.length_m * sample.drive.along_device;
+        const bool follows = state.window.count > 1 && gap_s > 0.0;
+        state.foot_velocity_device_m_per_s = follows ? (foot_device_m - state.foot_device_m) / gap_s : Vec3(0.0);
+        state.foot_device_m = foot_device_m;
+    }
     state.sample_ns = sample.time_ns;
     if (turns) {
         const VelocityWindow& w = state.turning;
@@ -82,15 +88,44 @@ void refuse(const TickResult& t) {
     t.record.motion.object_from_device = t.next.workspace.object_from_device;
 }
 
-// Applies the passivity controller to the contact's wrench.
-PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const VelocityWindow& window,
-                           const TickParameters& parameters, const devices::DeviceDescription& device, double dt_s) {
+bool sensible(const devices::OneWayDrive& drive) {
+    if (!drive.is_one()) return true;
+    const double squared = glm::dot(drive.along_device, drive.along_device);
+    return std::abs(squared - 1.0) <= 2e-6 && finite(drive.moves_device) && not_negative(drive.length_m);
+}
+
+// How fast the touched surface would have a drive of one way change its length. Against the surface moves also the
+// drive's foot, with the palm: as a body's way, that is none of the drive's own.
+double surface_along_drive_m_per_s(const TickRecord& record, const Vec3& pressing_device_N, const MotionState& motion) {
+    const double moved = along_drive_N(pressing_device_N, record.sample.drive);
+    if (!(moved > 0.0)) return 0.0;
+    const Vec3 way = record.contact.surface_velocity_device_m_per_s - motion.foot_velocity_device_m_per_s;
+    return glm::dot(pressing_device_N, way) / moved;
+}
+
+// Has the passivity controller see a drive of one way along itself.
+void turn_along(PassivityInput& input, const TickRecord& record, const Vec3& pressing_device_N,
+                const MotionState& motion) {
+    const devices::OneWayDrive& drive = record.sample.drive;
+    input.one_way = true;
+    input.window = nullptr;
+    input.position_device_m = Vec3(drive.length_m, 0.0, 0.0);
+    input.wanted.force_device_N = Vec3(glm::dot(input.wanted.force_device_N, drive.along_device), 0.0, 0.0);
+    input.surface_velocity_device_m_per_s =
+        Vec3(surface_along_drive_m_per_s(record, pressing_device_N, motion), 0.0, 0.0);
+}
+
+// Applies the passivity controller to the contact's wrench; pressing_device_N: its force before a drive of one way took
+// it.
+PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const Vec3& pressing_device_N,
+                           const MotionState& motion, const TickParameters& parameters,
+                           const devices::DeviceDescription& device, double dt_s) {
     PassivityInput input;
     input.time_ns = record.sample.time_ns;
     input.now_ns = record.time_ns;
     input.position_device_m = record.sample.position_device_m;
     input.orientation_device = record.sample.orientation_device;
-    input.window = &window;
+    input.window = &motion.window;
     input.turns = device.max_torque_Nm != Vec3(0.0);
     input.wanted = driven_part(record.contact.wrench, device);
     input.stored_J = record.contact.spring_energy_J;
@@ -98,7 +133,12 @@ PassivityStep kept_passive(const PassivityState& state, const TickRecord& record
     input.in_contact = record.in_contact();
     input.jumped = record.contact.jumped;
     input.surface_velocity_device_m_per_s = record.contact.surface_velocity_device_m_per_s;
-    return keep_passive(state, input, parameters.passivity, device, dt_s);
+    const devices::OneWayDrive& drive = record.sample.drive;
+    if (!drive.is_one()) return keep_passive(state, input, parameters.passivity, device, dt_s);
+    turn_along(input, record, pressing_device_N, motion);
+    PassivityStep step = keep_passive(state, input, parameters.passivity, device, dt_s);
+    step.wrench.force_device_N = step.wrench.force_device_N.x * drive.along_device;
+    return step;
 }
 
 GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const TickParameters& parameters,
@@ -130,7 +170,8 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     record.sample = sample;
     record.surface_sequence = surface.sequence;
     record.parameter_sequence = parameters.sequence;
-    record.sample_finite = finite(sample.position_device_m) && unit(sample.orientation_device);
+    record.sample_finite =
+        finite(sample.position_device_m) && unit(sample.orientation_device) && sensible(sample.drive);
     record.parameters_sensible = parameters_are_sensible(parameters);
     record.scale_felt = is_felt_at(parameters.workspace.object_from_device.scale);
     record.within_reach = within_reach(sample.position_device_m, device);
@@ -187,7 +228,10 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const double alpha = parameters.signals.force_alpha;
     next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
     if (alpha > 0.0) contact.force_device_N = next.force_average.value;
-    const PassivityStep passive = kept_passive(state.passivity, record, next.motion.window, parameters, device, dt_s);
+    const Vec3 pressing_device_N = contact.force_device_N;
+    contact = as_driven(contact, sample.drive);
+    const PassivityStep passive =
+        kept_passive(state.passivity, record, pressing_device_N, next.motion, parameters, device, dt_s);
     next.passivity = passive.next;
     record.passivity = passive.record;
     contact.force_device_N = passive.wrench.force_device_N;
@@ -201,6 +245,12 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     if (guidance.next.held) record.flags |= kTickGuided;
     others.force_device_N += guidance.force_device_N + workspace.force_device_N;
     others.torque_device_Nm += guidance.torque_device_Nm;
+    if (sample.drive.is_one()) {
+        const double sum_N = glm::dot(contact.force_device_N, sample.drive.along_device) +
+                             along_drive_N(others.force_device_N, sample.drive);
+        record.wanted = {std::max(0.0, sum_N) * sample.drive.along_device, Vec3(0.0)};
+        return;
+    }
     record.wanted = driven_part(
         {contact.force_device_N + others.force_device_N, contact.torque_device_Nm + others.torque_device_Nm}, device);
 }
@@ -224,6 +274,7 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
     in.device_max_force_N = std::min(device.max_force_N, record.passivity.most_N + std::sqrt(glm::dot(others, others)));
     in.device_axis_max_force_N = device.axis_max_force_N;
     in.device_max_torque_Nm = device.max_torque_Nm;
+    in.drives_device = record.sample.drive.along_device;
     const Vec3 turning = record.wanted.torque_device_Nm - driven_part(record.contact.wrench, device).torque_device_Nm;
     in.most_torque_Nm = record.passivity.most_Nm + std::sqrt(glm::dot(turning, turning));
     in.sample_age_s = seconds(record.time_ns - record.sample.time_ns);
@@ -270,6 +321,8 @@ FullTick full_tick(const FullTickState& state, const devices::DeviceSample& samp
         given.torque_device_Nm =
             record.gate.given.torque_device_Nm - faded * (record.wanted.torque_device_Nm - contact.torque_device_Nm);
     }
+    if (sample.drive.is_one())
+        given.force_device_N = Vec3(glm::dot(given.force_device_N, sample.drive.along_device), 0.0, 0.0);
     set_commanded_wrench(full.next.tick.passivity, given, now_ns);
     return full;
 }

@@ -30,7 +30,9 @@ struct MotionState {
     VelocityWindow turning;
     MovingAverage velocity_average;
     Quat orientation_device{1.0, 0.0, 0.0, 0.0};  // of the last sample
-    Nanoseconds sample_ns = 0;                    // of the last sample that went into the windows
+    Vec3 foot_device_m{0.0};                      // of the drive of a part that drives one way, in the last sample
+    Vec3 foot_velocity_device_m_per_s{0.0};
+    Nanoseconds sample_ns = 0;  // of the last sample that went into the windows
 };
 
 struct TickState {

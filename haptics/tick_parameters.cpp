@@ -21,7 +21,9 @@ bool sensible(const TouchMaterial& m) {
 bool sensible(const Probe& probe) {
     if (probe.count < 1 || probe.count > kMostProbePoints) return false;
     for (std::uint32_t i = 0; i < probe.count; ++i)
-        if (!finite(probe.points[i].offset_device_m) || !not_negative(probe.points[i].radius_m)) return false;
+        if (!finite(probe.points[i].offset_device_m) || !not_negative(probe.points[i].radius_m) ||
+            !not_negative(probe.points[i].share))
+            return false;
     return true;
 }
 

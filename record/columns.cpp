@@ -87,6 +87,15 @@ std::uint32_t saturated_axes(const haptics::TickRecord& r) {
 }
 
 template <typename Sink>
+void visit_drive(Sink& sink, const devices::OneWayDrive& drive) {
+    vector(sink, "drive_device", -1, {"_x", "_y", "_z"}, "", "device", drive.along_device);
+    vector(sink, "drive_moves_device", -1, {"_x", "_y", "_z"}, "", "device", drive.moves_device);
+    sink.f64({"drive_length_m"}, "m", "", drive.length_m);
+    sink.f64({"drive_measured_N"}, "N", "", drive.measured_N);
+    sink.u32({"drive_state"}, drive.state);
+}
+
+template <typename Sink>
 void visit_device(Sink& sink, const RowShape& shape, const haptics::TickRecord& r) {
     sink.i64({"tick"}, "", static_cast<std::int64_t>(r.tick));
     sink.i64({"time_ns"}, "ns", r.time_ns);
@@ -100,6 +109,7 @@ void visit_device(Sink& sink, const RowShape& shape, const haptics::TickRecord& 
     sink.u32({"fault"}, static_cast<std::uint32_t>(r.sample.fault));
     for (std::uint32_t i = 0; i < shape.joints; ++i)
         sink.f64({"joint", static_cast<int>(i)}, "rad or m", "", r.sample.joints[i]);
+    if (shape.one_way) visit_drive(sink, r.sample.drive);
     vector(sink, "velocity_device", -1, {"_x_m_per_s", "_y_m_per_s", "_z_m_per_s"}, "m/s", "device",
            r.motion.velocity_device_m_per_s);
     vector(sink, "angular_velocity_device", -1, {"_x_rad_per_s", "_y_rad_per_s", "_z_rad_per_s"}, "rad/s", "device",
@@ -187,7 +197,7 @@ std::optional<ColumnType> column_type_named(std::string_view name) {
 
 RowShape shape_of(const devices::DeviceDescription& device, const haptics::Probe& probe) {
     return {std::min<std::uint32_t>(device.joints.count, devices::kMostJoints),
-            std::min(probe.count, haptics::kMostProbePoints)};
+            std::min(probe.count, haptics::kMostProbePoints), device.drives_one_way};
 }
 
 std::vector<Column> columns_for(const RowShape& shape) {

@@ -42,6 +42,7 @@ using Word = std::uint64_t;
 struct RowShape {
     std::uint32_t joints = 0;  // of the device
     std::uint32_t points = 1;  // of the probe
+    bool one_way = false;      // the part drives one way alone (devices::OneWayDrive)
 };
 
 [[nodiscard]] RowShape shape_of(const devices::DeviceDescription& device, const haptics::Probe& probe);

@@ -15,6 +15,10 @@ constexpr std::array kMotionDoubles{"position_device_x_m",    "position_device_y
                                     "object_from_device_z_m", "object_from_device_qx",  "object_from_device_qy",
                                     "object_from_device_qz",  "object_from_device_qw",  "object_from_device_scale"};
 constexpr std::array kMotionBits{"buttons", "fault"};
+constexpr const char* kDriveState = "drive_state";
+constexpr std::array kDriveDoubles{"drive_device_x",       "drive_device_y",       "drive_device_z",
+                                   "drive_moves_device_x", "drive_moves_device_y", "drive_moves_device_z",
+                                   "drive_length_m",       "drive_measured_N"};
 
 }  // namespace
 
@@ -31,6 +35,9 @@ Result<MotionColumns> MotionColumns::find(const RecordReader& reader, std::size_
     for (const char* name : kMotionIntegers) add(columns.integers_, name, ColumnType::i64);
     for (const char* name : kMotionDoubles) add(columns.doubles_, name, ColumnType::f64);
     for (const char* name : kMotionBits) add(columns.bits_, name, ColumnType::u32);
+    columns.drive_state_ = find_column(of, kDriveState, ColumnType::u32);
+    if (columns.drive_state_ != of.columns.size())
+        for (const char* name : kDriveDoubles) add(columns.drive_, name, ColumnType::f64);
     if (!outcome) return std::unexpected(outcome.error());
     for (std::size_t i = 0; i < devices::kMostJoints; ++i) {
         const std::size_t joint = find_column(of, "joint" + std::to_string(i), ColumnType::f64);
@@ -59,6 +66,14 @@ RecordedTick MotionColumns::at(const Block& block, std::uint32_t row) const {
     tick.sample.fault = static_cast<devices::DeviceFault>(block.at(bits_[1], row));
     for (std::size_t i = 0; i < joints_.size(); ++i)
         tick.sample.joints[i] = std::bit_cast<double>(block.at(joints_[i], row));
+    if (!drive_.empty()) {
+        const auto of_drive = [&](std::size_t i) { return std::bit_cast<double>(block.at(drive_[i], row)); };
+        tick.sample.drive = {{of_drive(0), of_drive(1), of_drive(2)},
+                             {of_drive(3), of_drive(4), of_drive(5)},
+                             of_drive(6),
+                             of_drive(7),
+                             static_cast<std::uint32_t>(block.at(drive_state_, row))};
+    }
     tick.object_from_device = {vector(7), turn(10), number(14)};
     return tick;
 }

@@ -36,6 +36,8 @@ public:
 
 private:
     std::vector<std::size_t> integers_, doubles_, bits_, joints_;  // columns by type, in the order in which at() reads
+    std::vector<std::size_t> drive_;  // of a part that drives one way; empty: of no such part
+    std::size_t drive_state_ = 0;
 };
 
 }  // namespace burin::record

@@ -18,6 +18,7 @@ using scene::ObjectProperty;
 
 constexpr Nanoseconds kGestureStep_ns = 8'000'000;  // about as often as a glove sends a set
 constexpr double kPointRadius_m = 0.001;            // of a patch's points, which lie so deep under the skin
+constexpr double kUsualDepth_m = 0.002;             // to which a fingertip is pressed in
 constexpr scene::PropertyValue kLitUp{1.0, 0.85, 0.35};
 
 const char* text_of(Gesture gesture) {
@@ -28,6 +29,12 @@ const char* text_of(Gesture gesture) {
         case Gesture::point: return "points";
     }
     return "";
+}
+
+const char* text_of(devices::DeviceFault fault) {
+    return fault == devices::DeviceFault::disconnected
+               ? "the glove is lost, so there is no force: see to its cable and its power"
+               : "the glove reports a fault, so there is no force: see to its controller";
 }
 
 std::string name_of(const session::WorldObjects& world, scene::ObjectId id) {
@@ -60,10 +67,13 @@ bool is_round(const geometry::TriangleMesh& mesh) {
 
 Result<GraspOptions> grasp_options_of(const std::string& settings) {
     GraspOptions options;
-    std::array<char, 16> mesh{};
-    if (std::sscanf(settings.c_str(), "hand --points %u --mesh %15s", &options.points, mesh.data()) == 2) {
+    std::array<char, 16> mesh{}, rendering{};
+    if (std::sscanf(settings.c_str(), "hand --points %u --extent %lf --mesh %15s --rendering %15s", &options.points,
+                    &options.extent_mm, mesh.data(), rendering.data()) == 4) {
         if (std::string_view(mesh.data()) == "literal") options.stiffness = PatchStiffness::literal;
-        const bool is_right = options.points >= 1 && options.points <= kMostFingertipPoints;
+        if (std::string_view(rendering.data()) == "local") options.rendering = GloveRendering::local;
+        const bool is_right = options.points >= 1 && options.points <= kMostFingertipPoints &&
+                              options.extent_mm >= kLeastExtent_mm && options.extent_mm <= kMostExtent_mm;
         if (is_right && Grasp(options).settings() == settings) return options;
     }
     return fail(settings, "are no settings of burin hand", "replay it with the program that recorded it");
@@ -72,17 +82,22 @@ Result<GraspOptions> grasp_options_of(const std::string& settings) {
 Grasp::Grasp(const GraspOptions& options) : options_(options) {
     for (std::size_t i = 0; i < kFelt; ++i) {
         auto patch = geometry::fingertip_patch(geometry::known_hand_model(false), static_cast<Finger>(i),
-                                               {.points = options.points, .extent_m = 0.004});
+                                               {.points = options.points, .extent_m = 1e-3 * options.extent_mm});
         BURIN_CHECK(patch.has_value());
-        if (patch) patches_[i] = std::move(*patch);
+        if (!patch) continue;
+        patches_[i] = std::move(*patch);
+        shares_[i] = options.stiffness == PatchStiffness::literal
+                         ? std::vector<double>(patches_[i].size(), 1.0)
+                         : geometry::stiffness_shares(patches_[i], kUsualDepth_m);
     }
 }
 
 Grasp::~Grasp() = default;
 
 std::string Grasp::settings() const {
-    return formatted("hand --points %u --mesh %s", options_.points,
-                     options_.stiffness == PatchStiffness::literal ? "literal" : "shared");
+    return formatted("hand --points %u --extent %g --mesh %s --rendering %s", options_.points, options_.extent_mm,
+                     options_.stiffness == PatchStiffness::literal ? "literal" : "shared",
+                     options_.rendering == GloveRendering::local ? "local" : "distributed");
 }
 
 Result<void> Grasp::act(std::span<const std::string> words, session::ActivityOrders&) {
@@ -102,15 +117,11 @@ void Grasp::adjust(session::PartOfHand of, haptics::TickParameters& parameters) 
     };
     const Vec3 middle_m = under_skin(patch.front());
     for (std::uint32_t i = 0; i < probe.count; ++i)
-        probe.points[i] = {under_skin(patch[i]) - middle_m, scale * kPointRadius_m};
+        probe.points[i] = {under_skin(patch[i]) - middle_m, scale * kPointRadius_m, shares_[of.part][i]};
     parameters.shape = {};
     parameters.tool.count = 0;
     parameters.clearance_ratio = 0.0;
-    if (options_.stiffness == PatchStiffness::literal) return;
-    for (haptics::TouchMaterial& material : parameters.materials) {
-        material.stiffness_N_per_m /= probe.count;
-        material.damping_Ns_per_m /= probe.count;
-    }
+    parameters.local_rendering = options_.rendering == GloveRendering::local;
 }
 
 void Grasp::step(const session::ActivityView& view, session::ActivityOrders& orders) {
@@ -130,12 +141,34 @@ void Grasp::step(const session::ActivityView& view, session::ActivityOrders& ord
             if (all) ticks[i] = &*tick;
         }
         if (!all) continue;
+        watch_glove(ticks, view.world, orders);
+        if (has_fault_) continue;
         const bool is_newest = turn + 1 == parts[0].ticks.size();
         if (!is_newest && ticks[0]->time_ns - gesture_.time_ns < kGestureStep_ns) continue;
         hand_ = reading_of(ticks);
         go_on_by(*hand_, view.world, orders);
     }
     if (gesture_.grasps() && !grasps_.empty()) grasps_.back().carried_m = grip_scene_m() - taken_at_m_;
+}
+
+void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& ticks, const session::WorldObjects* world,
+                        session::ActivityOrders& orders) {
+    const auto has_fault = [](const auto* tick) { return tick->sample.fault != devices::DeviceFault::none; };
+    const Nanoseconds now_ns = ticks[0]->time_ns;
+    has_fault_ = std::ranges::all_of(ticks, has_fault);
+    if (!has_fault_) {
+        well_ns_ = now_ns;
+        if (std::exchange(told_of_fault_, false))
+            orders.messages.push_back("the glove is back: its force comes back from zero");
+        return;
+    }
+    // A gap that keeps a grasp is nobody's concern.
+    if (told_of_fault_ || now_ns - well_ns_ <= geometry::kMostGap_ns) return;
+    told_of_fault_ = true;
+    orders.messages.push_back(text_of(ticks[0]->sample.fault));
+    if (gesture_.grasps()) end_grasp(now_ns, orders);
+    gesture_ = {};
+    if (hand_ && world != nullptr) point_at(*hand_, *world, orders);
 }
 
 void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders) {
@@ -149,7 +182,7 @@ void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world
     const geometry::GestureState before = std::exchange(gesture_, geometry::step_gesture(gesture_, input));
     if (world == nullptr) return;
     const bool same = before.grasps() && gesture_.grasps() && before.object == gesture_.object;
-    if (before.grasps() && !same) end_grasp(orders);
+    if (before.grasps() && !same) end_grasp(hand.time_ns, orders);
     if (gesture_.grasps() && !same) begin_grasp(*world, orders);
     if (same) grasps_.back().gesture = gesture_.gesture;
     point_at(hand, *world, orders);
@@ -169,14 +202,14 @@ void Grasp::begin_grasp(const session::WorldObjects& world, session::ActivityOrd
     orders.trials.push_back({gesture_.time_ns, name});
 }
 
-void Grasp::end_grasp(session::ActivityOrders& orders) {
+void Grasp::end_grasp(Nanoseconds time_ns, session::ActivityOrders& orders) {
     Grasped& grasped = grasps_.back();
-    grasped.ended_ns = hand_->time_ns;
+    grasped.ended_ns = time_ns;
     if (grasped.object.empty()) return;
     orders.holds.push_back({grasped.object, {}, false});
     orders.messages.push_back(formatted("the hand lets go of %s, which it has carried %.0f mm", grasped.object.c_str(),
                                         1e3 * glm::length(grasped.carried_m)));
-    orders.trials.push_back({hand_->time_ns, "", "let go"});
+    orders.trials.push_back({time_ns, "", "let go"});
 }
 
 // Where the fingers that hold something are, on average.

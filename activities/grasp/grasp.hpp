@@ -54,18 +54,24 @@ public:
     [[nodiscard]] const std::optional<HandReading>& hand() const { return hand_; }
 
 private:
+    // Says when the glove is lost and when it is back, and lets go of what a hand that is lost for long holds.
+    void watch_glove(const std::array<const haptics::TickRecord*, kFelt>& ticks, const session::WorldObjects* world,
+                     session::ActivityOrders& orders);
     void go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders);
     [[nodiscard]] Vec3 grip_scene_m() const;
     void begin_grasp(const session::WorldObjects& world, session::ActivityOrders& orders);
-    void end_grasp(session::ActivityOrders& orders);
+    void end_grasp(Nanoseconds time_ns, session::ActivityOrders& orders);
     void cast_balls(renderer::Scene& scene) const;
     void point_at(const HandReading& hand, const session::WorldObjects& world, session::ActivityOrders& orders);
 
     GraspOptions options_;
     std::array<std::vector<geometry::PatchPoint>, kFelt> patches_;
+    std::array<std::vector<double>, kFelt> shares_;   // of a surface's stiffness, of each point of a patch
     mutable std::unique_ptr<const DrawnHand> drawn_;  // made when a picture is first wanted
     std::array<std::optional<haptics::TickRecord>, kFelt> last_ticks_;
     std::optional<HandReading> hand_;
+    bool has_fault_ = false, told_of_fault_ = false;  // of all parts: the glove's
+    Nanoseconds well_ns_ = 0;                         // when it had none for the last time
     geometry::GestureState gesture_;
     std::array<bool, geometry::kHandFingers> holding_{};  // the fingers with which the last grasp began
     Vec3 taken_at_m_{0.0};                                // where they were then, on average

@@ -20,6 +20,10 @@ std::string name_of(const PatchFigures& patch) {
     return formatted("%zu points, %g mm", patch.points, 1e3 * patch.extent_m);
 }
 
+bool is_default(const GloveFigures& figures, const PatchFigures& patch) {
+    return patch.points == figures.default_points && std::abs(patch.extent_m - figures.default_extent_m) < 1e-6;
+}
+
 const char* place_of(MadeAt at) { return at == MadeAt::controller ? "controller" : "host"; }
 
 // The layouts whose forces are drawn: one point, the paper's five at three extents, and twenty at the widest but one.
@@ -87,7 +91,7 @@ std::string glove_table(const GloveFigures& figures) {
         for (std::size_t s = 0; s < 2; ++s)
             for (std::size_t t = 0; t < 2; ++t)
                 text += formatted("   %5.3f (%5.3f)", patch.departures[s][t].rms, patch.departures[s][t].worst);
-        text += "\n";
+        text += is_default(figures, patch) ? "   <- burin hand\n" : "\n";
     }
     text += "\nWhere the force is made, simulated:\n";
     text += "made at       bit/s   sets/s   stiffest that rests N/m   lag ms   force error\n";
@@ -98,6 +102,14 @@ std::string glove_table(const GloveFigures& figures) {
                           is_local ? "-" : formatted("%.0f", line.sets_per_s).c_str(), line.stiffest_N_per_m,
                           1e3 * line.lag_s, line.force_error);
     }
+    if (!figures.trials.empty())
+        text += formatted(
+            "\nThe same on the emulated glove and its line of 38,400 bit/s; lag and error at %g N/m:\n"
+            "made at      stiffest that rests N/m   lag ms   force error\n",
+            kSoft_N_per_m);
+    for (const TrialFigures& trial : figures.trials)
+        text += formatted("%-10s   %23.0f   %6.1f   %11.3f\n", place_of(trial.at), trial.stiffest_N_per_m,
+                          1e3 * trial.lag_s, trial.force_error);
     if (figures.measured_sets_per_s > 0.0)
         text += formatted("\nThe emulated glove's line brought %.1f sets with forces a second.\n",
                           figures.measured_sets_per_s);
@@ -131,6 +143,14 @@ Json glove_json(const GloveFigures& figures) {
                                  {"stiffest_N_per_m", line.stiffest_N_per_m},
                                  {"lag_s", line.lag_s},
                                  {"force_error", line.force_error}});
+    json["emulated"] = Json::array();
+    for (const TrialFigures& trial : figures.trials)
+        json["emulated"].push_back({{"made_at", place_of(trial.at)},
+                                    {"stiffest_N_per_m", trial.stiffest_N_per_m},
+                                    {"lag_s", trial.lag_s},
+                                    {"force_error", trial.force_error}});
+    json["default_points"] = figures.default_points;
+    json["default_extent_m"] = figures.default_extent_m;
     json["measured_sets_per_s"] = figures.measured_sets_per_s > 0.0 ? Json(figures.measured_sets_per_s) : Json(nullptr);
     return json;
 }

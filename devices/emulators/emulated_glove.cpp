@@ -31,27 +31,78 @@ bool wants_closed(const EmulatedGlove& glove) {
     return glove.motion == GloveMotion::closing && phase_s >= kOpen_s && phase_s < kOpen_s + kClosed_s;
 }
 
+// Takes the host's forces and the laws away at once.
+EmulatedGlove stopped(EmulatedGlove glove) {
+    glove.commanded_N = {};
+    glove.laws = {};
+    glove.local = 0;
+    glove.blended = {};
+    return glove;
+}
+
+// What a law gives at a piston's length, while that grows shorter by so much a second.
+double force_by(const DriveLaw& law, double piston_m, double shortens_m_per_s) {
+    const double pressed_m = law.start_m - piston_m;
+    if (!law.holds || pressed_m <= 0.0) return 0.0;
+    constexpr double kFull_m_per_s = 0.002;  // friction is full from there on, and changes its sign without a step
+    const double friction_N = law.friction_N * std::clamp(shortens_m_per_s / kFull_m_per_s, -1.0, 1.0);
+    const double force_N = law.spring_N_per_m * pressed_m + law.damping_Ns_per_m * shortens_m_per_s + friction_N;
+    return std::clamp(force_N, 0.0, std::min(law.most_N, kMostPistonForce_N));
+}
+
+// Reads its pistons' lengths off the joints, and how fast they grow shorter.
+void measure_pistons(EmulatedGlove& glove) {
+    constexpr double kFollows = 0.3;  // of a difference over one step, whose noise it smooths
+    for (std::size_t i = 0; i < kGloveFingers; ++i) {
+        const double before_m = std::exchange(glove.pistons_m[i], place_of(usual_hand()[i], glove.joints[i]).piston_m);
+        const double speed_m_per_s = before_m > 0.0 ? (before_m - glove.pistons_m[i]) / EmulatedGlove::kStep_s : 0.0;
+        glove.shorten_m_per_s[i] += kFollows * (speed_m_per_s - glove.shorten_m_per_s[i]);
+    }
+}
+
+// What a piston is to give: the host's force, its law's, or on the way between them.
+double wanted_N(const EmulatedGlove& glove, std::size_t finger) {
+    const double by_law_N = force_by(glove.laws[finger], glove.pistons_m[finger], glove.shorten_m_per_s[finger]);
+    return glove.commanded_N[finger] + glove.blended[finger] * (by_law_N - glove.commanded_N[finger]);
+}
+
 }  // namespace
 
 EmulatedGlove stepped(EmulatedGlove glove) {
     glove.time_s += EmulatedGlove::kStep_s;
     glove.since_command_s += EmulatedGlove::kStep_s;
-    if (glove.since_command_s > EmulatedGlove::kWatchdog_s) glove.commanded_N = {};
+    if (glove.since_command_s > EmulatedGlove::kWatchdog_s) glove = stopped(glove);
+    measure_pistons(glove);
     const double follows = 1.0 - std::exp(-2.0 * std::numbers::pi * EmulatedGlove::kBand_Hz * EmulatedGlove::kStep_s);
     if (glove.commanded) glove.scripted_s += EmulatedGlove::kStep_s;
-    for (std::size_t i = 0; i < kGloveFingers; ++i)
-        glove.given_N[i] += follows * (glove.commanded_N[i] - glove.given_N[i]);
+    for (std::size_t i = 0; i < kGloveFingers; ++i) {
+        const bool is_local = (glove.local >> i & 1u) != 0 && glove.laws[i].holds;
+        const double most = EmulatedGlove::kStep_s / EmulatedGlove::kBlend_s;
+        glove.blended[i] = std::clamp(glove.blended[i] + (is_local ? most : -most), 0.0, 1.0);
+        glove.given_N[i] += follows * (wanted_N(glove, i) - glove.given_N[i]);
+    }
     glove.grip = stepped(glove.grip, wants_closed(glove) ? 1.0 : 0.0, glove.given_N, EmulatedGlove::kStep_s);
     for (std::size_t i = 0; i < kGloveFingers; ++i) {
         glove.joints[i] = bent_in(GripShape::whole, i, glove.grip.closed[i]);
-        glove.joints[i][1] =
-            std::max(glove.joints[i][1] - glove.given_N[i] * kArm_m / EmulatedGlove::kGrip_Nm_per_rad, -0.5);
+        glove.joints[i][1] = std::max(glove.joints[i][1] - glove.given_N[i] * kArm_m / EmulatedGlove::kGrip_Nm_per_rad,
+                                      angle_limits(i).lowest[1]);
     }
     return glove;
 }
 
 EmulatedGlove with_command(EmulatedGlove glove, const GloveCommand& command) {
-    glove.commanded_N = command.stop ? GloveForces{} : command.forces_N;
+    if (command.law) {
+        glove.laws[command.law->finger] = command.law->law;
+        return glove;
+    }
+    if (command.stop) glove = stopped(glove);
+    if (!command.stop) {
+        glove.commanded_N = command.forces_N;
+        glove.local = command.local;
+        // A law is gone when its finger has gone back to the host's force; it is on the way there until then.
+        for (std::size_t i = 0; i < kGloveFingers; ++i)
+            if ((glove.local >> i & 1u) == 0 && glove.blended[i] == 0.0) glove.laws[i] = {};
+    }
     glove.since_command_s = 0.0;
     glove.commanded = true;
     return glove;
@@ -63,8 +114,12 @@ bool is_silent(const EmulatedGlove& glove) {
 }
 
 GloveSet set_of(const EmulatedGlove& glove) {
-    return {
-        .number = glove.number, .motors_on = true, .fault = false, .joints = glove.joints, .forces_N = glove.given_N};
+    return {.number = glove.number,
+            .motors_on = true,
+            .fault = false,
+            .is_local = glove.local != 0,
+            .joints = glove.joints,
+            .forces_N = glove.given_N};
 }
 
 Result<GlovePort> GlovePort::create() {
@@ -96,12 +151,14 @@ GlovePort::~GlovePort() {
     if (file_ >= 0) ::close(file_);
 }
 
-void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends) {
+void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends,
+                    const std::function<void(const EmulatedGlove&)>& watch) {
     MonotonicClock clock;
     GloveFrameReader<GloveCommand> reader;
     const Nanoseconds step_ns = nanoseconds(EmulatedGlove::kStep_s);
     Nanoseconds due_ns = clock.now_ns();
     double next_set_s = glove.time_s;
+    GloveBytes on_line;  // a set takes a period to go out: it is of where the fingers were when its turn came
     while (!ends()) {
         due_ns = std::max(due_ns + step_ns, clock.now_ns() - 50 * step_ns);
         clock.sleep_until(due_ns);
@@ -111,12 +168,14 @@ void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends) {
             if (const auto command = reader.take(bytes[static_cast<std::size_t>(i)]))
                 glove = with_command(glove, *command);
         glove = stepped(glove);
+        if (watch) watch(glove);
         for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i].store(glove.given_N[i], std::memory_order_relaxed);
         if (glove.time_s < next_set_s) continue;
         next_set_s = std::max(next_set_s + kSet_s, glove.time_s - kSet_s);
         if (is_silent_.load(std::memory_order_relaxed) || is_silent(glove)) continue;
-        const GloveBytes frame = frame_of(set_of(glove));
+        const GloveBytes frame = std::exchange(on_line, frame_of(set_of(glove)));
         ++glove.number;
+        if (frame.count == 0) continue;
         // Frames that nobody reads are lost, as on a real serial line.
         if (::write(file_, frame.bytes.data(), frame.count) < 0) static_cast<void>(::tcflush(file_, TCIOFLUSH));
     }

@@ -5,8 +5,9 @@
 // Model: a hand whose fingers close by a script (grip_shape.hpp), each until its piston pushes with 2 N, and held with
 // kGrip_Nm_per_rad; the piston's force opens the finger against that grip. The script begins when a host first
 // commands, so that a session finds the hand open. A piston follows its command as a low-pass of kBand_Hz, as the
-// paper's glove does from 10 to 50 Hz, and gives nothing when no command has come for kWatchdog_s. Line: 38,400 bit/s
-// carry 3,840 bytes a second, so a set of 32 bytes leaves each 8.3 ms. Units: SI.
+// paper's glove does from 10 to 50 Hz, and gives nothing when no command has come for kWatchdog_s. A finger that the
+// host has left to it is rendered at 500 Hz by its law of piston length (DriveLaw), from its own joints. Line: 38,400
+// bit/s carry 3,840 bytes a second, so a set of 32 bytes takes 8.3 ms and arrives when it is out. Units: SI.
 #pragma once
 
 #include <array>
@@ -27,6 +28,8 @@ enum class GloveMotion { still, closing };
 struct EmulatedGlove {
     static constexpr double kStep_s = 0.002;  // the controller's loop of 500 Hz
     static constexpr double kBand_Hz = 25.0, kGrip_Nm_per_rad = 1.5, kWatchdog_s = 0.1;
+    // Time over which it goes from the host's force to a law's and back, so that neither is a step.
+    static constexpr double kBlend_s = 0.05;
 
     GloveMotion motion = GloveMotion::closing;
     // A drill: sends nothing from then on, in seconds of the script, for so many seconds; from 0: never, for 0: for
@@ -36,6 +39,11 @@ struct EmulatedGlove {
     bool commanded = false;  // ever
     Grip grip = {};
     GloveForces commanded_N{}, given_N{};
+    GloveLaws laws{};         // the newest of each finger; none that holds: there is none
+    std::uint8_t local = 0;   // which fingers it is to render by itself: bit i
+    GloveForces blended{};    // from 0, the host's force, to 1, the law's
+    GloveForces pistons_m{};  // their lengths; 0: not known yet
+    GloveForces shorten_m_per_s{};
     double since_command_s = kWatchdog_s;
     GloveJoints joints{};
     std::uint8_t number = 0;  // of the next set
@@ -56,8 +64,10 @@ public:
     GlovePort& operator=(GlovePort&&) = delete;
 
     [[nodiscard]] const std::string& name() const { return name_; }  // of the far end: "/dev/pts/3"
-    // Runs a controller in real time until `ends` says so, which is asked 500 times a second.
-    void run(EmulatedGlove glove, const std::function<bool()>& ends);
+    // Runs a controller in real time until `ends` says so, which is asked 500 times a second. `watch` sees each of its
+    // steps.
+    void run(EmulatedGlove glove, const std::function<bool()>& ends,
+             const std::function<void(const EmulatedGlove&)>& watch = {});
     // Falls silent without closing the line, as a glove whose cable is pulled at the hand; for drills.
     void fall_silent(bool is_silent) { is_silent_.store(is_silent, std::memory_order_relaxed); }
     // Returns the forces that the pistons gave last. Any thread.

@@ -27,8 +27,10 @@ DeviceDescription glove_description(bool on_a_line) {
     d.rate_Hz = 1000.0;
     d.apparent_mass_kg = 0.03;  // of a piston and a fingertip: assumed
     d.damping_Ns_per_m = 0.5;
+    d.friction_N = 0.014;  // about that of a graphite piston in glass: assumed
     d.delay_s = on_a_line ? seconds(GloveLink::kSend_ns) : 0.0;
     d.joints.count = kFingerJoints;
+    d.drives_one_way = true;
     d.felt_by_person = on_a_line;
     return d;
 }
@@ -51,21 +53,29 @@ public:
         sample.orientation_device = glm::normalize(palm_.orientation * tip.orientation);
         sample.buttons = buttons_;
         std::ranges::copy(joints_[finger], sample.joints.begin());
+        sample.drive = drive_of(finger);
         if (is_lost_) {
             sample.fault = DeviceFault::disconnected;
             sample.fault_is_of_all = true;
         } else if (has_fault_) {
             sample.fault = DeviceFault::other;
             sample.fault_is_of_all = true;
+        } else {
+            sample.fault = own_faults_[finger];
         }
         return sample;
     }
 
     void write(std::size_t finger, const DeviceWrench& wrench) noexcept {
-        const Vec3 force_hand_N = glm::conjugate(palm_.orientation) * wrench.force_device_N;
-        forces_N_[finger] = piston_force(places_[finger], force_hand_N).force_N;
-        if (link_ && finger + 1 == kGloveFingers) link_->command(is_lost_ ? GloveForces{} : forces_N_);
+        const Vec3 along_device = palm_.orientation * places_[finger].piston_hand;
+        forces_N_[finger] = std::clamp(glm::dot(wrench.force_device_N, along_device), 0.0, kMostPistonForce_N);
+        if (!link_ || finger + 1 != kGloveFingers) return;
+        if (is_lost_)
+            link_->command({});
+        else
+            link_->command(forces_N_, laws_);
     }
+    void offer(std::size_t finger, const DriveLaw& law) noexcept { laws_[finger] = law; }
 
 private:
     // Takes where the palm and the joints are now.
@@ -81,8 +91,23 @@ private:
             is_lost_ = heard.time_ns == 0 || now_ns_ - heard.time_ns > kGloveLost_ns;
             has_fault_ = heard.set.fault;
             joints_ = joints_at(heard);
+            hear_of(heard.set);
+            judge(heard);
         }
         for (std::size_t i = 0; i < kGloveFingers; ++i) places_[i] = place_of(shape_[i], joints_[i]);
+    }
+
+    [[nodiscard]] OneWayDrive drive_of(std::size_t finger) const noexcept {
+        const FingertipPlace& place = places_[finger];
+        OneWayDrive drive;
+        drive.along_device = palm_.orientation * place.piston_hand;
+        const PistonWay way = piston_way(place);
+        drive.moves_device = palm_.orientation * way.moves_hand;
+        drive.length_m = place.piston_m;
+        drive.state =
+            state_ | (way.is_bounded ? kDriveBounded : 0u) | (is_local_ && laws_[finger].holds ? kDriveLocal : 0u);
+        drive.measured_N = measured_N_[finger];
+        return drive;
     }
 
     // Takes the simulated fingers on by so long: pistons follow what they are to give as the paper's do, from 10 to 50
@@ -93,6 +118,36 @@ private:
         for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i] += follows * (forces_N_[i] - given_N_[i]);
         grip_ = stepped(grip_, (buttons_ & 1u) != 0 ? 1.0 : 0.0, given_N_, time_s);
         for (std::size_t i = 0; i < kGloveFingers; ++i) joints_[i] = bent_in(*simulated_, i, grip_.closed[i]);
+        state_ = kDriveOn | kDriveMeasured;
+        measured_N_ = given_N_;
+    }
+
+    // Judges the angles of a set that is new.
+    void judge(const GloveHeard& heard) noexcept {
+        if (heard.time_ns == judged_ns_) return;
+        judged_ns_ = heard.time_ns;
+        const Nanoseconds between_ns = heard.time_ns - heard.before_ns;
+        const bool follows = heard.before_ns != 0 && between_ns <= kGloveLost_ns;
+        // Sets may come in a bunch; the controller took them a period apart.
+        const double between_s = seconds(std::max(between_ns, GloveLink::kSend_ns));
+        for (std::size_t i = 0; i < kGloveFingers; ++i) {
+            const FingerAngles& now = heard.set.joints[i];
+            switch (angle_fault(i, follows ? heard.before.joints[i] : now, now, between_s)) {
+                case AngleFault::none: own_faults_[i] = DeviceFault::none; break;
+                case AngleFault::jumped: own_faults_[i] = DeviceFault::overspeed; break;
+                case AngleFault::beyond_limits: own_faults_[i] = DeviceFault::other; break;
+            }
+        }
+    }
+
+    // Takes what the controller says of its pistons; nothing of a line that is lost.
+    void hear_of(const GloveSet& set) noexcept {
+        const bool measures = !is_lost_ && set.forces_N.has_value();
+        measured_N_ = measures ? *set.forces_N : GloveForces{};
+        is_local_ = set.is_local && !is_lost_;
+        state_ = is_lost_ ? 0u
+                          : (set.motors_on ? kDriveOn : 0u) | (set.fault ? kDriveFault : 0u) |
+                                (measures ? kDriveMeasured : 0u);
     }
 
     // On the way from the set before to the newest, as far as the time since its arrival is of that between them.
@@ -118,9 +173,15 @@ private:
     Pose palm_;
     std::uint32_t buttons_ = 0;
     bool is_lost_ = false, has_fault_ = false;
+    std::array<DeviceFault, kGloveFingers> own_faults_{};
+    Nanoseconds judged_ns_ = 0;  // arrival of the set that own_faults_ are of
+    std::uint32_t state_ = 0;    // of all pistons: DriveState
+    bool is_local_ = false;      // the controller renders some finger by itself
+    GloveForces measured_N_{};
     std::array<FingertipPlace, kGloveFingers> places_{};
     GloveJoints joints_{};
     GloveForces forces_N_{}, given_N_{};
+    GloveLaws laws_{};
     Grip grip_;
 };
 

@@ -8,7 +8,8 @@
 // A sample's joints are the finger's four angles, so that the hand can be drawn, now and of a recording.
 // A simulated glove has the same parts without a line: the hand's first button closes its fingers (grip_shape.hpp), and
 // what a piston gives pushes its finger open.
-// A piston pushes one way alone: of a force at the fingertip it gives what does the same work (piston_force()).
+// A piston pushes one way alone: each sample says which way and how far (OneWayDrive), so that the tick judges what the
+// piston does; and what the controller measures of it.
 // Threads: as haptic_device.hpp; the first part's read() leads the hand and takes the newest set for all, the last
 // part's write() hands the forces over.
 #pragma once

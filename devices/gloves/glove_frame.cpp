@@ -9,9 +9,10 @@ namespace {
 
 constexpr std::uint8_t kSetSync = 0x9d, kCommandSync = 0x9e;
 // The lower half of a frame's second byte; the upper half of a set's has the controller's state.
-constexpr std::uint8_t kKindMask = 0x0f, kPositions = 1, kPositionsAndForces = 2, kForces = 3, kStop = 4;
-constexpr std::uint8_t kMotorsOn = 0x10, kFault = 0x20;
-constexpr std::size_t kAnglesAt = 3, kForcesAt = 27, kCommandForcesAt = 3;
+constexpr std::uint8_t kKindMask = 0x0f, kPositions = 1, kPositionsAndForces = 2, kForces = 3, kStop = 4, kLaw = 5;
+constexpr std::uint8_t kMotorsOn = 0x10, kFault = 0x20, kLocal = 0x40;
+constexpr unsigned kUpperHalf = 4;  // bits up to it: of a command, which fingers are local, or the law's finger
+constexpr std::size_t kAnglesAt = 3, kForcesAt = 27, kCommandForcesAt = 3, kLawAt = 3;
 constexpr int kAngleSteps = 4095;
 
 // CRC-8 with the polynomial x^8 + x^2 + x + 1, most significant bit first, beginning at 0 (SMBus's packet error code).
@@ -42,14 +43,21 @@ void finish(GloveBytes& frame, std::size_t count) noexcept {
     frame.bytes[count - 1] = static_cast<std::byte>(check_of({frame.bytes.data(), count - 1}));
 }
 
+void put_word(GloveBytes& frame, std::size_t at, unsigned word) noexcept {
+    frame.bytes[at] = static_cast<std::byte>(word >> 8);
+    frame.bytes[at + 1] = static_cast<std::byte>(word & 0xffu);
+}
+
 // Returns the size of a frame of this kind; 0: there is none.
 std::size_t size_of(const GloveSet*, std::uint8_t kind) noexcept {
     const std::uint8_t own = kind & kKindMask;
-    if ((kind & ~(kKindMask | kMotorsOn | kFault)) != 0) return 0;
+    if ((kind & ~(kKindMask | kMotorsOn | kFault | kLocal)) != 0) return 0;
     return own == kPositions ? kSetBytes : own == kPositionsAndForces ? kSetWithForcesBytes : 0;
 }
 std::size_t size_of(const GloveCommand*, std::uint8_t kind) noexcept {
-    return kind == kForces || kind == kStop ? kCommandBytes : 0;
+    const std::uint8_t own = kind & kKindMask;
+    if (own == kLaw) return kind >> kUpperHalf < kGloveFingers ? kLawBytes : 0;
+    return own == kForces || kind == kStop ? kCommandBytes : 0;
 }
 
 constexpr std::uint8_t sync_of(const GloveSet*) noexcept { return kSetSync; }
@@ -59,6 +67,7 @@ void read(std::span<const std::byte> bytes, GloveSet& set) noexcept {
     const auto kind = static_cast<std::uint8_t>(bytes[1]);
     set.motors_on = (kind & kMotorsOn) != 0;
     set.fault = (kind & kFault) != 0;
+    set.is_local = (kind & kLocal) != 0;
     for (std::size_t i = 0; i < kGloveFingers * kFingerJoints; ++i) {
         const std::size_t at = kAnglesAt + i / 2 * 3;
         const auto byte = [&](std::size_t k) { return static_cast<unsigned>(bytes[at + k]); };
@@ -70,8 +79,30 @@ void read(std::span<const std::byte> bytes, GloveSet& set) noexcept {
     for (std::size_t i = 0; i < kGloveFingers; ++i) forces_N[i] = force_of(bytes[kForcesAt + i]);
 }
 
+unsigned word_at(std::span<const std::byte> bytes, std::size_t at) noexcept {
+    return static_cast<unsigned>(bytes[at]) << 8 | static_cast<unsigned>(bytes[at + 1]);
+}
+
+DriveLaw law_in(std::span<const std::byte> bytes) noexcept {
+    DriveLaw law;
+    law.holds = true;
+    law.spring_N_per_m = kSpringStep_N_per_m * word_at(bytes, kLawAt);
+    law.damping_Ns_per_m = kDampingStep_Ns_per_m * static_cast<unsigned>(bytes[kLawAt + 2]);
+    law.friction_N = force_of(bytes[kLawAt + 3]);
+    law.start_m = kStartStep_m * word_at(bytes, kLawAt + 4);
+    law.most_N = force_of(bytes[kLawAt + 6]);
+    return law;
+}
+
 void read(std::span<const std::byte> bytes, GloveCommand& command) noexcept {
-    command.stop = static_cast<std::uint8_t>(bytes[1]) == kStop;
+    const auto kind = static_cast<std::uint8_t>(bytes[1]);
+    const auto upper = static_cast<std::uint8_t>(kind >> kUpperHalf);
+    if ((kind & kKindMask) == kLaw) {
+        command.law = {upper, law_in(bytes)};
+        return;
+    }
+    command.stop = kind == kStop;
+    command.local = upper;
     for (std::size_t i = 0; i < kGloveFingers; ++i) command.forces_N[i] = force_of(bytes[kCommandForcesAt + i]);
 }
 
@@ -80,7 +111,8 @@ void read(std::span<const std::byte> bytes, GloveCommand& command) noexcept {
 GloveBytes frame_of(const GloveSet& set) noexcept {
     GloveBytes frame;
     const std::uint8_t kind = set.forces_N ? kPositionsAndForces : kPositions;
-    const auto state = static_cast<std::uint8_t>((set.motors_on ? kMotorsOn : 0) | (set.fault ? kFault : 0));
+    const auto state = static_cast<std::uint8_t>((set.motors_on ? kMotorsOn : 0) | (set.fault ? kFault : 0) |
+                                                 (set.is_local ? kLocal : 0));
     frame.bytes[0] = std::byte{kSetSync};
     frame.bytes[1] = static_cast<std::byte>(kind | state);
     frame.bytes[2] = static_cast<std::byte>(set.number);
@@ -104,8 +136,20 @@ GloveBytes frame_of(const GloveSet& set) noexcept {
 GloveBytes frame_of(const GloveCommand& command) noexcept {
     GloveBytes frame;
     frame.bytes[0] = std::byte{kCommandSync};
-    frame.bytes[1] = std::byte{command.stop ? kStop : kForces};
     frame.bytes[2] = static_cast<std::byte>(command.number);
+    if (command.law) {
+        const auto& [finger, law] = *command.law;
+        frame.bytes[1] = static_cast<std::byte>(kLaw | finger << kUpperHalf);
+        put_word(frame, kLawAt, steps_of(law.spring_N_per_m, 0.0, kSpringStep_N_per_m, 0xffff));
+        frame.bytes[kLawAt + 2] =
+            static_cast<std::byte>(steps_of(law.damping_Ns_per_m, 0.0, kDampingStep_Ns_per_m, 0xff));
+        frame.bytes[kLawAt + 3] = force_byte(law.friction_N);
+        put_word(frame, kLawAt + 4, steps_of(law.start_m, 0.0, kStartStep_m, 0xffff));
+        frame.bytes[kLawAt + 6] = force_byte(law.most_N);
+        finish(frame, kLawBytes);
+        return frame;
+    }
+    frame.bytes[1] = static_cast<std::byte>(command.stop ? kStop : kForces | (command.local & 0x0f) << kUpperHalf);
     for (std::size_t i = 0; !command.stop && i < kGloveFingers; ++i)
         frame.bytes[kCommandForcesAt + i] = force_byte(command.forces_N[i]);
     finish(frame, kCommandBytes);

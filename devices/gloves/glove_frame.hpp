@@ -15,6 +15,8 @@
 #include <optional>
 #include <span>
 
+#include "devices/haptic/haptic_device.hpp"
+
 namespace burin::devices {
 
 inline constexpr std::size_t kGloveFingers = 4, kFingerJoints = 4;
@@ -26,24 +28,36 @@ using GloveForces = std::array<double, kGloveFingers>;  // N, of the pistons; aw
 
 inline constexpr double kLeastAngle_rad = -1.5707963267948966, kAngleRange_rad = 4.71238898038469;
 inline constexpr double kForceStep_N = 0.05, kMostFrameForce_N = 255 * kForceStep_N;
-inline constexpr std::size_t kSetBytes = 28, kSetWithForcesBytes = 32, kCommandBytes = 8;
+inline constexpr std::size_t kSetBytes = 28, kSetWithForcesBytes = 32, kCommandBytes = 8, kLawBytes = 11;
 
 // One set of joint angles, as the controller sends it.
 struct GloveSet {
-    std::uint8_t number = 0;  // counts up, and begins again after 255
-    bool motors_on = false, fault = false;
+    std::uint8_t number = 0;                                  // counts up, and begins again after 255
+    bool motors_on = false, fault = false, is_local = false;  // local: the controller renders a finger by itself
     GloveJoints joints{};
     std::optional<GloveForces> forces_N;  // measured at the pistons; none in a frame of positions alone
     bool operator==(const GloveSet&) const = default;
 };
 
-// A host's command: the forces that the pistons are to give. Stop takes all force off until the next forces.
+// A host's command: the forces that the pistons are to give, and which of them the controller is to render by itself
+// from now on by the newest law that it has of each; one of which it has none follows the forces. Stop takes all force
+// off, and all laws, until the next forces. With a law a command is that law, and nothing else.
 struct GloveCommand {
+    struct Law {
+        std::uint8_t finger = 0;  // below kGloveFingers
+        DriveLaw law;             // holds
+        bool operator==(const Law&) const = default;
+    };
     std::uint8_t number = 0;
     bool stop = false;
     GloveForces forces_N{};
+    std::uint8_t local = 0;  // bit i: finger i
+    std::optional<Law> law = {};
     bool operator==(const GloveCommand&) const = default;
 };
+inline constexpr double kSpringStep_N_per_m = 0.1, kDampingStep_Ns_per_m = 0.05, kStartStep_m = 0.00001;
+
+using GloveLaws = std::array<DriveLaw, kGloveFingers>;
 
 // Bytes of one frame.
 struct GloveBytes {

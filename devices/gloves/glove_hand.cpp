@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace burin::devices {
 namespace {
 
 Quat about_x(double angle_rad) { return glm::angleAxis(angle_rad, Vec3(1.0, 0.0, 0.0)); }
+
+constexpr double degrees(double angle) { return angle * std::numbers::pi / 180.0; }
+
+constexpr AngleLimits kFingerLimits{{degrees(-20), degrees(-20), 0.0, degrees(-5)},
+                                    {degrees(20), degrees(90), degrees(110), degrees(80)}};
+constexpr AngleLimits kThumbLimits{{degrees(-45), degrees(-20), degrees(-10), degrees(-15)},
+                                   {degrees(30), degrees(50), degrees(60), degrees(80)}};
 
 Quat unit(double w, double x, double y, double z) { return glm::normalize(Quat(w, x, y, z)); }
 
@@ -31,6 +39,20 @@ const GloveHand& usual_hand() {
     return hand;
 }
 
+const AngleLimits& angle_limits(std::size_t finger) { return finger == 0 ? kThumbLimits : kFingerLimits; }
+
+AngleFault angle_fault(std::size_t finger, const FingerAngles& before, const FingerAngles& now, double between_s) {
+    constexpr double kStep_rad = kAngleRange_rad / 4095;
+    constexpr double kSlack_rad = 1.5 * kStep_rad;  // a step, and half a step of rounding
+    const AngleLimits& limits = angle_limits(finger);
+    for (std::size_t i = 0; i < kFingerJoints; ++i) {
+        if (!(now[i] >= limits.lowest[i] - kSlack_rad && now[i] <= limits.highest[i] + kSlack_rad))
+            return AngleFault::beyond_limits;
+        if (!(std::abs(now[i] - before[i]) <= kFastestJoint_rad_per_s * between_s)) return AngleFault::jumped;
+    }
+    return AngleFault::none;
+}
+
 FingertipPlace place_of(const FingerChain& finger, const FingerAngles& angles) {
     const Quat side = glm::angleAxis(angles[0], Vec3(0.0, 0.0, 1.0));
     Vec3 tip_base_m(0.0);
@@ -46,18 +68,23 @@ FingertipPlace place_of(const FingerChain& finger, const FingerAngles& angles) {
     // The first joint turns everything beyond it about its -X.
     const Vec3 way_base = glm::cross(Vec3(-1.0, 0.0, 0.0), tip_base_m);
     place.flexes_hand = glm::normalize(base.orientation * (side * way_base));
-    place.piston_hand = glm::normalize(place.hand_from_tip.position_m - finger.piston_hand_m);
+    const Vec3 piston_m = place.hand_from_tip.position_m - finger.piston_hand_m;
+    place.piston_hand = glm::normalize(piston_m);
+    place.piston_m = glm::length(piston_m);
     return place;
 }
 
-PistonForce piston_force(const FingertipPlace& place, const Vec3& force_hand_N) {
-    const double work_N = glm::dot(force_hand_N, place.flexes_hand);
+PistonWay piston_way(const FingertipPlace& place) {
     const double cosine = glm::dot(place.piston_hand, place.flexes_hand);
     // A tip that flexes comes nearer to the palm: the cosine is below 0.
-    const double bounded = std::min(cosine, -kLeastPistonCosine);
-    const double wanted_N = work_N / bounded;
+    return {place.flexes_hand / std::min(cosine, -kLeastPistonCosine), cosine > -kLeastPistonCosine};
+}
+
+PistonForce piston_force(const FingertipPlace& place, const Vec3& force_hand_N) {
+    const PistonWay way = piston_way(place);
+    const double wanted_N = glm::dot(force_hand_N, way.moves_hand);
     const double given_N = std::clamp(wanted_N, 0.0, kMostPistonForce_N);
-    return {given_N, cosine > -kLeastPistonCosine || wanted_N > kMostPistonForce_N};
+    return {given_N, way.is_bounded || wanted_N > kMostPistonForce_N};
 }
 
 }  // namespace burin::devices

@@ -25,17 +25,38 @@ using GloveHand = std::array<FingerChain, kGloveFingers>;
 // (geometry/hand/hand_model.hpp), measured on nobody; its pistons' places are assumed.
 [[nodiscard]] const GloveHand& usual_hand();
 
+// How far a healthy finger bends; as that of the hand that is drawn (geometry/hand/hand_joints.hpp), to its last digit.
+struct AngleLimits {
+    FingerAngles lowest{}, highest{};
+};
+[[nodiscard]] const AngleLimits& angle_limits(std::size_t finger);
+
+// What is wrong with a finger's angles that follow others after so long, in seconds: beyond its limits by more than a
+// step of the readings, which noise may be; or turned faster than any finger does. A fist in one set is that.
+inline constexpr double kFastestJoint_rad_per_s = 40.0;
+enum class AngleFault : std::uint8_t { none, beyond_limits, jumped };
+[[nodiscard]] AngleFault angle_fault(std::size_t finger, const FingerAngles& before, const FingerAngles& now,
+                                     double between_s);
+
 // A fingertip, and how its piston meets it.
 struct FingertipPlace {
     Pose hand_from_tip;     // its +Y is the last segment's
     Vec3 flexes_hand{0.0};  // unit: where the tip goes as the finger flexes in its first joint
     Vec3 piston_hand{0.0};  // unit: along the piston, away from the palm
+    double piston_m = 0.0;  // its length
 };
 [[nodiscard]] FingertipPlace place_of(const FingerChain& finger, const FingerAngles& angles);
 
 // The least cosine between a piston and its tip's way: nearer to a right angle, the piston cannot give the force.
 inline constexpr double kLeastPistonCosine = 0.2;
 inline constexpr double kMostPistonForce_N = 10.0;
+
+// How the tip moves as its piston grows longer, in metres a metre: t / (p . t).
+struct PistonWay {
+    Vec3 moves_hand{0.0};
+    bool is_bounded = false;  // by the cosine
+};
+[[nodiscard]] PistonWay piston_way(const FingertipPlace& place);
 
 struct PistonForce {
     double force_N = 0.0;     // away from the palm; 0 to kMostPistonForce_N, since a piston does not pull

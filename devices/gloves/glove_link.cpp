@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 #include "base/text.hpp"
@@ -29,11 +30,13 @@ std::unexpected<Error> no_port(const std::string& port, int code) {
     }
 }
 
-// 38,400 bit/s, 8 bits, no parity, one stop bit, and nothing that the terminal would do to bytes by itself.
-Result<void> set_up_line(int file, const std::string& port) {
+// 38,400 bit/s, 8 bits, no parity, one stop bit, and nothing that the terminal would do to bytes by itself. Returns how
+// the line was set before.
+Result<termios> set_up_line(int file, const std::string& port) {
     termios line{};
     if (::tcgetattr(file, &line) != 0)
         return fail("glove " + port, "is no serial line", "name a port such as glove:/dev/ttyUSB0");
+    const termios before = line;
     ::cfmakeraw(&line);
     line.c_cflag |= CLOCAL | CREAD;
     ::cfsetispeed(&line, B38400);
@@ -41,10 +44,20 @@ Result<void> set_up_line(int file, const std::string& port) {
     if (::tcsetattr(file, TCSANOW, &line) != 0)
         return fail("glove " + port, std::string("does not take 38,400 bit/s: ") + std::strerror(errno),
                     "see to the device");
-    return {};
+    return before;
+}
+
+// Waits until what was written has gone out, but never for long: a line may take nothing.
+void let_out(int file) {
+    constexpr int kMostWaits = 10;
+    int waiting = 0;
+    for (int i = 0; i < kMostWaits && ::ioctl(file, TIOCOUTQ, &waiting) == 0 && waiting > 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 }  // namespace
+
+GloveLink::GloveLink(int file, Clock& clock) : file_(file), clock_(clock) {}
 
 Result<std::unique_ptr<GloveLink>> GloveLink::open(const std::string& port, Clock& clock) {
     const int file = ::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -53,7 +66,9 @@ Result<std::unique_ptr<GloveLink>> GloveLink::open(const std::string& port, Cloc
     // TIOCEXCL keeps others out, but not root; so two programs also agree by a lock.
     if (::flock(file, LOCK_EX | LOCK_NB) != 0)
         return fail("glove " + port, "is in use by another program", "end that program, or name another port");
-    if (const auto ready = set_up_line(file, port); !ready) return std::unexpected(ready.error());
+    const auto before = set_up_line(file, port);
+    if (!before) return std::unexpected(before.error());
+    link->before_ = std::make_unique<const termios>(*before);
     if (::ioctl(file, TIOCEXCL) != 0) return no_port(port, errno);
     MonotonicClock watch;  // the session's own clock may stand still until the session begins
     const Nanoseconds until_ns = watch.now_ns() + kFirst_ns;
@@ -77,11 +92,16 @@ GloveLink::~GloveLink() {
     if (thread_.joinable()) thread_.join();
     // Another device, which was taken for a glove, gets no byte.
     if (last_.time_ns != 0) send({.number = ++number_, .stop = true});
+    if (before_) {
+        let_out(file_);
+        static_cast<void>(::tcsetattr(file_, TCSANOW, before_.get()));
+        static_cast<void>(::ioctl(file_, TIOCNXCL));
+    }
     ::close(file_);
 }
 
-void GloveLink::command(const GloveForces& forces_N) noexcept {
-    wanted_.draft() = {forces_N, clock_.now_ns()};
+void GloveLink::command(const GloveForces& forces_N, const GloveLaws& laws) noexcept {
+    wanted_.draft() = {forces_N, laws, clock_.now_ns()};
     wanted_.publish();
 }
 
@@ -111,6 +131,32 @@ void GloveLink::send(GloveCommand command) {
     static_cast<void>(::write(file_, frame.bytes.data(), frame.count));
 }
 
+// Sends the newest forces, and before them one of the laws that hold: one that the controller does not have first, then
+// each in its turn, since a frame may be lost. A finger is the controller's when its law has been sent.
+void GloveLink::send_forces(Nanoseconds now_ns) {
+    const Wanted& wanted = wanted_.newest();
+    if (wanted.time_ns == 0 || now_ns - wanted.time_ns > kSilent_ns) {
+        sent_ = {};
+        return send({.number = ++number_, .stop = true});
+    }
+    std::optional<std::size_t> next;
+    for (std::size_t n = 0; n < kGloveFingers; ++n) {
+        const std::size_t i = (next_law_ + n) % kGloveFingers;
+        if (!wanted.laws[i].holds) sent_[i] = {};
+        if (wanted.laws[i].holds && (!next || (sent_[i] != wanted.laws[i] && sent_[*next] == wanted.laws[*next])))
+            next = i;
+    }
+    if (next) {
+        sent_[*next] = wanted.laws[*next];
+        next_law_ = *next + 1;
+        send({.number = ++number_, .law = GloveCommand::Law{static_cast<std::uint8_t>(*next), wanted.laws[*next]}});
+    }
+    std::uint8_t local = 0;
+    for (std::size_t i = 0; i < kGloveFingers; ++i)
+        if (sent_[i].holds) local = static_cast<std::uint8_t>(local | 1u << i);
+    send({.number = ++number_, .forces_N = wanted.forces_N, .local = local});
+}
+
 void GloveLink::run() {
     Nanoseconds sent_ns = 0;
     // relaxed: as where it is set.
@@ -121,9 +167,7 @@ void GloveLink::run() {
         const Nanoseconds now_ns = clock_.now_ns();
         if (now_ns - sent_ns < kSend_ns) continue;
         sent_ns = now_ns;
-        const Wanted& wanted = wanted_.newest();
-        const bool silent = wanted.time_ns == 0 || now_ns - wanted.time_ns > kSilent_ns;
-        send({.number = ++number_, .stop = silent, .forces_N = silent ? GloveForces{} : wanted.forces_N});
+        send_forces(now_ns);
     }
 }
 

@@ -2,8 +2,9 @@
 // The serial line to a glove's controller: a thread that reads its sets and sends it what the pistons are to give.
 //
 // Data flow: line -> GloveFrameReader -> newest set, with the time of its arrival -> the haptic thread. The newest
-// forces -> a command each kSend_ns -> line; a line of 38,400 bit/s carries no more. When the object ends, and where
-// the haptic thread has given no forces for kSilent_ns, the pistons are told to stop.
+// forces -> a command each kSend_ns -> line, and one of the laws that hold before it; a line of 38,400 bit/s carries no
+// more. When the object ends, and where the haptic thread has given no forces for kSilent_ns, the pistons are told to
+// stop, and the line is set as it was before.
 // Failures: a port that is missing, forbidden, busy or no terminal, and one on which no glove is heard, are errors of
 // open(). A line that goes silent, or vanishes, shows in age: GloveHeard::time_ns stays.
 // Threads: open() and the destructor on one; newest() and command() on the haptic thread, wait-free.
@@ -18,6 +19,8 @@
 #include "base/error.hpp"
 #include "base/newest_slot.hpp"
 #include "devices/gloves/glove_frame.hpp"
+
+struct termios;
 
 namespace burin::devices {
 
@@ -41,25 +44,31 @@ public:
     GloveLink& operator=(const GloveLink&) = delete;
 
     [[nodiscard]] const GloveHeard& newest() noexcept { return heard_.newest(); }
-    // Has the pistons give these forces from the next command on.
-    void command(const GloveForces& forces_N) noexcept;
+    // Has the pistons give these forces from the next command on; those with a law that holds are the controller's,
+    // once it has been sent.
+    void command(const GloveForces& forces_N, const GloveLaws& laws = {}) noexcept;
 
 private:
-    GloveLink(int file, Clock& clock) : file_(file), clock_(clock) {}
+    GloveLink(int file, Clock& clock);
     [[nodiscard]] bool read_some();
     void send(GloveCommand command);
+    void send_forces(Nanoseconds now_ns);
     void run();
 
     struct Wanted {
         GloveForces forces_N{};
+        GloveLaws laws{};
         Nanoseconds time_ns = 0;
     };
     int file_;
+    std::unique_ptr<const termios> before_;  // how the line was set, and is set again at the end; null: not set yet
     Clock& clock_;
     GloveFrameReader<GloveSet> reader_;
     GloveHeard last_;
     std::uint64_t bytes_ = 0;
     std::uint8_t number_ = 0;
+    GloveLaws sent_{};              // the laws that the controller has been sent, as far as they hold
+    std::size_t next_law_ = 0;      // the finger whose law is sent next, of those that hold
     NewestSlot<GloveHeard> heard_;  // the link's thread -> the haptic thread
     NewestSlot<Wanted> wanted_;     // the haptic thread -> the link's
     std::atomic<bool> ends_ = false;

@@ -22,6 +22,7 @@ struct DeviceDescription {
     const char* name = "";
     Vec3 workspace_m{0.0};             // width (x), height (y), depth (z) of the box centred on the device origin
     double resolution_m = 0.0;         // position quantum
+    bool drives_one_way = false;       // its samples have a OneWayDrive
     double max_force_N = 0.0;          // peak the device takes, any direction
     Vec3 axis_max_force_N{0.0};        // per axis; 0: no limit of its own
     Vec3 max_torque_Nm{0.0};           // per axis; 0: the axis is passive and gets no torque
@@ -57,6 +58,26 @@ struct DeviceWrench {
 
 enum class DeviceFault : std::uint8_t { none, disconnected, overheated, overspeed, other };
 
+// The one direction in which a part drives, where it has but one: a glove's piston, from its foot on the palm to the
+// fingertip. It turns with the pose, so it comes with each sample. It gives a force F at the handle as F . moves_device
+// along itself, which does the same work, and only as far as that pushes.
+struct OneWayDrive {
+    Vec3 along_device{0.0};  // unit: of the force that it gives at the handle; zero: the part drives every direction
+    Vec3 moves_device{0.0};  // how the handle moves with the drive's length, in metres a metre; bounded
+    double length_m = 0.0;   // from its foot to the handle
+    // For those who record or show them; no tick depends on them.
+    double measured_N = 0.0;  // what it gives, as the device measures it
+    std::uint32_t state = 0;  // bits: DriveState
+    [[nodiscard]] bool is_one() const noexcept { return along_device != Vec3(0.0); }
+};
+enum DriveState : std::uint32_t {
+    kDriveOn = 1u << 0,        // its motor is on
+    kDriveFault = 1u << 1,     // the device says that something is wrong with it
+    kDriveMeasured = 1u << 2,  // measured_N is known
+    kDriveBounded = 1u << 3,   // it stands so far across the handle's way that moves_device is bounded
+    kDriveLocal = 1u << 4,     // the device's controller renders by itself
+};
+
 struct DeviceSample {
     Nanoseconds time_ns = 0;
     Vec3 position_device_m{0.0};
@@ -67,6 +88,18 @@ struct DeviceSample {
     // part alone, and the others go on.
     bool fault_is_of_all = false;
     JointValues joints{};  // as read, for those who record or draw them; no tick depends on them
+    OneWayDrive drive{};
+};
+
+// The law of a contact along a drive of one way, which a device's controller may render by itself while hand and object
+// do not move against each other: a spring that begins where the drive is shorter than start_m, with damping and
+// friction against the drive's motion there.
+struct DriveLaw {
+    bool holds = false;  // now; false: the force that is written counts
+    double spring_N_per_m = 0.0, damping_Ns_per_m = 0.0, friction_N = 0.0;
+    double start_m = 0.0;
+    double most_N = 0.0;  // never more
+    bool operator==(const DriveLaw&) const = default;
 };
 
 // A virtual interface, because the device is chosen at run time.
@@ -76,6 +109,9 @@ public:
     [[nodiscard]] virtual const DeviceDescription& description() const noexcept = 0;
     [[nodiscard]] virtual DeviceSample read() noexcept = 0;
     virtual void write(const DeviceWrench& wrench) noexcept = 0;
+    // Offers the law of the contact of a part that drives one way, before write(). A device whose controller cannot
+    // render by itself takes no notice.
+    virtual void offer(const DriveLaw& /*law*/) noexcept {}
 };
 
 }  // namespace burin::devices

@@ -37,7 +37,8 @@ struct OpenedDevice {
 }
 
 // A part of a device whose parts are read and written by one object: Whole has
-// DeviceSample read(std::size_t part) noexcept and void write(std::size_t part, const DeviceWrench&) noexcept.
+// DeviceSample read(std::size_t part) noexcept and void write(std::size_t part, const DeviceWrench&) noexcept,
+// and may have void offer(std::size_t part, const DriveLaw&) noexcept.
 template <typename Whole>
 class PartOf final : public HapticDevice {
 public:
@@ -46,6 +47,9 @@ public:
     [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
     [[nodiscard]] DeviceSample read() noexcept override { return whole_->read(part_); }
     void write(const DeviceWrench& wrench) noexcept override { whole_->write(part_, wrench); }
+    void offer(const DriveLaw& law) noexcept override {
+        if constexpr (requires { whole_->offer(part_, law); }) whole_->offer(part_, law);
+    }
 
 private:
     std::shared_ptr<Whole> whole_;

@@ -121,4 +121,14 @@ Result<std::vector<PatchPoint>> fingertip_patch(const HandModel& hand, Finger fi
     return patch;
 }
 
+std::vector<double> stiffness_shares(const std::vector<PatchPoint>& patch, double depth_m) {
+    double flat_m = 0.0;  // force over stiffness
+    for (const PatchPoint& point : patch)
+        flat_m += point.share * std::max(0.0, depth_m + patch.front().place_tip_m.z - point.place_tip_m.z);
+    std::vector<double> shares;
+    shares.reserve(patch.size());
+    for (const PatchPoint& point : patch) shares.push_back(point.share * depth_m / flat_m);
+    return shares;
+}
+
 }  // namespace burin::geometry

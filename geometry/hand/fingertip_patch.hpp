@@ -32,4 +32,9 @@ inline constexpr std::size_t kMostPatchPoints = 4096;
 [[nodiscard]] Result<std::vector<PatchPoint>> fingertip_patch(const HandModel& hand, Finger finger,
                                                               const PatchLayout& layout);
 
+// Returns the share of a surface's stiffness that each point renders: its share of the area, times one gain for all
+// with which the patch that is pressed flat so deep is as stiff as a single point in its middle. A fingertip is round,
+// so that few points of a wide patch are deep. Requires a patch of fingertip_patch().
+[[nodiscard]] std::vector<double> stiffness_shares(const std::vector<PatchPoint>& patch, double depth_m);
+
 }  // namespace burin::geometry

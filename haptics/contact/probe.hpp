@@ -19,6 +19,8 @@ inline constexpr std::uint32_t kMostProbePoints = 20;  // four fingers of five p
 struct ProbePoint {
     Vec3 offset_device_m{0.0};  // T_i
     double radius_m = 0.0;      // 0 is a point
+    // Of the stiffness and damping of the surface, what this point renders: its share of a patch's area.
+    double share = 1.0;
 };
 
 struct Probe {

@@ -31,6 +31,15 @@ devices::DeviceWrench sum_of(std::span<const PointForce> forces) noexcept {
     return sum;
 }
 
+double along_drive_N(const Vec3& force_device_N, const devices::OneWayDrive& drive) noexcept {
+    return glm::dot(force_device_N, drive.moves_device);
+}
+
+devices::DeviceWrench as_driven(const devices::DeviceWrench& wrench, const devices::OneWayDrive& drive) noexcept {
+    if (!drive.is_one()) return wrench;
+    return {std::max(0.0, along_drive_N(wrench.force_device_N, drive)) * drive.along_device, Vec3(0.0)};
+}
+
 devices::DeviceWrench driven_part(const devices::DeviceWrench& wrench,
                                   const devices::DeviceDescription& device) noexcept {
     devices::DeviceWrench driven = wrench;

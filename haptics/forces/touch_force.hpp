@@ -75,6 +75,13 @@ struct PointForce {
 // F = sum F_i, torque = sum r_i x F_i; summed in the order given, so that the same inputs give the same bits.
 [[nodiscard]] devices::DeviceWrench sum_of(std::span<const PointForce> forces) noexcept;
 
+// The force of a part that drives one way alone, along its drive: the same work as force_device_N does at the handle;
+// negative where it would have to pull.
+[[nodiscard]] double along_drive_N(const Vec3& force_device_N, const devices::OneWayDrive& drive) noexcept;
+// What such a part gives of a wrench; of any other part the wrench itself.
+[[nodiscard]] devices::DeviceWrench as_driven(const devices::DeviceWrench& wrench,
+                                              const devices::OneWayDrive& drive) noexcept;
+
 // The wrench without the torque about axes that the device cannot drive: a wand's yaw is passive.
 [[nodiscard]] devices::DeviceWrench driven_part(const devices::DeviceWrench& wrench,
                                                 const devices::DeviceDescription& device) noexcept;

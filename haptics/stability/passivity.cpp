@@ -51,6 +51,7 @@ void count(PassivityState& next, const PassivityState& before, const PassivityIn
     next.stored_J = held_J(in, wanted_N);
     next.reserve_J = std::min(settings.reserve_J, before.reserve_J + step.taken_J - (next.stored_J - before.stored_J) +
                                                       step.dissipated_J + step.given_by_surface_J);
+    if (in.one_way) next.reserve_J = 0.0;
     if (in.jumped || before.faded_ticks > 0) next.reserve_J = std::max(0.0, next.reserve_J);
     next.account.budget_J = std::min(next.account.budget_J, next.stored_J + settings.reserve_J);
 }

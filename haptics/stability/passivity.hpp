@@ -78,6 +78,10 @@ struct PassivityInput {
     double max_force_N = 0.0;  // the most that gate and device give; 0: no limit
     bool turns = false;        // the device may be given torque
     bool in_contact = false;
+    // The part drives one way: positions, forces and the surface's velocity are along its drive, as their x. Its
+    // springs are also pressed by what does no work on the drive, so what they store says nothing of what has gone in:
+    // the account alone judges, and nothing is damped.
+    bool one_way = false;
     bool jumped = false;                        // the contact is not continuous with that of the last tick
     Vec3 surface_velocity_device_m_per_s{0.0};  // of the surface touched
 };

@@ -138,7 +138,10 @@ GateStep pass_gate(const GateState& state, const GateInput& input, const GateLim
                         limits.max_slew_N_per_s * dt_s};
     const Limited torque{input.most_torque_Nm, input.device_max_torque_Nm, false,
                          limits.max_torque_slew_Nm_per_s * dt_s};
-    out.given.force_device_N = passed(state.given.force_device_N, ramp * input.wanted.force_device_N, force, out);
+    const Vec3 before_N = input.drives_device == Vec3(0.0)
+                              ? state.given.force_device_N
+                              : glm::length(state.given.force_device_N) * input.drives_device;
+    out.given.force_device_N = passed(before_N, ramp * input.wanted.force_device_N, force, out);
     out.given.torque_device_Nm =
         passed(state.given.torque_device_Nm, ramp * input.wanted.torque_device_Nm, torque, out);
     next.given = out.given;

@@ -2,7 +2,8 @@
 // The last step before the device, always on: whatever the contact model asks for, the commanded wrench is finite,
 // within the force and torque limits, and changes no faster than the slew limits; and it is zero when something is
 // wrong. Force and torque are limited separately, by scaling without a change of direction, except that passive axes
-// get no torque.
+// get no torque. Of a part that drives one way the limits are those of the force along its drive, which may turn
+// meanwhile.
 //
 // A pure function with its state in a struct: no clock, heap, lock or throw; wait-free, a few dozen operations.
 // Order: faults (zero at once: safe comes before smooth), ramps, limits, slew. A limit that is lowered while a force or
@@ -65,6 +66,7 @@ struct GateInput {
     double device_max_force_N = 0.0;
     Vec3 device_axis_max_force_N{0.0};  // 0: that axis has no limit of its own
     Vec3 device_max_torque_Nm{0.0};     // 0: that axis is passive
+    Vec3 drives_device{0.0};            // unit: along which alone a part drives now; zero: it drives every direction
     double most_torque_Nm = HUGE_VAL;   // about any axis: what the energy account affords
     double sample_age_s = 0.0;          // now minus the sample's time
     double loop_gap_s = 0.0;            // now minus the last tick's time; 0 for the first

@@ -37,7 +37,8 @@ Result<TickComparison> TickComparison::create(record::RecordReader& reader, cons
 
 Result<void> TickComparison::add_part(std::size_t table) {
     const std::vector<record::Column>& columns = reader_->table(table).columns;
-    const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m")};
+    const bool one_way = std::ranges::find(columns, "drive_state", &record::Column::name) != columns.end();
+    const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m"), one_way};
     std::vector<record::Column> expected = record::columns_for(shape);
     std::ranges::copy(record::touched_columns(shape), std::back_inserter(expected));
     if (columns != expected)

@@ -49,6 +49,8 @@ public:
     void touch_nothing() { objects_ = {}; }
     void move_to(const Pose& palm) { palm_ = palm; }
 
+    void be_lost(bool is_lost) { fault_ = is_lost ? devices::DeviceFault::disconnected : devices::DeviceFault::none; }
+
     [[nodiscard]] haptics::TickRecord tick(std::size_t finger) const {
         const Pose tip = devices::place_of(devices::usual_hand()[finger], joints_[finger]).hand_from_tip;
         haptics::TickRecord record;
@@ -57,6 +59,7 @@ public:
         record.sample.position_device_m = palm_ * tip.position_m;
         record.sample.orientation_device = palm_.orientation * tip.orientation;
         std::copy(joints_[finger].begin(), joints_[finger].end(), record.sample.joints.begin());
+        record.sample.fault = fault_;
         record.contact.point_count = 1;
         if (objects_[finger] == 0) return record;
         record.flags = haptics::kTickInContact;
@@ -83,12 +86,14 @@ public:
             activity.step({0, hands, {}, &objects}, orders);
             for (auto& hold : orders.holds) all.holds.push_back(hold);
             for (auto& edit : orders.edits) all.edits.push_back(edit);
+            for (auto& message : orders.messages) all.messages.push_back(message);
         }
         return all;
     }
 
 private:
     std::uint64_t tick_ = 1000;
+    devices::DeviceFault fault_ = devices::DeviceFault::none;
     Pose palm_{{0.1, 0.2, 0.3}, glm::normalize(Quat(0.7, -0.6, 0.2, 0.1))};
     devices::GloveJoints joints_{};
     std::array<scene::ObjectId, kFelt> objects_{};
@@ -145,7 +150,7 @@ TEST(HandReading, FingersOnOneSideOfAThingHoldNothing) {
     EXPECT_EQ(opposed_contacts(reading_of({&ticks[0], &ticks[1], &ticks[2], &ticks[3]})), none);
 }
 
-TEST(Grasp, TakesHoldWithTheFingersThatTouchAndLetsGoWhenTheyOpen) {
+TEST(Grasp, G10TakesHoldWithTheFingersThatTouchAndLetsGoWhenTheyOpen) {
     Grasp activity({});
     ActedHand hand;
     hand.bend(devices::GripShape::whole, 0.7);
@@ -166,6 +171,38 @@ TEST(Grasp, TakesHoldWithTheFingersThatTouchAndLetsGoWhenTheyOpen) {
     EXPECT_GT(activity.grasps()[0].ended_ns, activity.grasps()[0].begun_ns);
 }
 
+TEST(Grasp, G10SaysThatTheGloveIsLostAndLetsGoOfWhatItHoldsAfterTheGap) {
+    Grasp activity({});
+    ActedHand hand;
+    hold_ball(hand);
+    ASSERT_EQ(hand.go_on(activity, 50).holds.size(), 1u);
+    hand.be_lost(true);
+    const auto lost = hand.go_on(activity, 90);
+    EXPECT_TRUE(lost.messages.empty());
+    EXPECT_TRUE(lost.holds.empty()) << "a gap of up to 100 ms keeps a grasp";
+    const auto let_go = hand.go_on(activity, 30);
+    ASSERT_FALSE(let_go.messages.empty());
+    EXPECT_TRUE(let_go.messages[0].contains("the glove is lost")) << let_go.messages[0];
+    ASSERT_EQ(let_go.holds.size(), 1u);
+    EXPECT_EQ(let_go.holds[0], (session::HoldObject{"ball", {}, false}));
+    EXPECT_TRUE(hand.go_on(activity, 500).holds.empty()) << "once";
+    hand.be_lost(false);
+    const auto back = hand.go_on(activity, 50);
+    EXPECT_TRUE(back.messages.front().contains("the glove is back")) << back.messages.front();
+    EXPECT_EQ(back.holds.size(), 1u) << "fingers that still hold take hold anew";
+}
+
+TEST(Grasp, G10AGapOfTheGloveThatIsShortKeepsWhatIsHeld) {
+    Grasp activity({});
+    ActedHand hand;
+    hold_ball(hand);
+    ASSERT_EQ(hand.go_on(activity, 50).holds.size(), 1u);
+    hand.be_lost(true);
+    EXPECT_TRUE(hand.go_on(activity, 70).holds.empty());
+    hand.be_lost(false);
+    EXPECT_TRUE(hand.go_on(activity, 200).holds.empty());
+}
+
 TEST(Grasp, TakesNoTable) {
     Grasp activity({});
     ActedHand hand;
@@ -174,35 +211,50 @@ TEST(Grasp, TakesNoTable) {
     EXPECT_TRUE(hand.go_on(activity, 50).holds.empty());
 }
 
-TEST(Grasp, GivesEachFingertipAPatchWhosePointsShareTheStiffness) {
+TEST(Grasp, G3GivesEachFingertipAPatchWhosePointsShareTheStiffnessByTheirAreas) {
     for (const unsigned points : {1u, 2u, 5u})
         for (const PatchStiffness stiffness : {PatchStiffness::shared, PatchStiffness::literal}) {
             const Grasp activity({.points = points, .stiffness = stiffness});
             for (std::size_t part = 0; part < kFelt; ++part) {
                 haptics::TickParameters parameters;
-                parameters.materials.fill({.stiffness_N_per_m = 600.0, .damping_Ns_per_m = 1.0});
                 activity.adjust({0, part}, parameters);
                 ASSERT_EQ(parameters.probe.count, points);
                 EXPECT_EQ(parameters.probe.points[0].offset_device_m, Vec3(0.0));
-                const double all = parameters.materials[3].stiffness_N_per_m * points;
-                EXPECT_NEAR(all, stiffness == PatchStiffness::shared ? 600.0 : 600.0 * points, 1e-9);
-                for (std::uint32_t i = 1; i < points; ++i) {
-                    EXPECT_GT(glm::length(parameters.probe.points[i].offset_device_m), 0.001);
-                    EXPECT_LT(glm::length(parameters.probe.points[i].offset_device_m), 0.006);
+                const auto patch = geometry::fingertip_patch(geometry::known_hand_model(false),
+                                                             static_cast<geometry::Finger>(part), {points, 0.006});
+                ASSERT_TRUE(patch);
+                double flat_m = 0.0;  // pressed in by 2 mm along the middle's palmar axis, of one with the same k
+                for (std::uint32_t i = 0; i < points; ++i) {
+                    const haptics::ProbePoint& point = parameters.probe.points[i];
+                    const double ratio = (*patch)[i].area_m2 / (*patch)[0].area_m2;
+                    EXPECT_NEAR(point.share / parameters.probe.points[0].share,
+                                stiffness == PatchStiffness::shared ? ratio : 1.0, 1e-12);
+                    flat_m +=
+                        point.share * std::max(0.0, 0.002 + (*patch)[0].place_tip_m.z - (*patch)[i].place_tip_m.z);
+                    if (i == 0) continue;
+                    EXPECT_GT(glm::length(point.offset_device_m), 0.0015);
+                    EXPECT_LT(glm::length(point.offset_device_m), 0.009);
+                }
+                if (stiffness == PatchStiffness::shared) {
+                    EXPECT_NEAR(flat_m, 0.002, 1e-12) << points << " points";
                 }
             }
         }
 }
 
 TEST(Grasp, IsMadeAnewOfItsSettings) {
-    for (const GraspOptions& options : {GraspOptions{}, GraspOptions{3, PatchStiffness::literal}}) {
+    for (const GraspOptions& options :
+         {GraspOptions{}, GraspOptions{3, 4.5, PatchStiffness::literal, GloveRendering::local}}) {
         const std::string settings = Grasp(options).settings();
         const auto again = grasp_options_of(settings);
         ASSERT_TRUE(again) << settings;
         EXPECT_EQ(Grasp(*again).settings(), settings);
     }
-    for (const char* wrong :
-         {"hand", "hand --points 0 --mesh shared", "hand --points 5 --mesh soft", "seek --points 5"})
+    for (const char* wrong : {"hand", "hand --points 0 --extent 6 --mesh shared --rendering local",
+                              "hand --points 5 --extent 6 --mesh soft --rendering local",
+                              "hand --points 5 --extent 60 --mesh shared --rendering local",
+                              "hand --points 5 --extent 6 --mesh shared --rendering both",
+                              "hand --points 5 --mesh shared", "seek --points 5"})
         EXPECT_FALSE(grasp_options_of(wrong)) << wrong;
 }
 

@@ -55,7 +55,7 @@ std::map<std::string, std::vector<double>> table_of(const std::string& text) {
 
 }  // namespace
 
-TEST_F(HandSessions, GraspsAndCarriesABall) {
+TEST_F(HandSessions, G10GraspsAndCarriesABall) {
     const auto whole = at.run(hand("whole") + " --grasp whole");
     EXPECT_EQ(whole.status, 0) << whole.output;
     EXPECT_TRUE(whole.output.contains("\ngrasped ball, carried ")) << whole.output;
@@ -64,7 +64,7 @@ TEST_F(HandSessions, GraspsAndCarriesABall) {
     EXPECT_FALSE(whole.output.contains("grasped table")) << whole.output;
 }
 
-TEST_F(HandSessions, PinchesACardAndPointsAtABall) {
+TEST_F(HandSessions, G10PinchesACardAndPointsAtABall) {
     const auto pinch = at.run(hand("pinch") + " --grasp pinch");
     EXPECT_EQ(pinch.status, 0) << pinch.output;
     EXPECT_TRUE(pinch.output.contains("\npinched card, carried ")) << pinch.output;

@@ -28,7 +28,7 @@ Quat rolled(double angle) { return glm::angleAxis(angle, Vec3(0.0, 1.0, 0.0)); }
 
 }  // namespace
 
-TEST(GloveBench, OnePointOfACylinderLeavesThePlateAsItsCosineSays) {
+TEST(GloveBench, G4OnePointOfACylinderLeavesThePlateAsItsCosineSays) {
     const auto pad = of_cylinder(3601, std::numbers::pi), one = of_cylinder(1, 0.0);
     const PressTask task;
     for (const double angle : {0.0, 0.2, 0.4, 0.6, -0.5}) {
@@ -37,7 +37,7 @@ TEST(GloveBench, OnePointOfACylinderLeavesThePlateAsItsCosineSays) {
     }
 }
 
-TEST(GloveBench, ACylinderFeelsTheSameHoweverItIsRolled) {
+TEST(GloveBench, G4ACylinderFeelsTheSameHoweverItIsRolled) {
     const auto pad = of_cylinder(3601, std::numbers::pi);
     const PressTask task;
     for (const PressedOn on : {PressedOn::plate, PressedOn::ball}) {
@@ -49,13 +49,13 @@ TEST(GloveBench, ACylinderFeelsTheSameHoweverItIsRolled) {
 }
 
 // The deepest is 2 mm deep in a ball of 30 mm, wherever it is: a point there is pushed by that.
-TEST(GloveBench, TheDeepestPlaceIsAsDeepAsAskedInAPlateAndInABall) {
+TEST(GloveBench, G4TheDeepestPlaceIsAsDeepAsAskedInAPlateAndInABall) {
     const auto one = of_cylinder(1, 0.0);
     for (const PressedOn on : {PressedOn::plate, PressedOn::ball})
         EXPECT_NEAR(force_of(one, one, rolled(0.3), on, PressTask{}), PressTask{}.depth_m, 1e-9);
 }
 
-TEST(GloveBench, TwentyPointsFeelAFingertipNearlyAsItsWholePadDoes) {
+TEST(GloveBench, G3TwentyPointsFeelAFingertipNearlyAsItsWholePadDoes) {
     auto hand = geometry::read_hand_model("assets/hands/right.glb");
     ASSERT_TRUE(hand) << hand.error().line();
     PressTask task;
@@ -76,7 +76,7 @@ TEST(GloveBench, TwentyPointsFeelAFingertipNearlyAsItsWholePadDoes) {
 
 // A set waits for half a set's time on average before it is taken, goes over in one, and half a tick later the command
 // goes back; the piston is behind by its time constant.
-TEST(GloveBench, ForceIsBehindByWhatTheLineAndThePistonTake) {
+TEST(GloveBench, G2ForceIsBehindByWhatTheLineAndThePistonTake) {
     constexpr double kPiston_Hz = 30.0, piston_s = 1.0 / (2.0 * std::numbers::pi * kPiston_Hz);
     for (const double bits_per_s : {9'600.0, 38'400.0, 115'200.0}) {
         const double set_s = 320.0 / bits_per_s, command_s = 80.0 / bits_per_s;
@@ -86,7 +86,7 @@ TEST(GloveBench, ForceIsBehindByWhatTheLineAndThePistonTake) {
     EXPECT_NEAR(measure_line(MadeAt::controller, 38'400, kPiston_Hz).lag_s, 0.001 + piston_s, 3e-4);
 }
 
-TEST(GloveBench, TheControllersBallIsStifferThanAnyThatComesOverTheLine) {
+TEST(GloveBench, G2TheControllersBallIsStifferThanAnyThatComesOverTheLine) {
     const double local = measure_line(MadeAt::controller, 38'400).stiffest_N_per_m;
     double before = 0.0;
     for (const double bits_per_s : {9'600.0, 38'400.0, 115'200.0}) {

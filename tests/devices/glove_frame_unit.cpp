@@ -38,7 +38,34 @@ void append(std::vector<std::byte>& to, const std::vector<std::byte>& more) {
 
 }  // namespace
 
-TEST(GloveFrames, HaveTheSizesOfThePapersAndReadBackWithinHalfAStep) {
+TEST(GloveFrames, G2ALawReadsBackWithinHalfAStep) {
+    const DriveLaw law{.holds = true,
+                       .spring_N_per_m = 456.78,
+                       .damping_Ns_per_m = 1.23,
+                       .friction_N = 0.41,
+                       .start_m = 0.098765,
+                       .most_N = 9.9};
+    GloveFrameReader<GloveCommand> reader;
+    std::vector<std::byte> line = bytes_of(frame_of(GloveCommand{.number = 7, .law = GloveCommand::Law{3, law}}));
+    EXPECT_EQ(line.size(), kLawBytes);
+    append(line, bytes_of(frame_of(GloveCommand{.number = 8, .forces_N = {1, 2, 3, 4}, .local = 0b1010})));
+    const auto read = read_all(reader, line);
+    ASSERT_EQ(read.size(), 2u);
+    ASSERT_TRUE(read[0].law);
+    EXPECT_EQ(read[0].law->finger, 3);
+    EXPECT_TRUE(read[0].law->law.holds);
+    EXPECT_NEAR(read[0].law->law.spring_N_per_m, 456.78, 0.5001 * kSpringStep_N_per_m);
+    EXPECT_NEAR(read[0].law->law.damping_Ns_per_m, 1.23, 0.5001 * kDampingStep_Ns_per_m);
+    EXPECT_NEAR(read[0].law->law.friction_N, 0.41, 0.5001 * kForceStep_N);
+    EXPECT_NEAR(read[0].law->law.start_m, 0.098765, 0.5001 * kStartStep_m);
+    EXPECT_NEAR(read[0].law->law.most_N, 9.9, 0.5001 * kForceStep_N);
+    EXPECT_EQ(read[1].local, 0b1010);
+    EXPECT_FALSE(read[1].law);
+    EXPECT_EQ(read[1].forces_N, (GloveForces{1, 2, 3, 4}));
+    EXPECT_EQ(reader.counts().missed, 0u);
+}
+
+TEST(GloveFrames, G1HaveTheSizesOfThePapersAndReadBackWithinHalfAStep) {
     for (const bool with_forces : {false, true}) {
         const GloveSet set = set_with(200, 0.4, with_forces);
         const GloveBytes frame = frame_of(set);
@@ -72,7 +99,7 @@ TEST(GloveFrames, HoldWhatIsBeyondThemAtTheirEndsAndNoNumbersAtTheirLeast) {
     EXPECT_DOUBLE_EQ((*read.forces_N)[2], 0.0);
 }
 
-TEST(GloveFrames, AreFoundBehindGarbageHalvesOthersAndOnesWithinOnes) {
+TEST(GloveFrames, G1AreFoundBehindGarbageHalvesOthersAndOnesWithinOnes) {
     const auto good = [&](std::uint8_t number) { return bytes_of(frame_of(set_with(number, 0.3, number % 2 == 0))); };
     std::vector<std::byte> line{std::byte{0x9d}, std::byte{0x9d}, std::byte{0x01},
                                 std::byte{0xff}};  // begins of frames
@@ -101,7 +128,7 @@ TEST(GloveFrames, AreFoundBehindGarbageHalvesOthersAndOnesWithinOnes) {
     EXPECT_GT(reader.counts().missed, 0u);
 }
 
-TEST(GloveFrames, ABitThatFlipsIsNoticedWhereverItIs) {
+TEST(GloveFrames, G1ABitThatFlipsIsNoticedWhereverItIs) {
     const auto frame = bytes_of(frame_of(set_with(77, 0.9, true)));
     for (std::size_t bit = 0; bit < 8 * frame.size(); ++bit) {
         auto flipped = frame;
@@ -112,7 +139,7 @@ TEST(GloveFrames, ABitThatFlipsIsNoticedWhereverItIs) {
     }
 }
 
-TEST(GloveFrames, ReadersTakeAnyBytesAndComeIntoStepAgain) {
+TEST(GloveFrames, G1ReadersTakeAnyBytesAndComeIntoStepAgain) {
     std::mt19937 random(11);
     GloveFrameReader<GloveSet> sets;
     GloveFrameReader<GloveCommand> commands;

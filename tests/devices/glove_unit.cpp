@@ -69,7 +69,7 @@ TEST(GloveHands, StraightFingersAreAsLongAsTheirSegments) {
     }
 }
 
-TEST(GloveHands, APistonDoesTheSameWorkAndPushesAlone) {
+TEST(GloveHands, G6APistonDoesTheSameWorkAndPushesAlone) {
     const FingerChain& index = usual_hand()[1];
     const FingertipPlace place = place_of(index, flexed(0.8));
     const Vec3 against = -2.0 * place.flexes_hand;  // what is grasped pushes the tip open
@@ -87,7 +87,7 @@ TEST(GloveHands, APistonDoesTheSameWorkAndPushesAlone) {
     EXPECT_LE(piston_force(square, against).force_N, 2.0 / kLeastPistonCosine + 1e-12);
 }
 
-TEST(EmulatedGloves, APistonFollowsAsALowPassOpensItsFingerAndStopsByItself) {
+TEST(EmulatedGloves, G16APistonFollowsAsALowPassOpensItsFingerAndStopsByItself) {
     EmulatedGlove glove{.motion = GloveMotion::still};
     const EmulatedGlove straight = stepped(glove);
     for (int i = 0; i < 100; ++i)
@@ -102,6 +102,88 @@ TEST(EmulatedGloves, APistonFollowsAsALowPassOpensItsFingerAndStopsByItself) {
     EXPECT_NEAR(jump.given_N[0], 8.0 * (1.0 - std::exp(-0.006 * 2.0 * 3.14159265 * 25.0)), 0.02);
     for (int i = 0; i < 200; ++i) glove = stepped(glove);  // nobody commands any more
     EXPECT_LT(glove.given_N[1], 1e-6);
+}
+
+TEST(GloveHands, AFistInOneSetIsAFaultAndNoiseOfOneStepPastALimitIsNone) {
+    constexpr double kStep_rad = kAngleRange_rad / 4095, kSet_s = 1.0 / 120.0;
+    for (std::size_t i = 0; i < kGloveFingers; ++i) {
+        const FingerAngles open = bent_in(GripShape::whole, i, 0.0), fist = bent_in(GripShape::whole, i, 1.0);
+        EXPECT_EQ(angle_fault(i, open, open, kSet_s), AngleFault::none);
+        EXPECT_EQ(angle_fault(i, open, fist, kSet_s), AngleFault::jumped) << i;
+        // A quick hand closes in a tenth of a second.
+        EXPECT_EQ(angle_fault(i, bent_in(GripShape::whole, i, 0.0), bent_in(GripShape::whole, i, kSet_s / 0.1), kSet_s),
+                  AngleFault::none);
+        for (std::size_t k = 0; k < kFingerJoints; ++k) {
+            FingerAngles end = open;
+            end[k] = angle_limits(i).highest[k] + kStep_rad;
+            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::none) << "noise";
+            end[k] += kStep_rad;
+            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::beyond_limits);
+            end[k] = angle_limits(i).lowest[k] - kStep_rad;
+            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::none) << "noise";
+            end[k] -= kStep_rad;
+            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::beyond_limits);
+        }
+        FingerAngles none = open;
+        none[2] = std::nan("");
+        EXPECT_NE(angle_fault(i, open, none, kSet_s), AngleFault::none);
+    }
+}
+
+// What the controller is left to render: it goes from the host's force to its own, and back, without a step.
+TEST(EmulatedGloves, G2TakeALawOverAndGiveItBackWithoutAStepOfForce) {
+    constexpr std::size_t kIndex = 1;
+    EmulatedGlove glove{.motion = GloveMotion::still};
+    const GloveCommand forces{.number = 0, .forces_N = {0, 2, 0, 0}};
+    for (int i = 0; i < 200; ++i) glove = stepped(with_command(glove, forces));
+    const double host_N = glove.given_N[kIndex];
+    EXPECT_NEAR(host_N, 2.0, 0.01);
+    // A spring that gives the same here, and is twice as strong a little deeper.
+    DriveLaw law{.holds = true, .spring_N_per_m = 400.0, .damping_Ns_per_m = 0.5, .most_N = 8.0};
+    law.start_m = glove.pistons_m[kIndex] + host_N / law.spring_N_per_m;
+    glove = with_command(glove, {.number = 1, .law = GloveCommand::Law{kIndex, law}});
+    GloveCommand started = forces;
+    started.local = 1u << kIndex;
+    double before_N = glove.given_N[kIndex], greatest_step_N = 0.0;
+    const auto go_on = [&](const GloveCommand& command, int steps) {
+        for (int i = 0; i < steps; ++i) {
+            glove = stepped(with_command(glove, command));
+            greatest_step_N = std::max(greatest_step_N, std::abs(glove.given_N[kIndex] - before_N));
+            before_N = glove.given_N[kIndex];
+        }
+    };
+    go_on(started, 100);
+    EXPECT_LT(greatest_step_N, 0.02);
+    EXPECT_TRUE(set_of(glove).is_local);
+    // The host's force is of no account to it now; the length is.
+    GloveCommand other = started;
+    other.forces_N[kIndex] = 7.0;
+    go_on(other, 100);
+    EXPECT_LT(greatest_step_N, 0.02);
+    EXPECT_NEAR(glove.given_N[kIndex], 400.0 * (law.start_m - glove.pistons_m[kIndex]), 0.02);
+    go_on(forces, 100);
+    EXPECT_LT(greatest_step_N, 0.05);
+    EXPECT_NEAR(glove.given_N[kIndex], 2.0, 0.01);
+    EXPECT_FALSE(set_of(glove).is_local);
+}
+
+TEST(EmulatedGloves, G2RenderByTheirLawAsLongAsTheHostIsHeardAndNoLonger) {
+    EmulatedGlove glove{.motion = GloveMotion::still};
+    glove = stepped(glove);
+    const DriveLaw law{.holds = true, .spring_N_per_m = 1000.0, .start_m = glove.pistons_m[2] + 0.01, .most_N = 3.0};
+    glove = with_command(glove, {.law = GloveCommand::Law{2, law}});
+    for (int i = 0; i < 100; ++i) glove = stepped(with_command(glove, {.local = 1u << 2}));
+    EXPECT_GT(glove.given_N[2], 1.0);
+    EXPECT_LE(glove.given_N[2], 3.0) << "never more than the law allows";
+    for (int i = 0; i < 100; ++i) glove = stepped(glove);  // nobody commands any more
+    EXPECT_LT(glove.given_N[2], 1e-3);
+    EXPECT_FALSE(set_of(glove).is_local);
+    // A finger that is to be local and has no law follows the host.
+    for (int i = 0; i < 100; ++i) glove = stepped(with_command(glove, {.forces_N = {0, 0, 1, 0}, .local = 1u << 2}));
+    EXPECT_NEAR(glove.given_N[2], 1.0, 0.01);
+    glove = with_command(glove, {.stop = true});
+    for (int i = 0; i < 100; ++i) glove = stepped(glove);
+    EXPECT_LT(glove.given_N[2], 1e-3);
 }
 
 TEST(Gloves, SayWhatIsWrongWithAPort) {
@@ -124,7 +206,7 @@ TEST(Gloves, SayWhatIsWrongWithAPort) {
     EXPECT_EQ(again->parts.size(), kGloveFingers);
 }
 
-TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
+TEST(Gloves, G1FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
     RunningGlove running(GloveMotion::closing);
     MonotonicClock clock;
     auto opened = open_haptic_device("glove:" + running.port().name(), {clock, still_hand()});
@@ -132,10 +214,10 @@ TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
     ASSERT_EQ(opened->parts.size(), 4u);
     EXPECT_EQ(opened->parts[1].name, "index");
     // Ticks of a millisecond until the fingers have closed a good deal, but no longer than some seconds.
-    Vec3 first_m(0.0), last_m(0.0);
-    double longest_step_m = 0.0, given_N = 0.0;
+    Vec3 first_m(0.0), last_m(0.0), along(0.0);
+    double longest_step_m = 0.0, given_N = 0.0, measured_N = 0.0;
     bool has_paused = false;
-    for (int tick = 0; tick < 4000 && (glm::distance(first_m, last_m) < 0.03 || given_N < 1.0); ++tick) {
+    for (int tick = 0; tick < 4000 && (given_N < 1.0 || measured_N < 0.5); ++tick) {
         clock.sleep_until(clock.now_ns() + 1'000'000);
         for (std::size_t i = 0; i < 4; ++i) {
             const DeviceSample sample = opened->parts[i].device->read();
@@ -143,6 +225,9 @@ TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
             const bool is_late = sample.fault == DeviceFault::disconnected;
             ASSERT_TRUE(is_late || sample.fault == DeviceFault::none) << tick;
             if (i != 1) continue;
+            along = sample.drive.along_device;
+            EXPECT_TRUE(is_late || (sample.drive.state & kDriveMeasured) != 0);
+            measured_N = std::max(measured_N, sample.drive.measured_N);
             has_paused = has_paused || is_late;
             if (tick > 0 && !has_paused)
                 longest_step_m = std::max(longest_step_m, glm::distance(sample.position_device_m, last_m));
@@ -151,12 +236,14 @@ TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
             if (!is_late) has_paused = false;
         }
         for (std::size_t i = 0; i < 4; ++i)
-            opened->parts[i].device->write({i == 1 ? Vec3(0.0, 0.0, 2.0) : Vec3(0.0), Vec3(0.0)});
+            opened->parts[i].device->write(
+                {i == 1 && glm::distance(first_m, last_m) > 0.03 ? 2.0 * along : Vec3(0.0), Vec3(0.0)});
         given_N = running.port().given_N(1);
     }
     EXPECT_GT(glm::distance(first_m, last_m), 0.03);
     EXPECT_GT(given_N, 1.0) << "the index finger is pushed open";
     EXPECT_LT(running.port().given_N(0), 0.01);
+    EXPECT_GT(measured_N, 0.5) << "what the controller measures comes back";
     EXPECT_LT(longest_step_m, 0.02) << "a tick sees a motion, and no jumps from set to set";
 }
 

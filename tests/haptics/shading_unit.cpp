@@ -58,7 +58,7 @@ Felt feel(const BumpySphere& shape, const geometry::LocalSurface& surface, const
 
 }  // namespace
 
-TEST(ForceShading, TheForceOnASphereChangesByLessThanTwoPercentATickAndPointsAwayFromItsMiddle) {
+TEST(ForceShading, G5TheForceOnASphereChangesByLessThanTwoPercentATickAndPointsAwayFromItsMiddle) {
     const BumpySphere shape;
     for (const int times : {4, 5}) {  // edges of 3.8 and 1.9 mm; facets meet at 0.09 and 0.045 radians
         const test::Surface mesh = test::touchable(test::mesh_of(shape, times));
@@ -73,7 +73,7 @@ TEST(ForceShading, TheForceOnASphereChangesByLessThanTwoPercentATickAndPointsAwa
     }
 }
 
-TEST(ForceShading, TheForceOnABumpySphereIsFarNearerToTheSmoothOneThanThatOfFacets) {
+TEST(ForceShading, G5TheForceOnABumpySphereIsFarNearerToTheSmoothOneThanThatOfFacets) {
     const BumpySphere shape{.bump_m = 0.4 * kMm};
     const test::Surface mesh = test::touchable(test::mesh_of(shape, 5));
     for (const double radius : {0.0, 0.5 * kMm, 4 * kMm}) {
@@ -86,7 +86,7 @@ TEST(ForceShading, TheForceOnABumpySphereIsFarNearerToTheSmoothOneThanThatOfFace
     }
 }
 
-TEST(ForceShading, InsideABallItPointsToItsMiddle) {
+TEST(ForceShading, G5InsideABallItPointsToItsMiddle) {
     // Hollow everywhere: the HIP, 8 mm deep below a wall of 30 mm, is drawn more strongly along it than on a flat one.
     const BumpySphere shape{.radius_m = 0.03};
     geometry::TriangleMesh hollow = test::mesh_of(shape, 4);

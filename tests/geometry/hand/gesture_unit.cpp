@@ -23,7 +23,7 @@ GestureInput input_at(Nanoseconds time_ns, double closed, std::array<bool, kHand
     return input;
 }
 
-TEST(Gesture, BeginsWithContactOfTwoFingersAlone) {
+TEST(Gesture, G10BeginsWithContactOfTwoFingersAlone) {
     EXPECT_FALSE(step_gesture({}, input_at(1, 0.9, {})).grasps());
     EXPECT_FALSE(step_gesture({}, input_at(1, 0.9, {true})).grasps());
     EXPECT_FALSE(step_gesture({}, input_at(1, 0.0, {true, true, true, true})).grasps());
@@ -32,19 +32,19 @@ TEST(Gesture, BeginsWithContactOfTwoFingersAlone) {
     EXPECT_EQ(grasp.object, kBall);
 }
 
-TEST(Gesture, IsAPinchOfThumbAndIndexAlone) {
+TEST(Gesture, G10IsAPinchOfThumbAndIndexAlone) {
     const GestureState pinch = step_gesture({}, input_at(1, 0.3, {true, true}));
     EXPECT_EQ(pinch.gesture, Gesture::pinch);
     EXPECT_EQ(step_gesture(pinch, input_at(2, 0.3, {true, true, true})).gesture, Gesture::whole);
 }
 
-TEST(Gesture, OfTwoObjectsAtOnceIsNoGrasp) {
+TEST(Gesture, G10OfTwoObjectsAtOnceIsNoGrasp) {
     GestureInput input = input_at(1, 0.3, {true, true});
     input.touched[1] = kBall + 1;
     EXPECT_FALSE(step_gesture({}, input).grasps());
 }
 
-TEST(Gesture, PointsWithItsIndexStraight) {
+TEST(Gesture, G10PointsWithItsIndexStraight) {
     GestureInput input = input_at(1, 0.8, {});
     input.closures[1] = 0.05;
     const GestureState pointing = step_gesture({}, input);
@@ -55,7 +55,7 @@ TEST(Gesture, PointsWithItsIndexStraight) {
     EXPECT_EQ(step_gesture({}, input).gesture, Gesture::none);
 }
 
-TEST(Gesture, EndsWhenTheFingersHaveOpenedForATime) {
+TEST(Gesture, G10EndsWhenTheFingersHaveOpenedForATime) {
     GestureState state = step_gesture({}, input_at(1, 0.4, {true, true, true}));
     Nanoseconds time_ns = 1;
     const auto open_for = [&](Nanoseconds for_ns) {
@@ -74,7 +74,7 @@ TEST(Gesture, EndsWhenTheFingersHaveOpenedForATime) {
     EXPECT_FALSE(state.grasps());
 }
 
-TEST(Gesture, OutlivesAGapOfATenthOfASecondAndNoLongerOne) {
+TEST(Gesture, G10OutlivesAGapOfATenthOfASecondAndNoLongerOne) {
     const GestureState grasp = step_gesture({}, input_at(1'000, 0.4, {true, true, true}));
     EXPECT_TRUE(step_gesture(grasp, input_at(1'000 + kMostGap_ns, 0.2, {})).grasps());
     EXPECT_FALSE(step_gesture(grasp, input_at(1'001 + kMostGap_ns, 0.2, {})).grasps());
@@ -136,7 +136,7 @@ private:
     Vec3 center_m_{0.0};
 };
 
-TEST(Gesture, LosesAndInventsNoneOfTenThousandNoisyGrasps) {
+TEST(Gesture, G10LosesAndInventsNoneOfTenThousandNoisyGrasps) {
     constexpr unsigned kTrials = 10'000;
     unsigned lost = 0, invented = 0, grasps = 0;
     for (unsigned trial = 0; trial < kTrials; ++trial) {

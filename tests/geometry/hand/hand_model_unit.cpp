@@ -212,7 +212,7 @@ TEST_P(BothHands, FistKeepsTheThicknessThatLinearBlendingLoses) {
     }
 }
 
-TEST_P(BothHands, FeelByPointsOfTheirSkinWhoseSharesAddUp) {
+TEST_P(BothHands, G3FeelByPointsOfTheirSkinWhoseSharesAddUp) {
     for (const Finger finger : kAllFingers)
         for (const std::size_t points : {1u, 5u, 20u, 200u}) {
             const auto patch = fingertip_patch(hand_, finger, {.points = points, .extent_m = 0.004});
@@ -230,7 +230,7 @@ TEST_P(BothHands, FeelByPointsOfTheirSkinWhoseSharesAddUp) {
         }
 }
 
-TEST_P(BothHands, KeepTheirPatchOnTheSkinWhenFingersBend) {
+TEST_P(BothHands, G3KeepTheirPatchOnTheSkinWhenFingersBend) {
     const auto patch = fingertip_patch(hand_, Finger::index, {});
     ASSERT_TRUE(patch);
     const HandBend bend = any_bend(3);
@@ -242,7 +242,7 @@ TEST_P(BothHands, KeepTheirPatchOnTheSkinWhenFingersBend) {
     }
 }
 
-TEST(FingertipPatch, RefusesNumbersThatMakeNoPatch) {
+TEST(FingertipPatch, G3RefusesNumbersThatMakeNoPatch) {
     const HandModel hand = hand_of("right");
     for (const PatchLayout& layout : {PatchLayout{0, 0.004}, PatchLayout{5, 0.0}, PatchLayout{5, 0.5},
                                       PatchLayout{5, NAN}, PatchLayout{100'000, 0.004}}) {
