@@ -121,6 +121,7 @@ void Grasp::adjust(session::PartOfHand of, haptics::TickParameters& parameters) 
     parameters.shape = {};
     parameters.tool.count = 0;
     parameters.clearance_ratio = 0.0;
+    if (placements_[of.part].number > 0) parameters.placement = placements_[of.part];
     parameters.local_rendering = options_.rendering == GloveRendering::local;
 }
 
@@ -171,6 +172,26 @@ void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& tic
     if (hand_ && world != nullptr) point_at(*hand_, *world, orders);
 }
 
+// A contact that is sound holds a fingertip, also where the hand has gone away on the thing's other side. Whoever presses
+// is held back by it; a hand that has let go is not.
+void Grasp::free_fingers(const HandReading& hand, session::ActivityOrders& orders) {
+    constexpr double kFar_m = 0.03;  // about twice as thick as a fingertip; a press goes some millimetres deep
+    constexpr Nanoseconds kStays_ns = 150'000'000;
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        const FingerReading& finger = hand.fingers[i];
+        const double far_m = finger.object != 0 ? glm::length(finger.out_scene_m) / hand.scene_from_hand.scale : 0.0;
+        if (gesture_.grasps() || !(far_m > kFar_m)) {
+            behind_since_ns_[i] = 0;
+            continue;
+        }
+        if (behind_since_ns_[i] == 0) behind_since_ns_[i] = hand.time_ns;
+        if (hand.time_ns - behind_since_ns_[i] < kStays_ns) continue;
+        behind_since_ns_[i] = 0;
+        placements_[i] = {placements_[i].number + 1, finger.at_scene_m};
+        orders.parameters = true;
+    }
+}
+
 void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders) {
     geometry::GestureInput input{.time_ns = hand.time_ns, .closures = {}, .touched = opposed_contacts(hand)};
     for (std::size_t i = 0; i < geometry::kHandFingers; ++i)
@@ -180,6 +201,7 @@ void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world
             touched == nullptr || ball_around(*touched).second > kLargest_m)
             object = 0;
     const geometry::GestureState before = std::exchange(gesture_, geometry::step_gesture(gesture_, input));
+    free_fingers(hand, orders);
     if (world == nullptr) return;
     const bool same = before.grasps() && gesture_.grasps() && before.object == gesture_.object;
     if (before.grasps() && !same) end_grasp(hand.time_ns, orders);

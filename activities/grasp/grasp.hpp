@@ -57,6 +57,8 @@ private:
     // Says when the glove is lost and when it is back, and lets go of what a hand that is lost for long holds.
     void watch_glove(const std::array<const haptics::TickRecord*, kFelt>& ticks, const session::WorldObjects* world,
                      session::ActivityOrders& orders);
+    // Sets a fingertip that stays behind a thing to the hand, when that has left and holds nothing.
+    void free_fingers(const HandReading& hand, session::ActivityOrders& orders);
     void go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders);
     [[nodiscard]] Vec3 grip_scene_m() const;
     void begin_grasp(const session::WorldObjects& world, session::ActivityOrders& orders);
@@ -76,9 +78,11 @@ private:
     std::array<bool, geometry::kHandFingers> holding_{};  // the fingers with which the last grasp began
     Vec3 taken_at_m_{0.0};                                // where they were then, on average
     std::vector<Grasped> grasps_;
-    std::vector<bool> is_ball_;                       // of the objects that are seen at the beginning
-    std::string pointed_at_;                          // empty: nothing
-    std::optional<scene::PropertyValue> its_colour_;  // before it was lit up
+    std::array<Nanoseconds, kFelt> behind_since_ns_{};         // since when a finger is far behind; 0: it is not
+    std::array<haptics::ProxyPlacement, kFelt> placements_{};  // where it was set to the hand last
+    std::vector<bool> is_ball_;                                // of the objects that are seen at the beginning
+    std::string pointed_at_;                                   // empty: nothing
+    std::optional<scene::PropertyValue> its_colour_;           // before it was lit up
 };
 
 }  // namespace burin::activities

@@ -15,7 +15,9 @@ geometry::FingerBend bend_of(const haptics::TickRecord& tick) {
 }
 
 FingerReading finger_of(const haptics::TickRecord& tick) {
-    FingerReading finger{bend_of(tick), 0, Vec3(0.0), Vec3(0.0)};
+    FingerReading finger;
+    finger.bend = bend_of(tick);
+    finger.at_scene_m = tick.contact.points[0].hip_object_m;
     if (!tick.in_contact()) return finger;
     const haptics::PointRecord& deepest = tick.deepest();
     finger.object = deepest.object;

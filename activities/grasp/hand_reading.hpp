@@ -23,6 +23,7 @@ struct FingerReading {
     std::uint64_t object = 0;  // that it touches; 0: none
     Vec3 normal_scene{0.0};    // of that contact
     Vec3 out_scene_m{0.0};     // from where the fingertip is to where it rests on the surface
+    Vec3 at_scene_m{0.0};      // where the fingertip is
 };
 
 struct HandReading {

@@ -13,7 +13,7 @@ namespace burin::bench {
 namespace {
 
 constexpr std::size_t kIndex = 1;
-constexpr double kTrial_s = 1.5, kEnd_s = 0.5, kRest_m = 0.0002;
+constexpr double kTrial_s = 1.5, kEnd_s = 0.5, kBack_m = 0.0002;
 // How far the hand is closed when a trial begins and when it meets the ball.
 constexpr double kFrom = 0.25, kMeets = 0.3;
 // The script's moment at which the emulated hand begins to close.
@@ -107,13 +107,13 @@ Result<std::vector<TrialMoment>> close_on_ball(MadeAt at, double stiffness_N_per
 
 bool rests_at_end(const std::vector<TrialMoment>& moments) {
     if (moments.empty()) return false;
-    double least = HUGE_VAL, most = -HUGE_VAL;
+    double least_m = HUGE_VAL, back_m = 0.0;
     for (const TrialMoment& moment : moments) {
         if (moment.time_s < moments.back().time_s - kEnd_s) continue;
-        least = std::min(least, moment.piston_m);
-        most = std::max(most, moment.piston_m);
+        least_m = std::min(least_m, moment.piston_m);
+        back_m = std::max(back_m, moment.piston_m - least_m);
     }
-    return most - least < kRest_m;
+    return back_m < kBack_m;
 }
 
 Result<TrialFigures> try_line(MadeAt at) {

@@ -21,15 +21,16 @@ struct TrialMoment {
 
 struct TrialFigures {
     MadeAt at = MadeAt::controller;
-    double stiffest_N_per_m = 0.0;  // at which the finger comes to rest: moves by less than 0.2 mm in the last 0.5 s
-    double lag_s = 0.0;             // of the piston's force behind the ball's, at kSoft_N_per_m
-    double force_error = 0.0;       // rms over the greatest, likewise
+    // At which the finger does not go to and fro: in the last 0.5 s of closing it is pushed back by less than 0.2 mm.
+    double stiffest_N_per_m = 0.0;
+    double lag_s = 0.0;        // of the piston's force behind the ball's, at kSoft_N_per_m
+    double force_error = 0.0;  // rms over the greatest, likewise
 };
 inline constexpr double kSoft_N_per_m = 100.0;
 
 // Has the finger close on a ball for 1.5 s. Takes as long.
 [[nodiscard]] Result<std::vector<TrialMoment>> close_on_ball(MadeAt at, double stiffness_N_per_m);
-// Whether the finger has come to rest at the end.
+// Whether the finger goes to and fro no more at the end.
 [[nodiscard]] bool rests_at_end(const std::vector<TrialMoment>& moments);
 // Takes about half a minute.
 [[nodiscard]] Result<TrialFigures> try_line(MadeAt at);

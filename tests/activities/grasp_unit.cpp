@@ -46,6 +46,7 @@ public:
         objects_[finger] = object;
         normals_[finger] = normal;
     }
+    void press(double depth_m) { depth_m_ = depth_m; }
     void touch_nothing() { objects_ = {}; }
     void move_to(const Pose& palm) { palm_ = palm; }
 
@@ -66,7 +67,7 @@ public:
         record.contact.points[0].object = static_cast<std::uint32_t>(objects_[finger]);
         record.contact.points[0].normal_object = normals_[finger];
         record.contact.points[0].hip_object_m = record.sample.position_device_m;
-        record.contact.points[0].proxy_object_m = record.sample.position_device_m + 0.002 * normals_[finger];
+        record.contact.points[0].proxy_object_m = record.sample.position_device_m + depth_m_ * normals_[finger];
         return record;
     }
     // Has the activity go on by so many turns of this hand.
@@ -86,6 +87,7 @@ public:
             activity.step({0, hands, {}, &objects}, orders);
             for (auto& hold : orders.holds) all.holds.push_back(hold);
             for (auto& edit : orders.edits) all.edits.push_back(edit);
+            all.parameters = all.parameters || orders.parameters;
             for (auto& message : orders.messages) all.messages.push_back(message);
         }
         return all;
@@ -93,6 +95,7 @@ public:
 
 private:
     std::uint64_t tick_ = 1000;
+    double depth_m_ = 0.002;
     devices::DeviceFault fault_ = devices::DeviceFault::none;
     Pose palm_{{0.1, 0.2, 0.3}, glm::normalize(Quat(0.7, -0.6, 0.2, 0.1))};
     devices::GloveJoints joints_{};
@@ -201,6 +204,24 @@ TEST(Grasp, G10AGapOfTheGloveThatIsShortKeepsWhatIsHeld) {
     EXPECT_TRUE(hand.go_on(activity, 70).holds.empty());
     hand.be_lost(false);
     EXPECT_TRUE(hand.go_on(activity, 200).holds.empty());
+}
+
+TEST(Grasp, SetsAFingertipThatStaysBehindAThingToTheHand) {
+    Grasp activity({});
+    ActedHand hand;
+    hand.bend(devices::GripShape::pinch, 0.2);
+    hand.touch(1, kBall, {0.0, 0.0, 1.0});
+    hand.press(0.005);
+    EXPECT_FALSE(hand.go_on(activity, 1000).parameters) << "a press, however long";
+    hand.press(0.08);
+    EXPECT_FALSE(hand.go_on(activity, 100).parameters);
+    EXPECT_TRUE(hand.go_on(activity, 100).parameters);
+    haptics::TickParameters index, thumb;
+    activity.adjust({0, 1}, index);
+    activity.adjust({0, 0}, thumb);
+    EXPECT_EQ(index.placement.number, 1u);
+    EXPECT_LT(glm::distance(index.placement.position_object_m, hand.tick(1).sample.position_device_m), 1e-12);
+    EXPECT_EQ(thumb.placement.number, 0u);
 }
 
 TEST(Grasp, TakesNoTable) {

@@ -90,6 +90,9 @@ TEST_F(HandSessions, ALineThatIsPulledInMidGraspEndsTheForceInAllPartsAtOnceAndT
     const auto recorded = at.run(with_glove("--silent-from 5 --silent-for 1", hand("glove") + " --record h.session"));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     EXPECT_TRUE(recorded.output.contains("the hand grasps ball")) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the glove is lost")) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the hand lets go of ball")) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the glove is back")) << recorded.output;
     std::array<std::map<std::string, std::vector<double>>, 4> parts;
     constexpr std::array<const char*, 4> kNames{"thumb", "index", "middle", "ring"};
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -137,6 +140,18 @@ TEST_F(HandSessions, SaysWhatItTakes) {
     EXPECT_EQ(both.status, 1);
     EXPECT_TRUE(both.output.contains("--device names glove:/dev/ttyUSB0")) << both.output;
     EXPECT_EQ(at.run(burin + " hand --points 6").status, 2);
+    const auto twice = at.run(burin + " hand --grasp whole --input hand.txt");
+    EXPECT_EQ(twice.status, 1);
+    EXPECT_TRUE(twice.output.contains("--input names another")) << twice.output;
+    const auto local = at.run(burin + " hand --rendering local");
+    EXPECT_EQ(local.status, 1);
+    EXPECT_TRUE(local.output.contains("needs a glove's controller")) << local.output;
+    const auto motion = at.run(burin + " glove emulate --motion foo");
+    EXPECT_EQ(motion.status, 2);
+    EXPECT_TRUE(motion.output.contains("'foo' is none of: closing, still")) << motion.output;
+    const auto silent = at.run(burin + " glove emulate --silent-for 1");
+    EXPECT_EQ(silent.status, 1);
+    EXPECT_TRUE(silent.output.contains("give --silent-from too")) << silent.output;
     const auto shape = at.run(hand("whole") + " --offscreen --device simulated-glove:claw");
     EXPECT_EQ(shape.status, 1);
     EXPECT_TRUE(shape.output.contains("whole, pinch, point")) << shape.output;
