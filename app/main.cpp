@@ -10,6 +10,7 @@
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/profile.hpp"
+#include "app/rehab_command.hpp"
 #include "app/replay_command.hpp"
 #include "app/session_command.hpp"
 #include "app/study_command.hpp"
@@ -227,6 +228,7 @@ int run(int argc, char** argv) {
     const ReplayCommand replay(app);
     const GloveCommand glove(app);
     const StudyCommand study(app);
+    const RehabCommand rehab(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
     if (version) {
@@ -251,6 +253,7 @@ int run(int argc, char** argv) {
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());
     if (glove.parsed()) return finish(glove.run());
+    if (rehab.parsed()) return finish(rehab.run());
     if (replay.parsed() && !replay.misuse().empty()) {
         std::fprintf(stderr, "burin: %s; see burin replay --help\n", replay.misuse().c_str());
         return 2;

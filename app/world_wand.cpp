@@ -278,8 +278,7 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
     const Result<TemporaryFolder> folder = TemporaryFolder::create();
     if (!folder) return std::unexpected(folder.error());
     again.feel.record = *folder / "again.session";
-    const auto explored =
-        activities::explore_with_wand(*again.part, again.ids, again.materials, again.stroke, again.feel, {});
+    const auto explored = activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {});
     if (!explored) return std::unexpected(explored.error());
     Result<record::RecordReader> other = record::RecordReader::open(again.feel.record);
     if (!other) return std::unexpected(other.error());
@@ -301,7 +300,7 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
     WandPictures pictures(*w.part, w.ids, options, w.feel.wand);
     if (const auto ready = pictures.open(options.pictures); !ready) return ready;
     const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(
-        *w.part, w.ids, w.materials, w.stroke, w.feel, [&](const activities::WandMoment& moment) -> Result<void> {
+        *w.part, w.materials, w.stroke, w.feel, [&](const activities::WandMoment& moment) -> Result<void> {
             pictures.take_updates(w.part->take_object_updates());
             return pictures.at(moment);
         });

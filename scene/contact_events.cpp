@@ -19,14 +19,19 @@ void each_only_in(std::span<const ObjectId> list, std::span<const ObjectId> othe
 
 }  // namespace
 
-void ContactFollower::follow(const haptics::TickRecord& tick, std::vector<ContactEvent>& events) {
-    Objects now{};
+TouchedObjects touched_in(const haptics::TickRecord& tick, const TouchedObjects& before) noexcept {
+    TouchedObjects now{};
     const std::uint32_t points = tick.in_contact() ? tick.contact.point_count : 0;
     for (std::uint32_t i = 0; i < points; ++i) {
         const haptics::PointRecord& point = tick.contact.points[i];
         const bool is_held = (tick.flags & haptics::kTickHeldOver) != 0 && point.normal_object != Vec3(0.0);
-        now[i] = point.object == 0 && is_held ? touched_[i] : point.object;
+        now[i] = point.object == 0 && is_held ? before[i] : point.object;
     }
+    return now;
+}
+
+void ContactFollower::follow(const haptics::TickRecord& tick, std::vector<ContactEvent>& events) {
+    const TouchedObjects now = touched_in(tick, touched_);
     each_only_in(touched_, now,
                  [&](ObjectId id) { events.push_back({of_, id, ContactEvent::What::end, tick.time_ns}); });
     each_only_in(now, touched_,

@@ -43,6 +43,12 @@ struct ContactEvent {
     friend bool operator==(const ContactEvent&, const ContactEvent&) = default;
 };
 
+// The object that each point of a part's probe touches; 0: nothing.
+using TouchedObjects = std::array<ObjectId, haptics::kMostProbePoints>;
+
+// Returns what a part's points touch in a tick, after what they touched in the tick before.
+[[nodiscard]] TouchedObjects touched_in(const haptics::TickRecord& tick, const TouchedObjects& before) noexcept;
+
 // Follows what one part of a hand touches.
 class ContactFollower {
 public:
@@ -53,10 +59,8 @@ public:
     void follow(const haptics::TickRecord& tick, std::vector<ContactEvent>& events);
 
 private:
-    using Objects = std::array<ObjectId, haptics::kMostProbePoints>;
-
     PartOfHand of_;
-    Objects touched_{};  // by each point in the last tick; 0: nothing
+    TouchedObjects touched_{};  // in the last tick
 };
 
 }  // namespace burin::scene

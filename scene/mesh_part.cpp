@@ -162,8 +162,8 @@ void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::TickR
         const bool down = (tick.sample.buttons & grip.button) != 0;
         const bool pressed = down && !std::exchange(grip.down, down);
         if (!down) wanted = 0;
-        if (pressed && tick.motion.workspace.phase == haptics::WorkspacePhase::editing && tick.in_contact())
-            wanted = nearest_felt(tick.contact.points[0].proxy_object_m, grip.around_m);
+        grip.touched = touched_in(tick, grip.touched);
+        if (pressed && tick.motion.workspace.phase == haptics::WorkspacePhase::editing) wanted = to_take(grip.touched);
     }
     if (wanted == grip.held) return;
     // An activity may have given it into other hands meanwhile.
@@ -172,25 +172,11 @@ void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::TickR
     grip.held = wanted != 0 && take_hold(wanted, hand) ? wanted : 0;
 }
 
-ObjectId MeshPart::nearest_felt(const Vec3& place_scene, double around_m) {
-    if (unsorted_) sort_by_motion();
-    found_ = moving_;
-    looks_ += resting_.for_each_near(place_scene, around_m, [&](std::uint32_t index) { found_.push_back(index); });
-    ObjectId nearest = 0;
-    double least_m = around_m;
-    for (const std::uint32_t i : found_) {
-        const Placed& placed = objects_[i];
-        if (!placed.snapshot || std::holds_alternative<HeldMotion>(placed.object.motion)) continue;
-        const geometry::TriangleMesh& mesh = *placed.object.mesh;
-        auto& tree = trees_[&mesh];
-        if (!tree) tree = std::make_unique<const geometry::TriangleTree>(mesh.positions_m, mesh.triangles);
-        const Vec3 place_mesh = (inverse(placed.scene_from_object) * place_scene) / placed.object.scale;
-        const double distance_m = placed.object.scale * tree->nearest(place_mesh, 0).distance_m;
-        if (distance_m >= least_m) continue;
-        least_m = distance_m;
-        nearest = placed.object.id;
-    }
-    return nearest;
+// Returns the first of them that no hand holds and this part has; 0: none.
+ObjectId MeshPart::to_take(const TouchedObjects& touched) const {
+    for (const ObjectId id : touched)
+        if (id != 0 && has(id) && !std::holds_alternative<HeldMotion>(object(id).motion)) return id;
+    return 0;
 }
 
 void MeshPart::move_hand(std::size_t hand, const HandPose& pose) {
@@ -280,16 +266,6 @@ Result<void> MeshPart::add_near(const ProbeBall& ball, geometry::LocalSurface& d
     std::ranges::sort(found_);  // whatever the tree's order: edits elsewhere in the scene change nothing here
     for (const std::uint32_t i : found_) offer(objects_[i], ball, draft);
     return {};
-}
-
-ObjectId MeshPart::id_of(const geometry::TouchedMesh& mesh) const {
-    for (const Placed& placed : objects_) {
-        const bool is_it = mesh.moves() ? placed.object.id == mesh.motion.body
-                                        : placed.snapshot == mesh.snapshot && placed.material == mesh.material &&
-                                              placed.scene_from_object == mesh.motion.object_from_mesh;
-        if (is_it) return placed.object.id;
-    }
-    return 0;
 }
 
 std::vector<ObjectUpdate> MeshPart::take_object_updates() {

@@ -24,7 +24,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh/triangle_tree.hpp"
 #include "scene/object_tree.hpp"
 #include "scene/scene_object.hpp"
 #include "scene/scene_part.hpp"
@@ -68,10 +67,9 @@ public:
     [[nodiscard]] Result<void> take_hold(ObjectId id, std::span<const std::size_t> hands, bool felt = false);
     [[nodiscard]] Result<void> take_hold(ObjectId id, std::size_t hand) { return take_hold(id, {&hand, 1}); }
     [[nodiscard]] Result<void> let_go(ObjectId id);
-    // Has a hand take hold of the object that its tool touches when a button goes down, and let go with the button.
-    // button: bits of DeviceSample::buttons. around_m: how far the touched surface is from where the tool rests, at
-    // most.
-    void grip_with(std::size_t hand, std::uint32_t button, double around_m) { grips_[hand] = {button, around_m}; }
+    // Has a hand take hold of the object that its ticks have found touched when a button goes down (of several the one
+    // that the first of its points touches), and let go with the button. button: bits of DeviceSample::buttons.
+    void grip_with(std::size_t hand, std::uint32_t button) { grips_[hand].button = button; }
     // Tells where a hand is; what it holds follows with the next update.
     void move_hand(std::size_t hand, const HandPose& pose);
 
@@ -81,9 +79,6 @@ public:
     [[nodiscard]] const SceneObject& object(ObjectId id) const { return objects_[index_of_.at(id)].object; }
     // Returns where the object was in the last update.
     [[nodiscard]] const Pose& pose(ObjectId id) const { return objects_[index_of_.at(id)].scene_from_object; }
-    // Returns the object that was offered to a surface as this mesh; 0: none of this part's. Of objects that are alike
-    // in mesh, pose and material the first.
-    [[nodiscard]] ObjectId id_of(const geometry::TouchedMesh& mesh) const;
     // Returns the index of the object's material in the table. It must be felt.
     [[nodiscard]] std::uint8_t material_index(ObjectId id) const { return objects_[index_of_.at(id)].material; }
     // Returns the objects that have changed since the last call, each once, in the order of their creation; at first
@@ -116,13 +111,13 @@ private:
     // How a hand takes hold of objects.
     struct Grip {
         std::uint32_t button = 0;
-        double around_m = 0.0;
         bool down = false;
-        ObjectId held = 0;  // 0: none
+        ObjectId held = 0;         // 0: none
+        TouchedObjects touched{};  // in the last tick
     };
     void grip(std::size_t hand, Grip& grip, std::span<const haptics::TickRecord> ticks);
     [[nodiscard]] std::optional<HandPose> frame_of(std::span<const std::size_t> hands) const;
-    [[nodiscard]] ObjectId nearest_felt(const Vec3& place_scene, double around_m);
+    [[nodiscard]] ObjectId to_take(const TouchedObjects& touched) const;
     void offer(const Placed& placed, const ProbeBall& ball, geometry::LocalSurface& draft);
 
     MaterialTable& materials_;
@@ -136,8 +131,6 @@ private:
         snapshots_;  // by mesh and scale
     std::map<std::size_t, HandPose> hands_;
     std::map<std::size_t, Grip> grips_;
-    // To find the touched object; made when a hand first takes hold near a mesh.
-    std::map<const geometry::TriangleMesh*, std::unique_ptr<const geometry::TriangleTree>> trees_;
     std::vector<std::uint32_t> found_;  // by a query
     Nanoseconds start_ns_ = 0;          // of the first update
     bool started_ = false;

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "activities/world/world_touch.hpp"
 #include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
@@ -16,7 +15,7 @@ namespace {
 constexpr double kWandRests_s = 0.3;           // before and after the stroke; the gate's ramp must be over by then
 constexpr std::uint64_t kPressedUpdates = 15;  // until a touch counts as a press
 
-WandFelt felt_in(double time_s, const haptics::TickRecord& tick, const NearestObject& nearest, double radius_m) {
+WandFelt felt_in(double time_s, const haptics::TickRecord& tick) {
     const Quat& turn = tick.motion.object_from_device.orientation;
     WandFelt felt;
     felt.time_s = time_s;
@@ -24,12 +23,7 @@ WandFelt felt_in(double time_s, const haptics::TickRecord& tick, const NearestOb
                             tick.motion.orientation_object};
     for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
         const haptics::PointRecord& p = tick.contact.points[i];
-        PointFelt point{p.hip_object_m, p.proxy_object_m, turn * p.force_device_N, 0};
-        if (p.constraints > 0) {
-            const auto near = nearest.at(p.proxy_object_m - radius_m * p.normal_object);
-            point.object = near ? near->id : 0;
-        }
-        felt.points.push_back(point);
+        felt.points.push_back({p.hip_object_m, p.proxy_object_m, turn * p.force_device_N, p.object});
     }
     felt.force_N = turn * tick.contact.wrench.force_device_N;
     felt.torque_Nm = turn * tick.contact.wrench.torque_device_Nm;
@@ -104,9 +98,9 @@ AxisAngle axis_angle(const Quat& unit) noexcept {
     return {v / sine, 2.0 * std::atan2(sine, q.w)};
 }
 
-Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const std::vector<scene::ObjectId>& ids,
-                                            const scene::MaterialTable& materials, const sculpt::Stroke& stroke,
-                                            const WandOptions& options, const OnWandMoment& on_moment) {
+Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
+                                            const sculpt::Stroke& stroke, const WandOptions& options,
+                                            const OnWandMoment& on_moment) {
     WandExploredWorld explored;
     WandOptions placed = options;
     const Vec3 workspace_m = devices::device_of(options.wand).workspace_m;
@@ -115,7 +109,6 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const std::ve
     if (explored.fitted) placed.scene_from_device = session::fit_into_workspace(stroke, workspace_m);
     explored.scene_from_device = placed.scene_from_device;
 
-    const NearestObject nearest(part, ids);
     PointTouches touches(part, options.points);
     const auto at_tick = [&](double, const haptics::TickRecord& tick) {
         explored.force_max_N = std::max(explored.force_max_N, glm::length(tick.gate.given.force_device_N));
@@ -126,7 +119,7 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const std::ve
     const auto at_update = [&](double time_s, const haptics::TickRecord& last) -> Result<void> {
         WandMoment moment{time_s, nullptr, std::nullopt};
         if (last.tick > 0) {
-            explored.trace.push_back(felt_in(time_s, last, nearest, placed.radius_m));
+            explored.trace.push_back(felt_in(time_s, last));
             moment.felt = &explored.trace.back();
             moment.newly_touched = touches.add(explored.trace.back());
         }

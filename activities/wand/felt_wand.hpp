@@ -62,9 +62,7 @@ using OnWandMoment = std::function<Result<void>(const WandMoment&)>;
 // Leads the wand along a stroke of at least one row. Where the stroke leaves the workspace it is centred in it, and the
 // motion scaled up where it is larger. Only options.scene_from_device is not read. Fails when an update does, or what
 // is called at one.
-[[nodiscard]] Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part,
-                                                          const std::vector<scene::ObjectId>& ids,
-                                                          const scene::MaterialTable& materials,
+[[nodiscard]] Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
                                                           const sculpt::Stroke& stroke, const WandOptions& options,
                                                           const OnWandMoment& on_moment);
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "activities/world/nearest_object.hpp"
 #include "activities/world/world_replay.hpp"
 #include "activities/world/world_touch.hpp"
 
@@ -64,7 +65,6 @@ private:
 
 struct PointThrough {
     haptics::PointRecord felt;  // not numbers where the tick did not have the point
-    std::uint32_t object = 0;
     double deviation_m = 0.0;
 };
 
@@ -83,13 +83,12 @@ haptics::PointRecord absent_point() {
     return absent;
 }
 
-TickThrough tick_through(const record::RecordedTick& recorded, const haptics::TickRecord& felt, WorldTouch& touch,
+TickThrough tick_through(const record::RecordedTick& recorded, const haptics::TickRecord& felt,
                          const RecordedTouch& was, const record::RowWalk& walk, const RecordedDevice& device) {
     TickThrough tick{recorded, felt};
     for (std::uint32_t i = 0; i < device.point_count(); ++i) {
         PointThrough& point = tick.points[i];
         point.felt = i < felt.contact.point_count ? felt.contact.points[i] : absent_point();
-        point.object = touch.object_of(felt, i);
         point.deviation_m = glm::length(point.felt.proxy_object_m - was.proxy_m(walk, i));
     }
     tick.force_deviation_N = glm::length(felt.gate.given.force_device_N - was.force_N(walk));
@@ -151,7 +150,7 @@ void visit_through(Sink& sink, const RecordedDevice& device, const TickThrough& 
         vector("force", i, {"_device_x_N", "_device_y_N", "_device_z_N"}, "N", "device", felt.force_device_N);
         sink.f64({"penetration", i, "_m"}, "m", "object", felt.penetration_m);
         sink.u32({"triangle", i}, felt.active_triangle);
-        sink.u32({"object", i}, point(i).object);
+        sink.u32({"object", i}, felt.object);
     }
     const devices::DeviceWrench &desired = tick.felt.wanted, &commanded = tick.felt.gate.given;
     vector("desired_force_device", -1, in_N, "N", "device", desired.force_device_N);
@@ -194,7 +193,8 @@ void note_point(ThroughPoint& figures, const PointThrough& point, std::int64_t t
     ++figures.ticks_in_contact;
     if (figures.first_contact_tick) return;
     figures.first_contact_tick = tick;
-    if (point.object != 0 && part.has(point.object)) figures.first_contact = part.object(point.object).name;
+    if (point.felt.object != 0 && part.has(point.felt.object))
+        figures.first_contact = part.object(point.felt.object).name;
 }
 
 void note_tick(ThroughFigures& figures, const TickThrough& tick, const scene::MeshPart& part) {
@@ -369,7 +369,7 @@ Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPar
         }
         const Result<haptics::TickRecord> felt = world->feel(tick);
         if (!felt) return std::unexpected(felt.error());
-        const TickThrough through = tick_through(tick, *felt, world->touch, *recorded, walk, probe.device);
+        const TickThrough through = tick_through(tick, *felt, *recorded, walk, probe.device);
         if (is_first) note_beginning(figures, through, part, approach.objects(), probe);
         note_tick(figures, through, part);
         approach.note(figures, through);

@@ -34,17 +34,14 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
 // Collects what was felt of each object.
 class Touches {
 public:
-    Touches(const scene::MeshPart& part, std::span<const scene::ObjectId> ids, double radius_m)
-        : part_(part), touched_(part, ids), radius_m_(radius_m) {}
+    explicit Touches(const scene::MeshPart& part) : part_(part) {}
 
     // Returns the name of an object when it has been touched at so many updates as press the tool into it.
-    std::optional<std::string> add(double time_s, const haptics::ToolState& tool) {
-        if ((tool.flags & haptics::kTickInContact) == 0) return std::nullopt;
-        const auto near = touched_.at(tool.proxy_object_m - radius_m_ * tool.contact_normal_object);
-        if (!near) return std::nullopt;
-        const auto [at, is_new] = found_.try_emplace(near->id);
+    std::optional<std::string> add(double time_s, const haptics::ToolState& tool, scene::ObjectId touched) {
+        if (touched == 0) return std::nullopt;
+        const auto [at, is_new] = found_.try_emplace(touched);
         ObjectTouch& touch = at->second;
-        if (is_new) touch = {near->id, part_.object(near->id).name, 0, time_s, 0.0, 0.0};
+        if (is_new) touch = {touched, part_.object(touched).name, 0, time_s, 0.0, 0.0};
         const double force_N = glm::length(tool.given.force_device_N);
         touch.force_max_N = std::max(touch.force_max_N, force_N);
         touch.force_mean_N += (force_N - touch.force_mean_N) / static_cast<double>(++touch.updates);
@@ -60,8 +57,6 @@ public:
 
 private:
     const scene::MeshPart& part_;
-    NearestObject touched_;
-    double radius_m_;
     std::map<scene::ObjectId, ObjectTouch> found_;
 };
 
@@ -104,7 +99,8 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     Result<std::unique_ptr<WorldRecorder>> recorder = recorder_of(part, ids, omni.description(), settings, options);
     if (!recorder) return std::unexpected(recorder.error());
     session::FigureKeeper keeper(felt, felt.duration_s, seconds(loop.period_ns()));
-    Touches touches(part, ids, options.tool_radius_m);
+    Touches touches(part);
+    scene::TouchedObjects touched{};  // in the last tick
 
     const Nanoseconds start_ns = clock.now_ns(), end_ns = start_ns + nanoseconds(felt.duration_s);
     Nanoseconds next_update_ns = start_ns;
@@ -115,7 +111,7 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
             next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
             const double time_s = seconds(clock.now_ns() - start_ns);
             WorldMoment moment{channels.tool.newest(), std::nullopt};
-            moment.newly_touched = touches.add(time_s, moment.tool);
+            moment.newly_touched = touches.add(time_s, moment.tool, touched[0]);
             keeper.take(channels);
             if (*recorder) {
                 const auto kept = (*recorder)->update(clock.now_ns(), touch.service().seen().last_ticks[0]);
@@ -126,7 +122,8 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
         }
         clock.sleep_until(clock.now_ns() + loop.period_ns());
         const haptics::TickRecord tick = loop.step();
-        if (*recorder) (*recorder)->add(tick, std::array{touch.object_of(tick, 0)});
+        touched = scene::touched_in(tick, touched);
+        if (*recorder) (*recorder)->add(tick, std::array{tick.contact.points[0].object});
     }
     if (*recorder)
         if (const auto kept = (*recorder)->finish(); !kept) return std::unexpected(kept.error());

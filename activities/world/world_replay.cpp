@@ -120,7 +120,7 @@ Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::Mes
         const haptics::TickRecord again = (*hand)->repeated(tick);
         if (tick.tick < range.from) continue;
         std::vector<record::Word> row = record::row_of(again, {0, 1});
-        row.push_back(touch.object_of(again, 0));
+        row.push_back(again.contact.points[0].object);
         for (std::size_t c = 0; c < row.size(); ++c) {
             if (walk.at(c) == row[c]) continue;
             result.difference =

@@ -18,12 +18,9 @@ double spread_of(const haptics::Probe& probe) {
 
 }  // namespace
 
-// ---- WorldTouch
-
 WorldTouch::WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings,
                        const haptics::Probe& probe)
-    : part_(part),
-      settings_(settings),
+    : settings_(settings),
       probe_(probe),
       spread_m_(spread_of(probe)),
       service_({&part}, {{&channels_, settings.start_scene_m, 0.0, settings.reach_m}}) {
@@ -43,45 +40,5 @@ void WorldTouch::publish(const Similarity& scene_from_device) {
 }
 
 void WorldTouch::use_mapping(const Similarity& scene_from_device) { publish(scene_from_device); }
-
-std::uint32_t WorldTouch::object_of(const haptics::TickRecord& tick, std::uint32_t point) {
-    const std::uint32_t triangle = tick.contact.points[point].active_triangle;
-    if (point >= tick.contact.point_count || triangle == haptics::kNoTriangle) return 0;
-    const geometry::LocalSurface& surface = channels_.surface.newest();
-    BURIN_CHECK(surface.sequence == tick.surface_sequence);
-    if (surface.sequence != tick.surface_sequence) return 0;
-    const std::uint32_t mesh = surface.mesh_of(triangle);
-    if (mesh == geometry::LocalSurface::kNoMesh) return 0;
-    if (surface.sequence != known_surface_ || mesh != known_mesh_) {
-        known_surface_ = surface.sequence;
-        known_mesh_ = mesh;
-        known_object_ = static_cast<std::uint32_t>(part_.id_of(surface.meshes[mesh]));
-    }
-    return known_object_;
-}
-
-// ---- NearestObject
-
-NearestObject::NearestObject(const scene::MeshPart& part, std::span<const scene::ObjectId> ids) : part_(part) {
-    for (const scene::ObjectId id : ids) {
-        const scene::SceneObject& object = part.object(id);
-        if (!object.felt) continue;
-        auto& tree = trees_[object.mesh.get()];
-        if (!tree) tree = std::make_shared<geometry::TriangleTree>(object.mesh->positions_m, object.mesh->triangles);
-        objects_.emplace_back(id, tree);
-    }
-}
-
-std::optional<NearestObject::Near> NearestObject::at(const Vec3& place_scene) const {
-    std::optional<Near> nearest;
-    for (const auto& [id, tree] : objects_) {
-        const Pose& pose = part_.pose(id);
-        const Similarity mesh_from_scene =
-            inverse(Similarity{pose.position_m, pose.orientation, part_.object(id).scale});
-        const double distance_m = tree->nearest(mesh_from_scene * place_scene, 0).distance_m / mesh_from_scene.scale;
-        if (!nearest || distance_m < nearest->distance_m) nearest = Near{id, distance_m};
-    }
-    return nearest;
-}
 
 }  // namespace burin::activities

@@ -15,8 +15,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
     }
     tools_around_m_.assign(hands_.hands(), sculpt::around_m(use.tool));
     if (world_) {
-        for (std::size_t part = 0; part < hands_.parts(); ++part)
-            world_->part().grip_with(part, kGrips, tools_around_m_[hands_.part_of_hand(part).hand]);
+        for (std::size_t part = 0; part < hands_.parts(); ++part) world_->part().grip_with(part, kGrips);
         parts.push_back(&world_->part());
     }
     if (tap != nullptr) parts.push_back(tap);
@@ -41,10 +40,8 @@ SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand)
         if (use == nullptr) return;
         for (std::size_t part = first; carved_ && part < first + parts; ++part) carved_->order(*use, part);
         tools_around_m_[hand] = carved_ ? carved_->around_m(first) : sculpt::around_m(use->tool);
-        for (std::size_t part = first; part < first + parts; ++part) {
+        for (std::size_t part = first; part < first + parts; ++part)
             service_->use_probe(part, tools_around_m_[hand] + spread_m);
-            if (world_) world_->part().grip_with(part, kGrips, tools_around_m_[hand]);
-        }
     };
 }
 

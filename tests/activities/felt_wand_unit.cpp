@@ -74,8 +74,7 @@ TEST(FeltWand, EachPointFeelsTheObjectThatItTouches) {
     // Rolled by 1.3, the top end is 77 mm to the left and 21 mm above the middle, the bottom end to the right and
     // below: they meet the plates, one of which is 40 mm lower, within 3 mm of each other.
     const WandOptions options = options_with("top,bottom");
-    const auto explored =
-        explore_with_wand(*world.part, world.ids, world.materials, lowered(0.18, 0.128, 1.3), options, {});
+    const auto explored = explore_with_wand(*world.part, world.materials, lowered(0.18, 0.128, 1.3), options, {});
     ASSERT_TRUE(explored) << explored.error().line();
     EXPECT_FALSE(explored->fitted);
     ASSERT_EQ(explored->touches.size(), 2u);
@@ -97,8 +96,7 @@ TEST(FeltWand, AStrokeOutsideOfTheWorkspaceIsCentredInIt) {
     Plates world;
     sculpt::Stroke stroke = lowered(0.18, 0.14, 0.0);
     for (sculpt::StrokeRow& row : stroke) row.position_object_m += Vec3(0.0, 1.0, 0.0);
-    const auto explored =
-        explore_with_wand(*world.part, world.ids, world.materials, stroke, options_with("centre"), {});
+    const auto explored = explore_with_wand(*world.part, world.materials, stroke, options_with("centre"), {});
     ASSERT_TRUE(explored);
     EXPECT_TRUE(explored->fitted);
     EXPECT_TRUE(explored->touches.empty());
@@ -107,8 +105,8 @@ TEST(FeltWand, AStrokeOutsideOfTheWorkspaceIsCentredInIt) {
 
 TEST(FeltWand, AFailureOfAMomentEndsIt) {
     Plates world;
-    const auto failed = explore_with_wand(*world.part, world.ids, world.materials, lowered(0.2, 0.18, 0.0),
-                                          options_with("3"), [](const WandMoment& moment) -> Result<void> {
+    const auto failed = explore_with_wand(*world.part, world.materials, lowered(0.2, 0.18, 0.0), options_with("3"),
+                                          [](const WandMoment& moment) -> Result<void> {
                                               if (moment.time_s < 0.1) return {};
                                               return fail("picture", "cannot be written");
                                           });
@@ -132,8 +130,7 @@ TEST(FeltWand, AxisAndAngleTurnAsTheQuaternionDoes) {
 TEST(FeltWand, TheTableHasALineAnUpdateAndAColumnEach) {
     Plates world;
     const WandOptions options = options_with("top,centre,bottom");
-    const auto explored =
-        explore_with_wand(*world.part, world.ids, world.materials, lowered(0.18, 0.14, 1.3), options, {});
+    const auto explored = explore_with_wand(*world.part, world.materials, lowered(0.18, 0.14, 1.3), options, {});
     ASSERT_TRUE(explored);
     std::istringstream table(wand_table(*explored, *world.part, options.points));
     std::string line;

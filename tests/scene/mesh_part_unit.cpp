@@ -221,7 +221,7 @@ TEST(SceneMotion, TheFrameOfAGripIsThatOfItsOnlyPartOrInTheMiddleOfAll) {
 
 namespace {
 
-// A hand whose tool rests on the first cube's top, with its second button up or down.
+// A hand whose tool rests on the first cube, with its second button up or down.
 haptics::TickRecord gripping_sample(std::uint64_t tick, const Vec3& at_m, bool down) {
     haptics::TickRecord sample;
     sample.tick = tick;
@@ -229,6 +229,8 @@ haptics::TickRecord gripping_sample(std::uint64_t tick, const Vec3& at_m, bool d
     sample.contact.points[0].hip_object_m = sample.contact.points[0].proxy_object_m = at_m;
     sample.sample.buttons = down ? 2u : 0u;
     sample.flags = haptics::kTickInContact;
+    sample.contact.point_count = 1;
+    sample.contact.points[0].object = 1;
     return sample;
 }
 
@@ -237,7 +239,7 @@ haptics::TickRecord gripping_sample(std::uint64_t tick, const Vec3& at_m, bool d
 TEST(MeshPart, AButtonTakesHoldOfWhatIsTouchedAndLetsGoOfIt) {
     MaterialTable materials;
     auto part = *MeshPart::create(cubes(20), materials);
-    part->grip_with(0, 2u, 0.008);
+    part->grip_with(0, 2u);
     std::uint64_t tick = 0;
     const auto update = [&](const Vec3& at_m, bool down) {
         const std::array samples{gripping_sample(++tick, at_m, down)};
@@ -262,7 +264,7 @@ TEST(MeshPart, AButtonLetsGoOfWhatItsHandAloneHolds) {
     MaterialTable materials;
     auto part = *MeshPart::create(cubes(2), materials);
     for (const std::size_t hand : {0u, 1u}) part->move_hand(hand, {});
-    part->grip_with(0, 2u, 0.008);
+    part->grip_with(0, 2u);
     const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
     part->take_ticks(0, std::array{gripping_sample(1, on_top, true)});
     ASSERT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion));
@@ -277,19 +279,47 @@ TEST(MeshPart, AButtonLetsGoOfWhatItsHandAloneHolds) {
 TEST(MeshPart, NothingIsTakenInTheAirOrWhileTheWorkspaceMoves) {
     MaterialTable materials;
     auto part = *MeshPart::create(cubes(2), materials);
-    part->grip_with(0, 2u, 0.008);
+    part->grip_with(0, 2u);
     haptics::TickRecord up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
     haptics::TickRecord in_the_air = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
     in_the_air.flags = 0;
     haptics::TickRecord paused = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
     paused.motion.workspace.phase = haptics::WorkspacePhase::paused;
-    const haptics::TickRecord far_away = gripping_sample(2, {0.0, kHalf_m + 0.03, 0.0}, true);
-    for (const haptics::TickRecord& pressed : {in_the_air, paused, far_away}) {
+    haptics::TickRecord on_the_workpiece = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
+    on_the_workpiece.contact.points[0].object = kCarvedObject;
+    for (const haptics::TickRecord& pressed : {in_the_air, paused, on_the_workpiece}) {
         const std::array samples{up, pressed};
         part->take_ticks(0, samples);
         for (const ObjectId id : {1u, 2u}) EXPECT_FALSE(std::holds_alternative<HeldMotion>(part->object(id).motion));
         const std::array released{up};
         part->take_ticks(0, released);
+    }
+}
+
+// What the tick has found touched is taken, not what lies nearest to where the tool is; of a part with several points the
+// first one's that touches something; and where no work was left for a tick, what was touched before.
+TEST(MeshPart, AButtonTakesHoldOfWhatTheTickHasFoundTouched) {
+    const Vec3 at_the_first(0.0, kHalf_m + 0.004, 0.0);
+    haptics::TickRecord second = gripping_sample(2, at_the_first, true);
+    second.contact.points[0].object = 2;
+    haptics::TickRecord by_another_point = gripping_sample(2, at_the_first, true);
+    by_another_point.contact.point_count = 3;
+    by_another_point.contact.points[0].object = 0;
+    by_another_point.contact.points[2].object = 2;
+    haptics::TickRecord touching = gripping_sample(1, at_the_first, false), held_over = second;
+    touching.contact.points[0].object = 2;
+    held_over.contact.points[0].object = 0;
+    held_over.contact.points[0].normal_object = {0.0, 1.0, 0.0};
+    held_over.flags |= haptics::kTickHeldOver;
+    const haptics::TickRecord at_first = gripping_sample(1, at_the_first, false);
+    for (const auto& ticks :
+         {std::array{at_first, second}, std::array{at_first, by_another_point}, std::array{touching, held_over}}) {
+        MaterialTable materials;
+        auto part = *MeshPart::create(cubes(2), materials);
+        part->grip_with(0, 2u);
+        part->take_ticks(0, ticks);
+        EXPECT_FALSE(std::holds_alternative<HeldMotion>(part->object(1).motion));
+        EXPECT_TRUE(std::holds_alternative<HeldMotion>(part->object(2).motion));
     }
 }
 
@@ -300,7 +330,7 @@ TEST(MeshPart, AButtonTakesHoldInNoPhaseOfTheWorkspaceButEditing) {
          {Phase::editing, Phase::paused, Phase::dragging, Phase::jumping, Phase::clutched, Phase::gliding}) {
         MaterialTable materials;
         auto part = *MeshPart::create(cubes(2), materials);
-        part->grip_with(0, 2u, 0.008);
+        part->grip_with(0, 2u);
         const haptics::TickRecord up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
         haptics::TickRecord pressed = gripping_sample(2, up.contact.points[0].proxy_object_m, true);
         pressed.motion.workspace.phase = phase;
@@ -313,7 +343,7 @@ TEST(MeshPart, AButtonTakesHoldInNoPhaseOfTheWorkspaceButEditing) {
 TEST(MeshPart, WhatOneHandHoldsNoOtherHandTakesAway) {
     MaterialTable materials;
     auto part = *MeshPart::create(cubes(2), materials);
-    for (const std::size_t hand : {0u, 1u}) part->grip_with(hand, 2u, 0.008);
+    for (const std::size_t hand : {0u, 1u}) part->grip_with(hand, 2u);
     const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
     for (const std::size_t hand : {0u, 1u}) part->take_ticks(hand, std::array{gripping_sample(1, on_top, false)});
     part->take_ticks(0, std::array{gripping_sample(2, on_top, true)});
@@ -400,8 +430,8 @@ TEST(MeshPart, TellsTheFrameWhatHasChanged) {
     EXPECT_GT(updates[1].scene_from_mesh.position_m.y, objects[2].pose.position_m.y);
 }
 
-// Cubes that share a mesh and a material differ by their poses, those at one pose by their meshes.
-TEST(MeshPart, AMeshOfASurfaceIsTracedToItsObject) {
+// Those that share a mesh and a material, too.
+TEST(MeshPart, EachMeshOfASurfaceHasTheNumberOfItsObject) {
     std::vector<SceneObject> objects = cubes(4);
     objects[2].motion = PathMotion{{{0.0, {}}, {1.0, {{0.001, 0.0, 0.0}}}, {2.0, {}}}, true};
     objects.push_back(object_at(5, shared_mesh(geometry::test::cube(0.5 * kHalf_m)), Vec3(0.0)));
@@ -411,14 +441,11 @@ TEST(MeshPart, AMeshOfASurfaceIsTracedToItsObject) {
     ASSERT_TRUE(scene.part->add_near({0, Vec3(0.0), 1.0}, draft));
     std::vector<ObjectId> found;
     for (const geometry::TouchedMesh& mesh : draft.meshes) {
-        found.push_back(scene.part->id_of(mesh));
+        found.push_back(mesh.object);
         EXPECT_EQ(scene.part->pose(found.back()), mesh.motion.object_from_mesh);
     }
     std::ranges::sort(found);
     EXPECT_EQ(found, (std::vector<ObjectId>{1, 2, 3, 4, 5}));
-    geometry::TouchedMesh other = draft.meshes.back();
-    other.motion.object_from_mesh.position_m.x += 1.0;
-    EXPECT_EQ(scene.part->id_of(other), 0u);
 }
 
 TEST(MeshPart, EqualMeshesShareOneSnapshotAndEqualMaterialsOneEntry) {

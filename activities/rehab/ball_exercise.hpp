@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The rubber ball (G11): it is grasped, squeezed to a force, held so for a time and let go, again and again. A pure
+// step from the turns of the haptic loop to what is counted.
+//
+//   waiting -> grasped -> squeezing, the fingers' forces add up to the target -> held for hold_s: a repetition
+//           -> relaxed to kRelaxed of the target, or let go -> the next
+// Who lets the force sink below kKept of the target before hold_s has passed has held too short: that is counted too,
+// and the time begins anew. It ends with the last repetition, or with the time limit.
+// Units: newtons, seconds; times of the loop's clock in nanoseconds. No heap but for the events; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "activities/rehab/finger_measures.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+
+namespace burin::activities {
+
+// How stiff the ball is goes by its colour, from soft to hard.
+enum class BallColour : std::uint8_t { yellow, red, green, blue };
+struct BallKind {
+    BallColour colour = BallColour::yellow;
+    std::string_view name;
+    std::array<double, 3> srgb{};    // 0 to 1
+    double stiffness_N_per_m = 0.0;  // of its surface, as long as it is rigid
+};
+[[nodiscard]] std::array<BallKind, 4> ball_kinds();
+[[nodiscard]] const BallKind& kind_of(BallColour colour);
+[[nodiscard]] std::optional<BallColour> ball_named(std::string_view name);
+
+struct BallSettings {
+    static constexpr std::array<double, 3> kTargets_N{2.0, 4.0, 6.0};  // by level: the sum of the fingers' forces
+    static constexpr double kMostTime_s = 3600.0, kMostHold_s = 60.0;
+    static constexpr unsigned kMostRepetitions = 1000;
+
+    BallColour colour = BallColour::red;
+    unsigned level = 1;  // of difficulty; 1 to 3
+    unsigned repetitions = 5;
+    double hold_s = 1.0, time_limit_s = 60.0;
+
+    [[nodiscard]] double target_N() const { return kTargets_N[level - 1]; }
+    bool operator==(const BallSettings&) const = default;
+};
+// Returns what nobody can do: each names its setting, by the key that it has in a file, and what would be right. Empty:
+// the settings are sound.
+[[nodiscard]] std::vector<Error> problems(const BallSettings& settings);
+
+struct BallTurn {
+    Nanoseconds time_ns = 0;
+    bool grasped = false;  // the ball, by any gesture of grasping
+    FingersTurn fingers;
+};
+
+enum class BallPhase : std::uint8_t { begins, waits, holds, relaxes, ended };
+enum class BallEnd : std::uint8_t { not_yet, done, time_over };
+
+struct BallState {
+    static constexpr double kKept = 0.8, kRelaxed = 0.5;
+
+    BallPhase phase = BallPhase::begins;
+    BallEnd end = BallEnd::not_yet;
+    Nanoseconds begun_ns = 0, last_ns = 0, held_since_ns = 0;
+    unsigned repetitions = 0, too_short = 0, grasps = 0;
+    bool grasped = false;
+    HandMeasures measures;
+
+    [[nodiscard]] double time_s() const { return seconds(last_ns - begun_ns); }
+    bool operator==(const BallState&) const = default;
+};
+
+struct BallEvent {
+    enum class What : std::uint8_t { begun, grasped, reached, counted, too_short, let_go, done, time_over };
+    What what = What::begun;
+    Nanoseconds time_ns = 0;
+    double force_N = 0.0;  // the sum of the fingers' then
+    bool operator==(const BallEvent&) const = default;
+};
+[[nodiscard]] std::string_view text_of(BallEvent::What what);
+
+struct BallStep {
+    BallState state;
+    std::vector<BallEvent> events;
+};
+// Goes on by a turn. Requires sound settings and a time that rises; an exercise that has ended stays as it is.
+[[nodiscard]] BallStep step_ball(BallState state, const BallSettings& settings, const BallTurn& turn);
+
+// From 0 to 100: the share of the repetitions that were done, less a tenth of one for each that was held too short.
+[[nodiscard]] double score_of(const BallState& state, const BallSettings& settings);
+
+}  // namespace burin::activities

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "activities/rehab/scripted_squeezes.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "base/text.hpp"
+
+namespace burin::activities {
+namespace {
+
+// The simulated hand's own: how long it takes from open to the ball and to the highest target, and back.
+constexpr double kCloses_s = 2.0, kOpens_s = 1.6;
+
+}  // namespace
+
+std::vector<ScriptedSqueeze> drawn_squeezes(const BallSettings& settings, std::uint64_t seed, double first_s) {
+    // The generator's own numbers are prescribed by the standard; its distributions are not.
+    std::mt19937_64 random(seed);
+    const auto share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    std::vector<ScriptedSqueeze> squeezes;
+    double at_s = first_s;
+    for (unsigned counted = 0; counted < settings.repetitions;) {
+        // Two in a row that are too short would tell nothing more.
+        const bool too_short = share() < 0.3 && (squeezes.empty() || !squeezes.back().too_short);
+        const double held_s = too_short ? 0.3 * settings.hold_s * share() : settings.hold_s + 0.5 + 0.5 * share();
+        // One that is too short opens on the way, as soon as the ball is touched.
+        const double closed_s = (too_short ? 0.6 * kCloses_s : kCloses_s) + held_s;
+        squeezes.push_back({at_s, at_s + closed_s, too_short});
+        at_s += closed_s + kOpens_s + 0.4 * share();
+        counted += too_short ? 0 : 1;
+    }
+    return squeezes;
+}
+
+std::string with_squeezes(std::string_view script, const std::vector<ScriptedSqueeze>& squeezes) {
+    std::string text;
+    while (!script.empty()) {
+        const std::size_t end = std::min(script.find('\n'), script.size() - 1) + 1;
+        const std::string_view line = script.substr(0, end);
+        if (line.contains(" button ")) break;
+        text += line;
+        script.remove_prefix(end);
+    }
+    for (std::size_t i = 0; i < squeezes.size(); ++i) {
+        text += formatted("%.3f button press left\n", squeezes[i].closes_s);
+        if (i == 0) text += formatted("%.3f command screenshot squeezed.png\n", squeezes[i].opens_s - 0.05);
+        text += formatted("%.3f button release left\n", squeezes[i].opens_s);
+    }
+    const double end_s = squeezes.empty() ? 0.0 : squeezes.back().opens_s + kOpens_s;
+    return text + formatted("%.3f command quit\n", end_s);
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// An elastic body of tetrahedra: what of it never changes, its state, its energy and forces.
+//
+// Material: stable neo-Hookean without the barrier (Smith, de Goes, Kim 2018, eq. 13, with the constant left out),
+//   W = mu/2 (tr F'F - 3) - mu (J - 1) + lambda'/2 (J - 1)^2,   F the deformation gradient, J its determinant.
+// At rest it has no stress, and for small strains it is Hooke's law with Lame's mu and lambda = lambda' - mu; so
+// lambda' = lambda + mu, else Poisson's ratio is wrong. It is defined for inverted elements too, and drives them back.
+// In each corner alone J is affine, so the second derivative with respect to one corner, mu |g|^2 + lambda' c c', is
+// positive definite whatever the deformation: g is the gradient of the corner's shape function at rest, c = dJ/dx.
+// Units: SI; frame: the body's own. Pure; any thread. What is made once allocates, the rest does not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/error.hpp"
+#include "bodies/mesh/tetrahedra.hpp"
+
+namespace burin::bodies {
+
+struct SoftMaterial {
+    double young_Pa = 100e3;
+    double poisson = 0.48;  // above 0.48 linear elements lock, below the volume is not kept
+    double density_kg_per_m3 = 1000.0;
+    // Of the elements: stress per rate of strain over stress per strain.
+    double damping_s = 0.002;
+
+    [[nodiscard]] double mu_Pa() const { return young_Pa / (2.0 * (1.0 + poisson)); }
+    [[nodiscard]] double lambda_Pa() const { return young_Pa * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+};
+
+struct SoftState {
+    std::vector<Vec3> places_m, velocities_m_per_s;
+};
+
+class SoftBody {
+public:
+    // One corner of an element, as the element's energy depends on it.
+    struct Incidence {
+        std::array<std::uint32_t, 4> corners{};  // the corner itself first, in the cell's orientation
+        std::array<double, 4> gram{};            // g of the corner times g of each, 1/m^2
+        double volume_m3 = 0.0;                  // at rest
+    };
+
+    // Fails on a body without elements, with elements that are flat or inside out, or that does not hang together; and
+    // on a material that none is.
+    [[nodiscard]] static Result<SoftBody> create(Tetrahedra rest, const SoftMaterial& material);
+
+    [[nodiscard]] const Tetrahedra& rest() const { return rest_; }
+    [[nodiscard]] const SoftMaterial& material() const { return material_; }
+    [[nodiscard]] std::size_t corners() const { return rest_.places_m.size(); }
+    [[nodiscard]] double mass_kg(std::uint32_t corner) const { return masses_kg_[corner]; }
+    [[nodiscard]] std::span<const Incidence> around(std::uint32_t corner) const {
+        return std::span(incidences_).subspan(first_[corner], first_[corner + 1] - first_[corner]);
+    }
+    // Corners of one colour share no element: they can be moved at once.
+    [[nodiscard]] std::size_t colours() const { return colours_.size(); }
+    [[nodiscard]] std::span<const std::uint32_t> of_colour(std::size_t colour) const { return colours_[colour]; }
+
+    [[nodiscard]] SoftState at_rest() const {
+        return {rest_.places_m, std::vector<Vec3>(rest_.places_m.size(), Vec3(0.0))};
+    }
+
+private:
+    SoftBody() = default;
+    void find_incidences();
+    void colour();
+
+    Tetrahedra rest_;
+    SoftMaterial material_;
+    std::vector<double> masses_kg_;
+    std::vector<Incidence> incidences_;
+    std::vector<std::uint32_t> first_;  // of each corner's incidences
+    std::vector<std::vector<std::uint32_t>> colours_;
+};
+
+// The elastic force on a corner, and the derivative of minus that with respect to its place: symmetric, by columns.
+struct CornerForce {
+    Vec3 force_N{0.0};
+    glm::dmat3 stiffness_N_per_m{0.0};
+};
+[[nodiscard]] CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner);
+[[nodiscard]] double elastic_energy_J(const SoftBody& body, std::span<const Vec3> places_m);
+// Returns the volume now, and the least share of its own that an element has left; below 0 one is inside out.
+struct VolumeNow {
+    double volume_m3 = 0.0, least_share = 1.0;
+};
+[[nodiscard]] VolumeNow volume_of(const SoftBody& body, std::span<const Vec3> places_m);
+
+}  // namespace burin::bodies

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// The ball exercise: its rules turn by turn, its settings' file, its scripted participant.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "activities/rehab/rehab.hpp"
+#include "activities/rehab/scripted_squeezes.hpp"
+
+namespace burin::activities {
+namespace {
+
+using What = BallEvent::What;
+
+// An exercise that is given a force for a time, a turn each millisecond.
+class Exercised {
+public:
+    explicit Exercised(const BallSettings& settings) : settings_(settings) {}
+    void squeeze(double seconds_s, double force_N, bool grasped = true) {
+        const auto turns = static_cast<int>(seconds_s * 1000.0 + 0.5);
+        for (int i = 0; i < turns; ++i) {
+            BallTurn turn{now_ns_, grasped, {}};
+            turn.fingers.dt_s = 0.001;
+            turn.fingers.forces_N = {0.4 * force_N, 0.3 * force_N, 0.2 * force_N, 0.1 * force_N};
+            turn.fingers.joints_rad[2] = {0.0, 0.1 * force_N, 0.0, -0.2 * force_N};
+            BallStep step = step_ball(state_, settings_, turn);
+            state_ = step.state;
+            events_.insert(events_.end(), step.events.begin(), step.events.end());
+            now_ns_ += 1'000'000;
+        }
+    }
+    void rest(double seconds_s) { squeeze(seconds_s, 0.0, false); }
+    [[nodiscard]] const BallState& state() const { return state_; }
+    [[nodiscard]] std::vector<What> events() const {
+        std::vector<What> all;
+        for (const BallEvent& event : events_) all.push_back(event.what);
+        return all;
+    }
+    [[nodiscard]] const BallEvent& event(std::size_t index) const { return events_.at(index); }
+
+private:
+    BallSettings settings_;
+    BallState state_;
+    std::vector<BallEvent> events_;
+    Nanoseconds now_ns_ = 5'000'000'000;
+};
+
+std::string all_lines(const ReadSettings& read) {
+    std::string text;
+    for (const Error& error : read.errors) text += error.line() + "\n";
+    return text;
+}
+
+}  // namespace
+
+TEST(BallExercise, CountsASqueezeThatIsHeldAndRelaxed) {
+    Exercised ball({.level = 2, .repetitions = 2, .hold_s = 1.0});  // 4 N
+    ball.rest(0.5);
+    ball.squeeze(0.2, 3.9);
+    ball.squeeze(1.2, 4.1);
+    EXPECT_EQ(ball.state().repetitions, 1u);
+    ball.squeeze(2.0, 4.1);
+    EXPECT_EQ(ball.state().repetitions, 1u) << "one squeeze counts once, however long it lasts";
+    ball.squeeze(0.1, 1.9);
+    ball.squeeze(1.2, 5.0);
+    EXPECT_EQ(ball.state().repetitions, 2u);
+    EXPECT_EQ(ball.state().end, BallEnd::done);
+    EXPECT_EQ(ball.events(), (std::vector{What::begun, What::grasped, What::reached, What::counted, What::reached,
+                                          What::counted, What::done}));
+    EXPECT_EQ(ball.event(3).time_ns - ball.event(2).time_ns, 1'000'000'000);
+    EXPECT_DOUBLE_EQ(score_of(ball.state(), {.repetitions = 2}), 100.0);
+}
+
+TEST(BallExercise, BeginsTheTimeAnewWhereTheForceSinks) {
+    Exercised ball({.level = 1, .repetitions = 4, .hold_s = 1.0});  // 2 N
+    ball.squeeze(0.9, 2.1);
+    ball.squeeze(0.05, 1.61);  // within 80 %: it still holds
+    EXPECT_EQ(ball.state().too_short, 0u);
+    ball.squeeze(0.1, 1.59);
+    EXPECT_EQ(ball.state().too_short, 1u);
+    ball.squeeze(0.9, 2.1);
+    EXPECT_EQ(ball.state().repetitions, 0u);
+    ball.squeeze(0.2, 2.1);
+    EXPECT_EQ(ball.state().repetitions, 1u);
+    EXPECT_DOUBLE_EQ(score_of(ball.state(), {.repetitions = 4}), 22.5);
+}
+
+TEST(BallExercise, TakesNoForceOfAHandThatGraspsNothing) {
+    Exercised ball({.hold_s = 0.1});
+    ball.squeeze(1.0, 9.0, false);
+    EXPECT_EQ(ball.state().repetitions, 0u);
+    ball.squeeze(0.05, 9.0);
+    ball.squeeze(0.01, 9.0, false);
+    EXPECT_EQ(ball.state().too_short, 1u) << "letting go ends a hold";
+}
+
+TEST(BallExercise, EndsWithItsTimeAndStaysAsItIsThen) {
+    Exercised ball({.time_limit_s = 0.5});
+    ball.squeeze(0.6, 9.0);
+    EXPECT_EQ(ball.state().end, BallEnd::time_over);
+    EXPECT_NEAR(ball.state().time_s(), 0.5, 1e-9);
+    const BallState then = ball.state();
+    ball.squeeze(5.0, 9.0);
+    EXPECT_EQ(ball.state(), then);
+}
+
+TEST(BallExercise, MeasuresEachFingersForceAndTheRangeOfEachJoint) {
+    Exercised ball({});
+    ball.squeeze(0.5, 2.0);
+    ball.squeeze(0.5, 6.0);
+    ball.rest(1.0);
+    const FingerMeasures &thumb = ball.state().measures.fingers[0], &middle = ball.state().measures.fingers[2];
+    EXPECT_NEAR(thumb.peak_N, 2.4, 1e-12);
+    EXPECT_NEAR(thumb.mean_N(), 1.6, 1e-9) << "over the time in which it was pushed";
+    EXPECT_NEAR(thumb.pushed_s, 1.0, 1e-9);
+    EXPECT_NEAR(middle.range_rad(1), 0.6, 1e-12);
+    EXPECT_NEAR(middle.range_rad(3), 1.2, 1e-12);
+    EXPECT_EQ(thumb.range_rad(1), 0.0);
+}
+
+TEST(RehabSettings, AreReadAndWrittenAlike) {
+    RehabSettings settings;
+    settings.ball = {BallColour::blue, 3, 12, 0.75, 90.0};
+    const ReadSettings read = parse_rehab_settings(settings_text(settings), "s.toml");
+    EXPECT_TRUE(read.errors.empty()) << all_lines(read);
+    EXPECT_EQ(read.settings, settings);
+    EXPECT_EQ(parse_rehab_settings("", "s.toml").settings, RehabSettings{}) << "every key has a default";
+}
+
+TEST(RehabSettings, TellEachMistakeWithItsLine) {
+    const ReadSettings read = parse_rehab_settings(
+        "[ball]\ncolor = \"red\"\ncolour = \"purple\"\nlevel = 4\nrepetitions = 2.5\nhold_s = -1\ntime_limit_s = 0\n"
+        "[bal]\n",
+        "s.toml");
+    const std::string text = all_lines(read);
+    for (const char* line : {"s.toml:2: [ball] has no key named color; did you mean colour?",
+                             "s.toml:3: colour is purple; there are yellow, red, green, blue", "s.toml:4: level is 4",
+                             "s.toml:5: repetitions is 2.5", "s.toml:6: hold_s is -1", "s.toml:7: time_limit_s is 0",
+                             "s.toml:8: the file has no key named bal; did you mean ball?"})
+        EXPECT_TRUE(text.contains(line)) << line << " is missing in\n" << text;
+    EXPECT_EQ(read.errors.size(), 7u) << text;
+    for (const char* wrong :
+         {"[ball]\nlevel = 1e99", "[ball]\ntime_limit_s = nan", "ball = 3", "[ball", "[ball]\nlevel = -1"})
+        EXPECT_FALSE(parse_rehab_settings(wrong, "s.toml").errors.empty()) << wrong;
+}
+
+TEST(Rehab, IsMadeAnewOfItsSettings) {
+    const Rehab exercise(BallSettings{BallColour::green, 2, 7, 0.1, 33.3});
+    const auto again = ball_settings_of(exercise.settings());
+    ASSERT_TRUE(again) << exercise.settings();
+    EXPECT_EQ(*again, exercise.ball());
+    for (const char* wrong : {"rehab", "rehab ball", "rehab putty --colour red",
+                              "rehab ball --colour red --level 4 --repetitions 5 --hold 1 --time-limit 60",
+                              "rehab ball --colour pink --level 1 --repetitions 5 --hold 1 --time-limit 60"})
+        EXPECT_FALSE(ball_settings_of(wrong)) << wrong;
+}
+
+TEST(ScriptedSqueezes, AreAsManyLongOnesAsAreAskedForWhateverTheSeed) {
+    std::size_t too_short = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const auto squeezes = drawn_squeezes({.repetitions = 6, .hold_s = 1.0}, seed, 3.0);
+        EXPECT_EQ(std::ranges::count(squeezes, false, &ScriptedSqueeze::too_short), 6);
+        too_short += static_cast<std::size_t>(std::ranges::count(squeezes, true, &ScriptedSqueeze::too_short));
+        double last_s = 3.0;
+        for (const ScriptedSqueeze& squeeze : squeezes) {
+            EXPECT_GE(squeeze.closes_s, last_s);
+            EXPECT_GT(squeeze.opens_s, squeeze.closes_s);
+            last_s = squeeze.opens_s;
+        }
+    }
+    EXPECT_GT(too_short, 100u);
+    EXPECT_NE(drawn_squeezes({}, 1, 3.0).back().opens_s, drawn_squeezes({}, 2, 3.0).back().opens_s);
+}
+
+TEST(ScriptedSqueezes, TakeThePlaceOfTheScripts) {
+    const std::string text = with_squeezes(
+        "burin-input 1 x\n0.5 mouse 1 2\n1.000 button press left\n9.0 command quit\n", {{1.5, 3.0, false}});
+    EXPECT_EQ(text,
+              "burin-input 1 x\n0.5 mouse 1 2\n1.500 button press left\n2.950 command screenshot squeezed.png\n"
+              "3.000 button release left\n4.600 command quit\n");
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// burin rehab by the command line: a scripted hand from its seed to the score, a recording done again, settings that
+// cannot be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "activities/rehab/scripted_squeezes.hpp"
+#include "base/json.hpp"
+#include "gpu/device.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+class RehabSessions : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    }
+    // The exercise takes its world and its script from the folder of the repository.
+    [[nodiscard]] std::string rehab(const std::string& options) const {
+        return "cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " rehab ball " + options +
+               " --outputs " + path("out");
+    }
+    [[nodiscard]] std::string path(const std::string& name) const { return (at / name).string(); }
+    const Workplace at;
+};
+
+}  // namespace
+
+TEST_F(RehabSessions, EndWithTheSqueezesThatTheSeedForetells) {
+    for (const std::uint64_t seed : {1u, 2u}) {
+        const auto foretold = activities::drawn_squeezes({.repetitions = 3}, seed, 0.0);
+        const auto too_short = std::ranges::count(foretold, true, &activities::ScriptedSqueeze::too_short);
+        const std::string name = "r" + std::to_string(seed) + ".json", report = path(name);
+        const auto done = at.run(rehab("--hand scripted --offscreen --repetitions 3 --seed " + std::to_string(seed) +
+                                       " --report " + report));
+        ASSERT_EQ(done.status, 0) << done.output;
+        const Json json = Json::parse(at.read(name));
+        EXPECT_EQ(json.at("ended"), "done") << done.output;
+        EXPECT_EQ(json.at("repetitions"), 3);
+        EXPECT_EQ(json.at("held_too_short"), too_short) << done.output;
+        EXPECT_EQ(json.at("grasps"), foretold.size());
+        EXPECT_GT(json.at("fingers").at(1).at("peak_force_N").get<double>(), 0.5);
+    }
+}
+
+TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
+    const auto recorded =
+        at.run(rehab("--hand scripted --offscreen --repetitions 1 --seed 2 --record " + path("h.session")));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("ball: 1 of 1 squeezes")) << recorded.output;
+    const auto replayed =
+        at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("h.session"));
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("squeeze 1 of 1 counted")) << replayed.output;
+}
+
+TEST_F(RehabSessions, SayWhatTheyTake) {
+    EXPECT_EQ(at.run(rehab("--time-limit 0")).status, 1);
+    EXPECT_EQ(at.run(rehab("--level 9")).status, 1);
+    EXPECT_EQ(at.run(rehab("--colour pink")).status, 2);
+    const auto stylus = at.run(rehab("--device simulated"));
+    EXPECT_EQ(stylus.status, 1);
+    EXPECT_TRUE(stylus.output.contains("is no glove")) << stylus.output;
+    const auto printed = at.run(rehab("--level 3 --print-config"));
+    EXPECT_EQ(printed.status, 0);
+    EXPECT_TRUE(printed.output.contains("level = 3")) << printed.output;
+}
+
+}  // namespace burin::app
