@@ -30,8 +30,8 @@
 // where the proxy moves freely, c is drawn after it. The slack is the difference between the tool that cuts and the
 // balls that touch, and a little more: without it each new surface would move c on by this difference, and the tool
 // would sink without a force. For the same reason the tool cuts whether its balls touch or not: in free space nothing
-// bears it, and c is at the hand. Hardness 0 without p0 cuts without resistance (c = h), infinite hardness does not cut (c = p). Lengths at the
-// device are shorter by the gain g, areas by g^2.
+// bears it, and c is at the hand. Hardness 0 without p0 cuts without resistance (c = h), infinite hardness does not cut
+// (c = p). Lengths at the device are shorter by the gain g, areas by g^2.
 // Grain: both figures may swell and fall with the place along an axis, as the rings of a tree do.
 // Frame: object, metres. Pure; no clock, heap, lock or throw; + - * / and sqrt only, so that every machine gives the
 // same bits.
