@@ -42,6 +42,9 @@ std::string tool_file_of(const session::SculptOptions& options) {
     return shape.starts_with("mesh:") ? shape.substr(5) : std::string();
 }
 
+// Returns a device's name without what describes it: simulated-wand of simulated-wand:FILE.
+std::string kind_of(const std::string& device) { return device.substr(0, device.find(':')); }
+
 // Returns the digest of a file; nothing where there is none.
 std::optional<std::string> digest_of(const std::string& path) {
     std::error_code ignored;
@@ -166,6 +169,11 @@ Result<void> check_changes(const LiveReplay& how, const session::SculptOptions& 
         if (several && set.starts_with("device="))
             return fail("--set " + set, "the recording has several hands, each with its device",
                         "change them by --set 'hands=" + hands_text(recorded.live.hands) + "'");
+        else if (set.starts_with("device=") && kind_of(set.substr(7)) != kind_of(recorded.live.device))
+            return fail("--set " + set,
+                        "is another device than the recorded one, " + recorded.live.device +
+                            ": where the hand was and what it gave is that one's",
+                        "feel the motion elsewhere by --through a world, or record a session with that device");
     if (brings_scene && !how.world.empty())
         return fail("--world " + how.world, "has no effect: the recording's scene is its study's", "leave it out");
     if (recorded.no_workpiece && !how.workpiece.empty())
@@ -267,8 +275,8 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     manner.picture_every_ns = nanoseconds(how.every_s);
     manner.witness = &*judge;
     manner.ticks = &reader;
-    std::vector<session::TrialMark> trials;
-    manner.trials = &trials;
+    session::SessionNotes notes;
+    manner.notes = &notes;
     const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
     LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
     if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
@@ -276,9 +284,11 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     for (const record::HandRecord& part : reader.hands()) rows += part.rows();
     replayed.left = rows - std::min(rows, judge->repeated());
     const bool whole = reader.is_closed() && replayed.left == 0 && replayed.unrecorded == 0;
-    if (done && !replayed.comparison.difference)
-        if (const auto same = session::compare_trials(reader, trials, whole); !same)
-            return std::unexpected(same.error());
+    if (!done || replayed.comparison.difference) return replayed;
+    if (const auto same = session::compare_trials(reader, notes.trials, whole); !same)
+        return std::unexpected(same.error());
+    if (const auto same = session::compare_events(reader, notes.events, whole); !same)
+        return std::unexpected(same.error());
     return replayed;
 }
 

@@ -101,9 +101,7 @@ Result<void> check_wand_file(const record::RecordReader& reader, const std::stri
 }
 
 std::string live_settings_of(const record::RecordReader& reader) {
-    const std::string header = fact_of(reader, record::kLogHeaderFact);
-    const std::size_t settings = header.find("burin sculpt");
-    return settings == std::string::npos ? std::string() : header.substr(settings);
+    return session::settings_on(fact_of(reader, record::kLogHeaderFact));
 }
 
 Result<activities::RecordedDevice> recorded_device(const record::RecordReader& reader) {

@@ -73,8 +73,8 @@ std::vector<std::string> named_by_text_log(const std::string& path) {
     head.resize(static_cast<std::size_t>(file.gcount()));
     head.resize(std::min(head.size(), head.find('\n')));
     NamedFiles files;
-    const std::size_t settings = head.find("burin sculpt");
-    if (head.starts_with("burin-input ") && settings != std::string::npos) files.add_settings(head.substr(settings));
+    const std::string settings = session::settings_on(head);
+    if (head.starts_with("burin-input ") && !settings.empty()) files.add_settings(settings);
     return files.list();
 }
 

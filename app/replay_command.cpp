@@ -17,6 +17,7 @@
 #include "app/world_explore.hpp"
 #include "app/world_wand.hpp"
 #include "record/examination.hpp"
+#include "session/drive/tick_comparison.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/session_recording.hpp"
 
@@ -98,6 +99,7 @@ struct ReplayCommand::Options {
         if (to) range.to = static_cast<std::int64_t>(*to);
         return range;
     }
+    [[nodiscard]] bool is_whole() const { return !from && !to; }
     [[nodiscard]] Result<void> replay() const;
     [[nodiscard]] Result<void> replay_session(record::RecordReader& reader) const;
 };
@@ -122,6 +124,8 @@ Result<void> ReplayCommand::Options::replay() const {
         : activity == kWandActivity            ? replay_wand(*reader, world, stroke, range())
                                                : replay_felt(*reader, {stroke, workpiece}, range());
     if (!found) return std::unexpected(found.error());
+    if (!found->difference && found->ticks > 0 && is_whole())
+        if (const auto untouched = session::check_unchanged(*reader); !untouched) return untouched;
     return tell(*reader, *found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
 }
 
@@ -133,6 +137,8 @@ Result<void> ReplayCommand::Options::replay_session(record::RecordReader& reader
     const auto begun = std::chrono::steady_clock::now();
     const Result<LiveReplayed> found = replay_live(reader, {world, workpiece, sets, pictures, every_s}, range());
     if (!found) return std::unexpected(found.error());
+    if (!found->comparison.difference && found->comparison.ticks > 0 && is_whole())
+        if (const auto untouched = session::check_unchanged(reader); !untouched) return untouched;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     if (!found->comparison.difference && found->unrecorded > 0)
         std::fprintf(stderr, "burin: %s: %llu ticks of its log have no columns: they were lost\n", file.c_str(),

@@ -55,16 +55,16 @@ TurnShare HapticLoop::share_of(std::size_t n, double spent_ns, const TickParamet
             .kept_ns = std::min(after * WorkCost::kTick_ns, kMostKept * budget)};
 }
 
-// A fault of the whole device counts as one of each part that has none of its own.
+// A fault of a whole device counts as one of each of its parts that has none of its own.
 void HapticLoop::spread_fault() noexcept {
-    devices::DeviceFault fault = devices::DeviceFault::none;
-    for (const Part& part : parts_) {
-        const devices::DeviceSample& sample = part.input.sample;
-        if (sample.fault_is_of_all && fault == devices::DeviceFault::none) fault = sample.fault;
+    using devices::DeviceFault;
+    for (const Part& lost : parts_) {
+        const devices::DeviceSample& sample = lost.input.sample;
+        if (!sample.fault_is_of_all || sample.fault == DeviceFault::none) continue;
+        for (Part& part : parts_)
+            if (part.of_device == lost.of_device && part.input.sample.fault == DeviceFault::none)
+                part.input.sample.fault = sample.fault;
     }
-    if (fault == devices::DeviceFault::none) return;
-    for (Part& part : parts_)
-        if (part.input.sample.fault == devices::DeviceFault::none) part.input.sample.fault = fault;
 }
 
 TickRecord HapticLoop::tick_part(Part& part, const TurnShare& share, Nanoseconds now_ns,

@@ -8,9 +8,9 @@
 // and energy account of its own, so limits, slew and passivity hold for each. The turn's work is bounded as one tick's
 // is: the parts have one period's budget among them (TurnShare). A part for which nothing is left is held over, and the
 // next turn begins with the first part, after the one that this turn began with, whose work did not suffice, so that
-// each gets its turn. A fault of one part gives that part no force,
-// and the others go on; a fault that a part reports as the whole device's (DeviceSample::fault_is_of_all) gives none to
-// any part, in the same turn. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all. In
+// each gets its turn. A fault of one part gives it no force; one that it reports as its whole device's gives none to
+// any part of that device, in the same turn (DeviceSample::fault_is_of_all). All others go on, those of another device
+// in the loop as well. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all. In
 // simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step(); or
 // call run() with a SimulatedClock, which does just that. Thread: one at a time calls step() or run(). Neither
 // allocates, locks, throws or opens a file. The lateness and duration of each tick are counted in histograms, which any
@@ -43,6 +43,9 @@ namespace burin::haptics {
 struct LoopPart {
     devices::HapticDevice& device;
     HapticChannels& channels;
+    // The device that it is a part of, by a number of the caller's: what a part reports as the whole device's takes the
+    // force off the parts of this number alone.
+    std::size_t of_device = 0;
 };
 
 // What a part's tick is computed from, besides its state. The references hold for the call.
@@ -117,9 +120,11 @@ private:
         std::uint64_t parameter_sequence = 0;
     };
     struct Part {
-        explicit Part(const LoopPart& part) : device(&part.device), channels(&part.channels) {}
+        explicit Part(const LoopPart& part)
+            : device(&part.device), channels(&part.channels), of_device(part.of_device) {}
         devices::HapticDevice* device;
         HapticChannels* channels;
+        std::size_t of_device;
         FullTickState state;
         PartInput input;                    // of this turn
         devices::DeviceSample sample;       // of the last tick

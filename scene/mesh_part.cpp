@@ -2,6 +2,7 @@
 #include "scene/mesh_part.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "geometry/contact/touch_mesh.hpp"
@@ -266,6 +267,11 @@ Result<void> MeshPart::add_near(const ProbeBall& ball, geometry::LocalSurface& d
     std::ranges::sort(found_);  // whatever the tree's order: edits elsewhere in the scene change nothing here
     for (const std::uint32_t i : found_) offer(objects_[i], ball, draft);
     return {};
+}
+
+void MeshPart::take_changes(SceneChanges& changes) {
+    std::ranges::move(take_object_updates(), std::back_inserter(changes.objects));
+    if (std::exchange(told_materials_, materials_.version()) != materials_.version()) changes.materials = materials_;
 }
 
 std::vector<ObjectUpdate> MeshPart::take_object_updates() {

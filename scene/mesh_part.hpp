@@ -30,17 +30,6 @@
 
 namespace burin::scene {
 
-// What the frame has to know of an object that has changed.
-struct ObjectUpdate {
-    ObjectId id = 0;
-    Similarity scene_from_mesh;
-    bool seen = true;
-    Colour colour{};
-    Pose pose;            // its own: on a path, without the path
-    ObjectMotion motion;  // as it is now: a hand may hold it, or have left it where it is
-    double opacity = 1.0;
-};
-
 class MeshPart final : public ScenePart {
 public:
     static constexpr Nanoseconds kMoving_ns = 10'000'000, kResting_ns = 40'000'000;
@@ -58,6 +47,7 @@ public:
     [[nodiscard]] const PartSeen& seen() const override { return seen_; }
     // Leaves out what the hand itself holds, unless it is to be felt by it.
     [[nodiscard]] Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) override;
+    void take_changes(SceneChanges& changes) override;
     [[nodiscard]] Nanoseconds period_ns() const override { return moving_.empty() ? kResting_ns : kMoving_ns; }
 
     // Makes an edit, which the next update shows. One that fails changes nothing. take_hold() has an object move with
@@ -135,6 +125,7 @@ private:
     Nanoseconds start_ns_ = 0;          // of the first update
     bool started_ = false;
     std::uint64_t looks_ = 0;
+    std::uint64_t told_materials_ = 0;  // version of the table, as told by take_changes()
     PartSeen seen_;
     Nanoseconds now_ns_ = 0;  // of the last update
 };

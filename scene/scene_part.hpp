@@ -4,8 +4,8 @@
 //
 // Data flow of an update: the scene's service (scene/scene_service.hpp) hands each part the ticks of all
 // hands, calls its update(), and then has the touch publisher (scene/touch_publisher.hpp) ask every part for what lies
-// near each hand's probe. What a part draws, and the orders that it carries out, are its own affair: whoever knows
-// which part it is asks it.
+// near each hand's probe. What it has changed it tells the frames by take_changes(). The orders that it carries out are
+// its own affair: whoever gives them knows which part it is for.
 // Frame: the scene's, metres, which LocalSurface calls the object frame.
 // Threads: one at a time, the service's or, where time is simulated, the caller's.
 #pragma once
@@ -19,6 +19,7 @@
 #include "geometry/contact/local_surface.hpp"
 #include "haptics/channels.hpp"
 #include "scene/contact_events.hpp"
+#include "scene/scene_changes.hpp"
 
 namespace burin::scene {
 
@@ -60,6 +61,8 @@ public:
     // Does what hands need not wait for, such as light: called at the end of an update, when all surfaces are
     // published.
     virtual void after_publication() {}
+    // Adds what has changed since the last call, at first all, for the frames. Called after an update.
+    virtual void take_changes(SceneChanges& /*changes*/) {}
     // Returns the longest time until the next update that the part allows; it may change with each.
     [[nodiscard]] virtual Nanoseconds period_ns() const = 0;
     // Waits for all work that goes on elsewhere.

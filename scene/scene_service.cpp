@@ -2,6 +2,7 @@
 #include "scene/scene_service.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "haptics/haptic_loop.hpp"
@@ -81,6 +82,11 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
     }
     for (ScenePart* part : parts_) part->after_publication();
     return {};
+}
+
+void SceneService::take_changes(SceneChanges& changes) {
+    for (ScenePart* part : parts_) part->take_changes(changes);
+    std::ranges::move(std::exchange(contacts_, {}), std::back_inserter(changes.hands.contacts));
 }
 
 Nanoseconds SceneService::period_ns() const {

@@ -59,6 +59,9 @@ public:
     [[nodiscard]] Result<void> repeat(const SceneUpdate& recorded);
     // Returns the inputs of the last update; `orders` is 0 unless it was given.
     [[nodiscard]] const SceneUpdate& seen() const { return seen_; }
+    // Adds what the parts have changed since the last call, and what the hands have begun and ended to touch in the
+    // last update.
+    void take_changes(SceneChanges& changes);
     // Returns the time until the next update: the shortest that a part asks for, and at most kHandsMove_ns while a hand
     // moves.
     [[nodiscard]] Nanoseconds period_ns() const;
@@ -80,7 +83,7 @@ private:
     std::vector<double> sunk_m_;              // how far each hand was beyond where its tool rested
     std::vector<haptics::TickRecord> ticks_;  // of one hand in one update
     std::vector<ContactFollower> followers_;  // of each hand
-    std::vector<ContactEvent> contacts_;      // of one update
+    std::vector<ContactEvent> contacts_;      // of one update, until they are told
     bool hands_move_ = false;
     SceneUpdate seen_;
 };

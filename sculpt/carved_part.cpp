@@ -128,6 +128,11 @@ bool CarvedPart::has_news() const {
     return sculpture_.has_changed_tiles() || !messages_.empty() || !exports_.empty() || status_changed_;
 }
 
+void CarvedPart::take_changes(scene::SceneChanges& changes) {
+    if (auto update = take_surface_update())
+        changes.drawn.push_back(std::make_unique<CarvedChange>(std::move(*update)));
+}
+
 std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
     SurfaceUpdate update;
     const compute::SurfaceLight* light = sculpture_.light();

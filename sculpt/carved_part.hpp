@@ -69,6 +69,13 @@ struct SurfaceUpdate {
     std::vector<ExportOutcome> exports;  // that have ended, for the user as well
 };
 
+// A surface update on its way to the frames.
+class CarvedChange final : public scene::DrawnChange {
+public:
+    explicit CarvedChange(SurfaceUpdate changed) : update(std::move(changed)) {}
+    SurfaceUpdate update;
+};
+
 class CarvedPart final : public scene::ScenePart {
 public:
     // Tiles baked in one update: few while the tool works, more while it rests.
@@ -102,6 +109,8 @@ public:
     [[nodiscard]] Nanoseconds period_ns() const override { return busy_ ? kBusy_ns : kResting_ns; }
     void finish() override;
 
+    // As a CarvedChange.
+    void take_changes(scene::SceneChanges& changes) override;
     // Returns nullopt when nothing has changed.
     [[nodiscard]] std::optional<SurfaceUpdate> take_surface_update();
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "session/record/session_check.hpp"
 
 namespace burin::activities {
 namespace {
@@ -179,6 +180,17 @@ void Seek::let_glow(const session::WorldObjects& world, session::ActivityOrders&
 void Seek::end_glow(session::ActivityOrders& orders) {
     if (its_colour_) orders.edits.push_back({now_.object, ObjectProperty::colour, *its_colour_});
     its_colour_.reset();
+}
+
+std::uint64_t Seek::check() const {
+    session::CheckSum sum;
+    sum.add(static_cast<std::uint64_t>(phase_));
+    sum.add(std::uint64_t{searches_});
+    sum.add(std::uint64_t{found_.size()});
+    sum.add(std::uint64_t{now_.others});
+    sum.add(now_.time_s);
+    sum.add(now_.path_m);
+    return sum.sum();
 }
 
 session::ActivityPanel Seek::panel() const {

@@ -46,6 +46,7 @@ public:
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
     [[nodiscard]] bool is_running() const override { return phase_ == Phase::seeking; }
+    [[nodiscard]] std::uint64_t check() const override;
     [[nodiscard]] session::ActivityPanel panel() const override;
 
     // Returns the targets of all searches, in the order in which they were found or given up.

@@ -234,21 +234,44 @@ Json frames_json() {
     return json;
 }
 
-Result<std::string> trials_table(RecordReader& reader, std::int64_t first_ns) {
+// A row of the table of events.
+struct BidsEvent {
+    std::int64_t onset_ns = 0;
+    std::string duration, type, state;
+};
+
+// What stands in a cell of a table.
+std::string bids_cell(std::string text) {
+    std::ranges::replace_if(text, [](char c) { return c == '\t' || c == '\n' || c == '\r'; }, ' ');
+    return text.empty() ? "n/a" : text;
+}
+
+// Trials and events in the order of time; empty where there are none. What happens at an instant has no duration.
+Result<std::string> events_table(RecordReader& reader, std::int64_t first_ns) {
     const auto trials = reader.trials();
     if (!trials) return std::unexpected(trials.error());
-    if (trials->empty()) return std::string();
-    std::string text = "onset\tduration\ttrial_type\tstate\n";
+    const auto events = reader.events();
+    if (!events) return std::unexpected(events.error());
+    std::vector<BidsEvent> rows;
     for (const TrialRecord& trial : *trials) {
         std::int64_t onset_ns = 0, length_ns = 0;
         if (__builtin_sub_overflow(trial.begun_ns, first_ns, &onset_ns) ||
             __builtin_sub_overflow(trial.ended_ns, trial.begun_ns, &length_ns))
             continue;
-        std::string name = trial.name.empty() ? "n/a" : trial.name;
-        std::ranges::replace_if(name, [](char c) { return c == '\t' || c == '\n' || c == '\r'; }, ' ');
-        text += bids_seconds(onset_ns) + "\t" + (trial.state == "open" ? "n/a" : bids_seconds(length_ns)) + "\t" +
-                name + "\t" + trial.state + "\n";
+        rows.push_back({onset_ns, trial.state == "open" ? "n/a" : bids_seconds(length_ns), bids_cell(trial.name),
+                        bids_cell(trial.state)});
     }
+    for (const EventRecord& event : *events) {
+        std::int64_t onset_ns = 0;
+        if (__builtin_sub_overflow(event.time_ns, first_ns, &onset_ns)) continue;
+        const std::string type = event.value.empty() ? event.name : event.name + " " + event.value;
+        rows.push_back({onset_ns, "0", bids_cell(type), "n/a"});
+    }
+    if (rows.empty()) return std::string();
+    std::ranges::stable_sort(rows, {}, &BidsEvent::onset_ns);
+    std::string text = "onset\tduration\ttrial_type\tstate\n";
+    for (const BidsEvent& row : rows)
+        text += bids_seconds(row.onset_ns) + "\t" + row.duration + "\t" + row.type + "\t" + row.state + "\n";
     return text;
 }
 
@@ -285,7 +308,7 @@ Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const 
     ExportReport report{0, columns.size(), {}};
     const auto moved = write_motion(reader, table, columns, begin + "motion.tsv", times, span, report);
     if (!moved) return std::unexpected(moved.error());
-    const Result<std::string> events = trials_table(reader, span.first_ns);
+    const Result<std::string> events = events_table(reader, span.first_ns);
     if (!events) return std::unexpected(events.error());
     const Json set{{"Name", "Burin session"},
                    {"BIDSVersion", "1.9.0"},

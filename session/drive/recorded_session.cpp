@@ -27,13 +27,14 @@ public:
           replay_(replay),
           manner_(manner) {
         session.replay_events(log.messages_before);
+        if (manner.notes != nullptr) recorder_.keep_events();
     }
 
     // Replays what the threads did after the last frame, and checks the surface.
     [[nodiscard]] Result<void> finish_as_recorded() {
         if (const auto run = replay_.run_to_end(); !run) return run;
         if (const auto done = finish(replay_); !done) return done;
-        if (manner_.trials != nullptr) *manner_.trials = recorder_.take_trials();
+        if (manner_.notes != nullptr) *manner_.notes = {recorder_.take_trials(), recorder_.take_events()};
         if (log_.end_check && *log_.end_check != check_of(session_) && !departed_)
             departed_ = Error{"the replay leaves another scene than the recording did", name_, kRemedy};
         return {};

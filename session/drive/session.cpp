@@ -84,15 +84,17 @@ Result<void> run_compared(const SculptOptions& options, InputLog log) {
     if (!reader) return std::unexpected(reader.error());
     Result<TickComparison> judge = TickComparison::create(*reader, {}, TickComparison::AtDifference::goes_on);
     if (!judge) return std::unexpected(judge.error());
-    std::vector<TrialMark> trials;
-    const ReplayManner manner{.witness = &*judge, .ticks = &*reader, .trials = &trials};
+    SessionNotes notes;
+    const ReplayManner manner{.witness = &*judge, .ticks = &*reader, .notes = &notes};
     if (const auto done = run_as_recorded(options, std::move(log), manner); !done) return done;
     const record::Comparison& found = judge->found();
     if (found.difference) return fail(options.live.input, "differs: " + found.difference->line());
     if (found.ticks == 0)
         return fail(options.live.input, "none of its ticks was compared: its log ends before them, or they are missing",
                     "burin session check names what is missing");
-    if (const auto same = compare_trials(*reader, trials, reader->is_closed()); !same) return same;
+    if (const auto same = compare_trials(*reader, notes.trials, reader->is_closed()); !same) return same;
+    if (const auto same = compare_events(*reader, notes.events, reader->is_closed()); !same) return same;
+    if (const auto untouched = check_unchanged(*reader); !untouched) return untouched;
     std::printf("%s: %s ticks, %zu columns: equal to the bit\n", options.live.input.c_str(),
                 std::to_string(found.ticks).c_str(), found.columns);
     return {};

@@ -28,12 +28,18 @@ namespace burin::session {
 // facts: for a session file, into which it may be recorded.
 [[nodiscard]] Result<void> run_session(const SculptOptions& options, const SessionFacts& facts = {});
 
+// What a session has noted for the tables of its file.
+struct SessionNotes {
+    std::vector<TrialMark> trials;
+    std::vector<EventMark> events;
+};
+
 // How a recording is replayed.
 struct ReplayManner {
-    bool draws = true;                         // its frames' pictures; their screenshots, too
-    TickWitness* witness = nullptr;            // judges every tick; null: only the frames' checksums are compared
-    record::RecordReader* ticks = nullptr;     // the session file that has the ticks, where the log has none
-    std::vector<TrialMark>* trials = nullptr;  // takes what the activity has begun and ended; null: nobody wants it
+    bool draws = true;                      // its frames' pictures; their screenshots, too
+    TickWitness* witness = nullptr;         // judges every tick; null: only the frames' checksums are compared
+    record::RecordReader* ticks = nullptr;  // the session file that has the ticks, where the log has none
+    SessionNotes* notes = nullptr;          // takes trials and events; null: nobody wants them
     // What the log asked for and did not get then either is no failure of the replay.
     bool only_compares = false;
     Nanoseconds picture_every_ns = 0;  // with draws: of session time, as SECONDS.png; 0: none

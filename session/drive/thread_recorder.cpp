@@ -62,7 +62,7 @@ void ThreadRecorder::outside() {
 
 void ThreadRecorder::frame(std::span<const haptics::ToolState> tools, const std::vector<scene::SceneUpdate>& updates,
                            const std::vector<wall::OutputPlace>& places) {
-    write_trials();
+    write_notes();
     if (!input_.records()) return;
     if (!file_) write_ticks();  // a tick is in the ring before its tool is published
     write_updates(updates);
@@ -71,6 +71,8 @@ void ThreadRecorder::frame(std::span<const haptics::ToolState> tools, const std:
     if (measured.plotted) input_.record_threads(text_of(*measured.plotted));
     if (measured.numbers) input_.record_threads(text_of(*measured.numbers));
     if (measured.acknowledged) input_.record_threads(kept_text(*measured.acknowledged));
+    const std::uint64_t activity = session_.check_of_activity();
+    if (std::exchange(activity_, activity) != activity) input_.record_threads(activity_text(activity));
     FrameSeen frame;
     frame.ticks.clear();
     for (const haptics::ToolState& tool : tools) frame.ticks.push_back(tool.tick);
@@ -85,7 +87,7 @@ void ThreadRecorder::frame(std::span<const haptics::ToolState> tools, const std:
 
 void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
     outside();
-    write_trials();
+    write_notes();
     if (recording_) {
         if (file_) {
             file_->take_ticks();
@@ -102,8 +104,14 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
         session_.files().notify_of_loss(closed.error().line());
 }
 
-// A text log has no table of them.
-void ThreadRecorder::write_trials() {
+// A text log has no tables of them.
+void ThreadRecorder::write_notes() {
+    for (EventMark& mark : session_.take_events()) {
+        if (file_)
+            file_->event(std::move(mark));
+        else if (keeps_events_)
+            events_.push_back(std::move(mark));
+    }
     for (TrialMark& mark : session_.take_trials()) {
         if (file_)
             file_->trial(mark);

@@ -40,11 +40,14 @@ public:
                const std::vector<wall::OutputPlace>& places);
     // Ends the recording, and closes a session file.
     void finish(const std::vector<scene::SceneUpdate>& updates);
-    // Returns the trials that no session file has taken, since the last call.
+    // Returns the trials and events that no session file has taken, since the last call. Events are kept where
+    // keep_events() has been called.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
+    [[nodiscard]] std::vector<EventMark> take_events() { return std::exchange(events_, {}); }
+    void keep_events() { keeps_events_ = true; }
 
 private:
-    void write_trials();
+    void write_notes();
     void write_ticks();
     void write_ticks(const std::vector<TickSeen>& ticks);
     void write_updates(const std::vector<scene::SceneUpdate>& updates);
@@ -57,7 +60,10 @@ private:
     UpdateText update_text_;
     std::uint64_t ticks_ = 0, updates_ = 0;  // written so far
     std::vector<wall::OutputPlace> places_;
-    std::vector<TrialMark> trials_;  // in no file
+    std::vector<TrialMark> trials_;  // in no file, nor are
+    std::vector<EventMark> events_;
+    bool keeps_events_ = false;
+    std::uint64_t activity_ = 0;  // its check, as written last
     SessionCheck check_;
     std::shared_ptr<SessionRecording> file_;  // null: a text file, or nothing
     bool recording_;

@@ -68,7 +68,10 @@ Result<Executor::Taken> ThreadReplay::take_updates() {
     return Taken{{}, frame_->updates};
 }
 
-bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->ticks, words_of(session_.state())) == frame_->check; }
+bool ThreadReplay::is_as_recorded() {
+    const bool same = check_.frame(frame_->ticks, words_of(session_.state())) == frame_->check;
+    return same && frame_->activity.value_or(session_.check_of_activity()) == session_.check_of_activity();
+}
 
 Result<void> ThreadReplay::run_to_end() {
     if (!log_.end_check) return {};

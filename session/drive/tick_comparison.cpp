@@ -138,4 +138,37 @@ Result<void> compare_trials(record::RecordReader& reader, std::span<const TrialM
     return {};
 }
 
+Result<void> compare_events(record::RecordReader& reader, std::span<const EventMark> again, bool whole) {
+    if (!reader.facts().contains(kEventsFact)) return {};
+    Result<std::vector<record::EventRecord>> recorded = reader.events();
+    if (!recorded) return std::unexpected(recorded.error());
+    std::erase_if(*recorded, [](const record::EventRecord& event) { return event.name == kLogEndedEvent; });
+    const auto text = [](const auto& event) {
+        return "'" + event.name + (event.value.empty() ? "" : " " + event.value) + "' at " +
+               std::to_string(event.time_ns) + " ns";
+    };
+    constexpr const char* kRemedy = "it was changed since, or another program recorded it: replay it with that one";
+    const std::size_t both = std::min(recorded->size(), again.size());
+    for (std::size_t i = 0; i < both; ++i) {
+        const record::EventRecord& was = (*recorded)[i];
+        if (EventMark{was.time_ns, was.name, was.value} == again[i]) continue;
+        return fail(reader.path(),
+                    "event " + std::to_string(i + 1) + " is " + text(was) + ", and done again " + text(again[i]),
+                    kRemedy);
+    }
+    if (!whole || recorded->size() == again.size()) return {};
+    return fail(reader.path(),
+                "has " + std::to_string(recorded->size()) + " events, and " + std::to_string(again.size()) +
+                    " when it is done again",
+                kRemedy);
+}
+
+Result<void> check_unchanged(record::RecordReader& reader) {
+    const Result<record::ChainExamination> chain = reader.examine_chain();
+    if (!chain) return std::unexpected(chain.error());
+    if (!chain->is_there || chain->faults.empty()) return {};
+    return fail(reader.path(), "its ticks are done again equal to the bit, but " + chain->faults.front(),
+                "burin session check names all that was changed since it was recorded");
+}
+
 }  // namespace burin::session

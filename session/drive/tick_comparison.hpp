@@ -60,4 +60,11 @@ private:
 // what both have is compared.
 [[nodiscard]] Result<void> compare_trials(record::RecordReader& reader, std::span<const TrialMark> again, bool whole);
 
+// Likewise of its events, where the recording has kept them (kEventsFact).
+[[nodiscard]] Result<void> compare_events(record::RecordReader& reader, std::span<const EventMark> again, bool whole);
+
+// Fails where something in the file was changed, put in or taken out since it was recorded, which a replay need not
+// come across: by the first place that its chain of digests names (record/chain.hpp).
+[[nodiscard]] Result<void> check_unchanged(record::RecordReader& reader);
+
 }  // namespace burin::session

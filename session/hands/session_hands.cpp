@@ -26,7 +26,7 @@ Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock
                         formatted("ticks %g times a second, and %s=%s %g times", device(i).rate_Hz,
                                   hands_.front()->name.c_str(), device(0).name, rate_Hz),
                         "take devices of one rate: one loop drives both");
-        parts.push_back({*hands_[of.hand]->device.parts[of.part].device, parts_[i]->channels});
+        parts.push_back({*hands_[of.hand]->device.parts[of.part].device, parts_[i]->channels, of.hand});
     }
     loop_.emplace(parts, clock);
     return {};

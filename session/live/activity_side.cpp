@@ -66,6 +66,9 @@ void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds 
         const HandsViewed viewed(hands, news_, tools);
         activity_->step({time_ns, viewed.all(), news_.contacts, state.world.get()}, wanted);
     }
+    ActivityRecord record;
+    activity_->write(record);
+    std::ranges::move(record.events, std::back_inserter(events_));
     news_ = {};
     carry_out(std::move(wanted), state, orders, hands);
 }

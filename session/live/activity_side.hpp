@@ -52,6 +52,10 @@ public:
     }
     // Returns the trials that it has begun and ended since the last call.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
+    // Returns what it has written into the recording since the last call.
+    [[nodiscard]] std::vector<EventMark> take_events() { return std::exchange(events_, {}); }
+    // Returns Activity::check(); 0 without an activity.
+    [[nodiscard]] std::uint64_t check() const { return activity_ ? activity_->check() : 0; }
     // Ends the activity; it is not told of anything afterwards. Does nothing when called again.
     [[nodiscard]] Result<void> finish() {
         const auto ended = std::exchange(activity_, nullptr);
@@ -64,7 +68,8 @@ private:
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;
     HandNews news_;                  // since the last step
-    std::vector<TrialMark> trials_;  // not taken yet
+    std::vector<TrialMark> trials_;  // not taken yet, as are
+    std::vector<EventMark> events_;
 };
 
 }  // namespace burin::session

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "session/live/session_events.hpp"
 #include "session/state/governed.hpp"
 
 namespace burin::session {
@@ -19,7 +20,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     fit_desk_screen(room_.wall, main_eye());
     tools_.assign(tools.begin(), tools.end());
     std::vector<haptics::ToolState> of_hands;  // by the first part of each
-    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) of_hands.push_back(tools_[hands_.first_part(hand)]);
+    for (std::size_t hand = 0; hand < hands().hands(); ++hand) of_hands.push_back(tools_[hands().first_part(hand)]);
     const haptics::ToolState tool = tool_in_use();
     times_.sampled(start_ns_ + head_sampled_ns(input), tool.time_ns);
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
@@ -36,10 +37,10 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
             step.orders.messages.push_back({done.error().line()});
     }
     if (before) hold_governed(*before, step.orders);
-    activity_.step(state_, step.orders, input.time_ns, hands_, tools_);
+    activity_.step(state_, step.orders, input.time_ns, hands(), tools_);
     scene_.news().frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
-    hands_.move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);
+    hands().move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
 }
@@ -57,7 +58,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                             {.state = state_,
                              .room = room_,
                              .tool = tool_in_use(),
-                             .hands = hands_,
+                             .hands = hands(),
                              .tools = tools_,
                              .tracker = tracker_.report(),
                              .workpiece = workpiece_,
@@ -67,7 +68,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .exporting = exporting_,
                              .activity = activity_.panel(),
                              .times = times_,
-                             .tick_duration = hands_.loop().duration(),
+                             .tick_duration = hands().loop().duration(),
                              .shown = output_on(room_.wall.main),
                              .output = output_,
                              .panel_output = panel_output_,
@@ -81,31 +82,15 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
     return {{input.events.begin(), input.events.end()}, {}};
 }
 
-// How far a handle's points are from the first of them, in the scene as large as it is shown now.
-double LiveSession::spread_of(std::size_t hand) const {
-    return handles_[hand]
-               ? handles_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
-               : 0.0;
-}
-
-void LiveSession::publish_parameters() {
-    for (std::size_t part = 0; part < hands_.parts(); ++part) {
-        const PartOfHand of = hands_.part_of_hand(part);
-        haptics::TickParameters parameters = parameters_of(state_, room_, of.hand);
-        activity_.adjust(of, parameters);
-        hands_.publish(part, std::move(parameters));
-    }
-}
-
 // What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
 void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
     if (log_.follows_recording()) return;
-    const std::optional<devices::AmplifierAnswer> answer = hands_.switch_amplifiers(state_.hand, asked.on);
+    const std::optional<devices::AmplifierAnswer> answer = hands().switch_amplifiers(state_.hand, asked.on);
     if (answer == devices::AmplifierAnswer::done)
         return log_.notify_of_event(asked.on ? "the amplifiers are on; the force comes back from zero"
                                              : "the amplifiers are off: no force until they are enabled again");
     const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
-                                   : "those of " + std::string(hands_.device(hands_.first_part(state_.hand)).name) +
+                                   : "those of " + std::string(hands().device(hands().first_part(state_.hand)).name) +
                                          " cannot be switched from here";
     log_.notify_of_event("amplifiers: " + why, {files_.failed_on(asked.line), {}});
 }
@@ -113,11 +98,9 @@ void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
     if (orders.parameters) publish_parameters();
-    // The scene has been scaled, or the motion.
-    for (std::size_t hand = 0; orders.parameters && hand < hands_.hands(); ++hand)
-        scene_.spread(hand, spread_of(hand), give);
+    if (orders.parameters) hands_.spread(state_, room_, scene_, give);
     for (sculpt::SculptOrder& order : orders.carving) {
-        if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
+        if (const auto* use = std::get_if<sculpt::UseTool>(&order)) watch_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
         if (wanted != nullptr && !files_.write()) continue;
         if (wanted != nullptr) files_.place(*wanted);
@@ -138,18 +121,19 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
 }
 
-// Says once, until tool and workpiece suit one another again, that they do not.
-void LiveSession::warn_of_misfit(const sculpt::Tool& tool) {
-    if (!warns_of_misfit_) return;
-    const auto misfit =
-        sculpt::misfit(state_.tool, tool, sculpt::longest_side_m(room_.workpiece_object), scene_.spacing_m());
-    if (misfit && !misfits_) notify(*misfit);
-    misfits_ = misfit.has_value();
+void LiveSession::watch_misfit(const sculpt::Tool& tool) {
+    const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
+    if (const auto misfit = misfit_.look(state_.tool, tool, longest_m, scene_.spacing_m())) notify(*misfit);
 }
 
 void LiveSession::watch(Nanoseconds time_ns) {
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
+    for (DeviceWatch::News& news : devices_.look(hands(), tools_)) {
+        notify(news.message);
+        events_.push_back(std::move(news.event));
+    }
+    std::ranges::move(activity_.take_events(), std::back_inserter(events_));
 }
 
 void LiveSession::take_loaded() {
@@ -161,6 +145,8 @@ void LiveSession::take_news(std::uint64_t updates) {
     SceneNews::Taken news = scene_.news().take(updates);
     if (news.surface) take(std::move(*news.surface));
     for (const std::string& message : news.messages) notify(message);
+    for (const scene::ContactEvent& contact : news.hands.contacts)
+        events_.push_back(event_of(contact, hands(), state_.world.get()));
     activity_.take(std::move(news.hands));
     if (scene_.world() == nullptr) return;
     scene_.world()->drawn().take(news.objects);
@@ -171,9 +157,9 @@ void LiveSession::take_news(std::uint64_t updates) {
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (room_.wall.is_panel(screen)) return std::nullopt;
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
-    for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands_.parts(); ++part)
-        if (part != hands_.first_part(state_.hand))
-            add_tool(*scene, state_, hands_.part_of_hand(part).hand, tools_[part]);
+    for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands().parts(); ++part)
+        if (part != hands().first_part(state_.hand))
+            add_tool(*scene, state_, hands().part_of_hand(part).hand, tools_[part]);
     if (scene && scene_.world() != nullptr)
         std::ranges::move(scene_.world()->drawn().in_world(state_.world_from_object),
                           std::back_inserter(scene->objects));
@@ -188,7 +174,8 @@ void LiveSession::finish_scene() {
     take_news(UINT64_MAX);
     // What the activity orders now has nobody to carry it out, but for its words.
     SessionOrders orders;
-    activity_.step(state_, orders, last_step_ns_, hands_, tools_);
+    activity_.step(state_, orders, last_step_ns_, hands(), tools_);
+    std::ranges::move(activity_.take_events(), std::back_inserter(events_));
     for (const Asked& message : orders.messages) notify(message.text);
     if (const auto done = activity_.finish(); !done) files_.notify_of_loss(done.error().line());
 }

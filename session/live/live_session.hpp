@@ -6,9 +6,9 @@
 //                 |-> orders                           ->   the scene's parts (the scene's thread, or stepped)
 //   what the parts report (scene_news.hpp) -> take_news() -> take_surface_updates() -> tiles of the picture
 //
-// Each role has a class of its own: SessionHands, LivePanel, MessageLog, SessionOutputs, and the watches of
-// session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the threads of
-// a real-time session did can be recorded (session/drive/thread_recorder.hpp) and replayed
+// Each role has a class of its own: HandSide, SceneSide, ActivitySide, LivePanel, MessageLog, SessionOutputs, and the
+// watches of session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the
+// threads of a real-time session did can be recorded (session/drive/thread_recorder.hpp) and replayed
 // (session/drive/thread_replay.hpp).
 #pragma once
 
@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include "session/hands/session_hands.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/asked_files.hpp"
+#include "session/live/hand_side.hpp"
 #include "session/live/live_panel.hpp"
 #include "session/live/message_log.hpp"
 #include "session/live/scene_side.hpp"
@@ -52,7 +52,7 @@ public:
         step(input, output, std::span(&tool, 1), give, panel_output);
     }
     // Returns the newest tool state that the haptic loop has published for the first part of the first hand.
-    [[nodiscard]] const haptics::ToolState& newest_tool() { return hands_.newest_tool(0); }
+    [[nodiscard]] const haptics::ToolState& newest_tool() { return hands().newest_tool(0); }
     // Collects what the scene's parts report of the update that has just ended; returns whether it is anything. The
     // scene's thread.
     bool collect(const scene::SceneThread::Ended& update) { return scene_.news().collect(update); }
@@ -90,8 +90,9 @@ public:
     [[nodiscard]] SculptOptions settled(SculptOptions options) const;
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
-    [[nodiscard]] SessionHands& hands() { return hands_; }
-    [[nodiscard]] haptics::HapticLoop& loop() { return hands_.loop(); }
+    [[nodiscard]] SessionHands& hands() { return hands_.all(); }
+    [[nodiscard]] const SessionHands& hands() const { return hands_.all(); }
+    [[nodiscard]] haptics::HapticLoop& loop() { return hands().loop(); }
     [[nodiscard]] scene::SceneService& scene() { return scene_.service(); }
     // Returns the durations of the scene's updates in which the carved surface changed.
     [[nodiscard]] const haptics::Histogram& carving_duration() const { return scene_.news().carving_duration(); }
@@ -120,8 +121,11 @@ public:
     [[nodiscard]] bool has_activity() const { return activity_.is_there(); }
     // Returns the trials that the activity has begun and ended since the last call.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return activity_.take_trials(); }
-    [[nodiscard]] haptics::HapticChannels& channels(std::size_t part = 0) { return hands_.channels(part); }
-    [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts() { return hands_.channels_of_parts(); }
+    // Returns what has happened since the last call, for the table of events; every frame asks for it.
+    [[nodiscard]] std::vector<EventMark> take_events() { return std::exchange(events_, {}); }
+    [[nodiscard]] std::uint64_t check_of_activity() const { return activity_.check(); }
+    [[nodiscard]] haptics::HapticChannels& channels(std::size_t part = 0) { return hands().channels(part); }
+    [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts() { return hands().channels_of_parts(); }
     // Returns the surface as it is carved now; null without a workpiece.
     [[nodiscard]] const compute::Surface* surface() const {
         return scene_.workpiece() != nullptr ? &scene_.workpiece()->surface() : nullptr;
@@ -137,34 +141,28 @@ private:
     [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
-    [[nodiscard]] Result<void> open_hands(const SculptOptions& options);
-    [[nodiscard]] std::vector<SceneSide::Beginning> beginnings() const;
-    [[nodiscard]] Vec3 place_at_rest(std::size_t hand) const;
-    [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands_.first_part(state_.hand)]; }
+    [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
-    void publish_parameters();
+    void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void switch_amplifiers(const AskedAmplifiers& asked);
-    [[nodiscard]] double spread_of(std::size_t hand) const;
     void take(sculpt::SurfaceUpdate news);
     void watch(Nanoseconds time_ns);
-    void warn_of_misfit(const sculpt::Tool& tool);
+    void watch_misfit(const sculpt::Tool& tool);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
 
     Clock& clock_;
     Nanoseconds start_ns_ = 0;
     WorkerPool pool_;
-    SessionHands hands_;
+    HandSide hands_;
     ActivitySide activity_;
-    SceneSide scene_{hands_};  // after what its parts refer to
+    SceneSide scene_{hands_.all()};  // after what its parts refer to
     PanelWorkpiece workpiece_;
     LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
     sculpt::ToolOptions tool_options_;  // as the session began
     ToolSizeRange tool_sizes_;
-    bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
-    std::vector<std::shared_ptr<const HeldHandle>> handles_;  // of each hand (OpenedRoom)
     SessionState state_;
     std::vector<haptics::ToolState> tools_;  // of each part, as the frame draws them
     Nanoseconds last_step_ns_ = 0;
@@ -180,6 +178,9 @@ private:
     ComfortWatch comfort_;
     TrackerWatch tracker_;
     LampWatch lamp_;
+    DeviceWatch devices_;
+    MisfitWatch misfit_;
+    std::vector<EventMark> events_;  // not taken yet
     bool exchange_full_screen_ = false;
     std::optional<wall::StereoMode> refused_;  // for the recorder
     std::optional<std::uint64_t> acknowledged_;

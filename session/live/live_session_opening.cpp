@@ -45,7 +45,7 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     Result<OpenedRoom> opened = open_room(options, wall);
     if (!opened) return std::unexpected(opened.error());
     room_ = std::move(opened->room);
-    handles_ = std::move(opened->handles);
+    hands_.use(std::move(opened->handles));
     const bool has_world = options.scene || !options.world.empty();
     if (!options.no_workpiece || !has_world)
         if (const auto loaded = load_workpiece(options); !loaded) return loaded;
@@ -58,7 +58,7 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
         tool_options_.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
     tool_options_ = sculpt::with_tool(tool_options_, longest_side_m);
     if (!options.from_before_units) tool_sizes_ = tool_sizes_for(longest_side_m);
-    warns_of_misfit_ = !options.from_before_units && carves;
+    misfit_.begin(options.from_before_units || !carves);
     return {};
 }
 
@@ -118,53 +118,20 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (!feel) return std::unexpected(feel.error());
     std::vector<std::string> names;
     for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
-    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), handles_, names);
+    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), hands_.handles(), names);
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = scene_.workpiece() != nullptr;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
-    warn_of_misfit(use->tool);
+    watch_misfit(use->tool);
 
     start_ns_ = clock_.now_ns();
-    if (const auto opened = open_hands(options); !opened) return opened;
+    if (const auto opened = hands_.open(options.live, state_, room_, clock_); !opened) return opened;
+    tools_.resize(hands().parts());
     publish_parameters();
-    return scene_.begin(*use, options.undo_memory_MiB << 20, beginnings(), activity_.tap(), start_ns_);
-}
-
-Result<void> LiveSession::open_hands(const SculptOptions& options) {
-    std::vector<HandToOpen> wanted;
-    for (const NamedDevice& hand : devices_of(options.live)) {
-        const std::size_t i = wanted.size();
-        const Vec3& rest_device_m =
-            i == state_.hand ? state_.desk.target_device_m : state_.hands[i].target.position_device_m;
-        wanted.push_back({hand.hand, hand.device, {rest_device_m, room_.of(i).desk.rest_device}});
-    }
-    if (const auto opened = hands_.open(wanted, clock_, options.live.stands_in); !opened) return opened;
-    tools_.resize(hands_.parts());
-    return {};
-}
-
-// Returns where a hand's tool is before the first tick.
-Vec3 LiveSession::place_at_rest(std::size_t hand) const {
-    const Vec3& rest_device_m =
-        hand == state_.hand ? state_.desk.target_device_m : state_.hands[hand].target.position_device_m;
-    const Vec3 first_device_m =
-        handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room_.of(hand).desk.rest_device})
-                       : rest_device_m;
-    return inverse(state_.world_from_object) * (hand_of(state_, hand).world_from_device * first_device_m);
-}
-
-std::vector<SceneSide::Beginning> LiveSession::beginnings() const {
-    std::vector<SceneSide::Beginning> all;
-    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
-        // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
-        // ends of a handle are swung as well, at 6 rad/s.
-        const double scale = parameters_of(state_, room_, hand).workspace.object_from_device.scale;
-        const double reach_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * scene_.spacing_m();
-        all.push_back({place_at_rest(hand), reach_m, spread_of(hand)});
-    }
-    return all;
+    return scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
+                        activity_.tap(), start_ns_);
 }
 
 SculptOptions LiveSession::settled(SculptOptions options) const {

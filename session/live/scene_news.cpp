@@ -8,20 +8,23 @@
 namespace burin::session {
 
 bool SceneNews::collect(const scene::SceneThread::Ended& update) {
+    scene::SceneChanges changes;
+    service_->take_changes(changes);
     Report report;
-    if (carved_ != nullptr) report.news.surface = carved_->take_surface_update();
+    for (const auto& change : changes.drawn)
+        if (auto* const carved = dynamic_cast<sculpt::CarvedChange*>(change.get()))
+            sculpt::add(report.news.surface, std::move(carved->update));
     if (report.news.surface && !report.news.surface->tiles.empty()) carving_duration_.add(update.took_ns);
-    if (meshes_ != nullptr) report.news.objects = meshes_->take_object_updates();
-    if (materials_ != nullptr && std::exchange(materials_version_, materials_->version()) != materials_->version())
-        report.news.materials = *materials_;
+    report.news.objects = std::move(changes.objects);
+    report.news.materials = std::move(changes.materials);
     report.news.messages = std::exchange(messages_, {});
-    if (tap_ != nullptr) report.news.hands = tap_->take();
+    report.news.hands = std::move(changes.hands);
     const bool anything =
         report.news.surface || !report.news.objects.empty() || report.news.materials || !report.news.messages.empty();
-    const bool ticks = !report.news.hands.empty();
+    const bool ticks = report.news.hands.has_ticks();
     const std::lock_guard lock(mutex_);
     report.update = ++updates_;
-    if (anything || ticks) reports_.push_back(std::move(report));
+    if (anything || ticks || !report.news.hands.contacts.empty()) reports_.push_back(std::move(report));
     return anything || (ticks && frames_for_ticks_.load(std::memory_order_relaxed));
 }
 

@@ -14,24 +14,17 @@
 #include <vector>
 
 #include "haptics/histogram.hpp"
-#include "scene/mesh_part.hpp"
+#include "scene/scene_changes.hpp"
+#include "scene/scene_service.hpp"
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_part.hpp"
-#include "session/live/sample_tap.hpp"
 
 namespace burin::session {
 
 class SceneNews {
 public:
-    // Sets whose reports are collected, before the first update; they must outlive this. Null: the scene has no such
-    // part.
-    void report_of(sculpt::CarvedPart* carved, scene::MeshPart* meshes, const scene::MaterialTable* materials,
-                   SampleTap* tap) {
-        carved_ = carved;
-        meshes_ = meshes;
-        materials_ = materials;
-        tap_ = tap;
-    }
+    // Sets whose changes are collected, before the first update; it must outlive this.
+    void report_of(scene::SceneService& service) { service_ = &service; }
     // Sets whether ticks alone are worth a frame. Any thread.
     void frames_for_ticks(bool wanted) { frames_for_ticks_.store(wanted, std::memory_order_relaxed); }
     // Keeps a message for the user with the next report. The scene's thread.
@@ -46,7 +39,7 @@ public:
         std::vector<scene::ObjectUpdate> objects;       // the newest last
         std::optional<scene::MaterialTable> materials;  // if it has changed
         std::vector<std::string> messages;
-        HandNews hands;  // for the activity
+        scene::HandNews hands;  // ticks for the activity, contacts for the recording as well
     };
     [[nodiscard]] Taken take(std::uint64_t updates);
     // Returns the durations of the updates in which the carved surface changed. Any thread.
@@ -57,12 +50,8 @@ private:
         std::uint64_t update = 0;  // counted from 1
         Taken news;
     };
-    sculpt::CarvedPart* carved_ = nullptr;
-    scene::MeshPart* meshes_ = nullptr;
-    const scene::MaterialTable* materials_ = nullptr;
-    SampleTap* tap_ = nullptr;
+    scene::SceneService* service_ = nullptr;
     std::atomic<bool> frames_for_ticks_ = false;
-    std::uint64_t materials_version_ = 0;  // as reported last
     std::vector<std::string> messages_;
     haptics::Histogram carving_duration_;
     std::mutex mutex_;  // guards the members below

@@ -28,7 +28,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
             {&hands_.channels(part), hand.at_scene, tools_around_m_[of.hand] + hand.spread_m, hand.reach_m, of});
     }
     service_.emplace(std::move(parts), std::move(touched));
-    news_.report_of(carved(), world_ ? &world_->part() : nullptr, world_ ? &world_->materials() : nullptr, tap);
+    news_.report_of(*service_);
     return service_->update(start_ns);
 }
 

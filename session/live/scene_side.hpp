@@ -13,6 +13,7 @@
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_part.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/live/sample_tap.hpp"
 #include "session/live/scene_news.hpp"
 #include "session/live/world_side.hpp"
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/session_watch.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
+#include "base/text.hpp"
 #include "renderer/scene/frame_setup.hpp"
 
 namespace burin::session {
@@ -10,6 +13,25 @@ namespace {
 
 // Turn of the lamp, in radians, after which shadows are computed anew while the workpiece is being turned.
 constexpr double kShadowsFollow = 0.1;
+
+// Returns whether it is the device, and not what is done with it, that takes the force off.
+bool is_of_device(haptics::GateCause cause) {
+    using enum haptics::GateCause;
+    return cause == device_fault || cause == stale_sample || cause == future_sample || cause == out_of_reach;
+}
+
+// Returns the hands, but one, none of whose parts is lost: ", and right goes on".
+std::string who_goes_on(const SessionHands& hands, std::size_t but, const std::vector<bool>& lost) {
+    std::vector<std::string_view> names;
+    for (std::size_t hand = 0; hand < hands.hands(); ++hand) {
+        const auto first = lost.begin() + static_cast<std::ptrdiff_t>(hands.first_part(hand));
+        if (hand != but &&
+            std::none_of(first, first + static_cast<std::ptrdiff_t>(hands.parts_of(hand)), std::identity{}))
+            names.push_back(hands.name_of_hand(hand));
+    }
+    if (names.empty()) return "";
+    return "; " + joined(names) + (names.size() == 1 ? " goes on" : " go on");
+}
 
 }  // namespace
 
@@ -34,6 +56,48 @@ std::optional<std::string> TrackerWatch::look(const SessionState& state, const R
     // A loss is reported once, until the tracker has been well again.
     if (before != wall::TrackerState::ok && before != wall::TrackerState::waiting) return std::nullopt;
     return "head tracker: " + report_.cause;
+}
+
+std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std::span<const haptics::ToolState> tools) {
+    parts_.resize(hands.parts());
+    std::vector<bool> lost;
+    std::vector<std::size_t> changed;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        Part& part = parts_[i];
+        const bool now = is_of_device(tools[i].cause);
+        if (now) part.last_ns = tools[i].time_ns;
+        const bool is_lost = now || (part.lost && tools[i].time_ns - part.last_ns < kWell_ns);
+        if (std::exchange(part.lost, is_lost) != is_lost) changed.push_back(i);
+        lost.push_back(is_lost);
+    }
+    std::vector<News> news;
+    const auto tell = [&](const std::string& who, std::size_t part) {
+        const haptics::ToolState& tool = tools[part];
+        const std::string why = haptics::text(tool.cause);
+        const std::string others = who_goes_on(hands, hands.part_of_hand(part).hand, lost);
+        if (lost[part])
+            news.push_back({who + ": " + why + others, {tool.time_ns, who + " is lost", why}});
+        else
+            news.push_back({who + ": its device is well again", {tool.time_ns, who + " is well again", ""}});
+    };
+    for (std::size_t hand = 0; hand < hands.hands(); ++hand) {
+        const std::size_t first = hands.first_part(hand), count = hands.parts_of(hand);
+        const auto own = [&](std::size_t part) { return part >= first && part < first + count; };
+        const bool whole = std::cmp_equal(std::ranges::count_if(changed, own), count);
+        const std::string& name = hands.name_of_hand(hand);
+        if (whole) tell(name.empty() ? std::string(hands.device(first).name) : name, first);
+        for (const std::size_t part : changed)
+            if (!whole && own(part)) tell(hands.name_of(part), part);
+    }
+    return news;
+}
+
+std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& settings, const sculpt::Tool& tool,
+                                             double longest_side_m, double spacing_m) {
+    if (silent_) return std::nullopt;
+    auto misfit = sculpt::misfit(settings, tool, longest_side_m, spacing_m);
+    if (std::exchange(misfits_, misfit.has_value())) return std::nullopt;
+    return misfit;
 }
 
 // While the workpiece turns its shadows follow in steps.

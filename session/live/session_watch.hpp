@@ -4,9 +4,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "compute/light/surface_light.hpp"
+#include "session/hands/session_hands.hpp"
+#include "session/state/activity.hpp"
 #include "session/state/session_state.hpp"
 #include "wall/head_prediction.hpp"
 
@@ -44,6 +48,41 @@ public:
 
 private:
     Vec3 direction_object_{0.0};  // last returned; zero: not yet
+};
+
+// Watches the devices of the hands: one that faults, stops sending or reports a place that cannot be gives no force,
+// and nobody sees that a force is missing. A fault that comes back within kWell_ns is the same one.
+class DeviceWatch {
+public:
+    static constexpr Nanoseconds kWell_ns = 500'000'000;
+
+    struct News {
+        std::string message;  // for the user
+        EventMark event;      // for the recording
+    };
+    // Returns what has begun or ended with these tools, one of each part. A device whose parts are all lost at once is
+    // named as a whole.
+    [[nodiscard]] std::vector<News> look(const SessionHands& hands, std::span<const haptics::ToolState> tools);
+
+private:
+    struct Part {
+        bool lost = false;
+        Nanoseconds last_ns = 0;  // when it was last seen without force for its device's sake
+    };
+    std::vector<Part> parts_;
+};
+
+// Watches whether tool and workpiece suit one another.
+class MisfitWatch {
+public:
+    // silent: says nothing.
+    void begin(bool silent) { silent_ = silent; }
+    // Returns what is wrong when that begins.
+    [[nodiscard]] std::optional<std::string> look(const sculpt::ToolSettings& settings, const sculpt::Tool& tool,
+                                                  double longest_side_m, double spacing_m);
+
+private:
+    bool silent_ = false, misfits_ = false;
 };
 
 }  // namespace burin::session

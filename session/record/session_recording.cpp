@@ -37,6 +37,7 @@ Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::st
     record::WriterOptions options;
     options.facts = own.facts;
     options.facts.emplace_back(kActivityFact, kLiveActivity);
+    options.facts.emplace_back(kEventsFact, "touches, devices, activity");
     options.facts.emplace_back(record::kLogHeaderFact, *header);
     options.objects = own.objects;
     options.vfs = own.vfs;
@@ -78,6 +79,10 @@ void SessionRecording::trial(const TrialMark& mark) {
         trial_ = writer_->begin_trial(mark.time_ns, mark.name);
     else if (trial_)
         writer_->end_trial(*std::exchange(trial_, std::nullopt), mark.time_ns, mark.state);
+}
+
+void SessionRecording::event(EventMark mark) {
+    writer_->note_event(mark.time_ns, std::move(mark.name), std::move(mark.value));
 }
 
 void SessionRecording::take_ticks() { writer_->take_now(); }
@@ -160,7 +165,7 @@ void SessionRecording::note(Nanoseconds time_ns, std::string line) {
 
 void SessionRecording::end_log(Error why) {
     waiting_.clear();
-    writer_->note_event(session_.clock.start_ns + last_ns_, "log ended", why.line());
+    writer_->note_event(session_.clock.start_ns + last_ns_, kLogEndedEvent, why.line());
     log_ended_ = std::move(why);
 }
 

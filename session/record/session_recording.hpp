@@ -11,8 +11,8 @@
 // could not be replayed beyond: where a tick is missing, because the disk stood still for longer than the ring holds,
 // or where the scene did not take a tick's sample. Columns go on all the same; what is lost is counted in the file.
 //
-// Threads: line(), frame(), trial(), take_ticks(), close() are the frame's thread's, progress() any one's but the
-// haptic one's.
+// Threads: line(), frame(), trial(), event(), take_ticks(), close() are the frame's thread's, progress() any one's but
+// the haptic one's.
 #pragma once
 
 #include <deque>
@@ -33,6 +33,10 @@ namespace burin::session {
 inline constexpr const char* kActivityFact = "activity";
 inline constexpr const char* kLiveActivity = "session";
 inline constexpr const char* kDeviceFact = "device";
+// Says that table `event` has what hands touch, what becomes of devices, and what the activity writes.
+inline constexpr const char* kEventsFact = "events";
+// The event that says why a log ended.
+inline constexpr const char* kLogEndedEvent = "log ended";
 
 // Number of the carved workpiece in the columns of touched objects; the objects of a world count from 1; 0: nothing.
 inline constexpr std::uint32_t kWorkpieceObject = geometry::LocalSurface::kUnnumbered;
@@ -74,6 +78,8 @@ public:
     [[nodiscard]] Result<void> frame(Nanoseconds time_ns, const FrameSeen& seen, const StateWords& state);
     // Begins a trial, or ends the one under way.
     void trial(const TrialMark& mark);
+    // Keeps an event.
+    void event(EventMark mark);
     // Returns when all ticks that the ring holds are recorded: at the end, when no tick follows.
     void take_ticks();
     // Brings everything to the disk. Fails with why something is missing.

@@ -27,6 +27,7 @@ constexpr std::array kKinds = {
     Kind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
     Kind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
     Kind{"kept", "TICK"},
+    Kind{"activity", "CHECK"},
     Kind{"saw", "TICK UPDATES CHECK [TICK OF EACH FURTHER PART...]"},
     Kind{"refused", "STEREO_MODE"},
     Kind{"said", "\"MESSAGE\""},
@@ -120,6 +121,7 @@ std::string text_of(const FrameSeen& frame) {
     return line;
 }
 
+std::string activity_text(std::uint64_t check) { return "activity " + text(check); }
 std::string kept_text(std::uint64_t acknowledged) { return "kept " + text(acknowledged); }
 std::string refused_text(wall::StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
 std::string message_text(const std::string& message) { return "said " + burin::session::quoted(message); }
@@ -148,7 +150,8 @@ Result<void> ThreadLogReader::take(const std::vector<std::string>& words, std::s
     if (kind == "output") right = take_output(words);
     if (kind == "plotted") right = take_plotted(words);
     if (kind == "figures") right = take_figures(words);
-    if (kind == "refused" || kind == "said" || kind == "end" || kind == "kept") right = take_rest(words);
+    if (kind == "refused" || kind == "said" || kind == "end" || kind == "kept" || kind == "activity")
+        right = take_rest(words);
     if (!right) return wrong("an argument is missing, not understood, or at odds with the lines before");
     return {};
 }
@@ -186,6 +189,7 @@ bool ThreadLogReader::take_saw(const std::vector<std::string>& words, std::size_
         if (ticks.size() != before.ticks.size() || *updates < before.updates) return false;
         for (std::size_t part = 0; part < ticks.size(); ++part)
             if (ticks[part] < before.ticks[part]) return false;
+        if (!frame_.activity) frame_.activity = before.activity;  // as it was
     }
     FrameSeen& frame = log_->frames.emplace_back(std::exchange(frame_, {}));
     frame.ticks = std::move(ticks);
@@ -247,6 +251,10 @@ bool ThreadLogReader::take_rest(const std::vector<std::string>& words) {
     if (words[0] == "kept") {
         frame_.measured.acknowledged = number<std::uint64_t>(words[1]);
         return frame_.measured.acknowledged.has_value();
+    }
+    if (words[0] == "activity") {
+        frame_.activity = number<std::uint64_t>(words[1]);
+        return frame_.activity.has_value();
     }
     if (words[0] == "end") {
         log_->end_check = number<std::uint64_t>(words[1]);

@@ -43,9 +43,10 @@ struct OutputSeen {
 };
 
 struct FrameSeen {
-    std::vector<std::uint64_t> ticks{0};  // the newest that was finished, of each part of the hands; 0: none yet
-    std::uint64_t updates = 0;            // of the scene, whose results it had taken
-    std::uint64_t check = 0;              // checksum of the resulting state (SessionCheck)
+    std::vector<std::uint64_t> ticks{0};    // the newest that was finished, of each part of the hands; 0: none yet
+    std::uint64_t updates = 0;              // of the scene, whose results it had taken
+    std::uint64_t check = 0;                // checksum of the resulting state (SessionCheck)
+    std::optional<std::uint64_t> activity;  // Activity::check(); none: nothing was kept of it
     std::vector<OutputSeen> outputs;
     PanelMeasured measured;
     // The mode that the main screen fell back to while the frame was drawn.
@@ -145,6 +146,7 @@ inline constexpr std::size_t kMostTicksALine = 500;
 [[nodiscard]] std::string text_of(const PanelNumbers& numbers);
 // Formats a frame without outputs, measured times, refused mode and messages, which have lines of their own.
 [[nodiscard]] std::string text_of(const FrameSeen& frame);
+[[nodiscard]] std::string activity_text(std::uint64_t check);
 [[nodiscard]] std::string kept_text(std::uint64_t acknowledged);
 [[nodiscard]] std::string refused_text(wall::StereoMode mode);
 [[nodiscard]] std::string message_text(const std::string& message);

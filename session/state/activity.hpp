@@ -6,6 +6,7 @@
 //   every tick of every part of the hands, in order, and what they begin and end to touch
 //     -> step() -> edits of objects, what hands take hold of, messages, the end
 //   `do WORDS` of a script, a button of its panel -> act() -> the same orders
+//   write(): rows for the recording; check(): a number by which a replay is compared
 //   adjust(): what the tick does besides; stage(): what the picture shows besides; panel(): what its section says
 //
 // It must depend on nothing but what it is given here: then a recording, which keeps its settings() and facts() and no
@@ -13,6 +14,7 @@
 // Frame: the scene's. Thread: the frame's.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,6 +68,17 @@ struct TrialMark {
     Nanoseconds time_ns = 0;  // on the loop's clock
     std::string name;         // of one that begins; empty: the one under way ends
     std::string state = {};   // how it ended, in a word or two: "done", "given up"
+};
+
+// A row of the recording's table of events, in words: what happened, and of what.
+struct EventMark {
+    Nanoseconds time_ns = 0;  // on the loop's clock
+    std::string name, value;
+    bool operator==(const EventMark&) const = default;
+};
+// What an activity writes into the recording of its session besides its trials, in order.
+struct ActivityRecord {
+    std::vector<EventMark> events;
 };
 
 // Has parts of hands take hold of an object: from the scene's next update on it moves with the frame of them all
@@ -132,6 +145,12 @@ public:
     [[nodiscard]] virtual Result<void> act(std::span<const std::string> words, ActivityOrders& orders) = 0;
     // Goes on by the ticks since the last step. Called once a frame, and once after the last tick.
     virtual void step(const ActivityView& view, ActivityOrders& orders) = 0;
+    // Writes what has happened in the step before, where somebody wants to know it later: figures, marks, answers. Kept
+    // where a session file is recorded, and compared when that is done again.
+    virtual void write(ActivityRecord& /*record*/) {}
+    // Returns a number for all that its further course depends on, which a recording keeps with each frame: a replay
+    // whose activity has gone another way is told by it. 0: nothing is kept.
+    [[nodiscard]] virtual std::uint64_t check() const { return 0; }
     // Returns whether frames are to be made although neither hand nor user stirs, since a clock runs.
     [[nodiscard]] virtual bool is_running() const { return false; }
     // Changes the parameters of a part's next ticks, such as guidance, once all else is in them.

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "session/input/input_words.hpp"
 #include "session/state/activity.hpp"
@@ -13,7 +14,8 @@
 namespace burin::session {
 namespace {
 
-constexpr const char* kCommand = "burin sculpt";
+// Before the command, which stands before the options. In older recordings the command is "sculpt" in all of them.
+constexpr std::string_view kProgram = "burin ";
 constexpr const char* kActivity = "--activity";  // behind it Activity::settings(); no option of the command line
 
 // All options by name; behind a number its bounds.
@@ -198,10 +200,31 @@ void as_before_units(SculptOptions& options) {
     if (options.tool.shape.empty()) options.tool.shape = "ball:0.01";
 }
 
+// Returns whether options stand behind the program and its command.
+bool has_options(std::string_view line) {
+    if (!line.starts_with(kProgram)) return false;
+    const std::size_t behind = line.find(' ', kProgram.size());
+    return behind != std::string_view::npos && line.substr(behind).starts_with(" --");
+}
+
+// Returns the command that begins such a session.
+std::string command_of(const SculptOptions& options) {
+    if (options.activity) {
+        const std::string settings = options.activity->settings();
+        return settings.substr(0, settings.find(' '));
+    }
+    return options.no_workpiece && !options.world.empty() ? "world" : "sculpt";
+}
+
 }  // namespace
 
+std::string settings_on(const std::string& header) {
+    const std::size_t at = header.find(" " + std::string(kProgram));
+    return at == std::string::npos ? std::string() : header.substr(at + 1);
+}
+
 std::string settings_line(const SculptOptions& options) {
-    std::string line = kCommand;
+    std::string line = std::string(kProgram) + command_of(options);
     visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
         const auto behind = text(value);
         if (!behind || is_usual(name, *behind)) return;
@@ -213,7 +236,7 @@ std::string settings_line(const SculptOptions& options) {
 }
 
 Result<std::string> option_on(const std::string& line, const std::string& option) {
-    if (!line.starts_with(std::string(kCommand) + " --")) return "";
+    if (!has_options(line)) return "";
     Result<OptionWords> words = words_on(line);
     if (!words) return std::unexpected(words.error());
     const auto found = words->find(option);
@@ -224,7 +247,7 @@ Result<std::string> activity_on(const std::string& line) { return option_on(line
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
-    if (!line.starts_with(std::string(kCommand) + " --")) {  // recorded without options
+    if (!has_options(line)) {  // recorded without options
         as_before_units(recorded.options);
         return recorded;
     }

@@ -12,6 +12,8 @@
 
 namespace burin::session {
 
+// Returns the settings within a recording's first line, from the command on; empty where there are none.
+[[nodiscard]] std::string settings_on(const std::string& header);
 [[nodiscard]] std::string settings_line(const SculptOptions& options);
 // Returns what stands behind an option ("--device") of a recording's line; empty where it is not there, or is a flag.
 [[nodiscard]] Result<std::string> option_on(const std::string& line, const std::string& option);

@@ -104,6 +104,46 @@ TEST(Hands, ARecordingFromWhichABlockWasTakenIsNotEqual) {
     }
 }
 
+// A recording says what it is of, what was touched in it, and notices rows that a replay of its ticks does not read.
+TEST(Hands, ARecordingOfAWorldNamesItsCommandItsTouchesAndWhatWasChangedInIt) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    if (at.run("/usr/bin/python3 -c 'import sqlite3'").status != 0)
+        GTEST_SKIP() << "no python3 to change the file with";
+    const auto recorded =
+        at.run(kHandsBurin + " world " + std::string(kSessionsFolder) + "/../worlds/garden.toml --input " +
+               kSessionsFolder + "/garden.txt --offscreen --record a.session --outputs out");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const auto info = at.run(kHandsBurin + " session info a.session");
+    EXPECT_TRUE(info.output.contains("burin world --world")) << info.output;
+    EXPECT_FALSE(info.output.contains("burin sculpt")) << info.output;
+    const auto bids = at.run(kHandsBurin + " convert a.session set --to bids");
+    EXPECT_EQ(bids.status, 0) << bids.output;
+    const auto events = at.run("cat set/sub-01/motion/sub-01_task-touch_tracksys-hand_events.tsv");
+    EXPECT_TRUE(events.output.contains("\t0\ttouches stone\tn/a\n")) << events.output;
+    EXPECT_TRUE(events.output.contains("\t0\tleaves stone\tn/a\n")) << events.output;
+
+    EXPECT_EQ(at.run(kHandsBurin + " replay a.session").status, 0);
+    const auto other = at.run(kHandsBurin + " replay a.session --set device=simulated-wand");
+    EXPECT_EQ(other.status, 1);
+    EXPECT_TRUE(other.output.contains("is another device than the recorded one, simulated")) << other.output;
+    at.write("change.py",
+             "import sqlite3, shutil, sys\n"
+             "shutil.copy('a.session', 'b.session')\n"
+             "d = sqlite3.connect('b.session')\n"
+             "d.execute(sys.argv[1])\n"
+             "d.commit()\n");
+    for (const char* const change :
+         {"\"update event set value = 'mushroom' where id = 1\"", "'delete from event where id = 2'",
+          "'delete from event'", "\"insert into event(time_ns, name, value) values(1, 'touches', 'stone')\"",
+          "\"update meta set value = 'another' where key = 'command'\"", "'delete from clock where id = 1'"}) {
+        ASSERT_EQ(at.run(std::string("/usr/bin/python3 change.py ") + change).status, 0) << change;
+        const auto replayed = at.run(kHandsBurin + " replay b.session");
+        EXPECT_EQ(replayed.status, 1) << change << "\n" << replayed.output;
+        EXPECT_FALSE(replayed.output.contains("columns: equal to the bit")) << change << "\n" << replayed.output;
+    }
+}
+
 TEST(Hands, AReplayRefusesAnotherWandInAnyHandAndChangesWithoutEffect) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace at;

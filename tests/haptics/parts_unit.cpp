@@ -270,6 +270,32 @@ TEST(Parts, ADeviceThatOnePartReportsAsLostIsLostForThoseReadBeforeItToo) {
     EXPECT_EQ(causes(), (std::vector{none, none, none})) << "of all, but none";
 }
 
+// Two devices in one loop: what one of them reports of itself as a whole is nothing to the other.
+TEST(Parts, ADeviceThatIsLostTakesNoForceFromAnotherInTheSameLoop) {
+    SimulatedClock clock;
+    std::deque<StillPart> devices;
+    std::deque<HapticChannels> channels;
+    std::vector<LoopPart> parts;
+    for (const std::size_t device : {0u, 1u, 1u, 2u})
+        parts.push_back({devices.emplace_back(clock), channels.emplace_back(64, 64), device});
+    HapticLoop loop(parts, clock);
+    const auto causes = [&] {
+        clock.sleep_until(clock.now_ns() + loop.period_ns());
+        loop.step();
+        std::vector<GateCause> all;
+        for (HapticChannels& one : channels) all.push_back(one.tool.newest().cause);
+        return all;
+    };
+    const GateCause none = GateCause::none, fault = GateCause::device_fault;
+    for (const std::size_t reports : {1u, 2u}) {
+        devices[reports].sample.fault = devices::DeviceFault::disconnected;
+        devices[reports].sample.fault_is_of_all = true;
+        EXPECT_EQ(causes(), (std::vector{none, fault, fault, none})) << reports;
+        devices[reports].sample.fault = devices::DeviceFault::none;
+    }
+    EXPECT_EQ(causes(), (std::vector{none, none, none, none}));
+}
+
 TEST(Parts, ALoopThatEndsLeavesNoForceOnAnyPart) {
     SimulatedClock clock;
     std::deque<StillPart> devices;

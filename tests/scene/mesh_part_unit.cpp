@@ -296,8 +296,8 @@ TEST(MeshPart, NothingIsTakenInTheAirOrWhileTheWorkspaceMoves) {
     }
 }
 
-// What the tick has found touched is taken, not what lies nearest to where the tool is; of a part with several points the
-// first one's that touches something; and where no work was left for a tick, what was touched before.
+// What the tick has found touched is taken, not what lies nearest to where the tool is; of a part with several points
+// the first one's that touches something; and where no work was left for a tick, what was touched before.
 TEST(MeshPart, AButtonTakesHoldOfWhatTheTickHasFoundTouched) {
     const Vec3 at_the_first(0.0, kHalf_m + 0.004, 0.0);
     haptics::TickRecord second = gripping_sample(2, at_the_first, true);

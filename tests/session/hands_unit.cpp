@@ -178,6 +178,87 @@ TEST(SessionHands, ADeviceWhoseAmplifiersAreOffLeavesTheOtherItsForce) {
     EXPECT_EQ(desk.tool(1).cause, haptics::GateCause::device_fault);
     EXPECT_EQ(desk.tool(0).cause, haptics::GateCause::none);
     EXPECT_GT(glm::length(desk.tool(0).given.force_device_N), 0.1);
+    const std::vector<EventMark> events = desk.session->take_events();
+    EXPECT_EQ(std::ranges::count(events, "left is lost", &EventMark::name), 1) << "for the recording";
+    EXPECT_EQ(std::ranges::count(events, EventMark{events.front().time_ns, "right touches", "workpiece"}), 1);
+}
+
+namespace {
+
+// A turn of the hands' loop in which a part reports that its whole device is lost; -1: none does. Returns the tools.
+std::vector<haptics::ToolState> turn_with(SessionHands& hands, SimulatedClock& clock, int lost) {
+    const geometry::LocalSurface surface;
+    haptics::TickParameters parameters;
+    parameters.sequence = 1;
+    std::vector<haptics::PartInput> inputs;
+    clock.sleep_until(clock.now_ns() + hands.loop().period_ns());
+    for (std::size_t part = 0; part < hands.parts(); ++part) {
+        devices::DeviceSample sample;
+        sample.time_ns = clock.now_ns();
+        if (std::cmp_equal(part, lost)) {
+            sample.fault = devices::DeviceFault::disconnected;
+            sample.fault_is_of_all = true;
+        }
+        inputs.push_back({sample, &surface, &parameters});
+    }
+    hands.loop().repeat(inputs, clock.now_ns(), 0);
+    std::vector<haptics::ToolState> tools;
+    for (std::size_t part = 0; part < hands.parts(); ++part) tools.push_back(hands.newest_tool(part));
+    return tools;
+}
+
+std::vector<std::string> messages_of(const std::vector<DeviceWatch::News>& news) {
+    std::vector<std::string> messages;
+    for (const DeviceWatch::News& one : news) messages.push_back(one.message);
+    return messages;
+}
+
+}  // namespace
+
+TEST(SessionHands, ADeviceLostInMidSessionTakesTheForceOffItsHandAlone) {
+    SimulatedClock clock;
+    SessionHands hands(16, 1.0);
+    ASSERT_TRUE(
+        hands.open(std::vector<HandToOpen>{{"right", "simulated", {}}, {"left", "simulated-fingers", {}}}, clock));
+    const auto causes = [&](int lost) {
+        std::vector<bool> has_fault;
+        for (const haptics::ToolState& tool : turn_with(hands, clock, lost))
+            has_fault.push_back(tool.cause == haptics::GateCause::device_fault);
+        return has_fault;
+    };
+    EXPECT_EQ(causes(-1), (std::vector{false, false, false, false, false}));
+    EXPECT_EQ(causes(2), (std::vector{false, true, true, true, true})) << "the left one's cable is out";
+    EXPECT_EQ(causes(0), (std::vector{true, false, false, false, false})) << "the right one's";
+    EXPECT_EQ(causes(-1), (std::vector{false, false, false, false, false}));
+}
+
+TEST(SessionHands, ADeviceThatIsLostIsToldByNameOnceAndAgainWhenItIsWell) {
+    SimulatedClock clock;
+    SessionHands hands(16, 1.0);
+    ASSERT_TRUE(
+        hands.open(std::vector<HandToOpen>{{"right", "simulated", {}}, {"left", "simulated-fingers", {}}}, clock));
+    DeviceWatch watch;
+    const auto look = [&](int lost) { return messages_of(watch.look(hands, turn_with(hands, clock, lost))); };
+    using Messages = std::vector<std::string>;
+    EXPECT_EQ(look(-1), Messages{});
+    EXPECT_EQ(look(3), Messages{"left: no force: the device reports a fault; right goes on"});
+    EXPECT_EQ(look(3), Messages{}) << "once";
+    EXPECT_EQ(look(-1), Messages{}) << "not well for long enough";
+    EXPECT_EQ(look(3), Messages{}) << "the same fault";
+    for (int i = 0; i < 499; ++i) EXPECT_EQ(look(-1), Messages{});
+    EXPECT_EQ(look(-1), Messages{"left: its device is well again"});
+    // One finger of it alone, in a tool that somebody has made so, and the other hand with it.
+    std::vector<haptics::ToolState> tools = turn_with(hands, clock, 0);
+    tools[2].cause = haptics::GateCause::stale_sample;
+    const auto news = watch.look(hands, tools);
+    EXPECT_EQ(messages_of(news), (Messages{"right: no force: the device reports a fault",
+                                           "left index: no force: the device has stopped sending"}));
+    ASSERT_EQ(news.size(), 2u);
+    EXPECT_EQ(news[1].event,
+              (EventMark{tools[2].time_ns, "left index is lost", "no force: the device has stopped sending"}));
+    tools[0].cause = tools[2].cause = haptics::GateCause::overspeed;  // the hand's doing, not the device's
+    tools[0].time_ns += DeviceWatch::kWell_ns;
+    EXPECT_EQ(messages_of(watch.look(hands, tools)), Messages{"right: its device is well again"});
 }
 
 TEST(SessionHands, AHandOfFourFingersHasFourToolsThatCloseAndFeelByThemselves) {
@@ -271,6 +352,19 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("hand left: haptic device simulatd")) << opened.error().line();
     EXPECT_TRUE(opened.error().line().contains("did you mean simulated?")) << opened.error().line();
+}
+
+TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
+    SculptOptions options;
+    options.workpiece.source = "ball:0.1";
+    options.workpiece.resolution = 16;
+    ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulated", "third=glove:/dev/none-there"}));
+    MonotonicClock clock;
+    const auto opened = LiveSession::create(options, session_wall(options.live).value(), clock);
+    ASSERT_FALSE(opened);
+    EXPECT_TRUE(opened.error().line().contains("hand third: ")) << opened.error().line();
+    EXPECT_TRUE(opened.error().line().contains("/dev/none-there")) << opened.error().line();
+    EXPECT_FALSE(opened.error().remedy.empty());
 }
 
 TEST(SessionHands, AreKeptInTheFirstLineOfARecording) {
