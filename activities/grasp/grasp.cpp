@@ -172,8 +172,8 @@ void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& tic
     if (hand_ && world != nullptr) point_at(*hand_, *world, orders);
 }
 
-// A contact that is sound holds a fingertip, also where the hand has gone away on the thing's other side. Whoever presses
-// is held back by it; a hand that has let go is not.
+// A contact that is sound holds a fingertip, also where the hand has gone away on the thing's other side. Whoever
+// presses is held back by it; a hand that has let go is not.
 void Grasp::free_fingers(const HandReading& hand, session::ActivityOrders& orders) {
     constexpr double kFar_m = 0.03;  // about twice as thick as a fingertip; a press goes some millimetres deep
     constexpr Nanoseconds kStays_ns = 150'000'000;
