@@ -79,7 +79,7 @@ struct TickParameters {
 // Flags of a degraded or noteworthy tick: bits of TickRecord::flags.
 enum TickFlag : std::uint32_t {
     kTickLate = 1u << 0,          // began more than half a period after its deadline
-    kTickInContact = 1u << 1,     // the proxy is held by a surface
+    kTickInContact = 1u << 1,     // the proxy is held by a surface, or the cutting point by material
     kTickNoSurface = 1u << 2,     // no surface has been published
     kTickOutsideKnown = 1u << 3,  // the tool leaves the ball within which the surface is known
     kTickStaleSurface = 1u << 4,  // in contact, and the surface is older than max_surface_age_s

@@ -336,7 +336,18 @@ ProxyResult PointContact::as_caught(const ProxyState& state) const {
     return result;
 }
 
+void PointContact::bear_on_cut(const Vec3& cut_object_m) {
+    const Vec3 spring = cut_object_m - record_.hip_object_m;
+    const double depth = glm::length(spring);
+    if (in_contact() || !(depth > 0.0)) return;
+    step_.flags |= kTickInContact;
+    record_.constraints = 1;
+    record_.penetration_m = depth;
+    record_.normal_object = spring / depth;
+}
+
 void PointContact::let_go() {
+    has_let_go_ = true;
     step_.flags |= kTickLetGo;
     stay_with_hand();
 }

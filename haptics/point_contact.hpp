@@ -34,6 +34,10 @@ public:
     void wait(const ProxyBudget& budget);
 
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
+    // In free space, and not for want of a place where it fits.
+    [[nodiscard]] bool is_free() const { return state_.placed && state_.unfit_ticks == 0 && !has_let_go_; }
+    // A tool that cuts is larger than what touches, by the clearance: it is borne by material that this does not reach.
+    void bear_on_cut(const Vec3& cut_object_m);
     // The material touched in the last tick until this one has touched: at a border friction changes a tick late.
     [[nodiscard]] const TouchMaterial& material() const {
         return input_.parameters.materials[std::min<std::uint32_t>(material_, kMostMaterials - 1)];
@@ -88,6 +92,7 @@ private:
     LastContact& last_;
     double& left_out_m_;
     double left_out_now_m_ = 0.0;  // in this tick alone
+    bool has_let_go_ = false;
     PointRecord& record_;
     Vec3 arm_device_m_{0.0}, velocity_device_m_per_s_{0.0}, surface_velocity_device_m_per_s_{0.0};
 };

@@ -13,6 +13,9 @@ namespace {
 
 // How long a body is followed beyond its time where a surface of any age is trusted.
 constexpr double kLongestFollowed_s = 0.5;
+// Of the clearance: how far the proxy may be ahead of the cutting point. More than the clearance, since the facets of
+// the tool's own bed lie a little deeper than the tool did: else the tool would sink by that with each new surface.
+constexpr double kSlack = 1.25;
 
 struct RenderedWall {
     CoupledWall wall;
@@ -61,11 +64,12 @@ CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& 
     input.orientation_object = in.motion.orientation_object;
     input.velocity_device_m_per_s = in.motion.velocity_device_m_per_s;
     input.scale = in.motion.object_from_device.scale;
-    input.slack_m = in.parameters.clearance_ratio * tool.size_m;
-    input.cutting = cutting && point.in_contact();
+    input.slack_m = kSlack * in.parameters.clearance_ratio * tool.size_m;
+    input.in_contact = point.in_contact();
+    input.cutting = cutting && (input.in_contact || point.is_free());
     input.stiffness_N_per_m = wall.stiffness_N_per_m;
     input.dt_s = in.dt_s;
-    if (input.cutting || (point.has_shape() && point.in_contact())) {
+    if (input.cutting || (point.has_shape() && input.in_contact)) {
         const double left_ns = std::max(budget_of(in) - cost_ns(work), 0.0);
         const EngagementWork most{static_cast<std::uint32_t>(0.25 * left_ns / WorkCost::kLook_ns),
                                   static_cast<std::uint32_t>(0.25 * left_ns / WorkCost::kPiece_ns)};
@@ -177,7 +181,10 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
         Vec3 bearing = point.record().proxy_object_m;
         if (i == 0) {
             const CuttingStep cut = cut_by(point, step.next.cutting, rendered_wall.wall, cutting, input, contact.work);
-            if (cut.next.engaged) step.flags |= kTickCutting;
+            if (cut.next.engaged) {
+                step.flags |= kTickCutting;
+                point.bear_on_cut(cut.bearing_object_m);
+            }
             if (cut.next.engaged && point.has_shape())
                 cut_torque_device_Nm =
                     glm::conjugate(input.motion.object_from_device.orientation) * cut.torque_device_Nm;

@@ -22,6 +22,8 @@ constexpr double kFirstCreep = 1e-3;
 // It ends where a step brings the function down by this share of it, or after so many steps and halvings.
 constexpr double kSettled = 1e-9;
 constexpr int kMostIterations = 15, kMostHalvings = 8;
+// Of the tool's size: nearer to the hand than this it is there.
+constexpr double kAtHand = 1e-6;
 // Of the pressure: by so much at least material below its yield holds the tool along its surface.
 constexpr double kHeldInMaterial = 0.25;
 
@@ -208,9 +210,10 @@ std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, con
     return count;
 }
 
-CuttingStep not_cutting(const CuttingState& state, const CuttingInput& in) {
+CuttingStep not_cutting(const CuttingState& state, const CuttingInput& in, std::uint32_t terms = 0) {
     CuttingStep step;
     step.next = state;
+    step.terms = terms;
     step.next.point_object_m = step.bearing_object_m = in.proxy_object_m;
     step.next.step_object_m = Vec3(0.0);
     step.next.engaged = false;
@@ -253,6 +256,9 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
         const Vec3 stress = resistance.stress(w) * e.normal - resistance.holding(e, u);
         step.torque_device_Nm -= glm::cross(e.arm_m / g, (e.area_m2 / (g * g) / (g * in.dt_s)) * stress);
     }
+    // Nothing bears the tool, and it is where the hand is.
+    const bool is_at_hand = glm::length(way_m - u) <= kAtHand * tool.size_m;
+    if (!in.in_contact && is_at_hand && !(step.engaged_area_m2 > 0.0)) return not_cutting(state, in, step.terms);
     step.cut_speed_m_per_s = glm::length(u) / (g * in.dt_s);
     step.drag_device_N = -material.cutting_drag_Ns_per_m3 * step.engaged_area_m2 * in.velocity_device_m_per_s;
     return step;
@@ -271,8 +277,10 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
                                       in.cutting ? LookFor::cutting : LookFor::bearing);
     if (!look.complete) {
         LookedAt as_before{known, look.work};
-        // Where a look has never been complete the part seen is better than nothing, until the next tick looks again.
-        if (known.surface_sequence == 0 || !serves)
+        // Where no look has been complete, here or at all, the part seen is better than nothing, until the next tick
+        // looks again.
+        const bool of_here = glm::length(in.proxy_object_m - known.place_object_m) <= tool.reach_m;
+        if (known.surface_sequence == 0 || !serves || !of_here)
             as_before.known = look.engagement, as_before.known.surface_sequence = 0;
         as_before.known.missed = known.missed + 1;
         if (most.pieces >= kFairPieces || as_before.known.missed >= kMostMissed) {

@@ -28,9 +28,10 @@
 //
 // Bounds: the force is never more than the uncut surface would give, |h - c| <= |h - p| + slack, p the tool's proxy:
 // where the proxy moves freely, c is drawn after it. The slack is the difference between the tool that cuts and the
-// balls that touch: without it each new surface would move c on by this difference, and the tool would sink without a
-// force. Hardness 0 without p0 cuts without resistance (c = h), infinite hardness does not cut (c = p). Lengths at the
-// device are shorter by the gain g, areas by g^2.
+// balls that touch, and a little more: without it each new surface would move c on by this difference, and the tool
+// would sink without a force. For the same reason the tool cuts whether its balls touch or not: in free space nothing
+// bears it, and c is at the hand. Hardness 0 without p0 cuts without resistance (c = h), infinite hardness does not cut
+// (c = p). Lengths at the device are shorter by the gain g, areas by g^2.
 // Grain: both figures may swell and fall with the place along an axis, as the rings of a tree do.
 // Frame: object, metres. Pure; no clock, heap, lock or throw; + - * / and sqrt only, so that every machine gives the
 // same bits.
@@ -61,7 +62,8 @@ struct CuttingInput {
     Vec3 velocity_device_m_per_s{0.0};
     double scale = 1.0;              // object metres per device metre
     double slack_m = 0.0;            // object frame; how far the proxy may be ahead of c
-    bool cutting = false;            // in contact, the button is pressed and the tool cuts
+    bool cutting = false;            // the button is pressed and the tool cuts
+    bool in_contact = false;         // the balls touch
     double stiffness_N_per_m = 0.0;  // at the device, after the limiter
     double dt_s = 0.0;
 };

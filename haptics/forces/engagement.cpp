@@ -22,6 +22,9 @@ constexpr float kBeside = 2.0f;
 // many of those beside it: on a plane, where a ball's alone turn, to none; at the rim of a bed to half of them.
 constexpr float kNotOpposite = 0.9f, kOpposite = 0.98f;
 constexpr float kNoneAlike = 0.15f, kEnoughAlike = 0.4f;
+// From this stride on a look goes less far, down to this share of its reach: what is far off is most of what is looked
+// at, and the next look comes long before the tool is there.
+constexpr double kFarStride = 64.0, kLeastReach = 0.25;
 // Of the tool's size: how far a look for bearing goes.
 constexpr double kBearingReach = 0.25;
 // Turns by less than this, in radians, are none.
@@ -220,7 +223,8 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
     if (tool.count == 0) return look;
     const Vec3 place = place_object_m - surface.origin_object;
     const Box box = around(tool, orientation_object);
-    geometry::Near near{place + box.lo, place + box.hi, tool.reach_m};
+    const double share = std::clamp(std::sqrt(kFarStride / static_cast<double>(stride)), kLeastReach, 1.0);
+    geometry::Near near{place + box.lo, place + box.hi, share * tool.reach_m};
     near.looks_left = most.looks;
     const Turn turned(orientation_object);
     // Of the triangles each so manieth is taken, evenly; beyond kEvenly they are too many to be looked at, and pairs of

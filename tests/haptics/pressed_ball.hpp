@@ -25,7 +25,7 @@ inline CuttingInput pressing(double depth_m, double dt_s = 1e-3) {
     CuttingInput in;
     in.hip_object_m = {0.0, kRadius_m - depth_m, 0.0};
     in.proxy_object_m = {0.0, kRadius_m, 0.0};
-    in.cutting = true;
+    in.cutting = in.in_contact = true;
     in.stiffness_N_per_m = kStiffness;
     in.dt_s = dt_s;
     return in;

@@ -35,7 +35,7 @@ double engaged_m2(const haptics::ToolSurface& tool, const geometry::LocalSurface
     haptics::CuttingInput in;
     in.orientation_object = touching.orientation;
     in.proxy_object_m = in.hip_object_m = touching.position_m;
-    in.cutting = true;
+    in.cutting = in.in_contact = true;
     in.stiffness_N_per_m = 600.0;
     in.dt_s = 1e-3;
     state.known = haptics::look_at(state, in, tool, plane, kPlenty).known;

@@ -25,17 +25,22 @@ struct Felt {
     double volume_removed_m3 = 0.0;
 };
 
-Felt felt_on_a_block(const sculpt::Stroke& stroke, const sculpt::FeelOptions& options,
-                     compute::Operation operation = compute::Operation::cut) {
+Felt felt_on(const std::string& block, int resolution, const sculpt::Tool& tool, const sculpt::Stroke& stroke,
+             const sculpt::FeelOptions& options) {
     WorkerPool pool(2);
-    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece({"block:0.04,0.03,0.02", 96, false}, pool);
-    sculpt::Tool tool{compute::BallTool{kRadius_m}};
-    tool.operation = operation;
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece({block, resolution, false}, pool);
     sculpt::Sculpture carving(compute::make_cpu_engine(std::move(workpiece->solid), pool), pool);
     Felt felt;
     felt.figures = *carve_by_feel(carving, stroke, tool, {*sculpt::parse_feel(options), false});
     felt.volume_removed_m3 = carving.initial_volume_m3() - carving.surface().volume_m3();
     return felt;
+}
+
+Felt felt_on_a_block(const sculpt::Stroke& stroke, const sculpt::FeelOptions& options,
+                     compute::Operation operation = compute::Operation::cut) {
+    sculpt::Tool tool{compute::BallTool{kRadius_m}};
+    tool.operation = operation;
+    return felt_on("block:0.04,0.03,0.02", 96, tool, stroke, options);
 }
 
 sculpt::StrokeRow row(double time_s, double x, double height_m, bool button) {
@@ -164,6 +169,51 @@ TEST(Felt, PressedOnTheSpotTheToolComesToRestWhereItsSectionAtTheYieldBearsThePr
         const double depth_m = kTop_m + kRadius_m - last->cut_object_m.z;
         const double held_N = yield_kPa * 1e3 * kPi * depth_m * (2.0 * kRadius_m - depth_m);
         EXPECT_NEAR(held_N / last->force_device_N.z, 1.0, 0.1) << yield_kPa << ' ' << depth_m;
+    }
+}
+
+// A tool as wide as a third of the block: what touches is smaller than what cuts by the clearance, which grows with the
+// tool, and the triangles near it are more than a tick can look at.
+TEST(Felt, AToolIsHeldByTheMaterialHoweverLargeItIsAndHoweverFineTheBlock) {
+    constexpr double kYield_Pa = 120e3, kGrip_N_per_m = 200.0, kDeep_m = 0.003;
+    sculpt::FeelOptions options = feel(2.0, 0.0);
+    options.yield_kPa = kYield_Pa / 1e3;
+    options.grip_N_per_m = kGrip_N_per_m;
+    const auto pulled = [&](const sculpt::Tool& tool, double half_height_m, int resolution) {
+        sculpt::Stroke stroke;
+        const auto to = [&](double time_s, double x, double height_m, bool button) {
+            stroke.push_back({time_s, {x, 0.025, 0.02 + half_height_m + height_m}, {1, 0, 0, 0}, button});
+        };
+        to(0.0, 0.02, 0.002, false);
+        to(0.1, 0.02, 0.0005, true);
+        to(0.5, 0.02, -kDeep_m, true);
+        to(1.5, 0.04, -kDeep_m, true);
+        to(1.6, 0.04, 0.002, false);
+        return felt_on("block:0.06,0.05,0.02", resolution, tool, stroke, options);
+    };
+    for (const int resolution : {96, 288}) {
+        for (const double radius_m : {0.004, 0.01, 0.018}) {
+            const Felt felt = pulled({compute::BallTool{radius_m}}, radius_m, resolution);
+            double depth_m = 0.0, force_N = 0.0, count = 0.0;
+            for (const TracePoint& p : felt.figures.trace) {
+                if ((p.flags & haptics::kTickCutting) == 0 || p.cut_object_m.x < 0.025 || p.cut_object_m.x > 0.032)
+                    continue;
+                depth_m = std::max(depth_m, 0.02 + radius_m - p.cut_object_m.z);
+                force_N += p.force_device_N.z;
+                ++count;
+            }
+            ASSERT_GT(count, 10.0);
+            force_N /= count;
+            EXPECT_GT(force_N, 0.6 * kGrip_N_per_m * kDeep_m) << radius_m << ' ' << resolution;
+            // Where its section bears the press, and as deep again, since half of its bed lies behind it; the bed is
+            // known to a hundredth of the radius.
+            const double rest_m = force_N / (2.0 * kPi * radius_m * kYield_Pa);
+            EXPECT_LT(depth_m, 2.0 * rest_m + 0.01 * radius_m) << radius_m << ' ' << resolution;
+        }
+        const double side_m = 0.016;
+        const Felt felt = pulled({compute::BoxTool{Vec3(0.5 * side_m)}}, 0.5 * side_m, resolution);
+        EXPECT_GT(felt.figures.force_mean_cutting_N, 0.6 * kGrip_N_per_m * kDeep_m) << resolution;
+        EXPECT_LT(felt.volume_removed_m3, 5e-9) << resolution;  // a hundredth of a millimetre of its way
     }
 }
 
