@@ -17,18 +17,6 @@ constexpr double kOfScreensWidth = 0.26;
 // How long the panel tells that the hand has been let go.
 constexpr Nanoseconds kTold_ns = 5'000'000'000;
 
-// Says of a part of the hands what it is, or why it gets no force.
-PanelSource hand_source(const PanelContext& context, std::size_t part) {
-    const haptics::GateCause cause = context.tools[part].cause;
-    const bool several = context.hands.parts() > 1;
-    const std::string name = several ? "Hand, " + context.hands.name_of(part) : "Hand";
-    if (cause != haptics::GateCause::none) return {name, haptics::text(cause), Condition::fault};
-    const devices::DeviceDescription& device = context.hands.device(part);
-    if (device.felt_by_person) return {name, device.name, Condition::good};
-    const bool led = context.hands.part_of_hand(part).hand == context.state.hand;
-    return {name, led ? "simulated, steered by the mouse" : "simulated, rests", Condition::good};
-}
-
 PanelTouch touch_of(const HandState& hand, const haptics::ToolState& tool) {
     PanelTouch touch;
     touch.force_on = hand.force_on;
@@ -70,6 +58,15 @@ void add_objects(PanelModel& m, const SessionState& state) {
 
 }  // namespace
 
+PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::GateCause cause, std::size_t led_hand) {
+    const std::string name = hands.parts() > 1 ? "Hand, " + hands.name_of(part) : "Hand";
+    if (cause != haptics::GateCause::none) return {name, haptics::text(cause), Condition::fault};
+    const devices::DeviceDescription& device = hands.device(part);
+    if (device.felt_by_person) return {name, device.name, Condition::good};
+    const bool led = hands.part_of_hand(part).hand == led_hand;
+    return {name, led ? "simulated, steered by the mouse" : "simulated, rests", Condition::good};
+}
+
 PanelModel LivePanel::model_of(const PanelContext& context, const std::string& message) const {
     const SessionState& state = context.state;
     const haptics::ToolState& tool_state = context.tool;
@@ -106,7 +103,8 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.activity = context.activity;
     m.message = message;
     m.touch = touch_of(state, tool_state);
-    for (std::size_t part = 0; part < context.tools.size(); ++part) m.sources.push_back(hand_source(context, part));
+    for (std::size_t part = 0; part < context.tools.size(); ++part)
+        m.sources.push_back(hand_source(context.hands, part, context.tools[part].cause, context.state.hand));
     for (std::size_t i = 0; i < state.hands.size(); ++i) {
         const HandState& hand = hand_of(state, i);
         m.hands.push_back({hand.hand_name, touch_of(hand, context.tools[context.hands.first_part(i)]),

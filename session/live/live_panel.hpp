@@ -55,6 +55,10 @@ struct SceneInput {
     Captured captured;
 };
 
+// Says of a part of the hands what holds it, or why it gets no force. led_hand: which mouse and keys lead.
+[[nodiscard]] PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::GateCause cause,
+                                      std::size_t led_hand);
+
 class LivePanel {
 public:
     // Feeds a step's events and lays the panel out, with the log's newest message on it; an Error where there can be no

@@ -38,7 +38,8 @@ constexpr std::array kColumns{"deviation_mm",
                               "contact_s",
                               "contacts",
                               "force_mean_N",
-                              "force_largest_N"};
+                              "force_largest_N",
+                              kTorqueFigure};
 
 double mean_outside_mm(const StudyWorld& world, const std::vector<Vec3>& points_m, std::span<const double> weights) {
     std::vector<Vec3> collisions_m;
@@ -74,12 +75,26 @@ std::vector<Vec3> sums_of(const ModelTouch& model) {
     return sums;
 }
 
+// Largest torque of both points' forces about the middle between them, where the handle is held.
+double largest_torque_Nm(const ModelTouch& model) {
+    double largest_Nm = 0.0;
+    for (std::size_t tick = 0; tick < model.forces_N[0].size(); ++tick) {
+        const Vec3 middle_m = 0.5 * (model.points_m[0][tick] + model.points_m[1][tick]);
+        Vec3 torque_Nm(0.0);
+        for (std::size_t i = 0; i < 2; ++i)
+            torque_Nm += glm::cross(model.points_m[i][tick] - middle_m, model.forces_N[i][tick]);
+        largest_Nm = std::max(largest_Nm, glm::length(torque_Nm));
+    }
+    return largest_Nm;
+}
+
 void add_contact(Json& record, const ModelTouch& model) {
     const ContactFigures contact = contact_figures(sums_of(model), model.times_ns);
     record["contact_s"] = contact.time_s;
     record["contacts"] = contact.episodes;
     record["force_mean_N"] = contact.episodes > 0 ? contact.mean_force_N : 0.0;
     record["force_largest_N"] = contact.peak_force_N;
+    record[kTorqueFigure] = largest_torque_Nm(model);
 }
 
 }  // namespace
@@ -127,7 +142,7 @@ Json forces_record(const FeltForces& forces) {
                 {"contacts", forces.contacts},
                 {"force_mean_N", forces.mean_N()},
                 {"force_largest_N", forces.largest_N},
-                {"torque_largest_Nm", forces.largest_torque_Nm},
+                {kTorqueFigure, forces.largest_torque_Nm},
                 {"limited_s", forces.limited_s},
                 {"without_force_ticks", forces.faults},
                 {"late_ticks", forces.late_ticks},

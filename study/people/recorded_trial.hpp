@@ -20,6 +20,7 @@ namespace burin::study {
 [[nodiscard]] Json trial_record(const StudyWorld& world, const StageState& end, std::span<const StageEvent> events,
                                 const ModelTouch& model);
 inline constexpr double kDeviationsAgree_mm = 1.0;
+inline constexpr const char* kTorqueFigure = "torque_largest_Nm";
 
 // Of any other stage in which something was felt: contact and force as they were given to the hand.
 [[nodiscard]] Json forces_record(const FeltForces& forces);

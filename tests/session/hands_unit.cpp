@@ -354,6 +354,27 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
     EXPECT_TRUE(opened.error().line().contains("did you mean simulated?")) << opened.error().line();
 }
 
+// Only of a simulated hand does the panel say that the mouse steers it: a glove is on a person's.
+TEST(SessionHands, ThePanelSaysWhoHoldsEachDevice) {
+    SimulatedClock clock;
+    SessionHands hands(16, 1.0);
+    ASSERT_TRUE(hands.open(
+        std::vector<HandToOpen>{
+            {"right", "simulated", {}}, {"left", "glove:/dev/none", {}}, {"third", "simulated", {}}},
+        clock, true));
+    const auto source = [&](std::size_t part, haptics::GateCause cause = haptics::GateCause::none) {
+        const PanelSource shown = hand_source(hands, part, cause, 0);
+        return shown.name + ": " + shown.detail;
+    };
+    EXPECT_EQ(source(0), "Hand, right: simulated, steered by the mouse");
+    const std::size_t third = hands.first_part(2);
+    EXPECT_EQ(source(third), "Hand, third: simulated, rests");
+    for (std::size_t part = 1; part < third; ++part)
+        EXPECT_EQ(source(part), "Hand, " + hands.name_of(part) + ": " + hands.device(part).name) << "a person's";
+    EXPECT_EQ(source(1, haptics::GateCause::device_fault),
+              "Hand, " + hands.name_of(1) + ": no force: the device reports a fault");
+}
+
 TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
     SculptOptions options;
     options.workpiece.source = "ball:0.1";

@@ -114,6 +114,14 @@ TEST(StudyDeviation, ToTheProxyAndToTheWallAgreeWithinAFifthOfAMillimetre) {
             EXPECT_GT(by_wall, 1.0);
             EXPECT_GT(record.at("contact_s").get<double>(), 0.5);
             EXPECT_GT(record.at("force_largest_N").get<double>(), record.at("force_mean_N").get<double>());
+            // About the middle the torque is that of half the difference of both forces, at the whole handle.
+            double torque_Nm = 0.0;
+            for (std::size_t i = 0; i < model.times_ns.size(); ++i)
+                torque_Nm =
+                    std::max(torque_Nm, 0.5 * glm::length(glm::cross(model.points_m[0][i] - model.points_m[1][i],
+                                                                     model.forces_N[0][i] - model.forces_N[1][i])));
+            EXPECT_GT(torque_Nm, 1e-4);
+            EXPECT_NEAR(record.at("torque_largest_Nm").get<double>(), torque_Nm, 1e-12);
         } else {
             EXPECT_LT(by_wall, 1e-9);
             EXPECT_LT(by_proxy, 0.2);
