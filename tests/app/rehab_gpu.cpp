@@ -52,12 +52,14 @@ TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
     const auto recorded =
         at.run(rehab("--hand scripted --offscreen --repetitions 1 --seed 2 --record " + path("h.session")));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    EXPECT_TRUE(recorded.output.contains("ball: 1 of 1 squeezes")) << recorded.output;
+    // In real time: how many squeezes come to count depends on the machine as well.
+    EXPECT_TRUE(recorded.output.contains("the hand grasps ball")) << recorded.output;
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("h.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
-    EXPECT_TRUE(replayed.output.contains("squeeze 1 of 1 counted")) << replayed.output;
+    for (const std::string of : {"the hand grasps", "squeeze 1 of 1 counted", "held too short", "the hand lets go"})
+        EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
 TEST_F(RehabSessions, SayWhatTheyTake) {
