@@ -58,7 +58,7 @@ TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("h.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
-    for (const std::string of : {"the hand grasps", "squeeze 1 of 1 counted", "held too short", "the hand lets go"})
+    for (const std::string of : {"the hand grasps", "squeeze 1 of 1 counted", "held too short;", "the hand lets go"})
         EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
