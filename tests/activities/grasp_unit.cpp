@@ -297,4 +297,15 @@ TEST(GloveHands, AreTheHandThatIsDrawn) {
     }
 }
 
+// The glove knows nothing of the drawn hand, whose figures its own repeat.
+TEST(GloveHands, BendAsFarAsTheOneThatIsDrawn) {
+    for (std::size_t i = 0; i < devices::kGloveFingers; ++i) {
+        const geometry::BendLimits& drawn = geometry::limits_of(geometry::kAllFingers[i]);
+        for (std::size_t joint = 0; joint < geometry::kBends; ++joint) {
+            EXPECT_DOUBLE_EQ(devices::angle_limits(i).lowest[joint], drawn.lowest[joint]) << i << ' ' << joint;
+            EXPECT_DOUBLE_EQ(devices::angle_limits(i).highest[joint], drawn.highest[joint]) << i << ' ' << joint;
+        }
+    }
+}
+
 }  // namespace burin::activities
