@@ -213,6 +213,7 @@ BenchCommand::BenchCommand(Command app)
     others_.push_back(add_bench_stability(command_));
     others_.push_back(add_bench_glove(command_));
     others_.push_back(add_bench_workspace(command_));
+    others_.push_back(add_bench_body(command_));
     others_.push_back(add_bench_world(command_));
 }
 

@@ -84,6 +84,7 @@ struct BenchSubcommand {
 };
 
 // Add a subcommand and its options to burin bench. The command line must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_body(Command bench);       // bench/body/body_bench.hpp
 [[nodiscard]] BenchSubcommand add_bench_glove(Command bench);      // bench/glove/glove_output.hpp
 [[nodiscard]] BenchSubcommand add_bench_frame(Command bench);      // bench/frame/frame.hpp
 [[nodiscard]] BenchSubcommand add_bench_haptics(Command bench);    // bench/haptics/haptics.hpp

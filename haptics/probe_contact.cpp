@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "haptics/forces/body_push.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "haptics/point_contact.hpp"
 
@@ -149,6 +150,59 @@ std::uint32_t deepest_of(const ContactRecord& contact) {
     return deepest;
 }
 
+// The slope of a body's model as the device may render it, one of so many at once.
+StiffnessLimit rendered_slope(const geometry::LocalModel& model, std::uint32_t models, const ProbeInput& input) {
+    const double scale = input.motion.object_from_device.scale;
+    const TickParameters& parameters = input.parameters;
+    const CoupledWall wall =
+        through(parameters.coupling, {model.stiffness_N_per_m * scale, model.damping_Ns_per_m * scale});
+    if (!parameters.limit_stiffness) return {wall.stiffness_N_per_m, wall.damping_Ns_per_m, StiffnessBound::none};
+    ContactDemand demand;
+    demand.stiffness_N_per_m = wall.stiffness_N_per_m * models;
+    demand.damping_Ns_per_m = wall.damping_Ns_per_m * models;
+    demand.filter_lag_s = mean_lag_s(parameters.signals.force_alpha, input.dt_s);
+    demand.period_s = input.dt_s;
+    StiffnessLimit limit = limited(demand, input.device);
+    limit.stiffness_N_per_m /= models;
+    return limit;
+}
+
+// Adds what bodies that give push each point with. A point that touches nothing else rests on their surface.
+void push_points(const ProbeStep& step, const ProbeInput& input, std::span<PointForce> forces,
+                 SurfaceVelocity& surface) {
+    const geometry::LocalModels& models = input.surface.models;
+    const MotionRecord& motion = input.motion;
+    const Similarity& map = motion.object_from_device;
+    const Quat device_from_object = glm::conjugate(map.orientation);
+    for (std::uint32_t i = 0; i < std::min(models.count, geometry::LocalModels::kMost); ++i) {
+        const geometry::LocalModel& model = models.list[i];
+        if (model.point >= forces.size() || !model.is_sensible()) continue;
+        PointRecord& record = step.contact.points[model.point];
+        const StiffnessLimit slope = rendered_slope(model, std::min(models.count, geometry::LocalModels::kMost), input);
+        const Vec3 turning = glm::cross(motion.angular_velocity_device_rad_per_s, forces[model.point].arm_device_m);
+        const Vec3 velocity = map.scale * (map.orientation * (motion.velocity_device_m_per_s + turning));
+        const BodyPush push =
+            push_of(model, {record.hip_object_m, velocity, slope.stiffness_N_per_m / map.scale, input.now_ns});
+        if (!(push.force_N > 0.0)) continue;
+        if (slope.bound != StiffnessBound::none) {
+            step.flags |= kTickStiffnessLimited;
+            step.contact.stiffness_bound = slope.bound;
+        }
+        const Vec3 force_device_N = push.force_N * (device_from_object * model.normal_object);
+        forces[model.point].force_device_N += force_device_N;
+        record.force_device_N += force_device_N;
+        step.contact.spring_energy_J += push.energy_J;
+        surface.add(device_from_object * model.velocity_object_m_per_s / map.scale, force_device_N);
+        step.flags |= kTickInContact;
+        if (record.constraints > 0) continue;
+        record.constraints = 1;
+        record.normal_object = model.normal_object;
+        record.object = model.object;
+        record.penetration_m = push.surface_m;
+        record.proxy_object_m = record.hip_object_m + push.surface_m * model.normal_object;
+    }
+}
+
 }  // namespace
 
 void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
@@ -212,6 +266,7 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
         surface.add(point.surface_velocity_device_m_per_s(), forces[i].force_device_N);
         contact.spring_energy_J += point.spring_energy_J(rendered_wall.wall, bearing);
     }
+    if (input.surface.models.count > 0) push_points(step, input, {forces.data(), contact.point_count}, surface);
     contact.surface_velocity_device_m_per_s = surface.mean();
     contact.deepest = deepest_of(contact);
     contact.wrench = sum_of({forces.data(), contact.point_count});

@@ -10,12 +10,12 @@
 namespace burin::activities {
 namespace {
 
-// Colours as trainers of the hand have them; the stiffnesses are ours, within what a glove's ball may have.
+// Colours as trainers of the hand have them; Young's moduli are ours, from soft foam's to rubber's.
 constexpr std::array kBallKinds{
-    BallKind{BallColour::yellow, "yellow", {0.93, 0.78, 0.2}, 300.0},
-    BallKind{BallColour::red, "red", {0.78, 0.25, 0.18}, 500.0},
-    BallKind{BallColour::green, "green", {0.27, 0.58, 0.3}, 800.0},
-    BallKind{BallColour::blue, "blue", {0.2, 0.38, 0.7}, 1200.0},
+    BallKind{BallColour::yellow, "yellow", {0.93, 0.78, 0.2}, 50e3},
+    BallKind{BallColour::red, "red", {0.78, 0.25, 0.18}, 100e3},
+    BallKind{BallColour::green, "green", {0.27, 0.58, 0.3}, 200e3},
+    BallKind{BallColour::blue, "blue", {0.2, 0.38, 0.7}, 400e3},
 };
 
 double sum_of(const FingerForces& forces_N) { return std::accumulate(forces_N.begin(), forces_N.end(), 0.0); }

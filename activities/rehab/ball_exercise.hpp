@@ -26,8 +26,8 @@ enum class BallColour : std::uint8_t { yellow, red, green, blue };
 struct BallKind {
     BallColour colour = BallColour::yellow;
     std::string_view name;
-    std::array<double, 3> srgb{};    // 0 to 1
-    double stiffness_N_per_m = 0.0;  // of its surface, as long as it is rigid
+    std::array<double, 3> srgb{};  // 0 to 1
+    double young_Pa = 0.0;
 };
 [[nodiscard]] std::array<BallKind, 4> ball_kinds();
 [[nodiscard]] const BallKind& kind_of(BallColour colour);

@@ -15,6 +15,12 @@ using scene::ObjectProperty;
 constexpr const char* kBall = "ball";  // the world's object that is squeezed
 constexpr std::array<const char*, devices::kGloveFingers> kFingers{"thumb", "index", "middle", "ring"};
 
+// The world's ball, as assets/worlds/hand.toml has it: its number, its place and its size.
+constexpr std::uint32_t kBallObject = 2;
+constexpr Vec3 kBallPlace_m{0.02, 0.0825, 0.0};
+constexpr double kBallRadius_m = 0.035;
+constexpr double kElementsAlongRadius = 3.2;  // 1,632 elements: the scene's thread has more to do than them
+
 std::string name_of(BallColour colour) { return std::string(kind_of(colour).name); }
 
 // Calls back with the ticks of one turn for each turn that all fingers have.
@@ -71,6 +77,18 @@ Result<BallSettings> ball_settings_of(const std::string& settings) {
     return fail(settings, "are no settings of burin rehab", "replay it with the program that recorded it");
 }
 
+Rehab::Rehab(const BallSettings& settings) : settings_(settings), hand_(GraspOptions{}) {
+    bodies::SoftPartSetup setup;
+    setup.object = kBallObject;
+    setup.scene_from_body.position_m = kBallPlace_m;
+    setup.half_axes_m = Vec3(kBallRadius_m);
+    setup.spacing_m = kBallRadius_m / kElementsAlongRadius;
+    setup.material.young_Pa = kind_of(settings.colour).young_Pa;
+    auto made = bodies::SoftPart::create(setup);
+    BURIN_CHECK(made.has_value());
+    if (made) body_ = std::move(*made);
+}
+
 std::string Rehab::settings() const {
     return formatted("rehab ball --colour %s --level %u --repetitions %u --hold %.17g --time-limit %.17g",
                      name_of(settings_.colour).c_str(), settings_.level, settings_.repetitions, settings_.hold_s,
@@ -84,9 +102,8 @@ Result<void> Rehab::act(std::span<const std::string> words, session::ActivityOrd
 void Rehab::step(const session::ActivityView& view, session::ActivityOrders& orders) {
     if (!has_ball_ && view.world != nullptr && object_named(*view.world, kBall)) {
         has_ball_ = true;
-        const BallKind& kind = kind_of(settings_.colour);
-        orders.edits.push_back({kBall, ObjectProperty::stiffness, {kind.stiffness_N_per_m}});
-        orders.edits.push_back({kBall, ObjectProperty::colour, {kind.srgb[0], kind.srgb[1], kind.srgb[2]}});
+        orders.edits.push_back({kBall, ObjectProperty::felt, {0.0}});
+        orders.edits.push_back({kBall, ObjectProperty::seen, {0.0}});
     }
     hand_.step(view, orders);
     orders.trials.clear();  // a trial is a squeeze here, not a grasp
@@ -102,6 +119,20 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         state_ = step.state;
         for (const BallEvent& event : step.events) tell(event, orders);
     });
+}
+
+void Rehab::stage(renderer::Scene& scene, std::size_t screen) const {
+    hand_.stage(scene, screen);
+    const auto shape = body_->shape();
+    if (!drawn_ || shape->version != drawn_version_) {
+        drawn_ = renderer::smooth_mesh(shape->places_m, body_->triangles());
+        drawn_version_ = shape->version;
+    }
+    const Pose& pose = body_->setup().scene_from_body;
+    const auto& srgb = kind_of(settings_.colour).srgb;
+    scene.objects.push_back({drawn_,
+                             scene.world_from_object * Similarity{pose.position_m, pose.orientation, 1.0},
+                             {srgb[0], srgb[1], srgb[2]}});
 }
 
 void Rehab::tell(const BallEvent& event, session::ActivityOrders& orders) {
@@ -141,7 +172,7 @@ Json Rehab::report() const {
               {"repetitions_wanted", settings_.repetitions},
               {"hold_s", settings_.hold_s},
               {"time_limit_s", settings_.time_limit_s},
-              {"body", "rigid"},
+              {"young_Pa", kind_of(settings_.colour).young_Pa},
               {"ended", state_.end == BallEnd::done        ? "done"
                         : state_.end == BallEnd::time_over ? "time over"
                                                            : "broken off"},

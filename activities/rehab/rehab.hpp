@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// An exercise of a hand in a glove, in a session: the hand of `burin hand` with the rules of an exercise beside it.
+// An exercise of a hand in a glove, in a session: the hand of `burin hand` with the rules of an exercise beside it, and
+// a body that gives in place of the world's rigid ball.
 //
 //   ticks of the fingers -> Grasp (gestures, what is held, the drawn hand) -> turns of the exercise -> events
 //   events -> messages, the recording's trials, score and log (report())
 // The exercise's rules are pure and know no session (ball_exercise.hpp); this class feeds them.
-// Frame: the scene's. One thread, the frame's.
+// ticks -> the soft body, a part of the scene (bodies/soft_part.hpp) -> what the fingers feel of it, and its picture
+// Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +17,7 @@
 #include "activities/grasp/grasp.hpp"
 #include "activities/rehab/rehab_settings.hpp"
 #include "base/json.hpp"
+#include "bodies/soft_part.hpp"
 
 namespace burin::activities {
 
@@ -23,7 +27,7 @@ namespace burin::activities {
 class Rehab final : public session::Activity {
 public:
     // Requires sound settings.
-    explicit Rehab(const BallSettings& settings) : settings_(settings), hand_(GraspOptions{}) {}
+    explicit Rehab(const BallSettings& settings);
 
     [[nodiscard]] std::string settings() const override;
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
@@ -33,7 +37,8 @@ public:
         hand_.adjust(of, parameters);
     }
     [[nodiscard]] bool draws_hands() const override { return true; }
-    void stage(renderer::Scene& scene, std::size_t screen) const override { hand_.stage(scene, screen); }
+    void stage(renderer::Scene& scene, std::size_t screen) const override;
+    [[nodiscard]] scene::ScenePart* scene_part() override { return body_.get(); }
     [[nodiscard]] session::ActivityPanel panel() const override;
 
     [[nodiscard]] const BallState& state() const { return state_; }
@@ -47,7 +52,11 @@ private:
 
     BallSettings settings_;
     Grasp hand_;
-    bool has_ball_ = false;  // the world's ball has been given its colour and stiffness
+    std::unique_ptr<bodies::SoftPart> body_;
+    bool has_ball_ = false;  // the world's own has given way to it
+    // The body as it was drawn last.
+    mutable std::uint64_t drawn_version_ = 0;
+    mutable std::shared_ptr<const renderer::DrawnMesh> drawn_;
     Nanoseconds turn_ns_ = 0;
     BallState state_;
     std::vector<BallEvent> events_;

@@ -9,8 +9,11 @@
 namespace burin::activities {
 namespace {
 
-// The simulated hand's own: how long it takes from open to the ball and to the highest target, and back.
-constexpr double kCloses_s = 2.0, kOpens_s = 1.6;
+// The simulated hand's own: how long it takes from open to where the lowest target is just reached, to as far as it
+// closes, and back.
+constexpr double kReaches_s = 1.38, kCloses_s = 2.0, kOpens_s = 1.6;
+// A hold that is shorter than this is over before a hand that has just reached it has opened.
+constexpr double kLeastHold_s = 0.7;
 
 }  // namespace
 
@@ -22,10 +25,10 @@ std::vector<ScriptedSqueeze> drawn_squeezes(const BallSettings& settings, std::u
     double at_s = first_s;
     for (unsigned counted = 0; counted < settings.repetitions;) {
         // Two in a row that are too short would tell nothing more.
-        const bool too_short = share() < 0.3 && (squeezes.empty() || !squeezes.back().too_short);
+        const bool too_short =
+            share() < 0.3 && settings.hold_s >= kLeastHold_s && (squeezes.empty() || !squeezes.back().too_short);
         const double held_s = too_short ? 0.3 * settings.hold_s * share() : settings.hold_s + 0.5 + 0.5 * share();
-        // One that is too short opens on the way, as soon as the ball is touched.
-        const double closed_s = (too_short ? 0.6 * kCloses_s : kCloses_s) + held_s;
+        const double closed_s = (too_short ? kReaches_s : kCloses_s) + held_s;
         squeezes.push_back({at_s, at_s + closed_s, too_short});
         at_s += closed_s + kOpens_s + 0.4 * share();
         counted += too_short ? 0 : 1;

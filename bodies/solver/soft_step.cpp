@@ -4,6 +4,56 @@
 #include <cmath>
 
 namespace burin::bodies {
+namespace {
+
+// A motion of all corners together: the way of the middle, and the turn about it, to first order.
+using Motion = std::array<double, 6>;
+
+// The sum of terms 1/2 k (row . motion - way)^2, whose least is looked for.
+class RigidStep {
+public:
+    void add(const Motion& row, double stiffness_N_per_m, double way_m) {
+        for (std::size_t i = 0; i < 6; ++i) {
+            right_[i] += stiffness_N_per_m * way_m * row[i];
+            for (std::size_t j = 0; j <= i; ++j) matrix_[i][j] += stiffness_N_per_m * row[i] * row[j];
+        }
+    }
+    // A spring that draws a place, seen from the middle, by a way in any direction.
+    void add(const Vec3& arm_m, double stiffness_N_per_m, const Vec3& way_m) {
+        add({1, 0, 0, 0, arm_m.z, -arm_m.y}, stiffness_N_per_m, way_m.x);
+        add({0, 1, 0, -arm_m.z, 0, arm_m.x}, stiffness_N_per_m, way_m.y);
+        add({0, 0, 1, arm_m.y, -arm_m.x, 0}, stiffness_N_per_m, way_m.z);
+    }
+    // By Cholesky; no motion where there is no least.
+    [[nodiscard]] Motion solved() const {
+        std::array<std::array<double, 6>, 6> l{};
+        Motion x{};
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = 0; j <= i; ++j) {
+                double sum = matrix_[i][j];
+                for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+                if (i == j && !(sum > 0.0)) return {};
+                l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
+            }
+        for (std::size_t i = 0; i < 6; ++i) {
+            double sum = right_[i];
+            for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * x[k];
+            x[i] = sum / l[i][i];
+        }
+        for (std::size_t i = 6; i-- > 0;) {
+            double sum = x[i];
+            for (std::size_t k = i + 1; k < 6; ++k) sum -= l[k][i] * x[k];
+            x[i] = sum / l[i][i];
+        }
+        return x;
+    }
+
+private:
+    std::array<std::array<double, 6>, 6> matrix_{};  // its lower half
+    Motion right_{};
+};
+
+}  // namespace
 
 void SoftContact::add(const Anchor& anchor, double share) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -64,6 +114,39 @@ Vec3 SoftSolver::moved(const SoftBody& body, const SoftState& state, const SoftS
     return places[corner] + glm::inverse(sum.stiffness_N_per_m) * sum.force_N;
 }
 
+void SoftSolver::move_rigidly(const SoftBody& body, SoftState& state, const SoftStepInput& input) const {
+    std::vector<Vec3>& places = state.places_m;
+    Vec3 middle(0.0);
+    double mass_kg = 0.0;
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        middle += body.mass_kg(i) * places[i];
+        mass_kg += body.mass_kg(i);
+    }
+    middle /= mass_kg;
+    RigidStep sum;
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        const Vec3 arm = places[i] - middle;
+        const double inertia = body.mass_kg(i) / (input.dt_s * input.dt_s);
+        sum.add(arm, inertia, drawn_to_m_[i] - places[i]);
+        if (!input.holds_N_per_m.empty() && input.holds_N_per_m[i] > 0.0)
+            sum.add(arm, input.holds_N_per_m[i], body.rest().places_m[i] - places[i]);
+    }
+    for (const SoftContact& contact : input.contacts) {
+        const double depth_m = contact.depth_m(places);
+        if (!(depth_m > 0.0)) continue;
+        Vec3 arm(0.0);
+        for (std::uint32_t i = 0; i < contact.count; ++i)
+            arm += contact.shares[i] * (places[contact.corners[i]] - middle);
+        const Vec3 &n = contact.normal, turn = glm::cross(arm, n);
+        sum.add({n.x, n.y, n.z, turn.x, turn.y, turn.z}, contact.stiffness_N_per_m, depth_m);
+    }
+    const Motion motion = sum.solved();
+    const Vec3 way(motion[0], motion[1], motion[2]), turn(motion[3], motion[4], motion[5]);
+    const double angle = glm::length(turn);
+    const Quat turned = angle > 0.0 ? glm::angleAxis(angle, turn / angle) : Quat(1.0, 0.0, 0.0, 0.0);
+    for (Vec3& place : places) place = middle + way + turned * (place - middle);
+}
+
 void SoftSolver::step(const SoftBody& body, SoftState& state, const SoftStepInput& input) {
     const double dt_s = input.dt_s;
     before_m_ = state.places_m;
@@ -72,10 +155,12 @@ void SoftSolver::step(const SoftBody& body, SoftState& state, const SoftStepInpu
         drawn_to_m_[i] = before_m_[i] + dt_s * state.velocities_m_per_s[i] + dt_s * dt_s * input.acceleration_m_per_s2;
     sort_contacts(body, input.contacts);
     state.places_m = drawn_to_m_;  // the first guess
-    for (unsigned sweep = 0; sweep < input.sweeps; ++sweep)
+    for (unsigned sweep = 0; sweep < input.sweeps; ++sweep) {
         for (std::size_t colour = 0; colour < body.colours(); ++colour)
             for (const std::uint32_t corner : body.of_colour(colour))
                 state.places_m[corner] = moved(body, state, input, corner);
+        move_rigidly(body, state, input);
+    }
     for (std::size_t i = 0; i < before_m_.size(); ++i)
         state.velocities_m_per_s[i] = (state.places_m[i] - before_m_[i]) / dt_s;
 }

@@ -5,6 +5,9 @@
 //   minimise over places x:  sum m/(2 dt^2) |x - x0 - dt v0 - dt^2 a|^2 + W(x) + contacts(x) + holds(x)
 // Corner by corner, colour by colour, the sum is minimised in that corner's place alone: 3 x 3, and exactly but for a
 // contact that opens or closes, since W is quadratic in one corner (soft_body.hpp). So each sweep lowers it.
+// Corners that are moved one by one hardly move the body as a whole, the less the stiffer it is: a push from one side
+// would meet far too much inertia. So each sweep ends with a step of all corners together, a rigid motion, which leaves
+// W as it is: 6 x 6, by the inertia, contacts and holds alone.
 // A contact is a penalty between a point of the embedded surface and a plane: half stiffness times depth squared.
 // Damping is viscous, of the part of the stress that goes with mu, over the step.
 // Units: SI; frame: the body's own. No threads; nothing random. A step allocates where there are more contacts than
@@ -57,6 +60,8 @@ private:
     void sort_contacts(const SoftBody& body, std::span<const SoftContact> contacts);
     [[nodiscard]] Vec3 moved(const SoftBody& body, const SoftState& state, const SoftStepInput& input,
                              std::uint32_t corner) const;
+
+    void move_rigidly(const SoftBody& body, SoftState& state, const SoftStepInput& input) const;
 
     struct At {
         std::uint32_t contact;

@@ -30,6 +30,7 @@
 #include "base/clock.hpp"
 #include "base/space.hpp"
 #include "geometry/contact/gridded_triangles.hpp"
+#include "geometry/contact/local_model.hpp"
 #include "geometry/contact/mesh_motion.hpp"
 #include "geometry/contact/tile_block.hpp"
 #include "geometry/contact/touch_patch.hpp"
@@ -59,6 +60,7 @@ struct LocalSurface {
     TileBlock tiles;
     std::shared_ptr<const GriddedTriangles> loose;  // null, or with its search built
     std::vector<TouchedMesh> meshes;                // whole meshes wherever they are; the ball does not bound them
+    LocalModels models;                             // of bodies that give, for each point of the probe
 
     // Triangle ids are consecutive: first all triangles of the tiles, then the loose ones, then those of each mesh in
     // turn.

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] bool is_there() const { return activity_ != nullptr; }
     // Returns the part of the scene by which the ticks and contacts of the hands come; null without an activity.
     [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
+    // Returns what it brings into the scene; null where that is nothing.
+    [[nodiscard]] scene::ScenePart* scene_part() { return activity_ ? activity_->scene_part() : nullptr; }
     // Takes what the hands have done, as the scene has read it, for the next step.
     void take(HandNews news) { news_.add(std::move(news)); }
     // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders

@@ -131,7 +131,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     tools_.resize(hands().parts());
     publish_parameters();
     return scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
-                        activity_.tap(), start_ns_);
+                        activity_.scene_part(), activity_.tap(), start_ns_);
 }
 
 SculptOptions LiveSession::settled(SculptOptions options) const {

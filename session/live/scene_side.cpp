@@ -6,7 +6,7 @@
 namespace burin::session {
 
 Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes, std::span<const Beginning> hands,
-                              SampleTap* tap, Nanoseconds start_ns) {
+                              scene::ScenePart* brought, SampleTap* tap, Nanoseconds start_ns) {
     std::vector<scene::ScenePart*> parts;
     if (carving_) {
         carved_.emplace(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
@@ -18,6 +18,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
         for (std::size_t part = 0; part < hands_.parts(); ++part) world_->part().grip_with(part, kGrips);
         parts.push_back(&world_->part());
     }
+    if (brought != nullptr) parts.push_back(brought);
     if (tap != nullptr) parts.push_back(tap);
     for (const Beginning& hand : hands) spreads_m_.push_back(hand.spread_m);
     std::vector<scene::SceneHand> touched;

@@ -38,10 +38,11 @@ public:
         double reach_m = 0.0;   // how far it may move until the next update
         double spread_m = 0.0;  // of its points, from the first
     };
-    // Makes the scene of all hands, which begin with one tool, and updates it for the first time. tap: what an activity
-    // listens by; null: none.
+    // Makes the scene of all hands, which begin with one tool, and updates it for the first time. brought: a part that
+    // an activity brings, which must outlive this; tap: what the activity listens by. Null: none.
     [[nodiscard]] Result<void> begin(const sculpt::UseTool& use, std::size_t undo_bytes,
-                                     std::span<const Beginning> hands, SampleTap* tap, Nanoseconds start_ns);
+                                     std::span<const Beginning> hands, scene::ScenePart* brought, SampleTap* tap,
+                                     Nanoseconds start_ns);
 
     // Orders for the scene's thread. A tool is the one of the hand in use.
     [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);

@@ -24,6 +24,7 @@
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
 #include "scene/contact_events.hpp"
+#include "scene/scene_part.hpp"
 #include "session/state/world_objects.hpp"
 
 namespace burin::session {
@@ -155,6 +156,9 @@ public:
     [[nodiscard]] virtual bool is_running() const { return false; }
     // Changes the parameters of a part's next ticks, such as guidance, once all else is in them.
     virtual void adjust(PartOfHand /*of*/, haptics::TickParameters& /*parameters*/) const {}
+    // Returns what it brings into the scene besides, such as a body that gives: a part that is updated with the others,
+    // on the scene's thread, as long as the session runs. Asked once, before the first update. Null: nothing.
+    [[nodiscard]] virtual scene::ScenePart* scene_part() { return nullptr; }
     // Returns whether stage() draws the hands, so that no tools are drawn for them.
     [[nodiscard]] virtual bool draws_hands() const { return false; }
     // Changes what a screen shows.

@@ -9,6 +9,7 @@
 
 #include "activities/rehab/rehab.hpp"
 #include "activities/rehab/scripted_squeezes.hpp"
+#include "scene/vrml_world.hpp"
 
 namespace burin::activities {
 namespace {
@@ -156,6 +157,21 @@ TEST(Rehab, IsMadeAnewOfItsSettings) {
                               "rehab ball --colour red --level 4 --repetitions 5 --hold 1 --time-limit 60",
                               "rehab ball --colour pink --level 1 --repetitions 5 --hold 1 --time-limit 60"})
         EXPECT_FALSE(ball_settings_of(wrong)) << wrong;
+}
+
+// The ball that gives stands where the world's own is, and is as large.
+TEST(Rehab, PutsItsBallInThePlaceOfTheWorlds) {
+    const auto world = scene::read_any_world("assets/worlds/hand.toml");
+    ASSERT_TRUE(world);
+    Rehab exercise(BallSettings{});
+    const auto* body = dynamic_cast<const bodies::SoftPart*>(exercise.scene_part());
+    ASSERT_NE(body, nullptr);
+    const scene::SceneObject& ball = world->objects.at(body->setup().object - 1);
+    EXPECT_EQ(ball.name, "ball");
+    Box box;
+    for (const Vec3& place : ball.mesh->positions_m) box.include(ball.pose * (ball.scale * place));
+    EXPECT_LT(glm::length(box.center() - body->setup().scene_from_body.position_m), 1e-4);
+    EXPECT_LT(glm::length(0.5 * box.extent() - body->setup().half_axes_m), 2e-4);
 }
 
 TEST(ScriptedSqueezes, AreAsManyLongOnesAsAreAskedForWhateverTheSeed) {

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "bodies/soft_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace burin::bodies {
+namespace {
+
+// Contacts are looked for within this distance of the surface: farther than a hand moves within a few steps.
+constexpr double kNear_m = 0.012;
+// The penalty of a contact at one point, as a share of Young's modulus times the body's size.
+constexpr double kContactShare = 0.25;
+// The least stiffness of a model, as a share of the contact's: that of a first touch.
+constexpr double kLeastShare = 0.2;
+constexpr double kDamping_s = 0.0005;  // of a model, over its stiffness
+constexpr double kCore = 0.5;          // the share of the half axes within which the body is held
+constexpr double kAtRest_m_per_s = 1e-5, kAtRest_m = 2e-6;
+constexpr unsigned kTouchedLevel = 3, kDrawnLevel = 4;
+
+struct NearestOnTriangle {
+    double squared_m2 = std::numeric_limits<double>::infinity();
+    std::array<std::uint32_t, 3> corners{};
+    Vec3 shares{0.0};
+};
+
+// Ericson 2005, "Real-Time Collision Detection", 5.1.5, by its regions.
+Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0.0 && d2 <= 0.0) return {1, 0, 0};
+    const Vec3 bp = p - b;
+    const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+    if (d3 >= 0.0 && d4 <= d3) return {0, 1, 0};
+    if (const double vc = d1 * d4 - d3 * d2; vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+        const double v = d1 / (d1 - d3);
+        return {1.0 - v, v, 0};
+    }
+    const Vec3 cp = p - c;
+    const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d6 >= 0.0 && d5 <= d6) return {0, 0, 1};
+    if (const double vb = d5 * d2 - d1 * d6; vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+        const double w = d2 / (d2 - d6);
+        return {1.0 - w, 0, w};
+    }
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return {0, 1.0 - w, w};
+    }
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, sum = va + vb + vc;
+    return {va / sum, vb / sum, vc / sum};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SoftPart>> SoftPart::create(const SoftPartSetup& given) {
+    SoftPartSetup setup = given;
+    const double least_m = std::min({setup.half_axes_m.x, setup.half_axes_m.y, setup.half_axes_m.z});
+    if (setup.spacing_m == 0.0) setup.spacing_m = 0.25 * least_m;
+    Result<Tetrahedra> rest = ellipsoid(setup.half_axes_m, setup.spacing_m);
+    if (!rest) return std::unexpected(rest.error());
+    Result<SoftBody> body = SoftBody::create(std::move(*rest), setup.material);
+    if (!body) return std::unexpected(body.error());
+    return std::unique_ptr<SoftPart>(new SoftPart(setup, std::move(*body)));
+}
+
+SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
+    : setup_(setup),
+      body_(std::move(body)),
+      state_(body_.at_rest()),
+      touched_(ellipsoid_surface(body_.rest(), setup.half_axes_m, kTouchedLevel)),
+      drawn_(ellipsoid_surface(body_.rest(), setup.half_axes_m, kDrawnLevel)),
+      triangles_at_(touched_.points.size()),
+      holds_N_per_m_(body_.corners(), 0.0) {
+    for (std::uint32_t t = 0; t < touched_.triangles.size(); ++t)
+        for (const std::uint32_t corner : touched_.triangles[t]) triangles_at_[corner].push_back(t);
+    double core_kg = 0.0;
+    for (std::uint32_t i = 0; i < body_.corners(); ++i)
+        if (glm::length(body_.rest().places_m[i] / setup.half_axes_m) < kCore) core_kg += body_.mass_kg(i);
+    for (std::uint32_t i = 0; i < body_.corners(); ++i)
+        if (glm::length(body_.rest().places_m[i] / setup.half_axes_m) < kCore)
+            holds_N_per_m_[i] = setup.held_N_per_m * body_.mass_kg(i) / core_kg;
+    draw();
+}
+
+void SoftPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
+    if (hands_.size() <= hand) hands_.resize(hand + 1);
+    if (ticks.empty()) return;
+    const haptics::ContactRecord& contact = ticks.back().contact;
+    const Pose body_from_scene = scene::inverse(setup_.scene_from_body);
+    hands_[hand].points = contact.point_count;
+    for (std::uint32_t i = 0; i < contact.point_count; ++i)
+        hands_[hand].places_m[i] = body_from_scene * contact.points[i].hip_object_m;
+}
+
+// The contact of a point with the surface as it is now; nothing where it is far away.
+std::optional<SoftContact> SoftPart::contact_at(const Vec3& point_m) const {
+    if (!finite(point_m)) return std::nullopt;
+    std::uint32_t nearest = 0;
+    double least_m2 = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < surface_m_.size(); ++i) {
+        const Vec3 away = surface_m_[i] - point_m;
+        if (const double square = glm::dot(away, away); square < least_m2) {
+            least_m2 = square;
+            nearest = i;
+        }
+    }
+    const double spread_m = 2.0 * setup_.spacing_m;  // more than an edge of the surface
+    if (least_m2 > (kNear_m + spread_m) * (kNear_m + spread_m)) return std::nullopt;
+    NearestOnTriangle best;
+    for (const std::uint32_t t : triangles_at_[nearest]) {
+        const auto& [a, b, c] = touched_.triangles[t];
+        const Vec3 shares = nearest_shares(point_m, surface_m_[a], surface_m_[b], surface_m_[c]);
+        const Vec3 away = shares.x * surface_m_[a] + shares.y * surface_m_[b] + shares.z * surface_m_[c] - point_m;
+        if (const double square = glm::dot(away, away); square < best.squared_m2)
+            best = {square, touched_.triangles[t], shares};
+    }
+    SoftContact contact;
+    Vec3 normal(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const std::uint32_t corner = best.corners[static_cast<std::size_t>(i)];
+        contact.add(touched_.points[corner], best.shares[i]);
+        normal += best.shares[i] * normals_[corner];
+    }
+    if (!(glm::length(normal) > 1e-9)) return std::nullopt;
+    contact.normal = -glm::normalize(normal);
+    contact.offset_m = glm::dot(contact.normal, point_m) + setup_.point_radius_m;
+    const double size_m = std::cbrt(setup_.half_axes_m.x * setup_.half_axes_m.y * setup_.half_axes_m.z);
+    contact.stiffness_N_per_m = kContactShare * setup_.material.young_Pa * size_m;
+    if (contact.depth_m(state_.places_m) < -kNear_m) return std::nullopt;
+    return contact;
+}
+
+void SoftPart::find_contacts() {
+    surface_m_ = places_of(touched_, state_.places_m);
+    normals_.assign(surface_m_.size(), Vec3(0.0));
+    for (const auto& triangle : touched_.triangles) {
+        const auto& [a, b, c] = triangle;
+        const Vec3 area = glm::cross(surface_m_[b] - surface_m_[a], surface_m_[c] - surface_m_[a]);
+        for (const std::uint32_t corner : triangle) normals_[corner] += area;
+    }
+    pressed_.clear();
+    contacts_.clear();
+    for (std::size_t hand = 0; hand < hands_.size(); ++hand)
+        for (std::uint32_t i = 0; i < hands_[hand].points; ++i) {
+            const Vec3& place_m = hands_[hand].places_m[i];
+            const auto contact = contact_at(place_m);
+            if (!contact) continue;
+            pressed_.push_back({hand, i, place_m, -contact->normal});
+            contacts_.push_back(*contact);
+        }
+}
+
+void SoftPart::make_models(Nanoseconds now_ns) {
+    for (Hand& hand : hands_) hand.models.clear();
+    for (std::size_t i = 0; i < pressed_.size(); ++i) {
+        const Pressed& at = pressed_[i];
+        const SoftContact& contact = contacts_[i];
+        const double surface_N_per_m = contact.stiffness_N_per_m, force_N = contact.force_N(state_.places_m);
+        // How deep the point is in the body at rest, along the ray from its middle.
+        const double level = glm::length(at.place_m / setup_.half_axes_m);
+        const double depth_m = setup_.point_radius_m + glm::length(at.place_m) * (1.0 / std::max(level, 1e-6) - 1.0);
+        const double secant = depth_m > 0.0 ? force_N / depth_m : 0.0;
+        geometry::LocalModel model;
+        model.point = at.point;
+        model.object = setup_.object;
+        model.normal_object = setup_.scene_from_body.orientation * at.normal;
+        model.place_object_m = setup_.scene_from_body * at.place_m;
+        model.stiffness_N_per_m = std::clamp(secant, kLeastShare * surface_N_per_m, surface_N_per_m);
+        model.force_N = force_N > 0.0 ? force_N : model.stiffness_N_per_m * contact.depth_m(state_.places_m);
+        model.damping_Ns_per_m = kDamping_s * model.stiffness_N_per_m;
+        model.surface_N_per_m = surface_N_per_m;
+        model.time_ns = now_ns;
+        hands_[at.hand].models.push_back(model);
+    }
+}
+
+bool SoftPart::rests() const {
+    if (!contacts_.empty()) return false;
+    const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+    for (std::uint32_t i = 0; i < body_.corners(); ++i)
+        if (square(state_.velocities_m_per_s[i]) > kAtRest_m_per_s * kAtRest_m_per_s ||
+            square(state_.places_m[i] - body_.rest().places_m[i]) > kAtRest_m * kAtRest_m)
+            return false;
+    return true;
+}
+
+Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recorded*/) {
+    if (!stepped_to_ns_) stepped_to_ns_ = now_ns;
+    const Nanoseconds due = (now_ns - *stepped_to_ns_) / setup_.step_ns;
+    *stepped_to_ns_ += due * setup_.step_ns;
+    find_contacts();
+    const int steps = rests() ? 0 : static_cast<int>(std::min<Nanoseconds>(due, kMostSteps));
+    for (int i = 0; i < steps; ++i) {
+        if (i > 0) find_contacts();
+        solver_.step(body_, state_, {seconds(setup_.step_ns), setup_.sweeps, Vec3(0.0), contacts_, holds_N_per_m_});
+        ++steps_;
+    }
+    make_models(now_ns);
+    if (steps > 0) draw();
+    return {};
+}
+
+Result<void> SoftPart::add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) {
+    for (const geometry::LocalModel& model : models(ball.hand)) draft.models.add(model);
+    return {};
+}
+
+std::span<const geometry::LocalModel> SoftPart::models(std::size_t hand) const {
+    return hand < hands_.size() ? std::span<const geometry::LocalModel>(hands_[hand].models)
+                                : std::span<const geometry::LocalModel>();
+}
+
+void SoftPart::draw() {
+    auto shape = std::make_shared<SoftShape>();
+    shape->version = steps_;
+    shape->places_m = places_of(drawn_, state_.places_m);
+    const std::lock_guard lock(mutex_);
+    shape_ = std::move(shape);
+}
+
+std::shared_ptr<const SoftShape> SoftPart::shape() const {
+    const std::lock_guard lock(mutex_);
+    return shape_;
+}
+
+}  // namespace burin::bodies

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// A body that gives as a part of a scene: hands press it point by point, it is stepped, and each hand's next ticks get
+// a model of it at each point.
+//
+// Data flow of an update: the newest tick of each part of the hands -> its points, with the nearest of the body's
+// surface -> contacts -> steps of the solver up to the update's time -> for each point the force there, its direction
+// and how it will change (geometry/contact/local_model.hpp) -> add_near() hands these to the publisher. The body is
+// drawn by shape(). The stiffness of a model is the secant: the force over how deep the point is in the body at rest.
+// It says how the body gives when it is pressed slowly, which is what a finger does within a step of 4 ms
+// (docs/decisions/030-bodies-that-give.md). The body is held at its place by springs on its core. It has no weight
+// there. Hardest cases: an update that comes late steps kMostSteps at most and leaves the rest of the time out, and its
+// old models fade by themselves. A body at rest that nobody is near is not stepped. Frame: the scene's; the body's own
+// has its middle at the origin. Deterministic: an update depends on its time and its ticks alone. Threads: as any
+// part's (scene/scene_part.hpp); shape() may be called from any.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "bodies/mesh/embedded_surface.hpp"
+#include "bodies/solver/soft_body.hpp"
+#include "bodies/solver/soft_step.hpp"
+#include "scene/scene_motion.hpp"
+#include "scene/scene_part.hpp"
+
+namespace burin::bodies {
+
+struct SoftPartSetup {
+    std::uint32_t object = 1;  // number of the scene's object that it is
+    Pose scene_from_body;
+    Vec3 half_axes_m{0.03};  // of an ellipsoid
+    double spacing_m = 0.0;  // of its elements' lattice; 0: a quarter of the smallest half axis
+    SoftMaterial material;
+    Nanoseconds step_ns = 4'000'000;
+    unsigned sweeps = 4;
+    double point_radius_m = 0.001;  // of a probe's points
+    double held_N_per_m = 3000.0;   // with which its core is held at its place
+};
+
+// Its surface as it is now, for pictures.
+struct SoftShape {
+    std::uint64_t version = 0;
+    std::vector<Vec3> places_m;  // in the body's frame
+};
+
+class SoftPart final : public scene::ScenePart {
+public:
+    static constexpr int kMostSteps = 4;
+
+    // Fails on a body that cannot be, as ellipsoid() and SoftBody::create() do.
+    [[nodiscard]] static Result<std::unique_ptr<SoftPart>> create(const SoftPartSetup& setup);
+
+    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) override;
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const scene::PartSeen* recorded) override;
+    [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
+    [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;
+    [[nodiscard]] Nanoseconds period_ns() const override { return setup_.step_ns; }
+
+    [[nodiscard]] const SoftPartSetup& setup() const { return setup_; }
+    // Returns the surface that pictures show, never null, and its triangles, which stay the same.
+    [[nodiscard]] std::shared_ptr<const SoftShape> shape() const;
+    [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return drawn_.triangles; }
+    // Returns the models of a hand's points as of the last update.
+    [[nodiscard]] std::span<const geometry::LocalModel> models(std::size_t hand) const;
+    // Of the body as it is, and the number of steps since creation, a measure of their cost.
+    [[nodiscard]] const SoftBody& body() const { return body_; }
+    [[nodiscard]] const SoftState& state() const { return state_; }
+    [[nodiscard]] std::uint64_t steps() const { return steps_; }
+
+private:
+    // A point of a hand against the surface.
+    struct Pressed {
+        std::size_t hand = 0;
+        std::uint32_t point = 0;
+        Vec3 place_m{0.0}, normal{0.0};  // of the point, and out of the body
+    };
+    struct Hand {
+        std::uint32_t points = 0;
+        std::array<Vec3, haptics::kMostProbePoints> places_m{};  // in the body's frame
+        std::vector<geometry::LocalModel> models;
+    };
+
+    SoftPart(const SoftPartSetup& setup, SoftBody body);
+    void find_contacts();
+    [[nodiscard]] std::optional<SoftContact> contact_at(const Vec3& point_m) const;
+    void make_models(Nanoseconds now_ns);
+    [[nodiscard]] bool rests() const;
+    void draw();
+
+    SoftPartSetup setup_;
+    SoftBody body_;
+    SoftState state_;
+    SoftSolver solver_;
+    EmbeddedSurface touched_, drawn_;
+    std::vector<std::vector<std::uint32_t>> triangles_at_;  // of each point of the touched surface
+    std::vector<double> holds_N_per_m_;
+    std::vector<Vec3> surface_m_, normals_;  // of the touched surface now
+    std::vector<Hand> hands_;
+    std::vector<Pressed> pressed_;
+    std::vector<SoftContact> contacts_;  // of each pressed one
+    std::optional<Nanoseconds> stepped_to_ns_;
+    std::uint64_t steps_ = 0;
+    scene::PartSeen seen_;
+    mutable std::mutex mutex_;  // guards shape_
+    std::shared_ptr<const SoftShape> shape_;
+};
+
+}  // namespace burin::bodies
