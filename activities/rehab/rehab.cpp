@@ -105,6 +105,8 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         orders.edits.push_back({kBall, ObjectProperty::felt, {0.0}});
         orders.edits.push_back({kBall, ObjectProperty::seen, {0.0}});
     }
+    const scene::SceneObject* own = view.world != nullptr ? view.world->find(kBallObject) : nullptr;
+    has_given_way_ = own == nullptr || !own->seen;
     hand_.step(view, orders);
     orders.trials.clear();  // a trial is a squeeze here, not a grasp
     orders.holds.clear();   // the ball stays on its stand
@@ -121,18 +123,22 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
     });
 }
 
+// The body is put where the world's own ball was among the objects: so the hand's shadows find a ball there.
 void Rehab::stage(renderer::Scene& scene, std::size_t screen) const {
-    hand_.stage(scene, screen);
-    const auto shape = body_->shape();
-    if (!drawn_ || shape->version != drawn_version_) {
-        drawn_ = renderer::smooth_mesh(shape->places_m, body_->triangles());
-        drawn_version_ = shape->version;
+    if (has_given_way_ && scene.objects.size() + 1 >= kBallObject) {
+        const auto shape = body_->shape();
+        if (!drawn_ || shape->version != drawn_version_) {
+            drawn_ = renderer::smooth_mesh(shape->places_m, body_->triangles());
+            drawn_version_ = shape->version;
+        }
+        const Pose& pose = body_->setup().scene_from_body;
+        const auto& srgb = kind_of(settings_.colour).srgb;
+        scene.objects.insert(scene.objects.begin() + (kBallObject - 1),
+                             {drawn_,
+                              scene.world_from_object * Similarity{pose.position_m, pose.orientation, 1.0},
+                              {srgb[0], srgb[1], srgb[2]}});
     }
-    const Pose& pose = body_->setup().scene_from_body;
-    const auto& srgb = kind_of(settings_.colour).srgb;
-    scene.objects.push_back({drawn_,
-                             scene.world_from_object * Similarity{pose.position_m, pose.orientation, 1.0},
-                             {srgb[0], srgb[1], srgb[2]}});
+    hand_.stage(scene, screen);
 }
 
 void Rehab::tell(const BallEvent& event, session::ActivityOrders& orders) {

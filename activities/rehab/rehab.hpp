@@ -53,7 +53,7 @@ private:
     BallSettings settings_;
     Grasp hand_;
     std::unique_ptr<bodies::SoftPart> body_;
-    bool has_ball_ = false;  // the world's own has given way to it
+    bool has_ball_ = false, has_given_way_ = false;  // the world's own has been told to give way to it, and has
     // The body as it was drawn last.
     mutable std::uint64_t drawn_version_ = 0;
     mutable std::shared_ptr<const renderer::DrawnMesh> drawn_;
