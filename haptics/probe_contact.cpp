@@ -68,6 +68,12 @@ RenderedWall rendered(const PointContact& point, double share, const ProbeInput&
 // What one tick may spend on contact; the parts of a device share it.
 double budget_of(const ProbeInput& in) { return in.turn.of(budget_ns(in.parameters.work, in.dt_s)); }
 
+// Without what of it would draw the hand on into the material, away from where the spring draws it.
+Vec3 drag_that_holds_back(const Vec3& drag_N, const Vec3& spring_m) {
+    const double length2 = glm::dot(spring_m, spring_m), along = glm::dot(drag_N, spring_m);
+    return length2 > 0.0 && along < 0.0 ? drag_N - along / length2 * spring_m : drag_N;
+}
+
 // Advances the cutting point with the probe's first point, and looks where a tool's shape is borne.
 CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& wall, bool cutting,
                    const ProbeInput& in, ContactWork& work) {
@@ -255,7 +261,9 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
             if (cut.next.engaged && point.has_shape())
                 cut_torque_device_Nm =
                     glm::conjugate(input.motion.object_from_device.orientation) * cut.torque_device_Nm;
-            drag_device_N = cut.drag_device_N;
+            const Quat device_from_object = glm::conjugate(input.motion.object_from_device.orientation);
+            drag_device_N = drag_that_holds_back(
+                cut.drag_device_N, device_from_object * (cut.bearing_object_m - point.record().hip_object_m));
             bearing = contact.cut_object_m = cut.bearing_object_m;
         }
         if (i == 0)

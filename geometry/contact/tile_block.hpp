@@ -224,6 +224,7 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
     const bool only_quads = tile.only_quads();
     const std::uint16_t* const quads = tile.quads.data();
     constexpr unsigned kCells = SurfaceTile::kCells, kInRow = kCells * kCells - 1;
+    constexpr std::size_t kRowsInALook = 8;  // of those that are mostly passed by
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& of_x = axis == 0 ? edges.along[0] : edges.across[0];
         const auto& of_y = axis == 1 ? edges.along[1] : edges.across[1];
@@ -245,10 +246,16 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
             std::uint32_t q = tile.row_quads[row];
             const std::uint32_t end = tile.row_quads[row + 1];
             while (q < end && (quads[q] & kInRow) < first_x * kCells) ++q;
+            if (near.thin > 1 && q < end && row % kRowsInALook == 0 && !near.look()) return false;
             for (; q < end; ++q) {
+                // Of a row whose quads are passed by only those that are not are read.
+                if (near.thin > 1 && (q += near.pass_over(end - q)) >= end) break;
                 const unsigned x = (quads[q] & kInRow) / kCells, z = quads[q] % kCells;
                 if (x > last_x) break;
-                if (of_x[x] + of_z[z] <= left2 && !quads_near.add(2 * q)) return false;
+                if (of_x[x] + of_z[z] > left2)
+                    near.met += 1;
+                else if (!quads_near.add(2 * q))
+                    return false;
             }
         }
     }

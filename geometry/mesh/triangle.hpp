@@ -57,6 +57,13 @@ struct Near {
         --looks_left;
         return true;
     }
+    // How many of the next are passed by before one is looked at, at most so many.
+    [[nodiscard]] std::uint32_t pass_over(std::uint32_t most) noexcept {
+        const std::uint32_t from_last = met % thin;
+        const std::uint32_t passed = from_last == 0 ? 0 : std::min(thin - from_last, most);
+        met += passed;
+        return passed;
+    }
     // Whether this one is passed by.
     [[nodiscard]] bool passes_by() noexcept {
         constexpr std::uint32_t kPassedInALook = 16;

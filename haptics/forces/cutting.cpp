@@ -10,8 +10,8 @@ namespace burin::haptics {
 namespace {
 
 // Of the tool's size or of one radian: so much motion asks for another look.
-constexpr double kLookAgain = 0.1;
-constexpr std::uint32_t kMostStride = 1024, kStrideOfPieces = 64;
+constexpr double kLookAgain = 0.1, kLookAgainWhileFree = 0.02;
+constexpr std::uint32_t kMostStride = 16384, kStrideOfPieces = 64;
 // Pieces from which on a look that was not complete was too fine. With fewer the contact has taken this tick's work,
 // and the next one may have more; only after so many ticks in a row the look is made coarser all the same.
 constexpr std::uint32_t kFairPieces = 1000, kMostMissed = 20;
@@ -176,6 +176,15 @@ Vec3 carried_over(const CuttingState& state, const CuttingInput& in) {
     return lag_m > most ? in.hip_object_m + lag * (most / lag_m) : state.point_object_m;
 }
 
+// The share of a step after which a point is so far from where it is known what lies around it.
+double share_within(const Vec3& from, const Vec3& step, double most_m) {
+    const double a = glm::dot(step, step), b = glm::dot(from, step), c = glm::dot(from, from) - most_m * most_m;
+    if (!(a > 0.0) || c + 2.0 * b + a <= 0.0) return 1.0;
+    // It was so far already: nearer it may go.
+    if (c >= 0.0) return b < 0.0 ? 1.0 : 0.0;
+    return (std::sqrt(b * b - a * c) - b) / a;
+}
+
 // What the tool may meet on a way of most_m. A sample partly within the material counts as four elements, one behind
 // the other, so that the area grows evenly as the tool sinks.
 std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool, const Vec3& place,
@@ -243,6 +252,7 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
     Vec3 u = state.engaged ? state.step_object_m : Vec3(0.0);
     for (const double creep : {kFirstCreep, kCreep})
         u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, step.terms);
+    u *= share_within(before - in.proxy_object_m, u, tool.reach_m);
     const Vec3 point = before + u;
     step.next.point_object_m = step.bearing_object_m = point;
     step.next.step_object_m = u;
@@ -269,8 +279,10 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
     const Engagement& known = state.known;
     const Quat turn = in.orientation_object * glm::conjugate(known.orientation_object);
     const double half_angle = glm::length(Vec3(turn.x, turn.y, turn.z));
-    const bool moved = glm::length(in.proxy_object_m - known.place_object_m) > kLookAgain * tool.size_m ||
-                       half_angle > 0.5 * kLookAgain;
+    // What is known of a plane has no end: a tool that leaves a face over its rim would still be borne by it.
+    const double again = state.engaged && !in.in_contact ? kLookAgainWhileFree : kLookAgain;
+    const bool moved =
+        glm::length(in.proxy_object_m - known.place_object_m) > again * tool.size_m || half_angle > 0.5 * kLookAgain;
     const bool serves = !known.for_bearing || !in.cutting;
     if (known.surface_sequence == surface.sequence && !moved && serves) return {known, {}};
     EngagementLook look = look_around(surface, tool, in.proxy_object_m, in.orientation_object, known.stride, most,

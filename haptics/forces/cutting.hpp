@@ -31,7 +31,8 @@
 // balls that touch, and a little more: without it each new surface would move c on by this difference, and the tool
 // would sink without a force. For the same reason the tool cuts whether its balls touch or not: in free space nothing
 // bears it, and c is at the hand. Hardness 0 without p0 cuts without resistance (c = h), infinite hardness does not cut
-// (c = p). Lengths at the device are shorter by the gain g, areas by g^2.
+// (c = p). And c goes no farther from the proxy than the proxy's surroundings are looked at: beyond, nothing would bear
+// it. Lengths at the device are shorter by the gain g, areas by g^2.
 // Grain: both figures may swell and fall with the place along an axis, as the rings of a tree do.
 // Frame: object, metres. Pure; no clock, heap, lock or throw; + - * / and sqrt only, so that every machine gives the
 // same bits.
@@ -71,7 +72,7 @@ struct CuttingInput {
 struct CuttingStep {
     CuttingState next;
     Vec3 bearing_object_m{0.0};      // where the spring pulls the hand: c while cutting, else the proxy
-    Vec3 drag_device_N{0.0};         // viscous, against the motion
+    Vec3 drag_device_N{0.0};         // viscous, against the motion, also against one out of the material
     Vec3 torque_device_Nm{0.0};      // of the material on the tool, about its origin, in the object's axes
     double engaged_area_m2 = 0.0;    // at the device: of all engaged elements that do not move out of the material
     double cut_speed_m_per_s = 0.0;  // of c, at the device
