@@ -262,7 +262,7 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
 
 Vec3 into_material(const geometry::LocalSurface& surface, const Vec3& place_object_m, double reach_m) noexcept {
     const Vec3 place = place_object_m - surface.origin_object;
-    Vec3 sum_m2(0.0);
+    Vec3 sum_m2(0.0), from_within_m2(0.0);
     geometry::Near near{place, place, reach_m};
     (void)geometry::for_each_triangle_near(surface, near, [&](std::uint32_t, const geometry::Triangle& t) {
         const Vec3 u = t.b - t.a, v = t.c - t.a;
@@ -273,7 +273,8 @@ Vec3 into_material(const geometry::LocalSurface& surface, const Vec3& place_obje
         const double share = 1.0 / parts;
         const auto include = [&](const Vec3& middle) {
             const Vec3 way = middle - place;
-            if (glm::dot(way, way) <= reach_m * reach_m && glm::dot(way, area) < 0.0) sum_m2 += area * (share * share);
+            if (glm::dot(way, way) > reach_m * reach_m) return;
+            (glm::dot(way, area) < 0.0 ? sum_m2 : from_within_m2) += area * (share * share);
         };
         for (int j = 0; j < parts; ++j)
             for (int i = 0; i + j < parts; ++i) {
@@ -283,6 +284,7 @@ Vec3 into_material(const geometry::LocalSurface& surface, const Vec3& place_obje
             }
         return true;
     });
+    if (sum_m2 == Vec3(0.0)) sum_m2 = from_within_m2;
     const double length = std::sqrt(glm::dot(sum_m2, sum_m2));
     return length > 1e-9 * reach_m * reach_m ? -sum_m2 / length : Vec3(0.0);
 }

@@ -69,8 +69,8 @@ enum class LookFor : std::uint8_t { cutting, bearing };
                                          LookFor purpose = LookFor::cutting) noexcept;
 
 // Returns the unit direction into the material near a place, from the vector area of the surface that faces it within
-// reach_m; zero where there is none. A vector area depends on a surface's border alone, so a groove that lies wholly
-// within does not tilt it.
+// reach_m, or of a place within the material, which no surface faces, from what is around it; zero where there is none.
+// A vector area depends on a surface's border alone, so a groove that lies wholly within does not tilt it.
 [[nodiscard]] Vec3 into_material(const geometry::LocalSurface& surface, const Vec3& place_object_m,
                                  double reach_m) noexcept;
 

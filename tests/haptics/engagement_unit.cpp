@@ -132,6 +132,8 @@ TEST(Engagement, TheWayIntoTheMaterialIsAcrossItsFaceAndAGrooveDoesNotTiltIt) {
     const test::Surface groove = test::groove(kRadius_m, 0.05, 24, 200, 0.0);
     EXPECT_GT(glm::dot(into_material(*groove, Vec3(0.0), 1.6 * kRadius_m), Vec3(0.0, -1.0, 0.0)), 0.999);
     EXPECT_EQ(into_material(flat(), {0.0, 0.02, 0.0}, 0.005), Vec3(0.0));
+    // Of a place below the face, where strokes that are to cut mostly go.
+    EXPECT_GT(glm::dot(into_material(flat(), {0.001, -0.002, 0.0}, 0.005), Vec3(0.0, -1.0, 0.0)), 0.999);
 }
 
 }  // namespace burin::haptics
