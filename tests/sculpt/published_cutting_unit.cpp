@@ -54,6 +54,14 @@ public:
         depth_m = height_m_ - step.bearing_object_m.y;
         force_N = kStiffness_N_per_m * (hand_depth_m - depth_m);
     }
+    // What the tool has cut away is gone from the surface: the same as that it is where it was and the hand less deep.
+    // Returns how much.
+    double publish() {
+        const double cut_away_m = depth_m;
+        state_.point_object_m.y += cut_away_m;
+        depth_m = 0.0;
+        return cut_away_m;
+    }
     double depth_m = 0.0, force_N = 0.0;
 
 private:
@@ -68,7 +76,11 @@ double force_per_width_N_per_mm(const std::string& preset, double chip_mm) {
     constexpr double kSide_m = 0.004;
     const double speed_m_per_s = 1e-3 * chip_mm * kCutter_m_per_s / kSpacing_m;
     PressedTool tool(compute::BoxTool{Vec3(0.5 * kSide_m)}, 0.5 * kSide_m, material_of(preset));
-    for (int i = 1; i <= 500; ++i) tool.press(i * speed_m_per_s * kDt_s);
+    double cut_away_m = 0.0;
+    for (int i = 1; i <= 500; ++i) {
+        tool.press(i * speed_m_per_s * kDt_s - cut_away_m);
+        cut_away_m += tool.publish();
+    }
     return 1e-3 * tool.force_N / (kSide_m * kSide_m) * kSpacing_m / kThrustRatio;
 }
 
