@@ -56,7 +56,7 @@ void print_score(const activities::Rehab& exercise) {
 
 }  // namespace
 
-// What stands on the command line goes before what the file of settings says.
+// The command's options; those of the exercise overrule the file of settings.
 struct RehabCommand::Options {
     session::SculptOptions session;
     std::string settings, report, hand;

@@ -160,7 +160,7 @@ void SoftPart::make_models(Nanoseconds now_ns) {
         const Pressed& at = pressed_[i];
         const SoftContact& contact = contacts_[i];
         const double surface_N_per_m = contact.stiffness_N_per_m, force_N = contact.force_N(state_.places_m);
-        // How deep the point is in the body at rest, along the ray from its middle.
+        // Depth of the point in the body at rest, along the ray from the body's middle.
         const double level = glm::length(at.place_m / setup_.half_axes_m);
         const double depth_m = setup_.point_radius_m + glm::length(at.place_m) * (1.0 / std::max(level, 1e-6) - 1.0);
         const double secant = depth_m > 0.0 ? force_N / depth_m : 0.0;

@@ -66,7 +66,7 @@ public:
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return drawn_.triangles; }
     // Returns the models of a hand's points as of the last update.
     [[nodiscard]] std::span<const geometry::LocalModel> models(std::size_t hand) const;
-    // Of the body as it is, and the number of steps since creation, a measure of their cost.
+    // The body, its state now, and the number of steps since creation, which measures their cost.
     [[nodiscard]] const SoftBody& body() const { return body_; }
     [[nodiscard]] const SoftState& state() const { return state_; }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }

@@ -21,7 +21,7 @@
 
 namespace burin::activities {
 
-// How stiff the ball is goes by its colour, from soft to hard.
+// The ball's colour says how stiff it is; from soft to hard.
 enum class BallColour : std::uint8_t { yellow, red, green, blue };
 struct BallKind {
     BallColour colour = BallColour::yellow;

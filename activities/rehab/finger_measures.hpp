@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is measured of a hand's fingers while an exercise runs: forces, and how far each joint went. Pure; any thread.
+// Measures a hand's fingers while an exercise runs: their forces, and how far each joint went. Pure; any thread.
 // Units: newtons, radians, seconds. Fingers: thumb, index, middle, ring, as the glove has them.
 #pragma once
 

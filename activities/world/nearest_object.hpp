@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How near a place is to the objects of a world: of what has not been touched. What is touched the tick itself has
-// found (haptics::PointRecord::object). One thread. Frame: the scene's.
+// Tells how near a place is to objects of a world that are not touched. Which object is touched, the tick has found
+// (haptics::PointRecord::object). One thread. Frame: the scene's.
 #pragma once
 
 #include <map>

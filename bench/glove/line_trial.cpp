@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kIndex = 1;
 constexpr double kTrial_s = 1.5, kEnd_s = 0.5, kBack_m = 0.0002;
-// How far the hand is closed when a trial begins and when it meets the ball.
+// Closures of the hand, as shares of a fist: when a trial begins, and when the finger meets the ball.
 constexpr double kFrom = 0.25, kMeets = 0.3;
 // The script's moment at which the emulated hand begins to close.
 constexpr double kCloses_s = 2.0;

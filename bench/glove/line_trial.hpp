@@ -14,7 +14,7 @@
 
 namespace burin::bench {
 
-// Of one trial, a moment at the controller.
+// The state of the controller's finger at one moment of a trial.
 struct TrialMoment {
     double time_s = 0.0, piston_m = 0.0, given_N = 0.0;
 };
@@ -30,7 +30,7 @@ inline constexpr double kSoft_N_per_m = 100.0;
 
 // Has the finger close on a ball for 1.5 s. Takes as long.
 [[nodiscard]] Result<std::vector<TrialMoment>> close_on_ball(MadeAt at, double stiffness_N_per_m);
-// Whether the finger goes to and fro no more at the end.
+// Tells whether the finger has stopped going to and fro when the trial ends.
 [[nodiscard]] bool rests_at_end(const std::vector<TrialMoment>& moments);
 // Takes about half a minute.
 [[nodiscard]] Result<TrialFigures> try_line(MadeAt at);

@@ -121,7 +121,7 @@ private:
         }
         return at->second;
     }
-    // What a tetrahedron leaves of itself: corners inside (i), on the surface (s), and outside (o).
+    // Keeps the part of a tetrahedron within the surface: corners inside (i), on the surface (s), outside (o).
     void cut(const Cell& cell) {
         std::vector<std::uint32_t> i, s, o;
         for (const std::uint32_t corner : cell)

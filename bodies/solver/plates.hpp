@@ -15,7 +15,7 @@ struct PlatePress {
     double dt_s = 0.004;
     unsigned sweeps = 4;
     double closes_m_per_s = 0.05, settles_s = 1.0;
-    // Of the plates' surface, as a share of the body's half height by which Young's modulus' pressure would sink in.
+    // Penalty of the plates: a pressure of one Young's modulus sinks in by this share of the body's half height.
     double softness = 0.001;
 };
 struct PlateFigures {
