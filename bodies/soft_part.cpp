@@ -83,7 +83,6 @@ SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
     for (std::uint32_t i = 0; i < body_.corners(); ++i)
         if (glm::length(body_.rest().places_m[i] / setup.half_axes_m) < kCore)
             holds_N_per_m_[i] = setup.held_N_per_m * body_.mass_kg(i) / core_kg;
-    draw();
 }
 
 void SoftPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
@@ -200,7 +199,7 @@ Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recor
         ++steps_;
     }
     make_models(now_ns);
-    if (steps > 0) draw();
+    has_moved_ = has_moved_ || steps > 0;
     return {};
 }
 
@@ -214,17 +213,12 @@ std::span<const geometry::LocalModel> SoftPart::models(std::size_t hand) const {
                                 : std::span<const geometry::LocalModel>();
 }
 
-void SoftPart::draw() {
+void SoftPart::take_changes(scene::SceneChanges& changes) {
+    if (!std::exchange(has_moved_, false)) return;
     auto shape = std::make_shared<SoftShape>();
-    shape->version = steps_;
+    shape->scene_from_body = setup_.scene_from_body;
     shape->places_m = places_of(drawn_, state_.places_m);
-    const std::lock_guard lock(mutex_);
-    shape_ = std::move(shape);
-}
-
-std::shared_ptr<const SoftShape> SoftPart::shape() const {
-    const std::lock_guard lock(mutex_);
-    return shape_;
+    changes.drawn.push_back(std::move(shape));
 }
 
 }  // namespace burin::bodies
