@@ -13,9 +13,9 @@ struct EmulatedMotion {
     Vec2 stick{0.0};          // of the wand, -1 to 1
 };
 
-// time_s: since the emulator began. The head sways by 0.2 m at eye level, 2 m before the wall; the wand circles in front
-// of it and nods. Its first button is down in the 4th and 5th of every ten seconds; its stick is pushed to the
-// side in the eighth.
+// time_s: since the emulator began. The head sways by 0.2 m at eye level, 2 m before the wall; the wand circles in
+// front of it and nods. Its first button is down in the fourth and fifth of every ten seconds; its stick is pushed to
+// the side in the eighth.
 [[nodiscard]] EmulatedMotion emulated_motion(double time_s);
 
 // A drill: an emulator falls silent from so many seconds on, for so many seconds; from 0: never, for 0: for good.
