@@ -6,6 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/demo_command.hpp"
+#include "app/devices_command.hpp"
 #include "app/glove_command.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
@@ -226,6 +227,7 @@ int run(int argc, char** argv) {
     const ProfileCommand profile(app);
     const SessionCommand recordings(app);
     const ReplayCommand replay(app);
+    const DevicesCommand devices(app);
     const GloveCommand glove(app);
     const StudyCommand study(app);
     const RehabCommand rehab(app);
@@ -252,6 +254,7 @@ int run(int argc, char** argv) {
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());
+    if (devices.parsed()) return finish(devices.run());
     if (glove.parsed()) return finish(glove.run());
     if (rehab.parsed()) return finish(rehab.run());
     if (replay.parsed() && !replay.misuse().empty()) {

@@ -15,12 +15,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/clock.hpp"
 #include "devices/gloves/glove_hand.hpp"
 #include "devices/gloves/grip_shape.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "devices/presence/device_presence.hpp"
 
 namespace burin::devices {
 
@@ -31,6 +33,8 @@ inline constexpr Nanoseconds kGloveLost_ns = 60'000'000;
 // port: of the serial line. Empty: a glove that is nowhere, with its fingers straight, for a recording that is done
 // again. `hand`: where the palm is, in the device frame. The clock must outlive the parts.
 [[nodiscard]] Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock);
+// Looks for serial lines on which a glove may be. Opens none: that alone resets some controllers.
+[[nodiscard]] std::vector<DevicePresence> look_for_gloves();
 [[nodiscard]] OpenedDevice simulated_glove(GripShape shape, AnyHand hand, Clock& clock);
 
 }  // namespace burin::devices

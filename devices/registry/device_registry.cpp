@@ -96,7 +96,8 @@ constexpr std::array kKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_glove_at},
+               .open = open_glove_at,
+               .look = look_for_gloves},
     HapticKind{.name = kSimulatedGlove,
                .usage = "the same without a line, in a simulated hand that the first button closes; "
                         "simulated-glove:pinch or simulated-glove:point as it closes",

@@ -16,6 +16,7 @@
 #include "devices/haptic/opened_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_description.hpp"
+#include "devices/presence/device_presence.hpp"
 
 namespace burin::devices {
 
@@ -51,6 +52,8 @@ struct HapticKind {
     Result<WandDescription> (*handle)(const std::string& file);
     // `file` is what follows the name and a colon: a description of the device; empty: none was named.
     Result<OpenedDevice> (*open)(HapticHost host, const std::string& file);
+    // Looks for such devices without opening them; null: it is simulated and always there.
+    std::vector<DevicePresence> (*look)() = nullptr;
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 

@@ -21,6 +21,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/space.hpp"
+#include "devices/presence/device_presence.hpp"
 
 namespace burin::devices {
 
@@ -92,6 +93,8 @@ struct TrackerKind {
     std::string_view scheme;  // what --tracker begins with, before a colon
     std::string_view usage;   // how to write the rest, for help and messages
     Result<std::unique_ptr<Tracker>> (*open)(const std::string& where, TrackerHost host);
+    // Looks for what can be found without being named; null: it is sent to, and there is nothing to find.
+    std::vector<DevicePresence> (*look)() = nullptr;
 };
 [[nodiscard]] std::span<const TrackerKind> tracker_kinds();
 

@@ -6,12 +6,18 @@
 #include "base/text.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "devices/trackers/udp_tracker.hpp"
+#include "devices/trackers/vrpn_tracker.hpp"
 
 namespace burin::devices {
 namespace {
 
 constexpr std::array kKinds{
     TrackerKind{"udp", "udp:PORT, or udp:ADDRESS:PORT for other machines", open_udp_tracker},
+    TrackerKind{
+        "vrpn",
+        "vrpn:HOST or vrpn:HOST:PORT, a VRPN server, and after a comma which of its devices are the head and the "
+        "wands: vrpn:localhost,head=Tracker0/0,wand0=Tracker0/1,buttons0=Button0,stick0=Analog0,axes=+x+y+z",
+        VrpnTracker::open, look_for_vrpn},
 };
 
 bool is_pose_or_stick(const TrackerSample& sample) { return !std::holds_alternative<WandClick>(sample.input); }

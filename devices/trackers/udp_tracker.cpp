@@ -94,46 +94,22 @@ void UdpTracker::listen() {
 }
 
 void UdpTracker::receive(std::string_view datagram, bool cut_off, Nanoseconds now_ns) {
-    const std::lock_guard lock(mutex_);
     if (cut_off) {  // what is left of the last line may read as another sample
         datagram = datagram.substr(0, datagram.rfind('\n') + 1);
-        refuse("tracker: a datagram is longer than " + std::to_string(kMostBytes) + " bytes; send fewer lines in each",
-               now_ns);
+        inbox_.refuse(
+            "tracker: a datagram is longer than " + std::to_string(kMostBytes) + " bytes; send fewer lines in each",
+            now_ns);
     }
     while (!datagram.empty()) {
         const std::size_t end = datagram.find('\n');
         const std::string_view line = datagram.substr(0, end);
         datagram.remove_prefix(end == std::string_view::npos ? datagram.size() : end + 1);
         auto input = host_.parse_line(line);
-        if (!input) {
-            refuse(input.error().line(), now_ns);
-        } else if (*input && !queue_.push({now_ns, std::move(**input)})) {
-            ++refused_;
-        }
+        if (!input)
+            inbox_.refuse(input.error().line(), now_ns);
+        else if (*input)
+            inbox_.push({now_ns, std::move(**input)});
     }
-}
-
-// Drops a line and counts it. Limits the messages, since a sender of invalid lines sends many.
-void UdpTracker::refuse(const std::string& why, Nanoseconds now_ns) {
-    ++refused_;
-    if (last_message_ns_ && now_ns - *last_message_ns_ < kNanosecondsPerSecond) return;
-    last_message_ns_ = now_ns;
-    messages_.push_back(why);
-}
-
-std::vector<TrackerSample> UdpTracker::take() {
-    const std::lock_guard lock(mutex_);
-    return queue_.take();
-}
-
-std::vector<std::string> UdpTracker::take_messages() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(messages_, {});
-}
-
-std::uint64_t UdpTracker::refused() const {
-    const std::lock_guard lock(mutex_);
-    return refused_;
 }
 
 }  // namespace burin::devices

@@ -8,10 +8,9 @@
 // Threads: as Tracker has it; the host's functions are called on the port's own thread.
 #pragma once
 
-#include <mutex>
 #include <thread>
 
-#include "devices/trackers/tracker.hpp"
+#include "devices/trackers/tracker_inbox.hpp"
 
 namespace burin::devices {
 
@@ -24,9 +23,9 @@ public:
     UdpTracker(const UdpTracker&) = delete;
     UdpTracker& operator=(const UdpTracker&) = delete;
 
-    [[nodiscard]] std::vector<TrackerSample> take() override;
-    [[nodiscard]] std::vector<std::string> take_messages() override;
-    [[nodiscard]] std::uint64_t refused() const override;
+    [[nodiscard]] std::vector<TrackerSample> take() override { return inbox_.take(); }
+    [[nodiscard]] std::vector<std::string> take_messages() override { return inbox_.take_messages(); }
+    [[nodiscard]] std::uint64_t refused() const override { return inbox_.refused(); }
     [[nodiscard]] std::uint16_t port() const { return port_; }
 
 private:
@@ -34,16 +33,11 @@ private:
     [[nodiscard]] Result<void> bind_to(const std::string& where);
     void listen();
     void receive(std::string_view datagram, bool cut_off, Nanoseconds now_ns);
-    void refuse(const std::string& why, Nanoseconds now_ns);
 
     TrackerHost host_;
     int socket_ = -1, stop_ = -1;
     std::uint16_t port_ = 0;
-    mutable std::mutex mutex_;  // guards what follows
-    TrackerQueue queue_;
-    std::vector<std::string> messages_;
-    std::uint64_t refused_ = 0;
-    std::optional<Nanoseconds> last_message_ns_;
+    TrackerInbox inbox_;
     std::thread thread_;
 };
 

@@ -74,7 +74,7 @@ TEST(TrackerRegistry, NamesEachKindOnceAndInItsUsage) {
 
 TEST(TrackerRegistry, RefusesWhatItDoesNotKnowAndNamesWhatThereIs) {
     MonotonicClock clock;
-    for (const char* where : {"", ":", "udp", "vrpn:head@host", "UDP:5005"}) {
+    for (const char* where : {"", ":", "udp", "opentrack:4242", "UDP:5005"}) {
         const auto opened = open_tracker(where, {clock, {}, {}});
         ASSERT_FALSE(opened) << where;
         EXPECT_TRUE(opened.error().line().contains(tracker_usage())) << opened.error().line();

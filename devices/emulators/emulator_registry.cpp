@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "devices/emulators/emulator_registry.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/text.hpp"
+#include "devices/emulators/emulated_glove.hpp"
+#include "devices/emulators/emulated_vrpn.hpp"
+
+namespace burin::devices {
+namespace {
+
+Result<void> run_glove(const EmulatorOptions& options) {
+    if (!options.at.empty())
+        return fail("emulated glove", "takes no address: " + options.at, "it says on which port it is");
+    auto port = GlovePort::create();
+    if (!port) return std::unexpected(port.error());
+    options.is_there("--device glove:" + port->name());
+    port->run({.silent_from_s = options.silence.from_s, .silent_for_s = options.silence.for_s}, options.ends);
+    return {};
+}
+
+Result<void> run_vrpn(const EmulatorOptions& options) {
+    const auto at = network_address(options.at, {"127.0.0.1", kVrpnPort});
+    if (!at) return fail("emulated VRPN server", "has no address " + options.at, "write HOST, PORT or HOST:PORT");
+    auto server = EmulatedVrpn::create(*at);
+    if (!server) return std::unexpected(server.error());
+    options.is_there("--tracker vrpn:" + server->address().text());
+    server->run({.silence = options.silence}, options.ends);
+    return {};
+}
+
+constexpr std::array kKinds{
+    EmulatorKind{"glove", "a force-feedback glove on a serial line, whose fingers close and open", run_glove},
+    EmulatorKind{"vrpn", "a VRPN server with a head and a wand that sway, at 127.0.0.1:3883", run_vrpn},
+};
+
+}  // namespace
+
+std::span<const EmulatorKind> emulator_kinds() { return kKinds; }
+
+Result<void> run_emulator(std::string_view name, const EmulatorOptions& options) {
+    const auto kind = std::ranges::find(kKinds, name, &EmulatorKind::name);
+    if (kind != kKinds.end()) return kind->run(options);
+    std::array<std::string_view, kKinds.size()> names;
+    std::ranges::transform(kKinds, names.begin(), &EmulatorKind::name);
+    return fail("emulator " + std::string(name), "is none that Burin has",
+                "did you mean " + std::string(nearest_name(name, names)) + "? There are: " + joined(names));
+}
+
+std::string emulator_usage() {
+    std::string text;
+    for (const EmulatorKind& kind : kKinds)
+        text += (text.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.usage);
+    return text;
+}
+
+}  // namespace burin::devices

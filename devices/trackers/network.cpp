@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "devices/trackers/network.hpp"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+namespace burin::devices {
+namespace {
+
+std::unexpected<std::string> because(int code) { return std::unexpected(std::string(std::strerror(code))); }
+
+std::expected<sockaddr_in, std::string> resolved(const NetworkAddress& address) {
+    addrinfo hints{};
+    hints.ai_family = AF_INET;
+    hints.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    const int failed = ::getaddrinfo(address.host.c_str(), nullptr, &hints, &found);
+    if (failed != 0) return std::unexpected("no such machine: " + std::string(::gai_strerror(failed)));
+    sockaddr_in result{};
+    std::memcpy(&result, found->ai_addr, sizeof(result));
+    ::freeaddrinfo(found);
+    result.sin_port = htons(address.port);
+    return result;
+}
+
+std::expected<BoundSocket, std::string> bound_at(const NetworkAddress& at, int kind) {
+    const auto address = resolved(at);
+    if (!address) return std::unexpected(address.error());
+    BoundSocket made;
+    made.bound = at;
+    made.socket = OwnedFile(::socket(AF_INET, kind | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    const int yes = 1;
+    if (kind == SOCK_STREAM) ::setsockopt(made.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    if (!made.socket || ::bind(made.socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) != 0)
+        return because(errno);
+    sockaddr_in bound{};
+    socklen_t size = sizeof(bound);
+    if (::getsockname(made.socket.get(), reinterpret_cast<sockaddr*>(&bound), &size) == 0)
+        made.bound.port = ntohs(bound.sin_port);
+    return made;
+}
+
+}  // namespace
+
+OwnedFile::~OwnedFile() {
+    if (file_ >= 0) ::close(file_);
+}
+
+std::optional<NetworkAddress> network_address(const std::string& text, const NetworkAddress& usual) {
+    NetworkAddress address = usual;
+    const std::size_t colon = text.rfind(':');
+    const std::string last = colon == std::string::npos ? text : text.substr(colon + 1);
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), port);
+    const bool is_port = !last.empty() && error == std::errc{} && end == last.data() + last.size();
+    if (is_port) address.port = port;
+    if (colon == std::string::npos && !is_port && !text.empty()) address.host = text;
+    if (colon != std::string::npos) {
+        address.host = text.substr(0, colon);
+        if (!is_port || address.host.empty()) return std::nullopt;
+    }
+    return address;
+}
+
+std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns) {
+    const auto address = resolved(to);
+    if (!address) return std::unexpected(address.error());
+    OwnedFile socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (!socket) return because(errno);
+    const int yes = 1;
+    ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof(yes));
+    if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) == 0) return socket;
+    if (errno != EINPROGRESS) return because(errno);
+    pollfd ready{socket.get(), POLLOUT, 0};
+    const int came = ::poll(&ready, 1, static_cast<int>(within_ns / 1'000'000));
+    if (came == 0) return std::unexpected(std::string("it does not answer"));
+    int code = 0;
+    socklen_t size = sizeof(code);
+    if (came < 0 || ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &code, &size) != 0) return because(errno);
+    if (code != 0) return because(code);
+    return socket;
+}
+
+std::expected<BoundSocket, std::string> listen_at(const NetworkAddress& at) {
+    auto made = bound_at(at, SOCK_STREAM);
+    if (made && ::listen(made->socket.get(), 4) != 0) return because(errno);
+    return made;
+}
+
+std::expected<BoundSocket, std::string> receive_at(const NetworkAddress& at) { return bound_at(at, SOCK_DGRAM); }
+
+StopSign::StopSign() : file_(::eventfd(0, EFD_CLOEXEC)) {}
+
+void StopSign::give() const {
+    const std::uint64_t one = 1;
+    while (::write(file_.get(), &one, sizeof(one)) < 0 && errno == EINTR) {
+    }
+}
+
+StopSign::Woken StopSign::wait_for(int file, int most_ms) const {
+    std::array<pollfd, 2> ready{{{file_.get(), POLLIN, 0}, {file, POLLIN, 0}}};  // poll skips a negative file
+    const int came = ::poll(ready.data(), ready.size(), most_ms);
+    if (came > 0 && ready[0].revents != 0) return Woken::by_sign;
+    if (came > 0 && ready[1].revents != 0) return Woken::by_file;
+    return Woken::by_time;
+}
+
+}  // namespace burin::devices

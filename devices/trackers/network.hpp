@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Sockets of trackers and of their emulators: opened with a reason where that fails, closed when they go out of scope.
+// Errors say what is wrong in words; the caller says whose it is. IPv4. Any thread.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+
+namespace burin::devices {
+
+// Owns a file descriptor; -1: none.
+class OwnedFile {
+public:
+    explicit OwnedFile(int file = -1) : file_(file) {}
+    ~OwnedFile();
+    OwnedFile(OwnedFile&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+    OwnedFile& operator=(OwnedFile&& other) noexcept {
+        std::swap(file_, other.file_);
+        return *this;
+    }
+    [[nodiscard]] int get() const { return file_; }
+    [[nodiscard]] explicit operator bool() const { return file_ >= 0; }
+
+private:
+    int file_;
+};
+
+struct NetworkAddress {
+    std::string host = "127.0.0.1";
+    std::uint16_t port = 0;
+    [[nodiscard]] std::string text() const { return host + ":" + std::to_string(port); }
+};
+
+// Reads HOST, HOST:PORT or PORT alone; what is left out is as in `usual`. Nothing where it is none of these.
+[[nodiscard]] std::optional<NetworkAddress> network_address(const std::string& text, const NetworkAddress& usual);
+
+// Connects by TCP, within so long. Nothing that is sent waits for more to send (TCP_NODELAY); reads do not block.
+[[nodiscard]] std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns);
+// Listens for TCP connections, or binds for datagrams; of the port 0 the system's choice is in `bound`.
+struct BoundSocket {
+    OwnedFile socket;
+    NetworkAddress bound;
+};
+[[nodiscard]] std::expected<BoundSocket, std::string> listen_at(const NetworkAddress& at);
+[[nodiscard]] std::expected<BoundSocket, std::string> receive_at(const NetworkAddress& at);
+
+// Lets a thread that waits for sockets be told to end.
+class StopSign {
+public:
+    StopSign();
+    void give() const;
+    [[nodiscard]] int file() const { return file_.get(); }
+    // Waits until the file can be read, the sign is given or the time is over; -1: for the sign alone.
+    enum class Woken { by_file, by_sign, by_time };
+    [[nodiscard]] Woken wait_for(int file, int most_ms) const;
+
+private:
+    OwnedFile file_;
+};
+
+}  // namespace burin::devices

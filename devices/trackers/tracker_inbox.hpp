@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Where a tracker's threads leave what they have heard, until the frame takes it: samples, messages for the user, and
+// the number of what was dropped. Any thread; each function holds a lock for a moment.
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/trackers/tracker.hpp"
+
+namespace burin::devices {
+
+class TrackerInbox {
+public:
+    // Messages that nobody has taken, at most; beyond that new ones are left out.
+    static constexpr std::size_t kMostMessages = 64;
+
+    void push(TrackerSample sample);
+    // Counts something that was dropped. Says why at most once a second, since a sender of nonsense sends much of it.
+    void refuse(const std::string& why, Nanoseconds now_ns);
+    void say(std::string message);
+
+    [[nodiscard]] std::vector<TrackerSample> take();
+    [[nodiscard]] std::vector<std::string> take_messages();
+    [[nodiscard]] std::uint64_t refused() const;
+
+private:
+    void note(std::string message);
+
+    mutable std::mutex mutex_;  // guards what follows
+    TrackerQueue queue_;
+    std::vector<std::string> messages_;
+    std::uint64_t refused_ = 0;
+    std::optional<Nanoseconds> last_message_ns_;
+};
+
+}  // namespace burin::devices

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "devices/trackers/vrpn_tracker.hpp"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <sstream>
+#include <utility>
+
+namespace burin::devices {
+namespace {
+
+constexpr const char* kVrpnRemedy =
+    "write vrpn:HOST or vrpn:HOST:PORT, and after a comma which of its devices they are, such as "
+    "vrpn:10.0.0.2,head=Tracker0/0,wand0=Tracker0/1,buttons0=Button0,stick0=Analog0";
+const TrackerBodies& usual_bodies() {
+    static const TrackerBodies bodies{.head = {{"Tracker0", 0}},
+                                      .wands = {{{{"Tracker0", 1}}, {{"Tracker0", 2}}}},
+                                      .buttons = {{{{"Button0", 0}}, std::nullopt}},
+                                      .sticks = {{{{"Analog0", 0}}, std::nullopt}}};
+    return bodies;
+}
+
+bool send_all(int socket, const std::vector<std::byte>& bytes) {
+    // What a server does not take now is lost with the connection: it takes a few hundred bytes in all.
+    return ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+}
+
+// Reads what has come; false where the connection has ended.
+bool read_some(VrpnConnection& connection) {
+    const auto room = connection.reader->room();
+    const ssize_t count = ::recv(connection.socket.get(), room.data(), room.size(), 0);
+    if (count < 0) return errno == EAGAIN || errno == EINTR;
+    connection.reader->came(static_cast<std::size_t>(count));
+    return count > 0;
+}
+
+}  // namespace
+
+std::expected<VrpnConnection, std::string> connect_to_vrpn(const NetworkAddress& to, const StopSign& stop) {
+    auto socket = connect_to(to, kVrpnAnswer_ns);
+    if (!socket) return std::unexpected("cannot be reached at " + to.text() + ": " + socket.error());
+    VrpnConnection connection{std::move(*socket), std::make_unique<VrpnReader>(), {}};
+    if (!send_all(connection.socket.get(), VrpnBytes().cookie().bytes()))
+        return std::unexpected(to.text() + " takes no bytes");
+    MonotonicClock clock;
+    const Nanoseconds until_ns = clock.now_ns() + kVrpnAnswer_ns;
+    for (Nanoseconds now_ns = clock.now_ns(); now_ns < until_ns; now_ns = clock.now_ns()) {
+        const int left_ms = static_cast<int>((until_ns - now_ns) / 1'000'000) + 1;
+        const auto woken = stop.wait_for(connection.socket.get(), left_ms);
+        if (woken == StopSign::Woken::by_sign) break;
+        if (woken == StopSign::Woken::by_file && !read_some(connection))
+            return std::unexpected("closes the connection at once");
+        // The version is known when the first message is asked for; none is lost, as the reader keeps it.
+        connection.reader->read_version();
+        if (connection.reader->failure()) return std::unexpected(*connection.reader->failure());
+        if (connection.reader->has_cookie()) return connection;
+    }
+    return std::unexpected(std::string("takes the connection and says nothing, as no VRPN server does"));
+}
+
+std::vector<DevicePresence> look_for_vrpn() {
+    const NetworkAddress here{"127.0.0.1", kVrpnPort};
+    const std::string name = "vrpn:" + here.text();
+    const StopSign stop;
+    auto connection = connect_to_vrpn(here, stop);
+    if (!connection)
+        return {{Presence::absent, name, "a VRPN server " + connection.error(),
+                 "start one, or burin devices emulate vrpn; name one on another machine: --tracker vrpn:HOST"}};
+    // A server names its devices at once.
+    constexpr int kNames_ms = 200;
+    MonotonicClock clock;
+    const Nanoseconds until_ns = clock.now_ns() + Nanoseconds{kNames_ms} * 1'000'000;
+    do {
+        while (const auto message = connection->reader->next()) static_cast<void>(connection->names.take(*message));
+    } while (clock.now_ns() < until_ns &&
+             stop.wait_for(connection->socket.get(), kNames_ms) == StopSign::Woken::by_file && read_some(*connection));
+    std::string devices;
+    for (const std::string& sender : connection->names.senders())
+        if (!sender.empty() && sender != "VRPN Control") devices += (devices.empty() ? "" : ", ") + sender;
+    return {{Presence::there,
+             name,
+             "a VRPN server, version " + connection->reader->version() +
+                 (devices.empty() ? ", which names no device" : ", with " + devices),
+             {}}};
+}
+
+Result<std::unique_ptr<Tracker>> VrpnTracker::open(const std::string& where, TrackerHost host) {
+    std::vector<std::string> items;
+    std::istringstream rest(where.substr(std::string_view("vrpn:").size()));
+    for (std::string item; std::getline(rest, item, ',');) items.push_back(item);
+    const std::size_t at = items.empty() ? std::string::npos : items.front().find('@');
+    if (at != std::string::npos)
+        return fail("tracker " + where, "names a device before its server, as VRPN's own programs do",
+                    "write vrpn:" + items.front().substr(at + 1) + ",head=" + items.front().substr(0, at));
+    const auto server = network_address(items.empty() ? "" : items.front(), {"127.0.0.1", kVrpnPort});
+    if (!server) return fail("tracker " + where, "names no server", kVrpnRemedy);
+    if (!items.empty()) items.erase(items.begin());
+    auto bodies = tracker_bodies(where, items, usual_bodies());
+    if (!bodies) return std::unexpected(bodies.error());
+    std::unique_ptr<VrpnTracker> tracker(new VrpnTracker(where, *server, std::move(*bodies), std::move(host)));
+    auto connection = connect_to_vrpn(*server, tracker->stop_);
+    if (!connection)
+        return fail("tracker " + where, connection.error(),
+                    "start its server, or burin devices emulate vrpn, and see that the address is right");
+    tracker->thread_ = std::thread([t = tracker.get(), c = std::move(*connection)]() mutable { t->run(std::move(c)); });
+    return std::unique_ptr<Tracker>(std::move(tracker));
+}
+
+VrpnTracker::VrpnTracker(const std::string& where, NetworkAddress server, TrackerBodies bodies, TrackerHost host)
+    : host_(std::move(host)),
+      server_(std::move(server)),
+      pinged_(bodies.head       ? bodies.head->name
+              : bodies.wands[0] ? bodies.wands[0]->name
+                                : "Tracker0"),
+      translator_(where, std::move(bodies), inbox_) {}
+
+VrpnTracker::~VrpnTracker() {
+    stop_.give();
+    if (thread_.joinable()) thread_.join();
+}
+
+void VrpnTracker::run(VrpnConnection connection) {
+    while (true) {
+        inbox_.say("the VRPN server at " + server_.text() + " is there, version " + connection.reader->version());
+        const std::string why = follow(connection);
+        translator_.lose_all(host_.clock.now_ns());
+        if (why.empty()) return;
+        inbox_.say("the VRPN server at " + server_.text() + " " + why + ": it is looked for again");
+        if (host_.on_sample) host_.on_sample();
+        auto again = find_again();
+        if (!again) return;
+        connection = std::move(*again);
+    }
+}
+
+// Takes what the server sends until the connection is of no use; returns why, empty when told to end.
+std::string VrpnTracker::follow(VrpnConnection& connection) {
+    // What is pinged has to be named first, and so has the ping.
+    VrpnBytes names;
+    names.name(kVrpnSender, 0, pinged_).name(kVrpnType, 0, kVrpnPing).name(kVrpnType, 1, kVrpnPong);
+    if (!send_all(connection.socket.get(), names.bytes())) return "takes no bytes";
+    Nanoseconds heard_ns = host_.clock.now_ns(), pinged_ns = heard_ns;
+    while (true) {
+        bool has_message = false;
+        while (const auto message = connection.reader->next()) {
+            take_message(connection, *message);
+            has_message = true;
+        }
+        if (connection.reader->failure()) return *connection.reader->failure();
+        if (has_message && host_.on_sample) host_.on_sample();
+        const auto woken = stop_.wait_for(connection.socket.get(), 200);
+        if (woken == StopSign::Woken::by_sign) return {};
+        const Nanoseconds now_ns = host_.clock.now_ns();
+        if (woken == StopSign::Woken::by_file) {
+            if (!read_some(connection)) return "has closed the connection";
+            heard_ns = now_ns;
+        }
+        if (now_ns - heard_ns > kSilent_ns) return "is silent";
+        if (now_ns - heard_ns > kQuiet_ns && now_ns - pinged_ns > kQuiet_ns) {
+            pinged_ns = now_ns;
+            ping(connection);
+        }
+    }
+}
+
+void VrpnTracker::ping(const VrpnConnection& connection) const {
+    static_cast<void>(send_all(connection.socket.get(), VrpnBytes().message(0, 0).bytes()));
+}
+
+std::optional<VrpnConnection> VrpnTracker::find_again() {
+    while (stop_.wait_for(-1, 1000) == StopSign::Woken::by_time) {
+        auto connection = connect_to_vrpn(server_, stop_);
+        if (connection) return std::move(*connection);
+    }
+    return std::nullopt;
+}
+
+void VrpnTracker::take_message(VrpnConnection& connection, const VrpnMessage& message) {
+    if (connection.names.take(message)) return;
+    const Nanoseconds now_ns = host_.clock.now_ns();
+    const std::string_view sender = connection.names.sender(message.sender);
+    const std::string_view type = connection.names.type(message.type);
+    const auto is_short = [&] {
+        translator_.refuse("sends a message of " + std::string(type) + " that is too short", now_ns);
+    };
+    if (type == kVrpnPose) {
+        const auto pose = vrpn_pose(message.payload);
+        if (!pose) return is_short();
+        translator_.pose(sender, pose->sensor, {pose->position_m, pose->orientation}, true, now_ns);
+    } else if (type == kVrpnButton) {
+        const auto button = vrpn_button(message.payload);
+        if (!button) return is_short();
+        translator_.button(sender, button->button, button->state != 0, now_ns);
+    } else if (type == kVrpnButtons) {
+        const auto states = vrpn_buttons(message.payload);
+        if (!states) return is_short();
+        for (std::size_t i = 0; i < states->size(); ++i)
+            translator_.button(sender, static_cast<std::int32_t>(i), (*states)[i] != 0, now_ns);
+    } else if (type == kVrpnChannels) {
+        const auto channels = vrpn_channels(message.payload);
+        if (!channels) return is_short();
+        translator_.channels(sender, *channels, now_ns);
+    }
+}
+
+}  // namespace burin::devices

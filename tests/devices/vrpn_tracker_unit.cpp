@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+// A VRPN tracker from end to end, over this machine's loopback: the emulated server, and servers that are not sound.
+#include "devices/trackers/vrpn_tracker.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <thread>
+
+#include "devices/emulators/emulated_vrpn.hpp"
+
+namespace burin::devices {
+namespace {
+
+using std::chrono::milliseconds;
+
+// An emulated server that runs while it lives.
+class RunningServer {
+public:
+    explicit RunningServer(EmulatedVrpnOptions options = {}, std::uint16_t port = 0) {
+        // A port that was in use a moment ago may take another one to be free.
+        for (int i = 0; i < 100 && !server_; ++i) {
+            auto made = EmulatedVrpn::create({"127.0.0.1", port});
+            if (made)
+                server_.emplace(std::move(*made));
+            else
+                std::this_thread::sleep_for(milliseconds(20));
+        }
+        thread_ = std::thread([this, options] { server_->run(options, [this] { return ends_.load(); }); });
+    }
+    ~RunningServer() {
+        ends_ = true;
+        thread_.join();
+    }
+    [[nodiscard]] std::uint16_t port() const { return server_->address().port; }
+    [[nodiscard]] std::string where() const { return "vrpn:127.0.0.1:" + std::to_string(port()); }
+    [[nodiscard]] std::uint64_t pings() const { return server_->pings(); }
+
+private:
+    std::optional<EmulatedVrpn> server_;
+    std::atomic<bool> ends_ = false;
+    std::thread thread_;
+};
+
+// A server whose bytes the test chooses: takes one client at a time.
+class RawServer {
+public:
+    RawServer() : at_(listen_at({"127.0.0.1", 0}).value()) {}
+    [[nodiscard]] std::string where() const { return "vrpn:127.0.0.1:" + std::to_string(at_.bound.port); }
+    // Waits for a client, but not for ever.
+    void accept() {
+        for (int i = 0; i < 5000 && !client_; ++i) {
+            client_ = OwnedFile(::accept4(at_.socket.get(), nullptr, nullptr, SOCK_CLOEXEC));
+            if (!client_) std::this_thread::sleep_for(milliseconds(1));
+        }
+    }
+    void send(std::span<const std::byte> bytes) const {
+        ASSERT_EQ(::send(client_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
+    }
+    void hang_up() { client_ = OwnedFile(); }
+    // Opens a tracker while it sends its cookie and names.
+    [[nodiscard]] std::unique_ptr<Tracker> opened(Clock& clock, const std::string& settings = "") {
+        std::thread greets([this] { greet(); });
+        auto tracker = VrpnTracker::open(where() + settings, {clock, {}, {}});
+        greets.join();
+        EXPECT_TRUE(tracker) << tracker.error().line();
+        return std::move(*tracker);
+    }
+    void greet() {
+        accept();
+        send(VrpnBytes().cookie().name(kVrpnSender, 9, "Tracker0").name(kVrpnType, 7, kVrpnPose).bytes());
+    }
+    void send_pose(const Vec3& position_m, const Quat& orientation = {1, 0, 0, 0}, std::int32_t sensor = 0) const {
+        send(VrpnBytes().message(9, 7, vrpn_payload(VrpnPose{sensor, position_m, orientation})).bytes());
+    }
+
+private:
+    BoundSocket at_;
+    OwnedFile client_;
+};
+
+// Waits until `enough` of what has come, but not for ever.
+template <typename Enough>
+std::vector<TrackerSample> heard_until(Tracker& tracker, Enough enough) {
+    std::vector<TrackerSample> all;
+    for (int i = 0; i < 10'000 && !enough(all); ++i) {
+        for (TrackerSample& sample : tracker.take()) all.push_back(std::move(sample));
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    return all;
+}
+
+template <typename Kind>
+std::vector<Kind> of_kind(const std::vector<TrackerSample>& samples) {
+    std::vector<Kind> found;
+    for (const TrackerSample& sample : samples)
+        if (const auto* one = std::get_if<Kind>(&sample.input)) found.push_back(*one);
+    return found;
+}
+
+std::string refused(const std::string& where) {
+    MonotonicClock clock;
+    const auto tracker = open_tracker(where, {clock, {}, {}});
+    return tracker ? "nothing" : tracker.error().line();
+}
+
+std::string all_messages(Tracker& tracker) {
+    std::string text;
+    for (const std::string& message : tracker.take_messages()) text += message + "\n";
+    return text;
+}
+
+}  // namespace
+
+TEST(VrpnTracker, P2HearsHeadWandButtonAndStickOfTheEmulatedServer) {
+    RunningServer server({.rate_Hz = 100.0});
+    MonotonicClock clock;
+    auto tracker = open_tracker(server.where(), {clock, {}, {}});
+    ASSERT_TRUE(tracker) << tracker.error().line();
+    const auto heard = heard_until(**tracker, [](const auto& all) { return of_kind<WandClick>(all).size() >= 2; });
+    const auto heads = of_kind<HeadInput>(heard);
+    const auto wands = of_kind<WandInput>(heard);
+    ASSERT_GE(heads.size(), 50u);
+    ASSERT_GE(wands.size(), 50u);
+    EXPECT_TRUE(heads[0].tracked);
+    // Each pose is one that the emulator's motion has at some time: the head on its line, the wand on its circle.
+    for (const HeadInput& head : heads) {
+        EXPECT_EQ(head.pose_world.position_m.z, 2.0);
+        EXPECT_NEAR(2.0 * std::atan2(head.pose_world.orientation.y, head.pose_world.orientation.w),
+                    0.15 * head.pose_world.position_m.x / 0.2, 1e-9);
+    }
+    for (const WandInput& wand : wands)
+        EXPECT_NEAR(glm::length(wand.pose_world.position_m - Vec3(0.3, 1.2, 1.4)), 0.15, 1e-12);
+    const auto clicks = of_kind<WandClick>(heard);
+    ASSERT_GE(clicks.size(), 2u);
+    EXPECT_EQ(clicks[0], (WandClick{0, 0, true}));
+    EXPECT_EQ(clicks[1], (WandClick{0, 0, false}));
+    EXPECT_EQ((*tracker)->refused(), 0u);
+    EXPECT_TRUE(all_messages(**tracker).contains("is there, version 07.38"));
+}
+
+TEST(VrpnTracker, AbsorbsTenThousandReportsASecondAndHasTheNewest) {
+    RawServer server;
+    MonotonicClock clock;
+    const auto tracker = server.opened(clock);
+    // A second's worth, as fast as the line takes them; taken once a frame.
+    constexpr int kReports = 10'000;
+    std::thread sends([&] {
+        for (int i = 1; i <= kReports; ++i) {
+            server.send_pose({0.0001 * i, 0.0, 0.0});
+            if (i % 160 == 0) std::this_thread::sleep_for(milliseconds(16));
+        }
+    });
+    std::size_t count = 0;
+    Vec3 newest(0.0);
+    for (int i = 0; i < 2000 && newest.x < 0.99999; ++i) {
+        for (const TrackerSample& sample : tracker->take()) {
+            ++count;
+            newest = std::get<HeadInput>(sample.input).pose_world.position_m;
+        }
+        std::this_thread::sleep_for(milliseconds(16));
+    }
+    sends.join();
+    EXPECT_EQ(count, static_cast<std::size_t>(kReports));
+    EXPECT_EQ(newest.x, 0.0001 * kReports) << "the last one sent";
+    EXPECT_EQ(tracker->refused(), 0u);
+}
+
+TEST(VrpnTracker, RenamesAxesOfPlacesAndTurnsAlike) {
+    RawServer server;
+    MonotonicClock clock;
+    // A system whose z is up and whose y points away from the viewer.
+    const auto tracker = server.opened(clock, ",head=Tracker0/4,axes=+x+z-y");
+    const double half = 0.5 * 0.3;
+    server.send_pose({1.0, 2.0, 3.0}, Quat(std::cos(half), 0.0, 0.0, std::sin(half)), 4);  // turned about its z
+    const auto heard = heard_until(*tracker, [](const auto& all) { return !all.empty(); });
+    ASSERT_EQ(heard.size(), 1u);
+    const auto head = std::get<HeadInput>(heard[0].input);
+    EXPECT_LT(glm::distance(head.pose_world.position_m, Vec3(1.0, 3.0, -2.0)), 1e-12);
+    EXPECT_NEAR(head.pose_world.orientation.y, std::sin(half), 1e-12) << "turned about the world's y";
+    EXPECT_NEAR(head.pose_world.orientation.w, std::cos(half), 1e-12);
+}
+
+TEST(VrpnTracker, LeavesOutWhatIsNoPoseAndSaysSo) {
+    RawServer server;
+    MonotonicClock clock;
+    const auto tracker = server.opened(clock);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    server.send_pose({nan, 0.0, 0.0});
+    server.send_pose({0.0, 0.0, 0.0}, {nan, 0.0, 0.0, 0.0});
+    server.send_pose({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0});
+    server.send_pose({0.0, 1650.0, 0.0});                  // millimetres
+    server.send_pose({0.0, 1.65, 0.0}, {1, 0, 0, 0}, 77);  // a sensor that nobody asked for
+    server.send(VrpnBytes().message(9, 7, std::vector<std::byte>(63)).bytes());
+    server.send(VrpnBytes().message(1234, 4321, std::vector<std::byte>(64)).bytes());  // numbers without a name
+    server.send_pose({0.0, 1.65, 0.0}, {1.005, 0.0, 0.0, 0.0});
+    const auto heard = heard_until(*tracker, [](const auto& all) { return !all.empty(); });
+    ASSERT_EQ(heard.size(), 1u);
+    const auto head = std::get<HeadInput>(heard[0].input);
+    EXPECT_EQ(head.pose_world.position_m, Vec3(0.0, 1.65, 0.0));
+    EXPECT_NEAR(glm::length(head.pose_world.orientation), 1.0, 1e-12);
+    EXPECT_EQ(tracker->refused(), 5u);
+    const std::string said = all_messages(*tracker);
+    EXPECT_TRUE(said.contains("pose of Tracker0/0 that is none")) << said;
+}
+
+TEST(VrpnTracker, LosesWhatItTrackedWithItsServerAndFindsItAgain) {
+    auto server = std::make_unique<RunningServer>();
+    const std::uint16_t port = server->port();
+    MonotonicClock clock;
+    const auto tracker = open_tracker(server->where(), {clock, {}, {}}).value();
+    // While the first button is down.
+    const auto before = heard_until(*tracker, [](const auto& all) { return of_kind<WandClick>(all).size() == 1; });
+    ASSERT_EQ(of_kind<WandClick>(before).size(), 1u);
+    server.reset();
+    const auto lost = heard_until(*tracker, [](const auto& all) {
+        const auto wands = of_kind<WandInput>(all);
+        return !of_kind<WandClick>(all).empty() && !wands.empty() && !wands.back().tracked;
+    });
+    ASSERT_FALSE(of_kind<WandClick>(lost).empty());
+    EXPECT_EQ(of_kind<WandClick>(lost)[0], (WandClick{0, 0, false})) << "no button stays down";
+    ASSERT_FALSE(of_kind<HeadInput>(lost).empty());
+    EXPECT_FALSE(of_kind<HeadInput>(lost).back().tracked);
+    EXPECT_EQ(of_kind<HeadInput>(lost).back().pose_world.position_m.z, 2.0) << "where it was last";
+    EXPECT_TRUE(all_messages(*tracker).contains("has closed the connection: it is looked for again"));
+    server = std::make_unique<RunningServer>(EmulatedVrpnOptions{}, port);
+    const auto again = heard_until(*tracker, [](const auto& all) { return !of_kind<HeadInput>(all).empty(); });
+    ASSERT_FALSE(of_kind<HeadInput>(again).empty());
+    EXPECT_TRUE(of_kind<HeadInput>(again).back().tracked);
+}
+
+// A network that is cut says nothing at all; a tracker that rests says nothing either, but answers.
+TEST(VrpnTracker, PingsAServerThatIsQuietAndLeavesOneThatIsSilent) {
+    RunningServer quiet({.rate_Hz = 0.05});
+    RawServer silent;
+    MonotonicClock clock;
+    const auto keeps = open_tracker(quiet.where(), {clock, {}, {}}).value();
+    const auto leaves = silent.opened(clock);
+    silent.send_pose({0.0, 1.65, 0.0});
+    const auto lost = heard_until(*leaves, [](const auto& all) { return all.size() >= 2; });
+    ASSERT_EQ(lost.size(), 2u);
+    EXPECT_FALSE(std::get<HeadInput>(lost[1].input).tracked);
+    EXPECT_GE(lost[1].time_ns - lost[0].time_ns, VrpnTracker::kSilent_ns);
+    EXPECT_TRUE(all_messages(*leaves).contains("is silent"));
+    EXPECT_GE(quiet.pings(), 1u);
+    EXPECT_FALSE(all_messages(*keeps).contains("silent"));
+}
+
+TEST(VrpnTracker, LeavesAStreamThatItCannotFollow) {
+    RawServer server;
+    MonotonicClock clock;
+    const auto tracker = server.opened(clock);
+    server.send(std::vector<std::byte>(64, static_cast<std::byte>(0xee)));
+    std::string said;
+    for (int i = 0; i < 5000 && !said.contains("a message of"); ++i) {
+        said += all_messages(*tracker);
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_TRUE(said.contains("sends a message of -286331154 bytes")) << said;
+    server.hang_up();
+    server.greet();  // it is looked for again
+    server.send_pose({0.0, 1.65, 0.0});
+    EXPECT_EQ(heard_until(*tracker, [](const auto& all) { return !all.empty(); }).size(), 1u);
+}
+
+TEST(VrpnTracker, SaysWhatIsWrongWithAnAddressAServerAndASetting) {
+    EXPECT_TRUE(refused("vrpn:127.0.0.1:1").contains("cannot be reached at 127.0.0.1:1: Connection refused"))
+        << refused("vrpn:127.0.0.1:1");
+    EXPECT_TRUE(refused("vrpn:127.0.0.1:1").contains("burin devices emulate vrpn"));
+    EXPECT_TRUE(refused("vrpn:no.such.machine.invalid").contains("no such machine"));
+    EXPECT_TRUE(refused("vrpn:localhost:x").contains("names no server"));
+    EXPECT_TRUE(refused("vrpn:Tracker0@localhost").contains("vrpn:localhost,head=Tracker0"));
+    EXPECT_TRUE(refused("vrpn:localhost,haed=Tracker0").contains("the nearest is head="));
+    EXPECT_TRUE(refused("vrpn:localhost,head=Tracker0/x").contains("names nothing"));
+    EXPECT_TRUE(refused("vrpn:localhost,head=/1").contains("names nothing"));
+    EXPECT_TRUE(refused("vrpn:localhost,axes=+x+y-z").contains("no mirror image"));
+    EXPECT_TRUE(refused("vrpn:localhost,axes=+x+x+z").contains("are no axes"));
+    RawServer other;
+    std::thread answers([&] {
+        other.accept();
+        const std::string text = "vrpn: ver. 08.00  0, later";
+        other.send(std::as_bytes(std::span(text)));
+    });
+    EXPECT_TRUE(refused(other.where()).contains("speaks version 08.00 of VRPN, and Burin version 07"));
+    answers.join();
+}
+
+TEST(EmulatedVrpn, CallsAClientBackThatAsksByADatagramAsVrpnsOwnDo) {
+    RunningServer server;
+    const auto waits = listen_at({"127.0.0.1", 0}).value();
+    const auto asks = receive_at({"127.0.0.1", 0}).value();
+    const auto to = connect_to({"127.0.0.1", server.port()}, 1'000'000'000).value();  // and leaves it alone
+    sockaddr_storage server_address{};
+    socklen_t size = sizeof(server_address);
+    ASSERT_EQ(::getpeername(to.get(), reinterpret_cast<sockaddr*>(&server_address), &size), 0);
+    const std::string lob = "10.1.2.3 " + std::to_string(waits.bound.port);  // not where the sender is
+    ASSERT_EQ(::sendto(asks.socket.get(), lob.c_str(), lob.size() + 1, 0,
+                       reinterpret_cast<const sockaddr*>(&server_address), size),
+              static_cast<ssize_t>(lob.size() + 1));
+    OwnedFile called;
+    for (int i = 0; i < 5000 && !called; ++i) {
+        called = OwnedFile(::accept4(waits.socket.get(), nullptr, nullptr, SOCK_CLOEXEC));
+        if (!called) std::this_thread::sleep_for(milliseconds(1));
+    }
+    ASSERT_TRUE(called);
+    std::array<char, kVrpnCookieBytes> cookie{};
+    ASSERT_EQ(::recv(called.get(), cookie.data(), cookie.size(), MSG_WAITALL), static_cast<ssize_t>(cookie.size()));
+    EXPECT_EQ(std::string(cookie.data()), "vrpn: ver. 07.38  0");
+}
+
+}  // namespace burin::devices
