@@ -29,6 +29,13 @@ const ExerciseKind* exercise_named(std::string_view name) {
     return kind != all_kinds().end() ? &*kind : nullptr;
 }
 
+unsigned levels_of(std::string_view exercise) {
+    const ExerciseKind* const kind = exercise_named(exercise);
+    if (kind == nullptr) return 0;
+    const auto level = std::ranges::find(kind->settings, std::string_view("level"), &SettingKind::key);
+    return level != kind->settings.end() ? static_cast<unsigned>(level->most) : 0;
+}
+
 Result<std::unique_ptr<Exercise>> exercise_of(std::string_view settings) {
     if (settings.starts_with(kPrefix)) {
         const std::string_view rest = settings.substr(kPrefix.size()), name = rest.substr(0, rest.find(' '));

@@ -28,6 +28,8 @@ struct ExerciseKind {
 [[nodiscard]] std::span<const ExerciseKind> exercise_kinds();
 // Returns null where there is none of that name.
 [[nodiscard]] const ExerciseKind* exercise_named(std::string_view name);
+// Returns how many levels of difficulty an exercise has; 0 where there is none of that name.
+[[nodiscard]] unsigned levels_of(std::string_view exercise);
 
 // Reads what Rehab::settings() has written, "rehab ball --level 2 ...". Fails on anything else.
 [[nodiscard]] Result<std::unique_ptr<Exercise>> exercise_of(std::string_view settings);
