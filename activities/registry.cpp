@@ -5,6 +5,7 @@
 #include <array>
 
 #include "activities/grasp/grasp.hpp"
+#include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/rehab.hpp"
 #include "activities/seek/seek.hpp"
 #include "activities/train/recorded_visit.hpp"
@@ -25,15 +26,15 @@ Result<session::MadeActivity> grasp_as_recorded(const std::string& settings, con
 }
 
 Result<session::MadeActivity> rehab_as_recorded(const std::string& settings, const session::RecordedFact& /*fact*/) {
-    const Result<BallSettings> ball = ball_settings_of(settings);
-    if (!ball) return std::unexpected(ball.error());
-    return session::MadeActivity{std::make_shared<Rehab>(*ball), nullptr};
+    Result<std::unique_ptr<Exercise>> exercise = exercise_of(settings);
+    if (!exercise) return std::unexpected(exercise.error());
+    return session::MadeActivity{std::make_shared<Rehab>(std::move(*exercise)), nullptr};
 }
 
 constexpr std::array kActivityKinds{
     ActivityKind{"seek", "Objects of a world are touched as they are named", seek_as_recorded},
     ActivityKind{"hand", "A hand in a glove grasps and carries the objects of a world", grasp_as_recorded},
-    ActivityKind{"rehab", "An exercise for a hand in a glove: a ball is squeezed", rehab_as_recorded},
+    ActivityKind{"rehab", "An exercise for a hand in a glove: what its hand does is counted", rehab_as_recorded},
     ActivityKind{kVisitName, "A participant goes through the stages of a study", visit_as_recorded},
 };
 

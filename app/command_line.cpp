@@ -102,6 +102,10 @@ CommandOption CommandOption::within(double least, double most) {
 }
 
 CommandOption CommandOption::one_of(std::initializer_list<const char*> words) {
+    return one_of(std::span(words.begin(), words.size()));
+}
+
+CommandOption CommandOption::one_of(std::span<const char* const> words) {
     option_->check(CLI::IsMember(std::vector<std::string>(words.begin(), words.end())));
     return *this;
 }

@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,7 @@ public:
     CommandOption within(const session::Bounds<T>& bounds) {
         return within(bounds.least, bounds.most);
     }
+    CommandOption one_of(std::span<const char* const> words);
     CommandOption one_of(std::initializer_list<const char*> words);
     CommandOption one_of(std::initializer_list<int> numbers);
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/rehab.hpp"
-#include "activities/rehab/scripted_squeezes.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/output_files.hpp"
@@ -20,19 +20,16 @@
 namespace burin::app {
 namespace {
 
-using activities::BallSettings;
+using activities::ExerciseKind;
+using activities::SettingKind;
+using activities::SettingValues;
 
-constexpr const char* kExerciseWorld = "assets/worlds/hand.toml";
-constexpr const char* kExerciseScript =
-    "assets/sessions/rehab-ball.txt";     // how the arm comes over the ball, and squeezes
-constexpr double kFirstSqueeze_s = 2.85;  // when it is there
-
-Result<BallSettings> settings_in(const std::string& path) {
-    if (path.empty()) return BallSettings{};
+Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& kind) {
+    if (path.empty()) return SettingValues(kind.settings);
     const Result<std::string> text = read_text_file(path);
     if (!text) return std::unexpected(text.error());
-    const activities::ReadSettings read = activities::parse_rehab_settings(*text, path);
-    if (read.errors.empty()) return read.settings.ball;
+    activities::ReadSettings read = activities::read_settings(*text, path, kind);
+    if (read.errors.empty()) return std::move(read.values);
     if (read.errors.size() == 1) return std::unexpected(read.errors.front());
     for (const Error& error : read.errors) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
     return fail(path, formatted("%zu mistakes", read.errors.size()), "correct them; they are listed above");
@@ -47,98 +44,128 @@ Result<void> check_glove(const session::LiveOptions& live) {
                 "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
 }
 
-void print_score(const activities::Rehab& exercise) {
-    const activities::BallState& state = exercise.state();
-    std::printf("ball: %u of %u squeezes, %u held too short, score %.0f of 100, in %.1f s\n", state.repetitions,
-                exercise.ball().repetitions, state.too_short, activities::score_of(state, exercise.ball()),
-                state.time_s());
+// Writes the script that a participant of that seed follows, and has the session follow it.
+Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const ExerciseKind& kind, const SettingValues& values,
+                                      std::uint64_t seed) {
+    if (!live.input.empty()) return fail("--hand scripted", "is led by no --input", "leave one of them out");
+    if (live.device != devices::kSimulatedGlove)
+        return fail("--hand scripted", "is a simulated hand, and --device names " + live.device,
+                    "leave one of them out");
+    const Result<std::string> script = read_text_file(kind.script);
+    if (!script) return std::unexpected(script.error());
+    Result<TemporaryFolder> folder = TemporaryFolder::create();
+    if (!folder) return std::unexpected(folder.error());
+    live.input = *folder / ("rehab-" + std::string(kind.name) + ".txt");
+    if (live.outputs.empty()) live.outputs = "rehab-" + std::string(kind.name) + "-outputs";
+    if (const auto written = write_text(live.input, kind.scripted(values, seed, *script)); !written)
+        return std::unexpected(written.error());
+    return folder;
+}
+
+void print_score(const activities::Exercise& exercise) {
+    const activities::ExerciseCourse course = exercise.course();
+    std::string counts;
+    for (const auto& count : course.counts) {
+        std::string name = count.name;
+        name[0] = static_cast<char>(name[0] - 'A' + 'a');
+        counts += count.wanted > 0 ? formatted("%u of %u %s, ", count.number, count.wanted, name.c_str())
+                                   : formatted("%u %s, ", count.number, name.c_str());
+    }
+    std::printf("%s: %sscore %.0f of 100, in %.1f s\n", exercise.name(), counts.c_str(), course.score, course.time_s);
 }
 
 }  // namespace
 
-// The command's options; those of the exercise overrule the file of settings.
-struct RehabCommand::Options {
+struct RehabCommand::Of {
+    Of(const ExerciseKind& of, Command to)
+        : kind(of), command(to), numbers(of.settings.size()), words(numbers.size()) {}
+
+    const ExerciseKind& kind;
+    Command command;
     session::SculptOptions session;
+    // Of each of the kind's settings; they overrule the file.
+    std::vector<std::optional<double>> numbers;
+    std::vector<std::string> words;
     std::string settings, report, hand;
-    std::string colour;
-    std::optional<unsigned> level, repetitions;
-    std::optional<double> hold_s, time_limit_s;
     std::uint64_t seed = 1;
     bool print_config = false;
+
+    // Returns the settings of the file with what the command line says.
+    [[nodiscard]] Result<SettingValues> values() const {
+        Result<SettingValues> values = settings_in(settings, kind);
+        if (!values) return values;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (numbers[i]) values->set(kind.settings[i].key, *numbers[i]);
+            if (words[i].empty()) continue;
+            if (const auto set = values->set(kind.settings[i].key, words[i]); !set) return std::unexpected(set.error());
+        }
+        if (const auto wrong = activities::problems(*values); !wrong.empty()) return std::unexpected(wrong.front());
+        return values;
+    }
 };
 
 RehabCommand::RehabCommand(Command app)
-    : options_(std::make_unique<Options>()),
-      command_(app.subcommand("rehab", "Exercises for a hand in a glove, with a score and a log")),
-      ball_(command_.subcommand("ball", "Squeeze a ball, hold it so, and relax, again and again")) {
-    Options& options = *options_;
+    : command_(app.subcommand("rehab", "Exercises for a hand in a glove, with a score and a log")) {
     command_.require_subcommand();
-    options.session.world = kExerciseWorld;
-    options.session.no_workpiece = true;
-    options.session.live.device = devices::kSimulatedGlove;
-    options.session.tool.shape = "ball:0.006";  // around a fingertip's patch
-    ball_.option("--settings", options.settings,
-                 "A TOML file with the therapist's settings; what is given here goes before");
-    ball_.option("--colour", options.colour, "How stiff the ball is, from soft to hard")
-        .one_of({"yellow", "red", "green", "blue"});
-    ball_.option("--level", options.level, "Of difficulty: with how much force to squeeze, 1 to 3");
-    ball_.option("--repetitions", options.repetitions, "How many squeezes");
-    ball_.option("--hold", options.hold_s, "How long each is held, in seconds");
-    ball_.option("--time-limit", options.time_limit_s, "When the exercise ends, in seconds");
-    ball_.flag("--print-config", options.print_config, "Print the settings as such a file, and do no more");
-    ball_.option("--hand", options.hand, "scripted: a simulated hand squeezes, some squeezes too short")
-        .one_of({"scripted"});
-    ball_.option("--seed", options.seed, "Of the scripted hand").show_default();
-    ball_.option("--report", options.report, "A JSON file for score, measures and events; - for standard output");
-    add_live_options(ball_, options.session.live);
+    for (const ExerciseKind& kind : activities::exercise_kinds()) {
+        exercises_.push_back(std::make_unique<Of>(kind, command_.subcommand(kind.name, kind.help)));
+        Of& of = *exercises_.back();
+        Command& command = of.command;
+        of.session.world = kind.world;
+        of.session.no_workpiece = true;
+        of.session.live.device = devices::kSimulatedGlove;
+        of.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+        command.option("--settings", of.settings,
+                       "A TOML file with the therapist's settings; what is given here goes before");
+        for (std::size_t i = 0; i < kind.settings.size(); ++i) {
+            const SettingKind& setting = kind.settings[i];
+            if (setting.words.empty())
+                command.option(setting.option, of.numbers[i], setting.help);
+            else
+                command.option(setting.option, of.words[i], setting.help).one_of(setting.words);
+        }
+        command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
+        command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well").one_of({"scripted"});
+        command.option("--seed", of.seed, "Of the scripted hand").show_default();
+        command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
+        add_live_options(command, of.session.live);
+    }
 }
 
 RehabCommand::~RehabCommand() = default;
 
 Result<void> RehabCommand::run() const {
-    const Options& options = *options_;
-    Result<BallSettings> ball = settings_in(options.settings);
-    if (!ball) return std::unexpected(ball.error());
-    if (!options.colour.empty()) ball->colour = *activities::ball_named(options.colour);
-    ball->level = options.level.value_or(ball->level);
-    ball->repetitions = options.repetitions.value_or(ball->repetitions);
-    ball->hold_s = options.hold_s.value_or(ball->hold_s);
-    ball->time_limit_s = options.time_limit_s.value_or(ball->time_limit_s);
-    if (const auto wrong = activities::problems(*ball); !wrong.empty()) return std::unexpected(wrong.front());
-    if (options.print_config) {
-        std::fputs(activities::settings_text({*ball}).c_str(), stdout);
+    for (const auto& of : exercises_)
+        if (of->command.parsed()) return run(*of);
+    return {};
+}
+
+Result<void> RehabCommand::run(const Of& of) const {
+    const Result<SettingValues> values = of.values();
+    if (!values) return std::unexpected(values.error());
+    if (of.print_config) {
+        std::fputs(activities::table_text(of.kind.name, *values).c_str(), stdout);
         return {};
     }
-    session::SculptOptions session = options.session;
+    session::SculptOptions session = of.session;
     session::LiveOptions& live = session.live;
     if (const auto glove = check_glove(live); !glove) return glove;
     std::optional<TemporaryFolder> folder;
-    if (!options.hand.empty()) {
-        if (!live.input.empty()) return fail("--hand scripted", "is led by no --input", "leave one of them out");
-        if (live.device != devices::kSimulatedGlove)
-            return fail("--hand scripted", "is a simulated hand, and --device names " + live.device,
-                        "leave one of them out");
-        const Result<std::string> script = read_text_file(kExerciseScript);
-        if (!script) return std::unexpected(script.error());
-        Result<TemporaryFolder> made = TemporaryFolder::create();
+    if (!of.hand.empty()) {
+        Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());
         folder.emplace(std::move(*made));
-        live.input = *folder / "rehab-ball.txt";
-        if (live.outputs.empty()) live.outputs = "rehab-ball-outputs";
-        const auto squeezes = activities::drawn_squeezes(*ball, options.seed, kFirstSqueeze_s);
-        if (const auto written = write_text(live.input, activities::with_squeezes(*script, squeezes)); !written)
-            return written;
     }
-    if (live.offscreen && live.input.empty()) live.input = kExerciseScript;
-    if (const auto ok = check_places(std::array{options.report}, session::inputs_of(session).list()); !ok) return ok;
-    const auto exercise = std::make_shared<activities::Rehab>(*ball);
+    if (live.offscreen && live.input.empty()) live.input = of.kind.script;
+    if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
+    const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
     // What the person has done is kept, even where the session missed something else; one that never began leaves an
     // older report alone.
-    if (!done && exercise->events().empty()) return done;
-    print_score(*exercise);
-    const Result<void> written = write_output(options.report, json_text(exercise->report()));
+    if (!done && exercise->exercise().course().events.empty()) return done;
+    print_score(exercise->exercise());
+    const Result<void> written = write_output(of.report, json_text(exercise->report()));
     return done ? written : done;
 }
 

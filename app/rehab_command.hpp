@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// burin rehab ball: exercises of a hand in a glove (activities/rehab), with the therapist's settings of one file.
+// burin rehab NAME: exercises of a hand in a glove (activities/rehab), with the therapist's settings of one file.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "app/command_line.hpp"
 #include "base/error.hpp"
@@ -21,9 +22,12 @@ public:
     [[nodiscard]] Result<void> run() const;
 
 private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_, ball_;
+    // An exercise's subcommand, with what it was given.
+    struct Of;
+    [[nodiscard]] Result<void> run(const Of& of) const;
+
+    Command command_;
+    std::vector<std::unique_ptr<Of>> exercises_;
 };
 
 }  // namespace burin::app

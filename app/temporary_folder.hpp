@@ -28,7 +28,7 @@ public:
     }
     TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
     TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-    [[nodiscard]] std::string operator/(const char* name) const { return path_ + "/" + name; }
+    [[nodiscard]] std::string operator/(const std::string& name) const { return path_ + "/" + name; }
 
 private:
     explicit TemporaryFolder(std::string path) : path_(std::move(path)) {}

@@ -37,12 +37,13 @@ const toml::node* TableReader::node(const char* key) {
     return find(key);
 }
 
-std::optional<double> TableReader::number(const char* key) {
+std::optional<double> TableReader::number(const char* key, const char* remedy) {
     const toml::node* n = node(key);
     if (n == nullptr) return std::nullopt;
     const auto value = n->value<double>();
     if (!n->is_number() || !value || !std::isfinite(*value)) {
-        reading_.refuse(*n, std::string(key) + " is not a number", "write " + std::string(key) + " = 0.5, say");
+        reading_.refuse(*n, std::string(key) + " is not a number",
+                        *remedy != 0 ? remedy : "write " + std::string(key) + " = 0.5, say");
         return std::nullopt;
     }
     return value;

@@ -36,7 +36,8 @@ public:
     [[nodiscard]] bool has(const char* key) const;
     // Returns the value as it stands in the file; null where there is none.
     [[nodiscard]] const toml::node* find(const char* key) const;
-    [[nodiscard]] std::optional<double> number(const char* key);
+    // remedy: of what is no number; empty: a number as an example.
+    [[nodiscard]] std::optional<double> number(const char* key, const char* remedy = "");
     [[nodiscard]] std::optional<bool> flag(const char* key);
     [[nodiscard]] std::optional<std::string> text(const char* key);
     [[nodiscard]] std::optional<std::string> text_or_index(const char* key);

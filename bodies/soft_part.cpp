@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "bodies/solver/plastic_flow.hpp"
+
 namespace burin::bodies {
 namespace {
 
@@ -83,7 +85,7 @@ SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
     for (std::uint32_t i = 0; i < body_.corners(); ++i)
         if (glm::length(body_.rest().places_m[i] / setup.half_axes_m) < kCore)
             holds_N_per_m_[i] = setup.held_N_per_m * body_.mass_kg(i) / core_kg;
-    draw();
+    if (setup.material.is_plastic()) held_at_m_ = body_.rest().places_m;
 }
 
 void SoftPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
@@ -181,9 +183,10 @@ void SoftPart::make_models(Nanoseconds now_ns) {
 bool SoftPart::rests() const {
     if (!contacts_.empty()) return false;
     const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+    const bool returns = held_at_m_.empty();  // one that has flowed has other places at rest
     for (std::uint32_t i = 0; i < body_.corners(); ++i)
         if (square(state_.velocities_m_per_s[i]) > kAtRest_m_per_s * kAtRest_m_per_s ||
-            square(state_.places_m[i] - body_.rest().places_m[i]) > kAtRest_m * kAtRest_m)
+            (returns && square(state_.places_m[i] - body_.rest().places_m[i]) > kAtRest_m * kAtRest_m))
             return false;
     return true;
 }
@@ -196,11 +199,13 @@ Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recor
     const int steps = rests() ? 0 : static_cast<int>(std::min<Nanoseconds>(due, kMostSteps));
     for (int i = 0; i < steps; ++i) {
         if (i > 0) find_contacts();
-        solver_.step(body_, state_, {seconds(setup_.step_ns), setup_.sweeps, Vec3(0.0), contacts_, holds_N_per_m_});
+        solver_.step(body_, state_,
+                     {seconds(setup_.step_ns), setup_.sweeps, Vec3(0.0), contacts_, holds_N_per_m_, held_at_m_});
+        if (!held_at_m_.empty()) follow_shape(body_, state_, holds_N_per_m_, held_at_m_, seconds(setup_.step_ns));
         ++steps_;
     }
     make_models(now_ns);
-    if (steps > 0) draw();
+    has_moved_ = has_moved_ || steps > 0;
     return {};
 }
 
@@ -214,17 +219,12 @@ std::span<const geometry::LocalModel> SoftPart::models(std::size_t hand) const {
                                 : std::span<const geometry::LocalModel>();
 }
 
-void SoftPart::draw() {
+void SoftPart::take_changes(scene::SceneChanges& changes) {
+    if (!std::exchange(has_moved_, false)) return;
     auto shape = std::make_shared<SoftShape>();
-    shape->version = steps_;
+    shape->scene_from_body = setup_.scene_from_body;
     shape->places_m = places_of(drawn_, state_.places_m);
-    const std::lock_guard lock(mutex_);
-    shape_ = std::move(shape);
-}
-
-std::shared_ptr<const SoftShape> SoftPart::shape() const {
-    const std::lock_guard lock(mutex_);
-    return shape_;
+    changes.drawn.push_back(std::move(shape));
 }
 
 }  // namespace burin::bodies

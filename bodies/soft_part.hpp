@@ -5,19 +5,18 @@
 // Data flow of an update: the newest tick of each part of the hands -> its points, with the nearest of the body's
 // surface -> contacts -> steps of the solver up to the update's time -> for each point the force there, its direction
 // and how it will change (geometry/contact/local_model.hpp) -> add_near() hands these to the publisher. The body is
-// drawn by shape(). The stiffness of a model is the secant: the force over how deep the point is in the body at rest.
-// It says how the body gives when it is pressed slowly, which is what a finger does within a step of 4 ms
+// drawn as take_changes() tells it. The stiffness of a model is the secant: the force over how deep the point is in the
+// body at rest. It says how the body gives when it is pressed slowly, which is what a finger does within a step of 4 ms
 // (docs/decisions/030-bodies-that-give.md). The body is held at its place by springs on its core. It has no weight
 // there. Hardest cases: an update that comes late steps kMostSteps at most and leaves the rest of the time out, and its
 // old models fade by themselves. A body at rest that nobody is near is not stepped. Frame: the scene's; the body's own
 // has its middle at the origin. Deterministic: an update depends on its time and its ticks alone. Threads: as any
-// part's (scene/scene_part.hpp); shape() may be called from any.
+// part's (scene/scene_part.hpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -41,9 +40,10 @@ struct SoftPartSetup {
     double held_N_per_m = 3000.0;   // with which its core is held at its place
 };
 
-// Its surface as it is now, for pictures.
-struct SoftShape {
-    std::uint64_t version = 0;
+// Its surface as an update left it, for pictures, on its way to the frames.
+class SoftShape final : public scene::DrawnChange {
+public:
+    Pose scene_from_body;
     std::vector<Vec3> places_m;  // in the body's frame
 };
 
@@ -61,8 +61,8 @@ public:
     [[nodiscard]] Nanoseconds period_ns() const override { return setup_.step_ns; }
 
     [[nodiscard]] const SoftPartSetup& setup() const { return setup_; }
-    // Returns the surface that pictures show, never null, and its triangles, which stay the same.
-    [[nodiscard]] std::shared_ptr<const SoftShape> shape() const;
+    // Adds a SoftShape where it has moved since the last call, and at first. Its triangles stay the same.
+    void take_changes(scene::SceneChanges& changes) override;
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return drawn_.triangles; }
     // Returns the models of a hand's points as of the last update.
     [[nodiscard]] std::span<const geometry::LocalModel> models(std::size_t hand) const;
@@ -89,7 +89,6 @@ private:
     [[nodiscard]] std::optional<SoftContact> contact_at(const Vec3& point_m) const;
     void make_models(Nanoseconds now_ns);
     [[nodiscard]] bool rests() const;
-    void draw();
 
     SoftPartSetup setup_;
     SoftBody body_;
@@ -98,15 +97,15 @@ private:
     EmbeddedSurface touched_, drawn_;
     std::vector<std::vector<std::uint32_t>> triangles_at_;  // of each point of the touched surface
     std::vector<double> holds_N_per_m_;
+    std::vector<Vec3> held_at_m_;            // of a plastic body, by corner; empty: their places at rest
     std::vector<Vec3> surface_m_, normals_;  // of the touched surface now
     std::vector<Hand> hands_;
     std::vector<Pressed> pressed_;
     std::vector<SoftContact> contacts_;  // of each pressed one
     std::optional<Nanoseconds> stepped_to_ns_;
     std::uint64_t steps_ = 0;
+    bool has_moved_ = true;  // since the frames were told
     scene::PartSeen seen_;
-    mutable std::mutex mutex_;  // guards shape_
-    std::shared_ptr<const SoftShape> shape_;
 };
 
 }  // namespace burin::bodies

@@ -56,10 +56,13 @@ public:
     DrawnChange& operator=(const DrawnChange&) = delete;
 };
 
+// Such a change on its way to whoever draws it.
+using DrawnShare = std::shared_ptr<const DrawnChange>;
+
 struct SceneChanges {
     std::vector<ObjectUpdate> objects;       // the newest last
     std::optional<MaterialTable> materials;  // where they have changed
-    std::vector<std::unique_ptr<DrawnChange>> drawn;
+    std::vector<std::shared_ptr<DrawnChange>> drawn;
     HandNews hands;
 };
 

@@ -130,7 +130,7 @@ bool CarvedPart::has_news() const {
 
 void CarvedPart::take_changes(scene::SceneChanges& changes) {
     if (auto update = take_surface_update())
-        changes.drawn.push_back(std::make_unique<CarvedChange>(std::move(*update)));
+        changes.drawn.push_back(std::make_shared<CarvedChange>(std::move(*update)));
 }
 
 std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {

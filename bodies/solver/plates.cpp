@@ -39,10 +39,10 @@ Plates plates_on(const SoftBody& body, const EmbeddedSurface& surface, double ha
 }
 
 // The elements' forces, along y, on the corners that started above the middle: what the upper plate has to bear.
-double elastic_above_N(const SoftBody& body, std::span<const Vec3> places_m, double above_m) {
+double elastic_above_N(const SoftBody& body, const SoftState& state, double above_m) {
     double sum = 0.0;
     for (std::uint32_t corner = 0; corner < body.corners(); ++corner)
-        if (body.rest().places_m[corner].y > above_m) sum += elastic_force(body, places_m, corner).force_N.y;
+        if (body.rest().places_m[corner].y > above_m) sum += elastic_force(body, state, corner).force_N.y;
     return sum;
 }
 
@@ -60,13 +60,13 @@ PlateFigures press_between_plates(const SoftBody& body, const EmbeddedSurface& s
     double before_N = 0.0;
     for (double t = press.dt_s; t <= all_s; t += press.dt_s) {
         plates.close_to(half_height_m - press.closed_m * std::min(t / closes_s, 1.0));
-        solver.step(body, state, {press.dt_s, press.sweeps, Vec3(0.0), plates.contacts, {}});
+        solver.step(body, state, {press.dt_s, press.sweeps, Vec3(0.0), plates.contacts, {}, {}});
         ++figures.steps;
         if (t <= all_s - 0.1 * press.settles_s) before_N = plates.force_N(state.places_m);
     }
     const VolumeNow volume = volume_of(body, state.places_m);
     figures.force_N = plates.force_N(state.places_m);
-    figures.elastic_N = elastic_above_N(body, state.places_m, 0.0);
+    figures.elastic_N = elastic_above_N(body, state, 0.0);
     figures.volume_share = volume.volume_m3 / volume_m3(body.rest());
     figures.least_share = volume.least_share;
     figures.drift = std::abs(figures.force_N / before_N - 1.0);

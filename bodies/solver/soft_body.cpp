@@ -24,9 +24,6 @@ std::array<Vec3, 4> gradients_of(const Tetrahedra& body, const Cell& cell) {
     return {-(g1 + g2 + g3), g1, g2, g3};
 }
 
-// Even permutations that put each corner first.
-constexpr std::array<std::array<std::size_t, 4>, 4> kFirst{{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
-
 bool hangs_together(const Tetrahedra& body) {
     std::vector<std::uint32_t> root(body.places_m.size());
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = i;
@@ -66,6 +63,10 @@ Result<void> check_material(const SoftMaterial& m) {
         return fail("density", formatted("is %g kg/m3", m.density_kg_per_m3), "give one above 0");
     if (!(m.damping_s >= 0.0 && m.damping_s <= 1.0))
         return fail("damping", formatted("is %g s", m.damping_s), "give 0 to 1 s");
+    if (!(m.yield_Pa >= 0.0) || !std::isfinite(m.yield_Pa))
+        return fail("yield stress", formatted("is %g Pa", m.yield_Pa), "give one above 0, or 0 for none");
+    if (m.is_plastic() && !(m.relaxes_s > 0.0 && m.relaxes_s <= 10.0))
+        return fail("relaxation", formatted("is %g s", m.relaxes_s), "give more than 0 and at most 10 s");
     return {};
 }
 
@@ -94,8 +95,8 @@ void SoftBody::find_incidences() {
             Incidence incidence;
             incidence.volume_m3 = volume;
             for (std::size_t k = 0; k < 4; ++k) {
-                incidence.corners[k] = cell[kFirst[i][k]];
-                incidence.gram[k] = glm::dot(g[i], g[kFirst[i][k]]);
+                incidence.corners[k] = cell[kCornerFirst[i][k]];
+                incidence.gram[k] = glm::dot(g[i], g[kCornerFirst[i][k]]);
             }
             around[cell[i]].push_back(incidence);
         }
@@ -105,6 +106,21 @@ void SoftBody::find_incidences() {
         incidences_.insert(incidences_.end(), of_corner.begin(), of_corner.end());
         first_.push_back(static_cast<std::uint32_t>(incidences_.size()));
     }
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const Cell& cell : rest_.cells) {
+        Element element{gradients_of(rest_, cell), {}};
+        for (std::size_t i = 0; i < 4; ++i) element.incidences[i] = next[cell[i]]++;
+        elements_.push_back(element);
+    }
+}
+
+SoftState SoftBody::at_rest() const {
+    SoftState state{rest_.places_m, std::vector<Vec3>(corners(), Vec3(0.0)), {}};
+    if (!material_.is_plastic()) return state;
+    state.flow.metrics.assign(rest_.cells.size(), glm::dmat3(1.0));
+    state.flow.incidences = incidences_;
+    state.flow.stopped.assign(rest_.cells.size(), 0);
+    return state;
 }
 
 // Greedy, by the corners' numbers.
@@ -124,11 +140,14 @@ void SoftBody::colour() {
     }
 }
 
-CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner) {
-    const double mu = body.material().mu_Pa(), lambda = body.material().lambda_Pa() + mu;
+namespace {
+
+CornerForce force_of(const SoftMaterial& material, std::span<const SoftIncidence> around,
+                     std::span<const Vec3> places_m) {
+    const double mu = material.mu_Pa(), lambda = material.lambda_Pa() + mu;
     CornerForce sum;
     double of_mu = 0.0;
-    for (const SoftBody::Incidence& e : body.around(corner)) {
+    for (const SoftIncidence& e : around) {
         const Vec3 &a = places_m[e.corners[0]], &b = places_m[e.corners[1]], &c = places_m[e.corners[2]],
                    &d = places_m[e.corners[3]];
         // J = det(b - a, c - a, d - a) / (6 V), and its derivative with respect to a.
@@ -145,6 +164,16 @@ CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, 
     }
     for (int axis = 0; axis < 3; ++axis) sum.stiffness_N_per_m[axis][axis] += of_mu;
     return sum;
+}
+
+}  // namespace
+
+CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner) {
+    return force_of(body.material(), body.around(corner), places_m);
+}
+
+CornerForce elastic_force(const SoftBody& body, const SoftState& state, std::uint32_t corner) {
+    return force_of(body.material(), body.around(state, corner), state.places_m);
 }
 
 double elastic_energy_J(const SoftBody& body, std::span<const Vec3> places_m) {

@@ -7,6 +7,7 @@
 // lambda' = lambda + mu, else Poisson's ratio is wrong. It is defined for inverted elements too, and drives them back.
 // In each corner alone J is affine, so the second derivative with respect to one corner, mu |g|^2 + lambda' c c', is
 // positive definite whatever the deformation: g is the gradient of the corner's shape function at rest, c = dJ/dx.
+// A material with a yield stress is plastic as well: its elements' rest shapes follow (plastic_flow.hpp).
 // Units: SI; frame: the body's own. Pure; any thread. What is made once allocates, the rest does not.
 #pragma once
 
@@ -26,22 +27,46 @@ struct SoftMaterial {
     double density_kg_per_m3 = 1000.0;
     // Of the elements: stress per rate of strain over stress per strain.
     double damping_s = 0.002;
+    double yield_Pa = 0.0;    // von Mises' stress beyond which it flows; 0: it is elastic
+    double relaxes_s = 0.03;  // while it flows: the stress beyond yield falls to 1/e within this time
 
+    [[nodiscard]] bool is_plastic() const { return yield_Pa > 0.0; }
     [[nodiscard]] double mu_Pa() const { return young_Pa / (2.0 * (1.0 + poisson)); }
     [[nodiscard]] double lambda_Pa() const { return young_Pa * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
 };
 
+// Even permutations that put each corner of an element first.
+constexpr std::array<std::array<std::size_t, 4>, 4> kCornerFirst{
+    {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
+
+// One corner of an element, as the element's energy depends on it.
+struct SoftIncidence {
+    std::array<std::uint32_t, 4> corners{};  // the corner itself first, in the cell's orientation
+    std::array<double, 4> gram{};            // g of the corner times g of each, 1/m^2
+    double volume_m3 = 0.0;                  // at rest
+};
+
+// What has flowed of a plastic body (plastic_flow.hpp); empty for an elastic one.
+struct SoftFlow {
+    std::vector<glm::dmat3> metrics;        // of each element: the inverse of Fp' Fp; its determinant is 1
+    std::vector<SoftIncidence> incidences;  // the body's own, with the grams of the rest shapes now
+    std::vector<std::uint8_t> stopped;      // 1: the element would go bad if it flowed further, and does not
+    std::size_t stopped_count = 0;          // how many of them
+    std::size_t flowing_count = 0;          // elements that flowed in the last step
+};
+
 struct SoftState {
     std::vector<Vec3> places_m, velocities_m_per_s;
+    SoftFlow flow{};
 };
 
 class SoftBody {
 public:
-    // One corner of an element, as the element's energy depends on it.
-    struct Incidence {
-        std::array<std::uint32_t, 4> corners{};  // the corner itself first, in the cell's orientation
-        std::array<double, 4> gram{};            // g of the corner times g of each, 1/m^2
-        double volume_m3 = 0.0;                  // at rest
+    using Incidence = SoftIncidence;
+    // An element's shape functions at rest, and where it stands among the incidences of its corners.
+    struct Element {
+        std::array<Vec3, 4> gradients_per_m;
+        std::array<std::uint32_t, 4> incidences;
     };
 
     // Fails on a body without elements, with elements that are flat or inside out, or that does not hang together; and
@@ -55,13 +80,18 @@ public:
     [[nodiscard]] std::span<const Incidence> around(std::uint32_t corner) const {
         return std::span(incidences_).subspan(first_[corner], first_[corner + 1] - first_[corner]);
     }
+    // The same, with the rest shapes as they are in this state of the body.
+    [[nodiscard]] std::span<const Incidence> around(const SoftState& state, std::uint32_t corner) const {
+        const auto& all = state.flow.incidences.empty() ? incidences_ : state.flow.incidences;
+        return std::span(all).subspan(first_[corner], first_[corner + 1] - first_[corner]);
+    }
+    [[nodiscard]] std::span<const Incidence> incidences() const { return incidences_; }
+    [[nodiscard]] std::span<const Element> elements() const { return elements_; }
     // Corners of one colour share no element: they can be moved at once.
     [[nodiscard]] std::size_t colours() const { return colours_.size(); }
     [[nodiscard]] std::span<const std::uint32_t> of_colour(std::size_t colour) const { return colours_[colour]; }
 
-    [[nodiscard]] SoftState at_rest() const {
-        return {rest_.places_m, std::vector<Vec3>(rest_.places_m.size(), Vec3(0.0))};
-    }
+    [[nodiscard]] SoftState at_rest() const;
 
 private:
     SoftBody() = default;
@@ -72,6 +102,7 @@ private:
     SoftMaterial material_;
     std::vector<double> masses_kg_;
     std::vector<Incidence> incidences_;
+    std::vector<Element> elements_;     // of each cell
     std::vector<std::uint32_t> first_;  // of each corner's incidences
     std::vector<std::vector<std::uint32_t>> colours_;
 };
@@ -82,6 +113,7 @@ struct CornerForce {
     glm::dmat3 stiffness_N_per_m{0.0};
 };
 [[nodiscard]] CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner);
+[[nodiscard]] CornerForce elastic_force(const SoftBody& body, const SoftState& state, std::uint32_t corner);
 [[nodiscard]] double elastic_energy_J(const SoftBody& body, std::span<const Vec3> places_m);
 // Returns the volume now, and the least share of its own that an element has left; below 0 one is inside out.
 struct VolumeNow {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "bodies/solver/plastic_flow.hpp"
+
 namespace burin::bodies {
 namespace {
 
@@ -88,14 +90,15 @@ void SoftSolver::sort_contacts(const SoftBody& body, std::span<const SoftContact
 Vec3 SoftSolver::moved(const SoftBody& body, const SoftState& state, const SoftStepInput& input,
                        std::uint32_t corner) const {
     const std::vector<Vec3>& places = state.places_m;
-    CornerForce sum = elastic_force(body, places, corner);
+    CornerForce sum = elastic_force(body, state, corner);
     const double inertia = body.mass_kg(corner) / (input.dt_s * input.dt_s);
     const double hold = input.holds_N_per_m.empty() ? 0.0 : input.holds_N_per_m[corner];
+    const std::span<const Vec3> held_at = input.held_at_m.empty() ? body.rest().places_m : input.held_at_m;
     double diagonal = inertia + hold;
     sum.force_N += inertia * (drawn_to_m_[corner] - places[corner]);
-    sum.force_N += hold * (body.rest().places_m[corner] - places[corner]);
+    sum.force_N += hold * (held_at[corner] - places[corner]);
     if (const double viscous = body.material().damping_s / input.dt_s * body.material().mu_Pa(); viscous > 0.0)
-        for (const SoftBody::Incidence& e : body.around(corner)) {
+        for (const SoftIncidence& e : body.around(state, corner)) {
             Vec3 spread(0.0);
             for (std::size_t i = 0; i < 4; ++i) spread += e.gram[i] * (places[e.corners[i]] - before_m_[e.corners[i]]);
             sum.force_N -= e.volume_m3 * viscous * spread;
@@ -123,13 +126,14 @@ void SoftSolver::move_rigidly(const SoftBody& body, SoftState& state, const Soft
         mass_kg += body.mass_kg(i);
     }
     middle /= mass_kg;
+    const std::span<const Vec3> held_at = input.held_at_m.empty() ? body.rest().places_m : input.held_at_m;
     RigidStep sum;
     for (std::uint32_t i = 0; i < places.size(); ++i) {
         const Vec3 arm = places[i] - middle;
         const double inertia = body.mass_kg(i) / (input.dt_s * input.dt_s);
         sum.add(arm, inertia, drawn_to_m_[i] - places[i]);
         if (!input.holds_N_per_m.empty() && input.holds_N_per_m[i] > 0.0)
-            sum.add(arm, input.holds_N_per_m[i], body.rest().places_m[i] - places[i]);
+            sum.add(arm, input.holds_N_per_m[i], held_at[i] - places[i]);
     }
     for (const SoftContact& contact : input.contacts) {
         const double depth_m = contact.depth_m(places);
@@ -163,6 +167,7 @@ void SoftSolver::step(const SoftBody& body, SoftState& state, const SoftStepInpu
     }
     for (std::size_t i = 0; i < before_m_.size(); ++i)
         state.velocities_m_per_s[i] = (state.places_m[i] - before_m_[i]) / dt_s;
+    if (body.material().is_plastic()) flow(body, state, dt_s);
 }
 
 }  // namespace burin::bodies

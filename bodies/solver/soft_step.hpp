@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Steps an elastic body: implicit Euler, solved by vertex block descent (Chen, Liu, Yang, Zheng, Chen, Wu 2024, "Vertex
-// Block Descent", ACM Transactions on Graphics 43(4)).
+// Steps a body that gives: implicit Euler, solved by vertex block descent (Chen, Liu, Yang, Zheng, Chen, Wu 2024,
+// "Vertex Block Descent", ACM Transactions on Graphics 43(4)).
 //
 //   minimise over places x:  sum m/(2 dt^2) |x - x0 - dt v0 - dt^2 a|^2 + W(x) + contacts(x) + holds(x)
 // Corner by corner, colour by colour, the sum is minimised in that corner's place alone: 3 x 3, and exactly but for a
@@ -9,7 +9,8 @@
 // would meet far too much inertia. So each sweep ends with a step of all corners together, a rigid motion, which leaves
 // W as it is: 6 x 6, by the inertia, contacts and holds alone.
 // A contact is a penalty between a point of the embedded surface and a plane: half stiffness times depth squared.
-// Damping is viscous, of the part of the stress that goes with mu, over the step.
+// Damping is viscous, of the part of the stress that goes with mu, over the step. A plastic body flows after it
+// (plastic_flow.hpp).
 // Units: SI; frame: the body's own. No threads; nothing random. A step allocates where there are more contacts than
 // ever before.
 #pragma once
@@ -49,6 +50,8 @@ struct SoftStepInput {
     std::span<const SoftContact> contacts{};
     // Springs that draw corners to their places at rest: the stiffness of each corner, N/m; empty: none.
     std::span<const double> holds_N_per_m{};
+    // Where they draw them to instead; empty: to their places at rest.
+    std::span<const Vec3> held_at_m{};
 };
 
 class SoftSolver {

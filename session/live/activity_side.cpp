@@ -64,12 +64,13 @@ void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds 
     if (!activity_) return;
     {
         const HandsViewed viewed(hands, news_, tools);
-        activity_->step({time_ns, viewed.all(), news_.contacts, state.world.get()}, wanted);
+        activity_->step({time_ns, viewed.all(), news_.contacts, state.world.get(), drawn_}, wanted);
     }
     ActivityRecord record;
     activity_->write(record);
     std::ranges::move(record.events, std::back_inserter(events_));
     news_ = {};
+    drawn_.clear();
     carry_out(std::move(wanted), state, orders, hands);
 }
 

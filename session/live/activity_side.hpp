@@ -4,6 +4,8 @@
 // Threads: the tap is the scene's (session/live/sample_tap.hpp), all else the frame's.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,8 +31,11 @@ public:
     [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
     // Returns what it brings into the scene; null where that is nothing.
     [[nodiscard]] scene::ScenePart* scene_part() { return activity_ ? activity_->scene_part() : nullptr; }
-    // Takes what the hands have done, as the scene has read it, for the next step.
-    void take(HandNews news) { news_.add(std::move(news)); }
+    // Takes, for the next step, what the hands have done, as the scene has read it, and how parts of the scene look.
+    void take(HandNews news, std::vector<scene::DrawnShare> drawn) {
+        news_.add(std::move(news));
+        if (activity_) std::ranges::move(drawn, std::back_inserter(drawn_));
+    }
     // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders
     // as it wants. tools: of each part of the hands, by its number.
     void step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const SessionHands& hands,
@@ -69,7 +74,8 @@ private:
 
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;
-    HandNews news_;                  // since the last step
+    HandNews news_;  // since the last step, as are
+    std::vector<scene::DrawnShare> drawn_;
     std::vector<TrialMark> trials_;  // not taken yet, as are
     std::vector<EventMark> events_;
 };

@@ -148,7 +148,7 @@ void LiveSession::take_news(std::uint64_t updates) {
     for (const std::string& message : news.messages) notify(message);
     for (const scene::ContactEvent& contact : news.hands.contacts)
         events_.push_back(event_of(contact, hands(), state_.world.get()));
-    activity_.take(std::move(news.hands));
+    activity_.take(std::move(news.hands), std::move(news.drawn));
     if (scene_.world() == nullptr) return;
     scene_.world()->drawn().take(news.objects);
     state_.world = followed(std::move(state_.world), news.objects, news.materials ? &*news.materials : nullptr);

@@ -38,6 +38,7 @@ public:
         std::optional<sculpt::SurfaceUpdate> surface;
         std::vector<scene::ObjectUpdate> objects;       // the newest last
         std::optional<scene::MaterialTable> materials;  // if it has changed
+        std::vector<scene::DrawnShare> drawn;           // of other kinds than carved surfaces
         std::vector<std::string> messages;
         scene::HandNews hands;  // ticks for the activity, contacts for the recording as well
     };

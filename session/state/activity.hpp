@@ -24,6 +24,7 @@
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
 #include "scene/contact_events.hpp"
+#include "scene/scene_changes.hpp"
 #include "scene/scene_part.hpp"
 #include "session/state/world_objects.hpp"
 
@@ -59,6 +60,9 @@ struct ActivityView {
     // within each of time. An event never comes before the tick that found it.
     std::span<const scene::ContactEvent> contacts;
     const WorldObjects* world = nullptr;  // as of the last update of the scene; null: there is none
+    // How parts of the scene have come to look in the updates that the frame has taken since the step before, the
+    // newest last: what a part of its own (scene_part()) tells it to draw.
+    std::span<const scene::DrawnShare> drawn = {};
 
     // Returns the first part of the first hand.
     [[nodiscard]] const PartView& first_part() const { return hands.front().parts.front(); }

@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "activities/rehab/ball/ball.hpp"
+#include "activities/rehab/ball/scripted_squeezes.hpp"
+#include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/rehab.hpp"
-#include "activities/rehab/scripted_squeezes.hpp"
 #include "scene/vrml_world.hpp"
 
 namespace burin::activities {
 namespace {
 
-using What = BallEvent::What;
+namespace What = ball_event;
 
 // An exercise that is given a force for a time, a turn each millisecond.
 class Exercised {
@@ -23,10 +25,11 @@ public:
     void squeeze(double seconds_s, double force_N, bool grasped = true) {
         const auto turns = static_cast<int>(seconds_s * 1000.0 + 0.5);
         for (int i = 0; i < turns; ++i) {
-            BallTurn turn{now_ns_, grasped, {}};
+            ExerciseTurn turn{now_ns_, grasped, {}};
             turn.fingers.dt_s = 0.001;
             turn.fingers.forces_N = {0.4 * force_N, 0.3 * force_N, 0.2 * force_N, 0.1 * force_N};
             turn.fingers.joints_rad[2] = {0.0, 0.1 * force_N, 0.0, -0.2 * force_N};
+            measures_ = with_turn(measures_, turn.fingers);
             BallStep step = step_ball(state_, settings_, turn);
             state_ = step.state;
             events_.insert(events_.end(), step.events.begin(), step.events.end());
@@ -34,18 +37,20 @@ public:
         }
     }
     void rest(double seconds_s) { squeeze(seconds_s, 0.0, false); }
+    [[nodiscard]] const HandMeasures& measures() const { return measures_; }
     [[nodiscard]] const BallState& state() const { return state_; }
-    [[nodiscard]] std::vector<What> events() const {
-        std::vector<What> all;
-        for (const BallEvent& event : events_) all.push_back(event.what);
+    [[nodiscard]] std::vector<std::string_view> events() const {
+        std::vector<std::string_view> all;
+        for (const ExerciseEvent& event : events_) all.push_back(event.what);
         return all;
     }
-    [[nodiscard]] const BallEvent& event(std::size_t index) const { return events_.at(index); }
+    [[nodiscard]] const ExerciseEvent& event(std::size_t index) const { return events_.at(index); }
 
 private:
     BallSettings settings_;
     BallState state_;
-    std::vector<BallEvent> events_;
+    HandMeasures measures_;
+    std::vector<ExerciseEvent> events_;
     Nanoseconds now_ns_ = 5'000'000'000;
 };
 
@@ -68,9 +73,9 @@ TEST(BallExercise, CountsASqueezeThatIsHeldAndRelaxed) {
     ball.squeeze(0.1, 1.9);
     ball.squeeze(1.2, 5.0);
     EXPECT_EQ(ball.state().repetitions, 2u);
-    EXPECT_EQ(ball.state().end, BallEnd::done);
-    EXPECT_EQ(ball.events(), (std::vector{What::begun, What::grasped, What::reached, What::counted, What::reached,
-                                          What::counted, What::done}));
+    EXPECT_EQ(ball.state().end, ExerciseEnd::done);
+    EXPECT_EQ(ball.events(), (std::vector{What::kBegun, What::kGrasped, What::kReached, What::kCounted, What::kReached,
+                                          What::kCounted, What::kDone}));
     EXPECT_EQ(ball.event(3).time_ns - ball.event(2).time_ns, 1'000'000'000);
     EXPECT_DOUBLE_EQ(score_of(ball.state(), {.repetitions = 2}), 100.0);
 }
@@ -101,19 +106,19 @@ TEST(BallExercise, TakesNoForceOfAHandThatGraspsNothing) {
 TEST(BallExercise, EndsWithItsTimeAndStaysAsItIsThen) {
     Exercised ball({.time_limit_s = 0.5});
     ball.squeeze(0.6, 9.0);
-    EXPECT_EQ(ball.state().end, BallEnd::time_over);
+    EXPECT_EQ(ball.state().end, ExerciseEnd::time_over);
     EXPECT_NEAR(ball.state().time_s(), 0.5, 1e-9);
     const BallState then = ball.state();
     ball.squeeze(5.0, 9.0);
     EXPECT_EQ(ball.state(), then);
 }
 
-TEST(BallExercise, MeasuresEachFingersForceAndTheRangeOfEachJoint) {
+TEST(HandMeasures, AreOfEachFingersForceAndTheRangeOfEachJoint) {
     Exercised ball({});
     ball.squeeze(0.5, 2.0);
     ball.squeeze(0.5, 6.0);
     ball.rest(1.0);
-    const FingerMeasures &thumb = ball.state().measures.fingers[0], &middle = ball.state().measures.fingers[2];
+    const FingerMeasures &thumb = ball.measures().fingers[0], &middle = ball.measures().fingers[2];
     EXPECT_NEAR(thumb.peak_N, 2.4, 1e-12);
     EXPECT_NEAR(thumb.mean_N(), 1.6, 1e-9) << "over the time in which it was pushed";
     EXPECT_NEAR(thumb.pushed_s, 1.0, 1e-9);
@@ -122,20 +127,53 @@ TEST(BallExercise, MeasuresEachFingersForceAndTheRangeOfEachJoint) {
     EXPECT_EQ(thumb.range_rad(1), 0.0);
 }
 
+// A thumb that bends by 1 rad in 0.5 s while the index follows with a fifth of that, then the index alone.
+TEST(HandMeasures, AreOfHowFastAFingerGoesAndHowStillTheOthersStay) {
+    HandMeasures measures;
+    FingersTurn turn;
+    turn.dt_s = 0.001;
+    const auto go = [&](int turns, double thumb_rad, double index_rad) {
+        for (int i = 0; i < turns; ++i) {
+            for (std::size_t joint = 1; joint < devices::kFingerJoints; ++joint) {
+                turn.joints_rad[0][joint] += thumb_rad / (3.0 * turns);
+                turn.joints_rad[1][joint] += index_rad / (3.0 * turns);
+            }
+            measures = with_turn(measures, turn);
+        }
+    };
+    go(1, 0.0, 0.0);
+    go(500, 1.0, 0.2);
+    go(1000, 0.0, 0.0);
+    go(250, 0.0, 1.0);
+    const FingerMeasures &thumb = measures.fingers[0], &index = measures.fingers[1];
+    EXPECT_NEAR(thumb.peak_rad_per_s, 2.0, 1e-9);
+    EXPECT_NEAR(thumb.mean_rad_per_s(), 2.0, 1e-9) << "of when it moved";
+    EXPECT_NEAR(index.peak_rad_per_s, 4.0, 1e-9);
+    EXPECT_NEAR(*thumb.fractionation(), 1.0 - 0.2 / 3.0, 1e-9);
+    EXPECT_NEAR(*index.fractionation(), 1.0, 1e-9);
+    EXPECT_FALSE(measures.fingers[2].fractionation()) << "it never led";
+}
+
 TEST(RehabSettings, AreReadAndWrittenAlike) {
-    RehabSettings settings;
-    settings.ball = {BallColour::blue, 3, 12, 0.75, 90.0};
-    const ReadSettings read = parse_rehab_settings(settings_text(settings), "s.toml");
+    const ExerciseKind& kind = *exercise_named("ball");
+    SettingValues values(kind.settings);
+    ASSERT_TRUE(values.set("colour", "blue"));
+    for (const auto& [key, value] :
+         {std::pair{"level", 3.0}, {"repetitions", 12.0}, {"hold_s", 0.75}, {"time_limit_s", 90.0}})
+        values.set(key, value);
+    const ReadSettings read = read_settings(table_text("ball", values), "s.toml", kind);
     EXPECT_TRUE(read.errors.empty()) << all_lines(read);
-    EXPECT_EQ(read.settings, settings);
-    EXPECT_EQ(parse_rehab_settings("", "s.toml").settings, RehabSettings{}) << "every key has a default";
+    EXPECT_EQ(read.values, values);
+    EXPECT_EQ(ball_settings(read.values), (BallSettings{BallColour::blue, 3, 12, 0.75, 90.0}));
+    EXPECT_EQ(ball_settings(read_settings("", "s.toml", kind).values), BallSettings{}) << "every key has a default";
 }
 
 TEST(RehabSettings, TellEachMistakeWithItsLine) {
-    const ReadSettings read = parse_rehab_settings(
+    const ExerciseKind& kind = *exercise_named("ball");
+    const ReadSettings read = read_settings(
         "[ball]\ncolor = \"red\"\ncolour = \"purple\"\nlevel = 4\nrepetitions = 2.5\nhold_s = -1\ntime_limit_s = 0\n"
         "[bal]\n",
-        "s.toml");
+        "s.toml", kind);
     const std::string text = all_lines(read);
     for (const char* line : {"s.toml:2: [ball] has no key named color; did you mean colour?",
                              "s.toml:3: colour is purple; there are yellow, red, green, blue", "s.toml:4: level is 4",
@@ -145,25 +183,46 @@ TEST(RehabSettings, TellEachMistakeWithItsLine) {
     EXPECT_EQ(read.errors.size(), 7u) << text;
     for (const char* wrong :
          {"[ball]\nlevel = 1e99", "[ball]\ntime_limit_s = nan", "ball = 3", "[ball", "[ball]\nlevel = -1"})
-        EXPECT_FALSE(parse_rehab_settings(wrong, "s.toml").errors.empty()) << wrong;
+        EXPECT_FALSE(read_settings(wrong, "s.toml", kind).errors.empty()) << wrong;
 }
 
+TEST(RehabSettings, SayWhichNumbersAKeyTakes) {
+    const ReadSettings read = read_settings("[ball]\nlevel = \"two\"\n", "s.toml", *exercise_named("ball"));
+    EXPECT_EQ(all_lines(read), "s.toml:2: level is not a number; there are levels 1, 2 and 3\n");
+}
+
+// Of every exercise, whatever is set.
 TEST(Rehab, IsMadeAnewOfItsSettings) {
-    const Rehab exercise(BallSettings{BallColour::green, 2, 7, 0.1, 33.3});
-    const auto again = ball_settings_of(exercise.settings());
-    ASSERT_TRUE(again) << exercise.settings();
-    EXPECT_EQ(*again, exercise.ball());
-    for (const char* wrong : {"rehab", "rehab ball", "rehab putty --colour red",
+    for (const ExerciseKind& kind : exercise_kinds()) {
+        SettingValues values(kind.settings);
+        for (const SettingKind& setting : kind.settings) {
+            if (!setting.words.empty())
+                EXPECT_TRUE(values.set(setting.key, setting.words.back()));
+            else
+                values.set(setting.key,
+                           setting.whole ? setting.most : setting.least + 0.1 * (setting.most - setting.least));
+        }
+        ASSERT_TRUE(problems(values).empty());
+        const Rehab rehab(kind.make(values));
+        const auto again = exercise_of(rehab.settings());
+        ASSERT_TRUE(again) << rehab.settings();
+        EXPECT_EQ((*again)->settings(), values);
+        EXPECT_STREQ((*again)->name(), kind.name);
+    }
+    const std::string ball = "rehab ball --colour green --level 2 --repetitions 7 --hold 0.5 --time-limit 33.5";
+    EXPECT_TRUE(exercise_of(ball)) << "the line of recordings that there are";
+    for (const char* wrong : {"rehab", "rehab ball", "rehab balls --level 1", "rehab ball --colour red",
                               "rehab ball --colour red --level 4 --repetitions 5 --hold 1 --time-limit 60",
                               "rehab ball --colour pink --level 1 --repetitions 5 --hold 1 --time-limit 60"})
-        EXPECT_FALSE(ball_settings_of(wrong)) << wrong;
+        EXPECT_FALSE(exercise_of(wrong)) << wrong;
 }
 
 // The ball that gives stands where the world's own is, and is as large.
 TEST(Rehab, PutsItsBallInThePlaceOfTheWorlds) {
     const auto world = scene::read_any_world("assets/worlds/hand.toml");
     ASSERT_TRUE(world);
-    Rehab exercise(BallSettings{});
+    const ExerciseKind& kind = *exercise_named("ball");
+    Rehab exercise(kind.make(SettingValues(kind.settings)));
     const auto* body = dynamic_cast<const bodies::SoftPart*>(exercise.scene_part());
     ASSERT_NE(body, nullptr);
     const scene::SceneObject& ball = world->objects.at(body->setup().object - 1);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "activities/rehab/scripted_squeezes.hpp"
+#include "activities/rehab/ball/scripted_squeezes.hpp"
 #include "base/json.hpp"
 #include "gpu/device.hpp"
 #include "tests/support/places.hpp"
@@ -41,9 +41,9 @@ TEST_F(RehabSessions, EndWithTheSqueezesThatTheSeedForetells) {
         ASSERT_EQ(done.status, 0) << done.output;
         const Json json = Json::parse(at.read(name));
         EXPECT_EQ(json.at("ended"), "done") << done.output;
-        EXPECT_EQ(json.at("repetitions"), 3);
-        EXPECT_EQ(json.at("held_too_short"), too_short) << done.output;
-        EXPECT_EQ(json.at("grasps"), foretold.size());
+        EXPECT_EQ(json.at("counts").at("repetitions"), 3);
+        EXPECT_EQ(json.at("counts").at("held_too_short"), too_short) << done.output;
+        EXPECT_EQ(json.at("counts").at("grasps"), foretold.size());
         EXPECT_GT(json.at("fingers").at(1).at("peak_force_N").get<double>(), 0.5);
     }
 }

@@ -15,9 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "activities/rehab/finger_measures.hpp"
+#include "activities/rehab/exercise/exercise.hpp"
 #include "base/clock.hpp"
-#include "base/error.hpp"
 
 namespace burin::activities {
 
@@ -35,8 +34,6 @@ struct BallKind {
 
 struct BallSettings {
     static constexpr std::array<double, 3> kTargets_N{2.0, 4.0, 6.0};  // by level: the sum of the fingers' forces
-    static constexpr double kMostTime_s = 3600.0, kMostHold_s = 60.0;
-    static constexpr unsigned kMostRepetitions = 1000;
 
     BallColour colour = BallColour::red;
     unsigned level = 1;  // of difficulty; 1 to 3
@@ -46,48 +43,35 @@ struct BallSettings {
     [[nodiscard]] double target_N() const { return kTargets_N[level - 1]; }
     bool operator==(const BallSettings&) const = default;
 };
-// Returns what nobody can do: each names its setting, by the key that it has in a file, and what would be right. Empty:
-// the settings are sound.
-[[nodiscard]] std::vector<Error> problems(const BallSettings& settings);
-
-struct BallTurn {
-    Nanoseconds time_ns = 0;
-    bool grasped = false;  // the ball, by any gesture of grasping
-    FingersTurn fingers;
-};
 
 enum class BallPhase : std::uint8_t { begins, waits, holds, relaxes, ended };
-enum class BallEnd : std::uint8_t { not_yet, done, time_over };
 
 struct BallState {
     static constexpr double kKept = 0.8, kRelaxed = 0.5;
 
     BallPhase phase = BallPhase::begins;
-    BallEnd end = BallEnd::not_yet;
+    ExerciseEnd end = ExerciseEnd::not_yet;
     Nanoseconds begun_ns = 0, last_ns = 0, held_since_ns = 0;
     unsigned repetitions = 0, too_short = 0, grasps = 0;
     bool grasped = false;
-    HandMeasures measures;
 
     [[nodiscard]] double time_s() const { return seconds(last_ns - begun_ns); }
     bool operator==(const BallState&) const = default;
 };
 
-struct BallEvent {
-    enum class What : std::uint8_t { begun, grasped, reached, counted, too_short, let_go, done, time_over };
-    What what = What::begun;
-    Nanoseconds time_ns = 0;
-    double force_N = 0.0;  // the sum of the fingers' then
-    bool operator==(const BallEvent&) const = default;
-};
-[[nodiscard]] std::string_view text_of(BallEvent::What what);
+// What happens, as the events of a course name it.
+namespace ball_event {
+inline constexpr std::string_view kBegun = "begun", kGrasped = "grasped", kReached = "force reached",
+                                  kCounted = "counted", kTooShort = "held too short", kLetGo = "let go", kDone = "done",
+                                  kTimeOver = "time over";
+}  // namespace ball_event
 
 struct BallStep {
     BallState state;
-    std::vector<BallEvent> events;
+    std::vector<ExerciseEvent> events;
 };
 // Goes on by a turn. Requires sound settings and a time that rises; an exercise that has ended stays as it is.
-[[nodiscard]] BallStep step_ball(BallState state, const BallSettings& settings, const BallTurn& turn);
+[[nodiscard]] BallStep step_ball(BallState state, const BallSettings& settings, const ExerciseTurn& turn);
 
 // From 0 to 100: the share of the repetitions that were done, less a tenth of one for each that was held too short.
 [[nodiscard]] double score_of(const BallState& state, const BallSettings& settings);

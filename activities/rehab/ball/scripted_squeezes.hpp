@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "activities/rehab/ball_exercise.hpp"
+#include "activities/rehab/ball/ball_exercise.hpp"
 
 namespace burin::activities {
 
@@ -23,5 +23,8 @@ struct ScriptedSqueeze {
 
 // Returns the script with its squeezes, from the first line that presses a button on, exchanged for these, and an end.
 [[nodiscard]] std::string with_squeezes(std::string_view script, const std::vector<ScriptedSqueeze>& squeezes);
+
+// Returns the script as the participant of that seed follows it.
+[[nodiscard]] std::string scripted_ball(const SettingValues& values, std::uint64_t seed, std::string_view script);
 
 }  // namespace burin::activities

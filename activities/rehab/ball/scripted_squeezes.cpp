@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "activities/rehab/scripted_squeezes.hpp"
+#include "activities/rehab/ball/scripted_squeezes.hpp"
 
 #include <algorithm>
 #include <random>
 
+#include "activities/rehab/ball/ball.hpp"
 #include "base/text.hpp"
 
 namespace burin::activities {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kReaches_s = 1.38, kCloses_s = 2.0, kOpens_s = 1.6;
 // A hold that is shorter than this is over before a hand that has just reached it has opened.
 constexpr double kLeastHold_s = 0.7;
+constexpr double kFirst_s = 2.85;  // when the script's arm is above the ball
 
 }  // namespace
 
@@ -52,6 +54,10 @@ std::string with_squeezes(std::string_view script, const std::vector<ScriptedSqu
     }
     const double end_s = squeezes.empty() ? 0.0 : squeezes.back().opens_s + kOpens_s;
     return text + formatted("%.3f command quit\n", end_s);
+}
+
+std::string scripted_ball(const SettingValues& values, std::uint64_t seed, std::string_view script) {
+    return with_squeezes(script, drawn_squeezes(ball_settings(values), seed, kFirst_s));
 }
 
 }  // namespace burin::activities

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "activities/rehab/ball/ball.hpp"
+
+#include "base/text.hpp"
+
+namespace burin::activities {
+namespace {
+
+// The world's ball, as assets/worlds/hand.toml has it: its number, its place and its size.
+constexpr std::uint32_t kObject = 2;
+constexpr Vec3 kPlace_m{0.02, 0.0825, 0.0};
+constexpr double kRadius_m = 0.035;
+constexpr double kElementsAlongRadius = 3.2;  // 1,632 elements: the scene's thread has more to do than them
+
+constexpr std::array kColours{"yellow", "red", "green", "blue"};  // as BallColour has them
+
+}  // namespace
+
+std::span<const SettingKind> Ball::setting_kinds() {
+    static const std::array kinds{
+        SettingKind{.key = "colour",
+                    .option = "--colour",
+                    .help = "How stiff the ball is, from soft to hard",
+                    .usual = 1,
+                    .words = kColours},
+        level_setting(3, "Of difficulty: with how much force to squeeze, 1 to 3", "there are levels 1, 2 and 3"),
+        SettingKind{.key = "repetitions",
+                    .option = "--repetitions",
+                    .help = "How many squeezes",
+                    .remedy = "ask for 1 to 1000 squeezes",
+                    .usual = 5,
+                    .least = 1,
+                    .most = 1000,
+                    .whole = true},
+        SettingKind{.key = "hold_s",
+                    .option = "--hold",
+                    .help = "How long each is held, in seconds",
+                    .remedy = "ask for 0 to 60 seconds",
+                    .usual = 1.0,
+                    .most = 60.0},
+        time_limit_setting(60.0),
+    };
+    return kinds;
+}
+
+BallSettings ball_settings(const SettingValues& values) {
+    return {static_cast<BallColour>(values.count("colour")), values.count("level"), values.count("repetitions"),
+            values.number("hold_s"), values.number("time_limit_s")};
+}
+
+std::unique_ptr<Exercise> Ball::make(const SettingValues& values) { return std::make_unique<Ball>(values); }
+
+Ball::Ball(const SettingValues& values) : values_(values), settings_(ball_settings(values)) {}
+
+bodies::SoftPartSetup Ball::body() const {
+    bodies::SoftPartSetup body;
+    body.object = kObject;
+    body.scene_from_body.position_m = kPlace_m;
+    body.half_axes_m = Vec3(kRadius_m);
+    body.spacing_m = kRadius_m / kElementsAlongRadius;
+    body.material.young_Pa = kind_of(settings_.colour).young_Pa;
+    return body;
+}
+
+void Ball::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
+    BallStep step = step_ball(state_, settings_, turn);
+    state_ = step.state;
+    for (const ExerciseEvent& event : step.events) tell(event, orders);
+}
+
+void Ball::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
+    events_.push_back(event);
+    const unsigned number = state_.repetitions;
+    const bool counted = event.what == ball_event::kCounted, too_short = event.what == ball_event::kTooShort;
+    if (event.what == ball_event::kReached)
+        orders.trials.push_back({event.time_ns, formatted("squeeze %u", number + state_.too_short + 1)});
+    if (counted || too_short) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
+    if (counted) orders.messages.push_back(formatted("squeeze %u of %u counted", number, settings_.repetitions));
+    if (too_short) orders.messages.push_back("held too short; squeeze again");
+}
+
+ExerciseCourse Ball::course() const {
+    return {state_.end,
+            state_.begun_ns,
+            state_.time_s(),
+            score_of(state_, settings_),
+            {{"repetitions", "Squeezes", state_.repetitions, settings_.repetitions},
+             {"held_too_short", "Held too short", state_.too_short, 0},
+             {"grasps", "Grasps", state_.grasps, 0}},
+            events_};
+}
+
+std::string Ball::task() const {
+    return formatted("Squeeze the ball with %.0f N in all fingers for %.1f s, then relax.", settings_.target_N(),
+                     settings_.hold_s);
+}
+
+}  // namespace burin::activities

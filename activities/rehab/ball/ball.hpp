@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The ball exercise in a session: its settings, its body, its rules' steps. One thread, the frame's.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "activities/rehab/ball/ball_exercise.hpp"
+
+namespace burin::activities {
+
+// Requires sound values of Ball::setting_kinds().
+[[nodiscard]] BallSettings ball_settings(const SettingValues& values);
+
+class Ball final : public Exercise {
+public:
+    [[nodiscard]] static std::span<const SettingKind> setting_kinds();
+    [[nodiscard]] static std::unique_ptr<Exercise> make(const SettingValues& values);
+    // Requires sound values.
+    explicit Ball(const SettingValues& values);
+
+    [[nodiscard]] const char* name() const override { return "ball"; }
+    [[nodiscard]] const SettingValues& settings() const override { return values_; }
+    [[nodiscard]] bodies::SoftPartSetup body() const override;
+    [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.colour).srgb; }
+    void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
+    [[nodiscard]] ExerciseCourse course() const override;
+    [[nodiscard]] std::string task() const override;
+
+private:
+    void tell(const ExerciseEvent& event, session::ActivityOrders& orders);
+
+    SettingValues values_;
+    BallSettings settings_;
+    BallState state_;
+    std::vector<ExerciseEvent> events_;
+};
+
+}  // namespace burin::activities

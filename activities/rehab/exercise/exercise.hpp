@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// An exercise, as the session's activity runs it (activities/rehab/rehab.hpp): the body that the hand works on, what a
+// turn of the loop makes of it, and how it went. Its rules are a pure step beside it
+// (activities/rehab/ball/ball_exercise.hpp).
+//
+//   turn of the loop -> turn() -> messages, trials -> course(): counts, score, events -> report, panel, results
+// Frame: the scene's. One thread, the frame's.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "activities/rehab/exercise/exercise_settings.hpp"
+#include "activities/rehab/measures/hand_measures.hpp"
+#include "base/clock.hpp"
+#include "bodies/soft_part.hpp"
+#include "session/state/activity.hpp"
+
+namespace burin::activities {
+
+// A turn of the haptic loop, as exercises see it.
+struct ExerciseTurn {
+    Nanoseconds time_ns = 0;  // of the loop's clock
+    bool grasped = false;     // the body, by any gesture of grasping
+    FingersTurn fingers;
+};
+
+enum class ExerciseEnd : std::uint8_t { not_yet, done, time_over };
+[[nodiscard]] std::string_view text_of(ExerciseEnd end);  // "broken off" where it has not ended
+
+struct ExerciseEvent {
+    std::string_view what;  // a literal: "force reached"
+    Nanoseconds time_ns = 0;
+    double force_N = 0.0;  // the sum of the fingers' then
+    bool operator==(const ExerciseEvent&) const = default;
+};
+
+// How an exercise went until now.
+struct ExerciseCourse {
+    struct Count {
+        const char* key = "";             // in a report: "held_too_short"
+        const char* name = "";            // for people: "Held too short"
+        unsigned number = 0, wanted = 0;  // wanted 0: it was not asked for
+    };
+    ExerciseEnd end = ExerciseEnd::not_yet;
+    Nanoseconds begun_ns = 0;  // of the loop's clock
+    double time_s = 0.0;       // since then
+    double score = 0.0;        // 0 to 100
+    std::vector<Count> counts;
+    std::vector<ExerciseEvent> events;
+};
+
+class Exercise {
+public:
+    Exercise() = default;
+    virtual ~Exercise() = default;
+    Exercise(const Exercise&) = delete;
+    Exercise& operator=(const Exercise&) = delete;
+
+    [[nodiscard]] virtual const char* name() const = 0;  // "ball", as its kind has it
+    [[nodiscard]] virtual const SettingValues& settings() const = 0;
+
+    // The body that takes the place of the world's object of that number, and its colour.
+    [[nodiscard]] virtual bodies::SoftPartSetup body() const = 0;
+    [[nodiscard]] virtual std::array<double, 3> srgb() const = 0;
+
+    // Goes on by a turn; whatever comes after the end changes nothing.
+    virtual void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) = 0;
+    [[nodiscard]] virtual ExerciseEnd end() const = 0;
+    [[nodiscard]] virtual ExerciseCourse course() const = 0;
+    [[nodiscard]] virtual std::string task() const = 0;  // for the person: a sentence or two
+};
+
+}  // namespace burin::activities

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What a therapist may set of an exercise. Each exercise has one table of its settings (SettingKind); from it follow
+// the options of the command, the keys of the settings' file, the line that a recording keeps, and every message.
+//
+//   [ball] of a TOML file -> values <- options of the command, which go before
+//   values -> the exercise; -> the file's text (--print-config); -> the recording's line, and back from it
+// Failure: all mistakes of a file are reported together, each with its line and the remedy; an unknown key with the
+// nearest that there is. Units: as the keys say. Pure; any thread. docs/rehab.md lists the keys.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/toml_table.hpp"
+
+namespace burin::activities {
+
+// One setting; all texts are literals. The value of one in words is the word's number, from 0.
+struct SettingKind {
+    const char* key = "";     // of the file: "hold_s"
+    const char* option = "";  // of the command: "--hold"
+    const char* help = "";
+    const char* remedy = "";  // "ask for 0 to 60 seconds"
+    double usual = 0.0, least = 0.0, most = 0.0;
+    bool above_least = false;                 // the least itself is none
+    bool whole = false;                       // of numbers
+    std::span<const char* const> words = {};  // empty: it is a number
+};
+
+// Those that every exercise has: the level of difficulty, from 1 to `levels`, and when it ends, in seconds.
+[[nodiscard]] SettingKind level_setting(unsigned levels, const char* help, const char* remedy);
+[[nodiscard]] SettingKind time_limit_setting(double usual_s);
+
+// The values of an exercise's settings. Equal where all of them are.
+class SettingValues {
+public:
+    // All as usual. The kinds must outlive it.
+    explicit SettingValues(std::span<const SettingKind> kinds);
+
+    [[nodiscard]] std::span<const SettingKind> kinds() const { return kinds_; }
+    // Requires a key that there is.
+    [[nodiscard]] double number(std::string_view key) const { return values_[index_of(key)]; }
+    [[nodiscard]] unsigned count(std::string_view key) const { return static_cast<unsigned>(number(key)); }
+    [[nodiscard]] const char* word(std::string_view key) const;
+    // Returns the value as it is written.
+    [[nodiscard]] std::string text(std::size_t kind) const;
+
+    // Sets a value of any size. problems() says what cannot be.
+    void set(std::string_view key, double value) { values_[index_of(key)] = value; }
+    // Fails on a word that there is not.
+    [[nodiscard]] Result<void> set(std::string_view key, std::string_view word);
+
+    bool operator==(const SettingValues& other) const { return values_ == other.values_; }
+
+private:
+    [[nodiscard]] std::size_t index_of(std::string_view key) const;
+
+    std::span<const SettingKind> kinds_;
+    std::vector<double> values_;
+};
+
+// Returns what nobody can do: each names its setting by its key. Empty: the values are sound.
+[[nodiscard]] std::vector<Error> problems(const SettingValues& values);
+
+// Reads an exercise's table of a file, of which there may be none; mistakes go to the reading.
+[[nodiscard]] SettingValues values_in(TableReading& reading, const toml::table* table, std::string_view exercise,
+                                      std::span<const SettingKind> kinds);
+// Writes such a table.
+[[nodiscard]] std::string table_text(std::string_view exercise, const SettingValues& values);
+
+// Writes the values as options on a line, "--level 2 --hold 1"; numbers to the last bit.
+[[nodiscard]] std::string line_of(const SettingValues& values);
+// Reads what line_of() has written. Fails on anything else, and on values that cannot be.
+[[nodiscard]] Result<SettingValues> values_of(std::string_view line, std::span<const SettingKind> kinds);
+
+}  // namespace burin::activities

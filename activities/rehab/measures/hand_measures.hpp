@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Measures a hand's fingers while an exercise runs: their forces, how far and how fast they went, and how still the
+// others stayed while one moved. Pure; any thread.
+//
+// Speed and stillness come from the way that a finger's flexion (the sum of its three joints that bend) makes in each
+// kWindow_s, from end to end: a glove's readings come in steps, and their differences from tick to tick are noise.
+// Fractionation of a finger, over the windows in which it went farthest of all and more than kMoved_rad: 1 less the
+// mean way of the others over its own. 1: it moves alone; 0: all move with it. (Schieber 1991, "Individuated finger
+// movements of rhesus monkeys", J Neurophysiol 65(6): the individuation index, there of one instructed movement.)
+// Units: newtons, radians, seconds. Fingers: thumb, index, middle, ring, as the glove has them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "devices/gloves/glove_frame.hpp"
+
+namespace burin::activities {
+
+using FingerForces = std::array<double, devices::kGloveFingers>;  // magnitudes
+inline constexpr std::array<const char*, devices::kGloveFingers> kFingerNames{"thumb", "index", "middle", "ring"};
+
+// A turn of the haptic loop, as an exercise sees it.
+struct FingersTurn {
+    double dt_s = 0.0;  // since the turn before
+    FingerForces forces_N{};
+    devices::GloveJoints joints_rad{};
+};
+
+// A mean force is over the time in which the finger was pushed at all: more than kPushed_N. A mean speed is over the
+// windows in which it moved at all: more than kMoved_rad.
+struct FingerMeasures {
+    static constexpr double kPushed_N = 0.05, kWindow_s = 0.05, kMoved_rad = 0.01;
+
+    double peak_N = 0.0, pushed_s = 0.0, impulse_Ns = 0.0;
+    std::array<double, devices::kFingerJoints> least_rad{}, most_rad{};
+    double peak_rad_per_s = 0.0, moved_rad = 0.0, moved_s = 0.0;
+    double led_rad = 0.0, followed_rad = 0.0;  // while it led: its own way, and the mean of the others'
+
+    [[nodiscard]] double mean_N() const { return pushed_s > 0.0 ? impulse_Ns / pushed_s : 0.0; }
+    [[nodiscard]] double range_rad(std::size_t joint) const { return most_rad[joint] - least_rad[joint]; }
+    [[nodiscard]] double mean_rad_per_s() const { return moved_s > 0.0 ? moved_rad / moved_s : 0.0; }
+    // Nothing where it never led.
+    [[nodiscard]] std::optional<double> fractionation() const {
+        return led_rad > 0.0 ? std::optional(1.0 - followed_rad / led_rad) : std::nullopt;
+    }
+    bool operator==(const FingerMeasures&) const = default;
+};
+
+struct HandMeasures {
+    bool begun = false;
+    std::array<FingerMeasures, devices::kGloveFingers> fingers{};
+    double window_s = 0.0;                                         // since the window under way began
+    std::array<double, devices::kGloveFingers> window_from_rad{};  // each finger's flexion then
+    bool operator==(const HandMeasures&) const = default;
+};
+
+[[nodiscard]] HandMeasures with_turn(HandMeasures measures, const FingersTurn& turn);
+
+}  // namespace burin::activities
