@@ -4,9 +4,9 @@
 // build.
 //
 // Values and signatures are those of version 3.00.66, as its header files hdDefines, hdDevice and
-// hdScheduler say (public in github.com/danepowell/openhaptics). HdError comes back by value, and its size is part of the
-// call: declarations of two fields, which also circulate, break the stack. Lengths are millimetres, forces newtons; a
-// transform is sixteen numbers, column by column, its place in the last column.
+// hdScheduler say (public in github.com/danepowell/openhaptics). HdError comes back by value, and its size is part of
+// the call: declarations of two fields, which also circulate, break the stack. Lengths are millimetres, forces newtons;
+// a transform is sixteen numbers, column by column, its place in the last column.
 #pragma once
 
 #include <string>

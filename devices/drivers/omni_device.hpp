@@ -6,11 +6,10 @@
 // Frames: HDAPI's axes are the device frame's; its origin is not, and is moved to the middle of the workspace that the
 // library calls usable. The description is that of an Omni as the PowerWall paper and the data sheet give it, whatever
 // the device is, so that a recording is done again without it; a device that gives less force is not asked for more.
-// Servo turns and ticks are a millisecond apart, each by its own clock. A sample is where the stylus was a turn ago, on the
-// straight line between the two newest turns, so that a tick sees a motion and neither the same place twice nor a jump.
-// Faults: a device that is gone or silent for kOmniLost_ns, that is not calibrated, whose pose is no pose, that is warm
-// or was too fast.
-// Threads: as haptic_device.hpp.
+// Servo turns and ticks are a millisecond apart, each by its own clock. A sample is where the stylus was a turn ago, on
+// the straight line between the two newest turns, so that a tick sees a motion and neither the same place twice nor a
+// jump. Faults: a device that is gone or silent for kOmniLost_ns, that is not calibrated, whose pose is no pose, that
+// is warm or was too fast. Threads: as haptic_device.hpp.
 #pragma once
 
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A PHANTOM Omni that is not there: the simulated Omni in a scripted hand, offered through shared memory to the emulated
-// library of its maker (devices/emulators/hd_library/), which a session loads in place of the maker's. The script begins
-// when a session has opened it: the hand rests, goes down to the workspace's middle and circles there with its first
-// button pressed, lifts, and begins anew. A force that no library has renewed for HdShared::kSilent_ns is none.
-// One thread runs it; the drills may be set by any.
+// A PHANTOM Omni that is not there: the simulated Omni in a scripted hand, offered through shared memory to the
+// emulated library of its maker (devices/emulators/hd_library/), which a session loads in place of the maker's. The
+// script begins when a session has opened it: the hand rests, goes down to the workspace's middle and circles there
+// with its first button pressed, lifts, and begins anew. A force that no library has renewed for HdShared::kSilent_ns
+// is none. One thread runs it; the drills may be set by any.
 #pragma once
 
 #include <atomic>

@@ -4,9 +4,9 @@
 // (devices/emulators/hd_library/). Named in POSIX shared memory after the user and the emulator: "emulated",
 // "emulated-2".
 //
-// Each value has one writer. A reader takes a group of them between two equal, even counts of its sequence; where it does
-// not come to that in a few tries, it keeps what it had. Lengths in millimetres, as HDAPI's. Any thread; wait-free but for
-// opening.
+// Each value has one writer. A reader takes a group of them between two equal, even counts of its sequence; where it
+// does not come to that in a few tries, it keeps what it had. Lengths in millimetres, as HDAPI's. Any thread; wait-free
+// but for opening.
 #pragma once
 
 #include <array>

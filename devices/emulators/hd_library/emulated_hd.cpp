@@ -5,8 +5,8 @@
 // list of devices and one scheduler for the process, a thread that calls back a thousand times a second, a stack of
 // errors with the newest first, forces that go out at the end of a frame.
 //
-// State is static, as the interface is of C. What a test changes is told when it is compiled: BURIN_EMULATED_HD_VERSION,
-// and BURIN_EMULATED_HD_LACKS, which leaves a function out.
+// State is static, as the interface is of C. What a test changes is told when it is compiled:
+// BURIN_EMULATED_HD_VERSION, and BURIN_EMULATED_HD_LACKS, which leaves a function out.
 #include <unistd.h>
 
 #include <algorithm>
