@@ -151,12 +151,14 @@ Result<void> RehabCommand::run(const Of& of) const {
     session::LiveOptions& live = session.live;
     if (const auto glove = check_glove(live); !glove) return glove;
     std::optional<TemporaryFolder> folder;
+    const bool is_simulated = live.device == devices::kSimulatedGlove;
     if (!of.hand.empty()) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());
         folder.emplace(std::move(*made));
     }
     if (live.offscreen && live.input.empty()) live.input = of.kind.script;
+    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     session.activity = exercise;
