@@ -165,12 +165,14 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto glove = check_glove(live); !glove) return glove;
     const bool scripted = !of.hand.empty();
     std::optional<TemporaryFolder> folder;
+    const bool is_simulated = live.device == devices::kSimulatedGlove;
     if (scripted) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());
         folder.emplace(std::move(*made));
     }
     if (live.offscreen && live.input.empty()) live.input = of.kind.script;
+    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
     if (const auto ready = prepare_results(of.results, scripted); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
@@ -182,9 +184,11 @@ Result<void> RehabCommand::run(const Of& of) const {
     print_score(exercise->exercise());
     const Json report = exercise->report();
     const Result<void> written = write_output(of.report, json_text(report));
-    const Result<void> kept = keep_results(
-        of.results, scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed)) : live.device,
-        report);
+    // What a script has done, no person has.
+    const std::string hand = scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed))
+                             : !live.input.empty() ? "scripted, " + live.input
+                                                   : live.device;
+    const Result<void> kept = keep_results(of.results, hand, report);
     return !done ? done : !written ? written : kept;
 }
 

@@ -6,6 +6,8 @@
 
 #include "activities/rehab/ball/ball.hpp"
 #include "activities/rehab/ball/scripted_squeezes.hpp"
+#include "activities/rehab/putty/putty.hpp"
+#include "activities/rehab/putty/scripted_kneads.hpp"
 
 namespace burin::activities {
 namespace {
@@ -16,6 +18,9 @@ std::span<const ExerciseKind> all_kinds() {
     static const std::array kinds{
         ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "assets/worlds/hand.toml",
                      "assets/sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball},
+        ExerciseKind{"putty", "Knead putty that keeps its dents, pinched or in the whole hand",
+                     "assets/worlds/hand.toml", "assets/sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make,
+                     scripted_putty, Putty::grip},
     };
     return kinds;
 }

@@ -24,6 +24,8 @@ struct ExerciseKind {
     std::unique_ptr<Exercise> (*make)(const SettingValues& values) = nullptr;
     // Returns the script as a scripted participant follows it, drawn from a seed.
     std::string (*scripted)(const SettingValues& values, std::uint64_t seed, std::string_view script) = nullptr;
+    // Returns how a simulated glove has to close for it (devices/gloves/grip_shape.hpp); null: as it usually does.
+    std::string_view (*grip)(const SettingValues& values) = nullptr;
 };
 [[nodiscard]] std::span<const ExerciseKind> exercise_kinds();
 // Returns null where there is none of that name.

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "devices/emulators/emulated_glove.hpp"
+#include "devices/emulators/emulated_omni.hpp"
 #include "devices/emulators/emulated_vrpn.hpp"
 
 namespace burin::devices {
@@ -31,8 +32,19 @@ Result<void> run_vrpn(const EmulatorOptions& options) {
     return {};
 }
 
+Result<void> run_omni(const EmulatorOptions& options) {
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto omni = EmulatedOmni::create(name, {.script = {}, .silence = options.silence});
+    if (!omni) return std::unexpected(omni.error());
+    options.is_there("--device omni:" + name);
+    omni->run(options.ends);
+    return {};
+}
+
 constexpr std::array kKinds{
     EmulatorKind{"glove", "a force-feedback glove on a serial line, whose fingers close and open", run_glove},
+    EmulatorKind{"omni", "a PHANTOM Omni whose hand circles with its button down; --at emulated-2 for a second one",
+                 run_omni},
     EmulatorKind{"vrpn", "a VRPN server with a head and a wand that sway, at 127.0.0.1:3883", run_vrpn},
 };
 

@@ -23,9 +23,19 @@ struct DevicePart {
     std::unique_ptr<HapticDevice> device;
 };
 
+// What a device has to say to its user besides its samples: errors of a maker's library, a calibration that needs a
+// hand.
+class DeviceMessages {
+public:
+    virtual ~DeviceMessages() = default;
+    // Returns what has been said since the last call. The frame's thread.
+    [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;
+};
+
 struct OpenedDevice {
-    std::vector<DevicePart> parts;     // at least one; all of one rate
-    Amplifiers* amplifiers = nullptr;  // of all parts; null: none that can be switched from here
+    std::vector<DevicePart> parts;       // at least one; all of one rate
+    DeviceMessages* messages = nullptr;  // of a part; null: it says nothing
+    Amplifiers* amplifiers = nullptr;    // of all parts; null: none that can be switched from here
 };
 
 // Returns the opened device of the only part that a device has.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/drivers/omni_device.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
@@ -59,6 +60,15 @@ Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& sh
     return simulated_glove(*grip, std::move(host.hand), host.clock);
 }
 
+Result<OpenedDevice> open_omni_by(HapticHost host, const std::string& name) {
+    if (host.stands_in) return omni_that_rests(host.clock);
+    if (dynamic_cast<MonotonicClock*>(&host.clock) == nullptr)
+        return fail("haptic device " + std::string(kOmni),
+                    "is there in real time, and this session's time is simulated",
+                    "run it in a window, or with --record FILE.session, which plays an --input in real time");
+    return open_omni(name, std::move(host.hand), host.clock);
+}
+
 constexpr std::array kKinds{
     HapticKind{.name = kDefaultHapticDevice,
                .usage = "a PHANTOM Omni in a simulated hand",
@@ -108,6 +118,17 @@ constexpr std::array kKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_simulated_glove},
+    HapticKind{.name = kOmni,
+               .usage = "a PHANTOM Omni or Touch by its maker's library (OpenHaptics); omni:NAME as the maker's setup "
+                        "calls it, omni:NAME@LIBRARY for a library elsewhere, omni:emulated by burin devices emulate",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_omni_by,
+               .look = look_for_omnis},
 };
 
 struct ChosenKind {

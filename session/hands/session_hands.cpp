@@ -91,6 +91,16 @@ std::optional<devices::AmplifierAnswer> SessionHands::switch_amplifiers(std::siz
     return amplifiers != nullptr ? std::optional(amplifiers->switch_amplifiers(on)) : std::nullopt;
 }
 
+std::vector<std::string> SessionHands::take_messages() {
+    std::vector<std::string> all;
+    for (const auto& hand : hands_) {
+        if (hand->device.messages == nullptr) continue;
+        for (const std::string& message : hand->device.messages->take_messages())
+            all.push_back(hand->name.empty() ? message : hand->name + ": " + message);
+    }
+    return all;
+}
+
 std::vector<haptics::HapticChannels*> SessionHands::channels_of_parts() {
     std::vector<haptics::HapticChannels*> channels;
     for (const auto& part : parts_) channels.push_back(&part->channels);

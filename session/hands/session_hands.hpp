@@ -73,6 +73,8 @@ public:
     void publish(std::size_t part, haptics::TickParameters parameters);
     // Switches the amplifiers of a hand's device; nothing where it has none that can be switched from here.
     [[nodiscard]] std::optional<devices::AmplifierAnswer> switch_amplifiers(std::size_t hand, bool on);
+    // Returns what the devices have said since the last call, each with its hand's name.
+    [[nodiscard]] std::vector<std::string> take_messages();
     // Returns the newest tool state that the loop has published for a part.
     [[nodiscard]] const haptics::ToolState& newest_tool(std::size_t part) { return channels(part).tool.newest(); }
 

@@ -129,6 +129,7 @@ void LiveSession::watch_misfit(const sculpt::Tool& tool) {
 void LiveSession::watch(Nanoseconds time_ns) {
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
+    for (const std::string& message : hands().take_messages()) notify_of_event(message);
     for (DeviceWatch::News& news : devices_.look(hands(), tools_)) {
         notify(news.message);
         events_.push_back(std::move(news.event));

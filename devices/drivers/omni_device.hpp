@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// A PHANTOM Omni or Touch by the maker's library (hd_servo.hpp): omni, omni:NAME as the maker's setup calls it, or
+// NAME@LIBRARY for a library that the system's loader does not find. Names that begin with "emulated" are those of
+// `burin devices emulate omni`, whose library stands beside the program.
+//
+// Frames: HDAPI's axes are the device frame's; its origin is not, and is moved to the middle of the workspace that the
+// library calls usable. The description is that of an Omni as the PowerWall paper and the data sheet give it, whatever
+// the device is, so that a recording is done again without it; a device that gives less force is not asked for more.
+// Servo turns and ticks are a millisecond apart, each by its own clock. A sample is where the stylus was a turn ago, on
+// the straight line between the two newest turns, so that a tick sees a motion and neither the same place twice nor a
+// jump. Faults: a device that is gone or silent for kOmniLost_ns, that is not calibrated, whose pose is no pose, that
+// is warm or was too fast. Threads: as haptic_device.hpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "devices/hand/any_hand.hpp"
+#include "devices/haptic/opened_device.hpp"
+#include "devices/presence/device_presence.hpp"
+
+namespace burin::devices {
+
+inline constexpr const char* kOmni = "omni";
+inline constexpr Nanoseconds kOmniLost_ns = 20'000'000;
+inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
+
+// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
+[[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);
+// One that is nowhere and rests, for a recording that is done again.
+[[nodiscard]] OpenedDevice omni_that_rests(Clock& clock);
+// Looks for the maker's library, and for emulated devices. Opens none: that would take it from who uses it.
+[[nodiscard]] std::vector<DevicePresence> look_for_omnis();
+
+}  // namespace burin::devices

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// A PHANTOM Omni that is not there: the simulated Omni in a scripted hand, offered through shared memory to the
+// emulated library of its maker (devices/emulators/hd_library/), which a session loads in place of the maker's. The
+// script begins when a session has opened it: the hand rests, goes down to the workspace's middle and circles there
+// with its first button pressed, lifts, and begins anew. A force that no library has renewed for HdShared::kSilent_ns
+// is none. One thread runs it; the drills may be set by any.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "devices/emulators/emulated_motion.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+#include "devices/presence/hd_shared.hpp"
+
+namespace burin::devices {
+
+struct EmulatedOmniOptions {
+    // Of the hand, in the device frame, from when a session has opened it; empty: as above.
+    std::vector<HandPose> script;
+    SilenceDrill silence;  // it stops stepping then, as a device whose cable is pulled
+};
+
+class EmulatedOmni {
+public:
+    // Where the workspace's middle is in HDAPI's own frame, which begins elsewhere: metres.
+    static constexpr Vec3 kMiddle_hd_m{0.0, 0.04, -0.02};
+    // Beyond it a hand is at rest again: the script is this long.
+    static constexpr double kScript_s = 3600.0;
+
+    // Fails where one of that name is there already.
+    [[nodiscard]] static Result<EmulatedOmni> create(const std::string& name, EmulatedOmniOptions options = {});
+    // Runs in real time until `ends` says so, which is asked a thousand times a second.
+    void run(const std::function<bool()>& ends);
+
+    // Drills.
+    void fall_silent(bool is_silent) { drill_->is_silent = is_silent; }
+    void lose_its_pose(bool is_nan) { drill_->is_nan = is_nan; }
+    // Has the library report this error in every frame; 0: none.
+    void raise(std::uint32_t error) { memory_->error.store(error, std::memory_order_relaxed); }
+    // Has to be calibrated as HDAPI says it (devices/drivers/hd_api.hpp); a library that updates it makes it well.
+    void need_calibration(std::uint32_t what) { memory_->calibration.store(what, std::memory_order_relaxed); }
+    [[nodiscard]] std::uint32_t calibrations() const { return memory_->calibrations.load(std::memory_order_relaxed); }
+    // Returns the force that was last written to it, newtons.
+    [[nodiscard]] Vec3 written_N() const;
+
+private:
+    struct Drill {
+        std::atomic<bool> is_silent = false, is_nan = false;
+    };
+    EmulatedOmni(HdSharedMemory memory, EmulatedOmniOptions options)
+        : memory_(std::move(memory)), options_(std::move(options)) {}
+    void publish(SimulatedOmni& omni, Nanoseconds now_ns);
+
+    HdSharedMemory memory_;
+    EmulatedOmniOptions options_;
+    std::unique_ptr<Drill> drill_ = std::make_unique<Drill>();
+};
+
+}  // namespace burin::devices

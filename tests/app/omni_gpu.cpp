@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Emulated Omnis in sessions by the command line: they carve, two at once, and are done again without them.
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+#include "gpu/device.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+// Starts emulated Omnis of this workplace's own names in the background; they end by themselves.
+std::string emulators(const std::string& burin, const std::string& suffixes) {
+    return "for n in " + suffixes + "; do (" + burin +
+           " devices emulate omni --seconds 60 --at emulated-$$-$n > $n.txt &) ; "
+           "while ! test -s $n.txt; do sleep 0.05; done; done; ";
+}
+
+}  // namespace
+
+TEST(OmniSession, P3CarvesIsRecordedAndDoneAgainToTheBitWithoutTheDevice) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 omni\n0.1 mouse 160 90\n6 close\n");
+    const auto recorded = at.run(emulators(burin, "a") + burin +
+                                 " sculpt --workpiece ball:0.08 --resolution 64 --device omni:emulated-$$-a "
+                                 "--input s.txt --offscreen --width 320 --height 180 --record o.session");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("0 lost")) << recorded.output;
+    const auto ticks = at.run(burin + " convert o.session --to csv --columns 'buttons,commanded_force_device_z_N' -");
+    ASSERT_EQ(ticks.status, 0) << ticks.output;
+    std::istringstream lines(ticks.output);
+    int pressed = 0, felt = 0;
+    for (std::string line; std::getline(lines, line);) {
+        pressed += line.starts_with("1,") ? 1 : 0;
+        felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
+    }
+    EXPECT_GT(pressed, 500) << "its button is down";
+    EXPECT_GT(felt, 100) << "and it feels what it cuts";
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
+TEST(OmniSession, TwoOfThemAreTwoHandsOfOneScene) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 omni\n0.1 mouse 160 90\n3 close\n");
+    const auto recorded = at.run(
+        emulators(burin, "a b") + burin +
+        " sculpt --workpiece ball:0.08 --resolution 64 --device right=omni:emulated-$$-a "
+        "--device left=omni:emulated-$$-b --input s.txt --offscreen --width 320 --height 180 --record o.session");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const auto info = at.run(burin + " session info o.session");
+    for (const char* hand : {"\nright: ", "\nleft: "}) EXPECT_TRUE(info.output.contains(hand)) << info.output;
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
+TEST(OmniSession, SaysThatThereIsNone) {
+    const Workplace at;
+    at.write("s.txt", "burin-input 1 omni\n0.1 close\n");
+    const auto without = at.run(std::string(kBurinCommand) +
+                                " sculpt --device omni:emulated-nowhere --input s.txt --offscreen --record h.session");
+    EXPECT_EQ(without.status, 1);
+    EXPECT_TRUE(without.output.contains("there is no communication with the device")) << without.output;
+    EXPECT_TRUE(without.output.contains("see that it is plugged in")) << without.output;
+}
+
+}  // namespace burin::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Ticks of an Omni by its maker's library, here the emulated one: the driver's work on the haptic thread allocates,
+// locks, throws and opens nothing, also while the device comes and goes.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include "devices/emulators/emulated_omni.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "tests/support/realtime_counters.hpp"
+
+namespace burin::devices {
+
+TEST(Omni, AllocatesLocksThrowsAndOpensNothingInATick) {
+    const std::string name = "emulated-realtime-" + std::to_string(::getpid());
+    EmulatedOmni emulated = EmulatedOmni::create(name).value();
+    std::atomic<bool> ends = false;
+    std::thread runs([&] { emulated.run([&] { return ends.load(); }); });
+    MonotonicClock clock;
+    clock.sleep_until(clock.now_ns() + 20'000'000);
+    auto opened = open_haptic_device("omni:" + name, {clock, SimulatedHand::create({{0.0, Vec3(0.0)}}).value()});
+    EXPECT_TRUE(opened) << opened.error().line();
+    test::RealtimeCounts counts;
+    constexpr std::size_t kTicks = 2000;
+    std::vector<Nanoseconds> took_ns(kTicks);
+    int faults = 0;
+    for (std::size_t tick = 0; opened && tick < kTicks; ++tick) {
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        if (tick == 800) emulated.fall_silent(true);
+        if (tick == 1000) emulated.fall_silent(false);
+        HapticDevice& device = *opened->parts[0].device;
+        const test::RealtimeScope scope;
+        const Nanoseconds begun_ns = clock.now_ns();
+        const DeviceSample sample = device.read();
+        device.write({Vec3(0.0, 0.5, 0.0), Vec3(0.0)});
+        took_ns[tick] = clock.now_ns() - begun_ns;
+        counts += scope.counts();
+        faults += sample.fault != DeviceFault::none ? 1 : 0;
+    }
+    std::ranges::nth_element(took_ns, took_ns.begin() + kTicks / 2);
+    std::printf("a tick's read and write: %lld ns, median\n", static_cast<long long>(took_ns[kTicks / 2]));
+    if (opened) opened->parts.clear();
+    ends = true;
+    runs.join();
+    EXPECT_EQ(counts.allocations, 0u);
+    EXPECT_EQ(counts.frees, 0u);
+    EXPECT_EQ(counts.locks, 0u);
+    EXPECT_EQ(counts.throws, 0u);
+    EXPECT_EQ(counts.files, 0u);
+    EXPECT_GT(faults, 50) << "it was gone for a while";
+    EXPECT_LT(faults, 1500) << "and there for most of it";
+}
+
+}  // namespace burin::devices
