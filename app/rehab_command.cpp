@@ -10,6 +10,7 @@
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/output_files.hpp"
+#include "app/rehab_results.hpp"
 #include "app/temporary_folder.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
@@ -87,6 +88,7 @@ struct RehabCommand::Of {
     std::vector<std::optional<double>> numbers;
     std::vector<std::string> words;
     std::string settings, report, hand;
+    ResultsOptions results;
     std::uint64_t seed = 1;
     bool print_config = false;
 
@@ -102,6 +104,11 @@ struct RehabCommand::Of {
         if (const auto wrong = activities::problems(*values); !wrong.empty()) return std::unexpected(wrong.front());
         return values;
     }
+};
+
+struct RehabCommand::Report {
+    Command command;
+    std::string folder, page;
 };
 
 RehabCommand::RehabCommand(Command app)
@@ -128,13 +135,19 @@ RehabCommand::RehabCommand(Command app)
         command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well").one_of({"scripted"});
         command.option("--seed", of.seed, "Of the scripted hand").show_default();
         command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
+        add_results_options(command, of.results);
         add_live_options(command, of.session.live);
     }
+    report_ = std::make_unique<Report>();
+    report_->command = command_.subcommand("report", "Write the page of all participants' progress anew");
+    report_->command.option("FOLDER", report_->folder, "That --results was given").required();
+    report_->command.option("--out", report_->page, "The page, if not FOLDER/report.html");
 }
 
 RehabCommand::~RehabCommand() = default;
 
 Result<void> RehabCommand::run() const {
+    if (report_->command.parsed()) return rehab_report(report_->folder, report_->page);
     for (const auto& of : exercises_)
         if (of->command.parsed()) return run(*of);
     return {};
@@ -150,14 +163,18 @@ Result<void> RehabCommand::run(const Of& of) const {
     session::SculptOptions session = of.session;
     session::LiveOptions& live = session.live;
     if (const auto glove = check_glove(live); !glove) return glove;
+    const bool scripted = !of.hand.empty();
     std::optional<TemporaryFolder> folder;
-    if (!of.hand.empty()) {
+    const bool is_simulated = live.device == devices::kSimulatedGlove;
+    if (scripted) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());
         folder.emplace(std::move(*made));
     }
     if (live.offscreen && live.input.empty()) live.input = of.kind.script;
+    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
+    if (const auto ready = prepare_results(of.results, scripted); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
@@ -165,8 +182,14 @@ Result<void> RehabCommand::run(const Of& of) const {
     // older report alone.
     if (!done && exercise->exercise().course().events.empty()) return done;
     print_score(exercise->exercise());
-    const Result<void> written = write_output(of.report, json_text(exercise->report()));
-    return done ? written : done;
+    const Json report = exercise->report();
+    const Result<void> written = write_output(of.report, json_text(report));
+    // What a script has done, no person has.
+    const std::string hand = scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed))
+                             : !live.input.empty() ? "scripted, " + live.input
+                                                   : live.device;
+    const Result<void> kept = keep_results(of.results, hand, report);
+    return !done ? done : !written ? written : kept;
 }
 
 }  // namespace burin::app

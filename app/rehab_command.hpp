@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// burin rehab NAME: exercises of a hand in a glove (activities/rehab), with the therapist's settings of one file.
+// burin rehab NAME, burin rehab report: exercises of a hand in a glove (activities/rehab), with the therapist's
+// settings of one file.
 #pragma once
 
 #include <memory>
@@ -28,6 +29,8 @@ private:
 
     Command command_;
     std::vector<std::unique_ptr<Of>> exercises_;
+    struct Report;
+    std::unique_ptr<Report> report_;
 };
 
 }  // namespace burin::app

@@ -201,7 +201,7 @@ Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recor
         if (i > 0) find_contacts();
         solver_.step(body_, state_,
                      {seconds(setup_.step_ns), setup_.sweeps, Vec3(0.0), contacts_, holds_N_per_m_, held_at_m_});
-        if (!held_at_m_.empty()) follow_shape(body_, state_, holds_N_per_m_, held_at_m_, seconds(setup_.step_ns));
+        if (!held_at_m_.empty()) follow_shape(body_, state_, holds_N_per_m_, held_at_m_);
         ++steps_;
     }
     make_models(now_ns);

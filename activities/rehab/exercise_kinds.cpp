@@ -6,6 +6,8 @@
 
 #include "activities/rehab/ball/ball.hpp"
 #include "activities/rehab/ball/scripted_squeezes.hpp"
+#include "activities/rehab/putty/putty.hpp"
+#include "activities/rehab/putty/scripted_kneads.hpp"
 
 namespace burin::activities {
 namespace {
@@ -16,6 +18,9 @@ std::span<const ExerciseKind> all_kinds() {
     static const std::array kinds{
         ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "assets/worlds/hand.toml",
                      "assets/sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball},
+        ExerciseKind{"putty", "Knead putty that keeps its dents, pinched or in the whole hand",
+                     "assets/worlds/hand.toml", "assets/sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make,
+                     scripted_putty, Putty::grip},
     };
     return kinds;
 }
@@ -27,6 +32,13 @@ std::span<const ExerciseKind> exercise_kinds() { return all_kinds(); }
 const ExerciseKind* exercise_named(std::string_view name) {
     const auto kind = std::ranges::find(all_kinds(), name, &ExerciseKind::name);
     return kind != all_kinds().end() ? &*kind : nullptr;
+}
+
+unsigned levels_of(std::string_view exercise) {
+    const ExerciseKind* const kind = exercise_named(exercise);
+    if (kind == nullptr) return 0;
+    const auto level = std::ranges::find(kind->settings, std::string_view("level"), &SettingKind::key);
+    return level != kind->settings.end() ? static_cast<unsigned>(level->most) : 0;
 }
 
 Result<std::unique_ptr<Exercise>> exercise_of(std::string_view settings) {

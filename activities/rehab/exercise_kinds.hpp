@@ -24,10 +24,14 @@ struct ExerciseKind {
     std::unique_ptr<Exercise> (*make)(const SettingValues& values) = nullptr;
     // Returns the script as a scripted participant follows it, drawn from a seed.
     std::string (*scripted)(const SettingValues& values, std::uint64_t seed, std::string_view script) = nullptr;
+    // Returns how a simulated glove has to close for it (devices/gloves/grip_shape.hpp); null: as it usually does.
+    std::string_view (*grip)(const SettingValues& values) = nullptr;
 };
 [[nodiscard]] std::span<const ExerciseKind> exercise_kinds();
 // Returns null where there is none of that name.
 [[nodiscard]] const ExerciseKind* exercise_named(std::string_view name);
+// Returns how many levels of difficulty an exercise has; 0 where there is none of that name.
+[[nodiscard]] unsigned levels_of(std::string_view exercise);
 
 // Reads what Rehab::settings() has written, "rehab ball --level 2 ...". Fails on anything else.
 [[nodiscard]] Result<std::unique_ptr<Exercise>> exercise_of(std::string_view settings);

@@ -72,6 +72,15 @@ void take_metric(const SoftBody& body, SoftFlow& flow, std::size_t cell, const g
     }
 }
 
+// The rotation of a map's polar decomposition, by Newton (Higham 1986); none where the map is flat or inside out.
+glm::dmat3 rotation_of(const glm::dmat3& map) {
+    const double det = glm::determinant(map), size = std::sqrt(squared(map) / 3.0);
+    if (!(det > 1e-6 * size * size * size)) return glm::dmat3(1.0);
+    glm::dmat3 rotation = map / std::cbrt(det);
+    for (int i = 0; i < 12; ++i) rotation = 0.5 * (rotation + glm::transpose(glm::inverse(rotation)));
+    return rotation;
+}
+
 }  // namespace
 
 void flow(const SoftBody& body, SoftState& state, double dt_s) {
@@ -101,30 +110,23 @@ void flow(const SoftBody& body, SoftState& state, double dt_s) {
 }
 
 void follow_shape(const SoftBody& body, const SoftState& state, std::span<const double> holds_N_per_m,
-                  std::span<Vec3> held_at_m, double dt_s) {
-    const double share = 1.0 - std::exp(-dt_s / body.material().relaxes_s);
-    Vec3 middle(0.0), way(0.0), torque(0.0);
+                  std::span<Vec3> held_at_m) {
+    const std::span<const Vec3> rest = body.rest().places_m;
+    Vec3 middle(0.0), rest_middle(0.0);
     double sum = 0.0;
-    for (std::size_t i = 0; i < held_at_m.size(); ++i) {
+    for (std::size_t i = 0; i < rest.size(); ++i) {
         sum += holds_N_per_m[i];
-        middle += holds_N_per_m[i] * held_at_m[i];
-        way += holds_N_per_m[i] * (state.places_m[i] - held_at_m[i]);
+        middle += holds_N_per_m[i] * state.places_m[i];
+        rest_middle += holds_N_per_m[i] * rest[i];
     }
     if (!(sum > 0.0)) return;
     middle /= sum;
-    way /= sum;
-    glm::dmat3 inertia(0.0);
-    for (std::size_t i = 0; i < held_at_m.size(); ++i) {
-        const Vec3 arm = held_at_m[i] - middle;
-        torque += holds_N_per_m[i] * glm::cross(arm, state.places_m[i] - held_at_m[i] - way);
-        inertia += holds_N_per_m[i] * (glm::dmat3(glm::dot(arm, arm)) - glm::outerProduct(arm, arm));
-    }
-    const Vec3 turn = glm::determinant(inertia) > 0.0 ? glm::inverse(inertia) * torque : Vec3(0.0);
-    for (std::size_t i = 0; i < held_at_m.size(); ++i) {
-        if (!(holds_N_per_m[i] > 0.0)) continue;
-        const Vec3 rigid = way + glm::cross(turn, held_at_m[i] - middle);
-        held_at_m[i] += share * (state.places_m[i] - held_at_m[i] - rigid);
-    }
+    rest_middle /= sum;
+    glm::dmat3 spread(0.0);
+    for (std::size_t i = 0; i < rest.size(); ++i)
+        spread += holds_N_per_m[i] * glm::outerProduct(state.places_m[i] - middle, rest[i] - rest_middle);
+    const glm::dmat3 back = glm::transpose(rotation_of(spread));
+    for (std::size_t i = 0; i < rest.size(); ++i) held_at_m[i] = rest_middle + back * (state.places_m[i] - middle);
 }
 
 std::vector<double> stresses_of(const SoftBody& body, const SoftState& state) {

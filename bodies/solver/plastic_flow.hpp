@@ -27,11 +27,11 @@ constexpr double kLeastPlasticQuality = 0.1, kLeastPlasticVolume = 0.1;
 // Lets a body flow for a time. Requires a plastic body and a state of it.
 void flow(const SoftBody& body, SoftState& state, double dt_s);
 
-// Moves the places to which a plastic body's corners are drawn (SoftStepInput::held_at_m) after the corners, by what of
-// their ways is no rigid motion of all that are held. So springs hold where the body is and how it is turned, and do
-// not draw it back into the shape that it had.
+// Sets the places to which a plastic body's corners are drawn (SoftStepInput::held_at_m) to where the corners are, but
+// for the rigid motion that all that are held have made since the beginning. So springs hold where the body is and how
+// it is turned, and do not draw it back into the shape that it had.
 void follow_shape(const SoftBody& body, const SoftState& state, std::span<const double> holds_N_per_m,
-                  std::span<Vec3> held_at_m, double dt_s);
+                  std::span<Vec3> held_at_m);
 
 // Returns von Mises' stress of each element, Pa (Kirchhoff's: over the volume at rest).
 [[nodiscard]] std::vector<double> stresses_of(const SoftBody& body, const SoftState& state);

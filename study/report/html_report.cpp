@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/plot/html.hpp"
 #include "base/plot/svg.hpp"
 #include "study/report/analysis_text.hpp"
 #include "study/report/published_text.hpp"
@@ -14,32 +15,9 @@
 namespace burin::study {
 namespace {
 
-constexpr const char* kStyle = R"(<style>
-body { font: 16px/1.45 "DejaVu Sans", Arial, sans-serif; max-width: 62em; margin: 1em auto; padding: 0 1em;
-  color: #111; }
-p { overflow-wrap: anywhere; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.2em; margin-top: 2em; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.85em; }
-th, td { border: 1px solid #999; padding: 0.25em 0.6em; text-align: left; vertical-align: top; }
-table.figures { min-width: 50em; }
-td.number { text-align: right; white-space: nowrap; }
-.warning { border-left: 0.4em solid #000; padding: 0.2em 0.8em; background: #eee; }
-.plots { display: grid; grid-template-columns: 1fr 1fr; gap: 1em; align-items: start; }
-.plots svg { width: 100%; height: auto; }
-.plots svg:only-child { grid-column: 1 / -1; }
-@media (max-width: 45em) { .plots { grid-template-columns: 1fr; } }
-.wide svg { width: 100%; min-width: 40em; height: auto; display: block; }
-pre { font-size: 0.8em; overflow-x: auto; background: #f4f4f4; padding: 0.8em; }
-</style>
-)";
-
-std::string element(const char* name, const std::string& text) {
-    return std::string("<") + name + ">" + plot::escaped(text) + "</" + name + ">\n";
-}
-
-std::string cell(const std::string& text) { return "<td>" + plot::escaped(text) + "</td>"; }
-std::string number_cell(const std::string& text) { return "<td class=\"number\">" + plot::escaped(text) + "</td>"; }
+using plot::cell;
+using plot::element;
+using plot::number_cell;
 
 std::string method_of(const std::string& method, const std::string& undefined) {
     return method + (undefined.empty() ? "" : "; undefined: " + undefined);
@@ -180,12 +158,8 @@ std::string data_section(const TrialTable& table) {
 
 std::string html_report(const Analysis& analysis, const std::vector<PublishedComparison>& published,
                         const ReportOrigin& origin) {
-    std::string html =
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>Analysis of a study</title>\n";
-    html += std::string(kStyle) + "</head>\n<body>\n" +
-            element("h1", origin.title.empty() ? "Analysis of " + origin.data : origin.title);
+    std::string html = plot::page_begin("Analysis of a study") +
+                       element("h1", origin.title.empty() ? "Analysis of " + origin.data : origin.title);
     html += element("p", formatted("%zu trials, %zu groups. %s, seed %llu.", analysis.table.trials.size(),
                                    analysis.table.groups.size(), origin.program.c_str(),
                                    static_cast<unsigned long long>(analysis.seed)));
@@ -199,7 +173,7 @@ std::string html_report(const Analysis& analysis, const std::vector<PublishedCom
     html += effects_section(analysis) + learning_section(analysis) + agreement_section(analysis);
     for (const PublishedComparison& comparison : published)
         html += element("h2", "Published figures beside the data") + element("pre", published_text(comparison));
-    return html + data_section(analysis.table) + "</body>\n</html>\n";
+    return html + data_section(analysis.table) + plot::page_end();
 }
 
 }  // namespace burin::study

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "activities/rehab/ball/scripted_squeezes.hpp"
+#include "activities/rehab/putty/scripted_kneads.hpp"
 #include "base/json.hpp"
 #include "gpu/device.hpp"
 #include "tests/support/places.hpp"
@@ -21,8 +22,8 @@ protected:
         if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     }
     // The exercise takes its world and its script from the folder of the repository.
-    [[nodiscard]] std::string rehab(const std::string& options) const {
-        return "cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " rehab ball " + options +
+    [[nodiscard]] std::string rehab(const std::string& options, const std::string& name = "ball") const {
+        return "cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " rehab " + name + " " + options +
                " --outputs " + path("out");
     }
     [[nodiscard]] std::string path(const std::string& name) const { return (at / name).string(); }
@@ -46,6 +47,41 @@ TEST_F(RehabSessions, EndWithTheSqueezesThatTheSeedForetells) {
         EXPECT_EQ(json.at("counts").at("grasps"), foretold.size());
         EXPECT_GT(json.at("fingers").at(1).at("peak_force_N").get<double>(), 0.5);
     }
+}
+
+// The time is over just before the hand closes for the last time but one: what it has kneaded until then counts.
+TEST_F(RehabSessions, CountTheKneadsThatTheSeedForetells) {
+    for (const std::string shape : {"ball", "ellipsoid"})
+        for (const std::uint64_t seed : {1u, 2u}) {
+            auto foretold = activities::drawn_kneads({.kneads = 4}, seed, 2.85);
+            foretold.pop_back();
+            const double limit_s = foretold.back().closes_s;
+            foretold.pop_back();
+            const auto kneads = std::ranges::count(foretold, false, &activities::ScriptedKnead::misses);
+            const std::string name = shape + std::to_string(seed) + ".json";
+            const auto done =
+                at.run(rehab("--hand scripted --offscreen --kneads 4 --time-limit " + std::to_string(limit_s) +
+                                 " --shape " + shape + " --seed " + std::to_string(seed) + " --report " + path(name),
+                             "putty"));
+            ASSERT_EQ(done.status, 0) << done.output;
+            const Json json = Json::parse(at.read(name));
+            EXPECT_EQ(json.at("ended"), "time over") << done.output;
+            EXPECT_EQ(json.at("counts").at("kneads"), kneads) << done.output;
+            EXPECT_EQ(json.at("counts").at("wrong_grip"), 0) << done.output;
+            EXPECT_DOUBLE_EQ(json.at("score").get<double>(), 25.0 * static_cast<double>(kneads));
+        }
+}
+
+TEST_F(RehabSessions, WithPuttyAreDoneAgainToTheBit) {
+    const auto recorded = at.run(rehab(
+        "--hand scripted --offscreen --kneads 1 --hardness soft --seed 2 --record " + path("p.session"), "putty"));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the hand pinches ball")) << recorded.output;
+    const auto replayed =
+        at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("p.session"));
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    EXPECT_EQ(replayed.output.contains("knead 1 of 1 counted"), recorded.output.contains("knead 1 of 1 counted"));
 }
 
 TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {

@@ -265,6 +265,26 @@ TEST(Putty, IsHarderTheHigherItsYieldAndStiffness) {
     }
 }
 
+// A push off the middle turns it; let go, it turns back.
+TEST(Putty, KeepsHowItIsTurnedHoweverItIsPushed) {
+    Putty pushed(putty(), {0.032, 0.032, 0.048});
+    for (int i = 0; i < 3; ++i) {
+        for (double t = 0.0; t < 1.0; t += 0.004) {
+            haptics::TickRecord tick = pinch({0.0, 1.0, 0.0}, 0.032 - 0.012 * std::min(2.0 * t, 1.0));
+            for (std::uint32_t point = 0; point < 10; ++point)
+                tick.contact.points[point].hip_object_m.z += point < 5 ? 0.02 : -0.02;
+            pushed.turn(tick);
+        }
+        pushed.hold(pinch({0.0, 1.0, 0.0}, 0.08), 0.5);
+    }
+    // The polar rotation of all corners: how far the long axis has turned.
+    const SoftBody& body = pushed.part().body();
+    Vec3 axis(0.0);
+    for (std::uint32_t i = 0; i < body.corners(); ++i)
+        axis += body.mass_kg(i) * body.rest().places_m[i].z * pushed.part().state().places_m[i];
+    EXPECT_LT(std::acos(std::abs(glm::normalize(axis).z)), 0.2);
+}
+
 // Springs hold where it is, not the shape that it had.
 TEST(Putty, GoesBackToItsPlaceAndKeepsItsShape) {
     Putty pressed(putty());

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "activities/rehab/progress/kept_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <span>
+#include <tuple>
+
+#include "base/file_io.hpp"
+#include "base/text.hpp"
+
+namespace burin::activities {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kVersion = 1;
+constexpr std::uint64_t kMostBytes = 8 << 20;  // hours of events
+
+fs::path folder_of(const fs::path& folder, unsigned participant) {
+    return folder / formatted("participant-%03u", participant);
+}
+
+// Two or four digits, as a date and a time have them.
+std::optional<unsigned> digits(std::string_view text, std::size_t from, std::size_t count) {
+    if (text.size() < from + count) return std::nullopt;
+    const std::string_view part = text.substr(from, count);
+    if (!std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; })) return std::nullopt;
+    unsigned value = 0;
+    std::from_chars(part.data(), part.data() + part.size(), value);
+    return value;
+}
+
+std::optional<std::chrono::sys_days> calendar_day(std::string_view date) {
+    const auto year = digits(date, 0, 4), month = digits(date, 5, 2), day = digits(date, 8, 2);
+    if (date.size() != 10 || date[4] != '-' || date[7] != '-' || !year || !month || !day) return std::nullopt;
+    const std::chrono::year_month_day known{std::chrono::year(static_cast<int>(*year)), std::chrono::month(*month),
+                                            std::chrono::day(*day)};
+    return known.ok() ? std::optional(std::chrono::sys_days(known)) : std::nullopt;
+}
+
+bool is_time(std::string_view time) {
+    const auto hour = digits(time, 0, 2), minute = digits(time, 3, 2), second = digits(time, 6, 2);
+    return time.size() == 8 && time[2] == ':' && time[5] == ':' && hour && minute && second && *hour < 24 &&
+           *minute < 60 && *second < 61;
+}
+
+const Json* text_at(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_string() ? &*found : nullptr;
+}
+
+// What the page reads of a report; the rest may be anything.
+bool is_report(const Json& report) {
+    if (!report.is_object() || text_at(report, "exercise") == nullptr || text_at(report, "ended") == nullptr)
+        return false;
+    for (const char* key : {"score", "time_s"})
+        if (const Json* const value = find_value(report, std::string("/") + key); !value || !value->is_number())
+            return false;
+    for (const char* key : {"settings", "counts"})
+        if (const Json* const value = find_value(report, std::string("/") + key); !value || !value->is_object())
+            return false;
+    const Json* const fingers = find_value(report, "/fingers");
+    return fingers != nullptr && fingers->is_array() &&
+           std::ranges::all_of(*fingers, [](const Json& finger) { return finger.is_object(); });
+}
+
+Result<KeptRun> run_of(const fs::path& path) {
+    const Result<std::string> text = read_text_file(path, kMostBytes);
+    if (!text) return std::unexpected(text.error());
+    const Json json = Json::parse(*text, nullptr, false);
+    if (json.is_discarded())
+        return fail(path.string(), "is cut or damaged: it is not whole JSON", "mend it, or take it out of the folder");
+    const auto other = [&](const char* what) {
+        return fail(path.string(), std::string("is no run of an exercise: ") + what, "take it out of the folder");
+    };
+    if (!json.is_object()) return other("it is no object");
+    const auto version = json.find("run");
+    if (version == json.end() || !version->is_number_integer()) return other("it has no number \"run\"");
+    if (*version != kVersion) return other("it is of another version");
+    const auto participant = json.find("participant");
+    if (participant == json.end() || !participant->is_number_unsigned() || *participant < 1u ||
+        *participant > KeptRun::kMostParticipants)
+        return other("its participant is none");
+    const Json *const date = text_at(json, "date"), *const time = text_at(json, "time"),
+                      *const hand = text_at(json, "hand");
+    if (date == nullptr || time == nullptr || hand == nullptr) return other("date, time or hand are missing");
+    KeptRun run{
+        participant->get<unsigned>(), date->get<std::string>(), time->get<std::string>(), hand->get<std::string>(), {}};
+    if (!calendar_day(run.date) || !is_time(run.time)) return other("its date or its time is none");
+    const auto report = json.find("report");
+    if (report == json.end() || !is_report(*report)) return other("its report is not whole");
+    run.report = *report;
+    return run;
+}
+
+}  // namespace
+
+Result<void> check_date(const std::string& date) {
+    if (calendar_day(date)) return {};
+    return fail("date " + date, "is none", "write it as 2026-11-03");
+}
+
+int day_of(const std::string& date) {
+    const auto day = calendar_day(date);
+    BURIN_CHECK(day.has_value());
+    return day ? static_cast<int>(day->time_since_epoch().count()) : 0;
+}
+
+Result<void> prepare_results(const fs::path& folder, unsigned participant) {
+    const fs::path own = folder_of(folder, participant);
+    std::error_code error;
+    fs::create_directories(own, error);
+    if (error) return fail(own.string(), "cannot be made: " + error.message(), "name a folder that you may write to");
+    return check_writable(own / "a-run.json");
+}
+
+Result<fs::path> keep_run(const fs::path& folder, const KeptRun& run) {
+    std::string moment = run.date + "T" + run.time;
+    std::ranges::replace(moment, ':', '-');
+    const std::string name = moment + "-" + run.report.at("exercise").get<std::string>();
+    fs::path path = folder_of(folder, run.participant) / (name + ".json");
+    std::error_code ignored;
+    for (int n = 2; fs::exists(path, ignored); ++n)
+        path = folder_of(folder, run.participant) / formatted("%s-%d.json", name.c_str(), n);
+    const std::string text = json_text({{"run", kVersion},
+                                        {"participant", run.participant},
+                                        {"date", run.date},
+                                        {"time", run.time},
+                                        {"hand", run.hand},
+                                        {"report", run.report}});
+    if (const auto written = write_file_atomically(path, std::as_bytes(std::span(text))); !written)
+        return std::unexpected(written.error());
+    return path;
+}
+
+Result<KeptRuns> read_runs(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        return fail(folder.string(), "is no folder of results", "name the folder that --results was given");
+    std::vector<fs::path> files;
+    for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
+         !error && at != end; at.increment(error)) {
+        if (at.depth() >= 1) at.disable_recursion_pending();
+        if (at.depth() == 1 && at->path().extension() == ".json" &&
+            at->path().parent_path().filename().string().starts_with("participant-"))
+            files.push_back(at->path());
+    }
+    if (error) return fail(folder.string(), "cannot be read: " + error.message(), "see to its permissions");
+    std::ranges::sort(files);
+    KeptRuns kept;
+    for (const fs::path& file : files) {
+        Result<KeptRun> run = run_of(file);
+        if (run)
+            kept.runs.push_back(std::move(*run));
+        else
+            kept.errors.push_back(run.error());
+    }
+    std::ranges::stable_sort(kept.runs, {},
+                             [](const KeptRun& run) { return std::tuple(run.participant, run.date, run.time); });
+    return kept;
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What is kept of a person's runs of exercises: a folder for each participant, a file for each run, so that a file that
+// is cut or a disk that is full loses no other run.
+//
+//   FOLDER/participant-007/2026-11-03T10-15-00-ball.json: {"run": 1, participant, date, time, hand, "report": {...}}
+// Participants are numbers: no name is kept. Failure: an Error that names the file; what was kept before stays as it
+// was. Any thread, one at a time in a folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+
+namespace burin::activities {
+
+struct KeptRun {
+    static constexpr unsigned kMostParticipants = 999;
+    unsigned participant = 1;  // to kMostParticipants
+    std::string date, time;    // "2026-11-03", "10:15:00", as the clock on the wall has them
+    std::string hand;          // "glove:47000"; "scripted, seed 1" where nobody did it
+    Json report;               // Rehab::report()
+
+    [[nodiscard]] bool is_scripted() const { return hand.starts_with("scripted"); }
+};
+
+// Checks a date of that form that the calendar has.
+[[nodiscard]] Result<void> check_date(const std::string& date);
+// Returns the day of a date, counted from 1970-01-01. Requires one that check_date() passes.
+[[nodiscard]] int day_of(const std::string& date);
+
+// Makes the participant's folder and checks that files can be made there.
+[[nodiscard]] Result<void> prepare_results(const std::filesystem::path& folder, unsigned participant);
+// Writes the run into a file of its own; returns its path. Overwrites nothing.
+[[nodiscard]] Result<std::filesystem::path> keep_run(const std::filesystem::path& folder, const KeptRun& run);
+
+// All runs of a folder that can be read, by participant and then in order of time; and what is wrong with the others.
+struct KeptRuns {
+    std::vector<KeptRun> runs;
+    std::vector<Error> errors;
+};
+// Fails where the folder itself cannot be read.
+[[nodiscard]] Result<KeptRuns> read_runs(const std::filesystem::path& folder);
+
+}  // namespace burin::activities

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "activities/rehab/progress/progress.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace burin::activities {
+namespace {
+
+double score_of(const KeptRun& run) { return run.report.at("score").get<double>(); }
+
+unsigned level_of(const KeptRun& run) {
+    const Json* const level = find_value(run.report, "/settings/level");
+    return level != nullptr && level->is_number() && *level >= 1.0 && *level <= 100.0
+               ? static_cast<unsigned>(level->get<double>())
+               : 0;
+}
+
+}  // namespace
+
+Proposal proposed(std::span<const KeptRun* const> runs, unsigned levels) {
+    const unsigned level = level_of(*runs.back());
+    if (level == 0 || levels == 0) return {0, "The exercise has no levels that are known."};
+    const auto stays = [&](const std::string& reason) {
+        return Proposal{0, formatted("Level %u stays: ", level) + reason};
+    };
+    if (runs.size() < Proposal::kRuns)
+        return stays(formatted("there are %zu of the %zu runs that a proposal takes.", runs.size(), Proposal::kRuns));
+    const auto last = runs.last(Proposal::kRuns);
+    const auto differs = [&](const KeptRun* run) {
+        return run->report.at("settings") != runs.back()->report.at("settings");
+    };
+    if (std::ranges::any_of(last, differs)) return stays("the last three runs had different settings.");
+    if (std::ranges::any_of(last, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; }))
+        return stays("one of the last three runs was broken off.");
+    std::string scores;
+    for (const KeptRun* run : last) scores += formatted(scores.empty() ? "%.0f" : ", %.0f", score_of(*run));
+    const bool well = std::ranges::all_of(last, [](const KeptRun* run) { return score_of(*run) >= Proposal::kWell; });
+    const bool badly = std::ranges::all_of(last, [](const KeptRun* run) { return score_of(*run) <= Proposal::kBadly; });
+    if (well && level < levels)
+        return {level + 1, formatted("Level %u is proposed: the last three scores were ", level + 1) + scores + "."};
+    if (badly && level > 1)
+        return {level - 1, formatted("Level %u is proposed: the last three scores were ", level - 1) + scores + "."};
+    return stays("the last three scores were " + scores + ".");
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "activities/rehab/putty/putty.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+
+namespace burin::activities {
+namespace {
+
+// It takes the place of the world's ball, as assets/worlds/hand.toml has it: its number, and the top of its stand.
+constexpr std::uint32_t kObject = 2;
+constexpr Vec3 kOnStand_m{0.02, 0.0475, 0.0};
+// A ball as two fingertips take it, and an ellipsoid that lies across the fingers.
+constexpr Vec3 kBall_m{0.025}, kEllipsoid_m{0.032, 0.032, 0.048};
+constexpr double kElementsAlongLeast = 3.2;  // about 1,630 elements of the ball, 2,400 of the ellipsoid
+
+constexpr std::array kShapes{"ball", "ellipsoid"};           // as PuttyShape has them
+constexpr std::array kHardnesses{"soft", "medium", "firm"};  // as PuttyHardness
+
+}  // namespace
+
+std::span<const SettingKind> Putty::setting_kinds() {
+    static const std::array kinds{
+        SettingKind{.key = "shape",
+                    .option = "--shape",
+                    .help = "A ball is pinched by thumb and index, an ellipsoid gripped by the whole hand",
+                    .words = kShapes},
+        SettingKind{
+            .key = "hardness", .option = "--hardness", .help = "How hard it is", .usual = 1, .words = kHardnesses},
+        level_setting(3, "Of difficulty: with how much force to knead, 1 to 3", "there are levels 1, 2 and 3"),
+        SettingKind{.key = "kneads",
+                    .option = "--kneads",
+                    .help = "How many kneads",
+                    .remedy = "ask for 1 to 1000 kneads",
+                    .usual = 5,
+                    .least = 1,
+                    .most = 1000,
+                    .whole = true},
+        time_limit_setting(60.0),
+    };
+    return kinds;
+}
+
+PuttySettings putty_settings(const SettingValues& values) {
+    return {static_cast<PuttyShape>(values.count("shape")), static_cast<PuttyHardness>(values.count("hardness")),
+            values.count("level"), values.count("kneads"), values.number("time_limit_s")};
+}
+
+std::unique_ptr<Exercise> Putty::make(const SettingValues& values) { return std::make_unique<Putty>(values); }
+
+std::string_view Putty::grip(const SettingValues& values) {
+    return putty_settings(values).is_pinch() ? "pinch" : "whole";
+}
+
+Putty::Putty(const SettingValues& values) : values_(values), settings_(putty_settings(values)) {}
+
+bodies::SoftPartSetup Putty::body() const {
+    bodies::SoftPartSetup body;
+    body.object = kObject;
+    body.half_axes_m = settings_.is_pinch() ? kBall_m : kEllipsoid_m;
+    body.scene_from_body.position_m = kOnStand_m + Vec3(0.0, body.half_axes_m.y, 0.0);
+    body.spacing_m = body.half_axes_m.y / kElementsAlongLeast;
+    body.material.young_Pa = kind_of(settings_.hardness).young_Pa;
+    body.material.yield_Pa = kind_of(settings_.hardness).yield_Pa;
+    return body;
+}
+
+void Putty::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
+    PuttyStep step = step_putty(state_, settings_, turn);
+    state_ = step.state;
+    for (const ExerciseEvent& event : step.events) tell(event, orders);
+}
+
+void Putty::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
+    using namespace putty_event;
+    events_.push_back(event);
+    const unsigned number = state_.kneads, all = number + state_.too_weak + state_.wrong_grip;
+    const bool kneaded = event.what == kKneaded, wrong = event.what == kWrongGrip, weak = event.what == kTooWeak;
+    if (event.what == kPressed) orders.trials.push_back({event.time_ns, formatted("knead %u", all + 1)});
+    if (kneaded || wrong || weak) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
+    if (kneaded) orders.messages.push_back(formatted("knead %u of %u counted", number, settings_.kneads));
+    if (weak) orders.messages.push_back("too weak; press harder");
+    if (wrong)
+        orders.messages.push_back(settings_.is_pinch() ? "wrong grip; take thumb and index alone"
+                                                       : "wrong grip; take the whole hand");
+}
+
+ExerciseCourse Putty::course() const {
+    return {state_.end,
+            state_.begun_ns,
+            state_.time_s(),
+            score_of(state_, settings_),
+            {{"kneads", "Kneads", state_.kneads, settings_.kneads},
+             {"too_weak", "Too weak", state_.too_weak, 0},
+             {"wrong_grip", "In a wrong grip", state_.wrong_grip, 0}},
+            events_};
+}
+
+std::string Putty::task() const {
+    return formatted(settings_.is_pinch() ? "Pinch the putty between thumb and index with %.1f N in both, then relax."
+                                          : "Knead the putty in the whole hand with %.1f N in all fingers, then relax.",
+                     settings_.target_N());
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The putty exercise in a session: its settings, its body, its rules' steps. One thread, the frame's.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "activities/rehab/putty/putty_exercise.hpp"
+
+namespace burin::activities {
+
+// Requires sound values of Putty::setting_kinds().
+[[nodiscard]] PuttySettings putty_settings(const SettingValues& values);
+
+class Putty final : public Exercise {
+public:
+    [[nodiscard]] static std::span<const SettingKind> setting_kinds();
+    [[nodiscard]] static std::unique_ptr<Exercise> make(const SettingValues& values);
+    // Returns how a simulated hand has to close for it (devices/gloves/grip_shape.hpp). Requires sound values.
+    [[nodiscard]] static std::string_view grip(const SettingValues& values);
+    // Requires sound values.
+    explicit Putty(const SettingValues& values);
+
+    [[nodiscard]] const char* name() const override { return "putty"; }
+    [[nodiscard]] const SettingValues& settings() const override { return values_; }
+    [[nodiscard]] bodies::SoftPartSetup body() const override;
+    [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.hardness).srgb; }
+    void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
+    [[nodiscard]] ExerciseCourse course() const override;
+    [[nodiscard]] std::string task() const override;
+
+private:
+    void tell(const ExerciseEvent& event, session::ActivityOrders& orders);
+
+    SettingValues values_;
+    PuttySettings settings_;
+    PuttyState state_;
+    std::vector<ExerciseEvent> events_;
+};
+
+}  // namespace burin::activities

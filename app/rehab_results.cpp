@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "app/rehab_results.hpp"
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <vector>
+
+#include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/progress/progress.hpp"
+#include "app/output_files.hpp"
+#include "base/text.hpp"
+
+namespace burin::app {
+namespace {
+
+using activities::KeptRun;
+
+std::string page_of(const std::string& folder) { return (std::filesystem::path(folder) / "report.html").string(); }
+
+// The clock on the wall, as strftime writes it.
+std::string now_as(const char* form) {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    if (::localtime_r(&now, &local) == nullptr) return "";
+    char text[32];
+    return {text, std::strftime(text, sizeof text, form, &local)};
+}
+
+Result<void> write_page(const activities::KeptRuns& kept, const std::string& page) {
+    return write_text(page, activities::progress_page(kept, activities::levels_of, "Burin " BURIN_VERSION));
+}
+
+}  // namespace
+
+void add_results_options(Command command, ResultsOptions& options) {
+    command.option("--results", options.folder,
+                   "A folder that keeps this run, and a page of the participant's progress");
+    command.option("--participant", options.participant, "By number, 1 to 999: no name is kept");
+    command.option("--date", options.date, "Of a run by --hand scripted, such as 2026-11-03, if not today's");
+}
+
+Result<void> prepare_results(const ResultsOptions& options, bool scripted) {
+    if (options.folder.empty() && options.participant)
+        return fail("--participant", "is of nothing that is kept", "name a folder with --results");
+    if (!options.date.empty()) {
+        if (!scripted || options.folder.empty())
+            return fail("--date",
+                        "is for runs that are kept and that no person does: " +
+                            std::string(scripted ? "there is no --results" : "there is no --hand scripted"),
+                        "leave it out: a person's run has today's date");
+        if (const auto date = activities::check_date(options.date); !date) return date;
+    }
+    if (options.folder.empty()) return {};
+    if (!options.participant)
+        return fail("--results " + options.folder, "does not say whose run it keeps", "give --participant, a number");
+    if (*options.participant < 1 || *options.participant > KeptRun::kMostParticipants)
+        return fail("--participant", formatted("is %u", *options.participant), "give a number from 1 to 999");
+    return activities::prepare_results(options.folder, *options.participant);
+}
+
+Result<void> keep_results(const ResultsOptions& options, const std::string& hand, const Json& report) {
+    if (options.folder.empty()) return {};
+    const KeptRun run{*options.participant, options.date.empty() ? now_as("%Y-%m-%d") : options.date,
+                      now_as("%H:%M:%S"), hand, report};
+    const auto path = activities::keep_run(options.folder, run);
+    if (!path) return std::unexpected(path.error());
+    const Result<activities::KeptRuns> kept = activities::read_runs(options.folder);
+    if (!kept) return std::unexpected(kept.error());
+    std::vector<const KeptRun*> own;
+    for (const KeptRun& other : kept->runs)
+        if (other.participant == run.participant && other.report.at("exercise") == report.at("exercise"))
+            own.push_back(&other);
+    if (const auto written = write_page(*kept, page_of(options.folder)); !written) return written;
+    std::printf("kept as %s; progress: %s\n", path->c_str(), page_of(options.folder).c_str());
+    if (!own.empty())
+        std::printf(
+            "%s\n",
+            activities::proposed(own, activities::levels_of(report.at("exercise").get<std::string>())).reason.c_str());
+    return {};
+}
+
+Result<void> rehab_report(const std::string& folder, const std::string& page) {
+    const Result<activities::KeptRuns> kept = activities::read_runs(folder);
+    if (!kept) return std::unexpected(kept.error());
+    if (kept->runs.empty() && kept->errors.empty())
+        return fail(folder, "holds no runs", "name the folder that --results was given");
+    const std::string to = page.empty() ? page_of(folder) : page;
+    if (const auto written = write_page(*kept, to); !written) return written;
+    std::printf("%zu runs: %s\n", kept->runs.size(), to.c_str());
+    if (kept->errors.empty()) return {};
+    for (std::size_t i = 1; i < kept->errors.size(); ++i)
+        std::fprintf(stderr, "burin: left out: %s\n", kept->errors[i].line().c_str());
+    return std::unexpected(kept->errors.front());
+}
+
+}  // namespace burin::app

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// What is kept of runs of exercises, what is proposed after them, and their page.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "activities/rehab/progress/progress.hpp"
+
+namespace burin::activities {
+namespace {
+
+namespace fs = std::filesystem;
+
+KeptRun run_of(unsigned participant, const std::string& date, double score, double level = 1,
+               const std::string& ended = "done") {
+    const auto finger = [](const char* name, double force_N) {
+        return Json{{"finger", name},
+                    {"peak_force_N", force_N},
+                    {"mean_force_N", 0.5 * force_N},
+                    {"range_of_motion_rad", Json::array({0.1, 0.5, 0.4, 0.3})},
+                    {"mean_speed_rad_per_s", 1.0},
+                    {"fractionation", Json()}};
+    };
+    return {participant,
+            date,
+            "10:15:00",
+            "simulated-glove",
+            {{"exercise", "ball"},
+             {"settings", {{"colour", "red"}, {"level", level}}},
+             {"ended", ended},
+             {"score", score},
+             {"time_s", 31.5},
+             {"counts", {{"repetitions", 5}}},
+             {"fingers", Json::array({finger("thumb", 2.0), finger("index", 1.0)})}}};
+}
+
+unsigned levels_of_ball(std::string_view exercise) { return exercise == "ball" ? 3 : 0; }
+
+Proposal after(const std::vector<KeptRun>& runs) {
+    std::vector<const KeptRun*> all;
+    for (const KeptRun& run : runs) all.push_back(&run);
+    return proposed(all, 3);
+}
+
+class KeptRunsFolder : public testing::Test {
+protected:
+    void SetUp() override { fs::remove_all(folder); }
+    void TearDown() override { fs::remove_all(folder); }
+    void keep(const KeptRun& run) {
+        ASSERT_TRUE(prepare_results(folder, run.participant));
+        const auto path = keep_run(folder, run);
+        ASSERT_TRUE(path) << path.error().line();
+    }
+    const fs::path folder = fs::temp_directory_path() / "burin-kept-runs";
+};
+
+}  // namespace
+
+TEST(Proposals, AreOfALevelUpOrDownAfterThreeRunsThatAgree) {
+    const auto day = [](int n) { return "2026-11-0" + std::to_string(n); };
+    const auto three = [&](double a, double b, double c, double level) {
+        return after({run_of(1, day(1), a, level), run_of(1, day(2), b, level), run_of(1, day(3), c, level)});
+    };
+    EXPECT_EQ(three(95, 90, 100, 1).level, 2u);
+    EXPECT_EQ(three(95, 90, 100, 1).reason, "Level 2 is proposed: the last three scores were 95, 90, 100.");
+    EXPECT_EQ(three(95, 89, 100, 1).level, 0u);
+    EXPECT_EQ(three(95, 90, 100, 3).level, 0u) << "there is no higher one";
+    EXPECT_EQ(three(40, 10, 0, 2).level, 1u);
+    EXPECT_EQ(three(40, 10, 0, 1).level, 0u) << "there is no lower one";
+    EXPECT_EQ(three(40, 41, 0, 2).level, 0u);
+    EXPECT_EQ(after({run_of(1, day(1), 99), run_of(1, day(2), 99)}).level, 0u);
+    const auto mixed = after({run_of(1, day(1), 99), run_of(1, day(2), 99, 2), run_of(1, day(3), 99, 2)});
+    EXPECT_TRUE(mixed.reason.contains("different settings")) << mixed.reason;
+    const auto broken = after({run_of(1, day(1), 99), run_of(1, day(2), 99, 1, "broken off"), run_of(1, day(3), 99)});
+    EXPECT_TRUE(broken.reason.contains("broken off")) << broken.reason;
+}
+
+TEST_F(KeptRunsFolder, AreReadAsTheyWereKeptByParticipantAndTime) {
+    keep(run_of(2, "2026-11-02", 50));
+    keep(run_of(1, "2026-11-03", 70));
+    keep(run_of(1, "2026-10-31", 60));
+    keep(run_of(1, "2026-11-03", 80));  // of the same second: a file of its own
+    const auto kept = read_runs(folder);
+    ASSERT_TRUE(kept) << kept.error().line();
+    EXPECT_TRUE(kept->errors.empty());
+    std::vector<double> scores;
+    for (const KeptRun& run : kept->runs) scores.push_back(run.report.at("score").get<double>());
+    EXPECT_EQ(scores.size(), 4u);
+    EXPECT_EQ(scores.front(), 60.0);
+    EXPECT_EQ(scores.back(), 50.0);
+    EXPECT_EQ(kept->runs.front().report, run_of(1, "2026-10-31", 60).report);
+}
+
+// A file that is cut, or is anything else, is named and left out; the others are read.
+TEST_F(KeptRunsFolder, TellWhatCannotBeRead) {
+    keep(run_of(1, "2026-11-03", 70));
+    const fs::path own = folder / "participant-001";
+    const fs::path whole = *fs::directory_iterator(own);
+    std::ifstream in(whole);
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::size_t wrong = 0;
+    for (const std::string& damaged :
+         {text.substr(0, text.size() / 2), std::string(), std::string("[1, 2]"), std::string("{\"run\": 7}"),
+          std::string("{\"run\": 1, \"participant\": -3}"),
+          std::string("{\"run\": 1, \"participant\": 1, \"date\": \"2026-13-45\", \"time\": \"10:00:00\", \"hand\": "
+                      "\"x\", \"report\": {}}"),
+          std::string("{\"run\": 1, \"participant\": 1, \"date\": \"2026-11-03\", \"time\": \"10:00:00\", \"hand\": "
+                      "\"x\", \"report\": {\"exercise\": \"ball\"}}")})
+        std::ofstream(own / ("wrong" + std::to_string(wrong++) + ".json")) << damaged;
+    const auto kept = read_runs(folder);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->runs.size(), 1u);
+    ASSERT_EQ(kept->errors.size(), wrong);
+    EXPECT_TRUE(kept->errors.front().line().contains("wrong0.json: is cut or damaged")) << kept->errors.front().line();
+    const std::string page = progress_page(*kept, levels_of_ball, "a test");
+    EXPECT_TRUE(page.contains("Left out: ") && page.contains("wrong3.json"));
+    EXPECT_FALSE(read_runs(folder / "nothing"));
+}
+
+TEST_F(KeptRunsFolder, KeepOlderRunsWhereANewOneCannotBeWritten) {
+    keep(run_of(1, "2026-11-03", 70));
+    std::ofstream(folder / "participant-002") << "a file, no folder";
+    EXPECT_FALSE(prepare_results(folder, 2));
+    EXPECT_FALSE(keep_run(folder, run_of(2, "2026-11-04", 10)));
+    const auto kept = read_runs(folder);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->runs.size(), 1u);
+}
+
+TEST(KeptRuns, HaveDatesOfTheCalendar) {
+    EXPECT_TRUE(check_date("2028-02-29"));
+    for (const char* wrong : {"2026-02-29", "2026-13-01", "26-11-03", "2026-11-3", "2026/11/03", "today", ""})
+        EXPECT_FALSE(check_date(wrong)) << wrong;
+    EXPECT_EQ(day_of("1970-01-02"), 1);
+    EXPECT_EQ(day_of("2026-11-03") - day_of("2026-10-31"), 3);
+}
+
+TEST(ProgressPage, ShowsEachParticipantByNumberAndSaysWhatNoPersonDid) {
+    KeptRuns kept;
+    for (int day = 1; day <= 5; ++day)
+        kept.runs.push_back(run_of(7, "2026-11-0" + std::to_string(day), 80.0 + 4.0 * day));
+    kept.runs.push_back(run_of(8, "2026-11-01", 20));
+    kept.runs.back().hand = "scripted, seed 4";
+    kept.runs.back().report["settings"]["note"] = "<script>";
+    const std::string page = progress_page(kept, levels_of_ball, "a test");
+    for (const char* text :
+         {"<h2>Participant 7: Ball</h2>", "<h2>Participant 8: Ball</h2>", "5 runs from 2026-11-01 to 2026-11-05",
+          "Level 2 is proposed: the last three scores were 92, 96, 100.",
+          "1 of these runs were done by a simulated hand", "&lt;script&gt;", "</svg>"})
+        EXPECT_TRUE(page.contains(text)) << text;
+    EXPECT_FALSE(page.contains("<script>"));
+    EXPECT_FALSE(page.contains("nan"));
+}
+
+}  // namespace burin::activities
