@@ -169,16 +169,23 @@ void HdServo::start() {
 
 void HdServo::stop() {
     if (!runs_) return;
+    // A turn that has begun may still write a force; the one after it writes none. A library whose thread does not come
+    // to it, as it waits for a device that is gone, is not waited for.
+    constexpr Nanoseconds kMostWait_ns = 500'000'000;
+    // relaxed: the flag and the count say nothing of other memory.
+    pauses_.store(true, std::memory_order_relaxed);
+    const std::uint64_t turns = turns_.load(std::memory_order_relaxed);
+    const Nanoseconds until_ns = clock_.now_ns() + kMostWait_ns;
+    while (turns_.load(std::memory_order_relaxed) < turns + 2 && clock_.now_ns() < until_ns)
+        clock_.sleep_until(clock_.now_ns() + 1'000'000);
     api_.stop_scheduler();
     api_.unschedule(scheduled_);
     runs_ = false;
+    pauses_.store(false, std::memory_order_relaxed);
 }
 
 void HdServo::close(HdDevice& device) {
     const std::lock_guard lock(mutex_);
-    // Its last force is zero: two turns without a command of the haptic thread.
-    device.command(Vec3(0.0));
-    if (runs_) clock_.sleep_until(clock_.now_ns() + 5'000'000);
     stop();
     if (device.handle_ != kHdNoDevice) api_.disable_device(device.handle_);
     std::ranges::replace(devices_, &device, nullptr);
@@ -190,6 +197,7 @@ void HdServo::turn() noexcept {
     for (HdDevice* const device : devices_)
         if (device != nullptr) serve(*device, now_ns);
     take_errors(clock_.now_ns());
+    turns_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void HdServo::serve(HdDevice& device, Nanoseconds now_ns) noexcept {
@@ -217,8 +225,8 @@ void HdServo::serve(HdDevice& device, Nanoseconds now_ns) noexcept {
     if (device.error_ != HdCondition::well) state.condition = device.error_;
     if (pose) state.pose_hd = *pose;
     const HdDevice::Wanted wanted = device.wanted_.newest();
-    const bool may =
-        state.condition == HdCondition::well && now_ns - wanted.time_ns < kSilent_ns && finite(wanted.force_N);
+    const bool may = !pauses_.load(std::memory_order_relaxed) && state.condition == HdCondition::well &&
+                     now_ns - wanted.time_ns < kSilent_ns && finite(wanted.force_N);
     Vec3 force_N = may ? wanted.force_N : Vec3(0.0);
     const double size_N = glm::length(force_N);
     if (device.most_N_ > 0.0 && size_N > device.most_N_) force_N *= device.most_N_ / size_N;

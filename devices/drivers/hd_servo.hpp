@@ -8,9 +8,10 @@
 // Errors of the library are a stack, newest first: each turn takes all of them, says which device they are of, and
 // leaves them for whoever shows them.
 // A device that says it is gone (no communication, a fault) is opened anew from a thread of its own, once in
-// kAgain_ns, when no other device of the library is well: opening stops the library's thread for all.
-// Threads: open() and close on one; newest() and command() on the haptic thread, wait-free; take_messages() on the
-// frame's. HDAPI is one for a process, so its servo is too.
+// kAgain_ns, when no other device of the library is well: opening stops the library's thread for all. Before that
+// thread is stopped, for whatever reason, it has written zero to every device. Threads: open() and close on one;
+// newest() and command() on the haptic thread, wait-free; take_messages() on the frame's. HDAPI is one for a process,
+// so its servo is too.
 #pragma once
 
 #include <array>
@@ -114,6 +115,8 @@ private:
     std::array<HdDevice*, kMostDevices> devices_{};  // changed while the scheduler stands
     bool runs_ = false;
     unsigned long scheduled_ = 0;
+    std::atomic<bool> pauses_ = false;      // all forces are zero, since the scheduler is about to stand
+    std::atomic<std::uint64_t> turns_ = 0;  // made so far
     std::atomic<bool> ends_ = false;
     std::thread watch_;
 };

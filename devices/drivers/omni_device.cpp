@@ -10,7 +10,6 @@
 #include <memory>
 #include <utility>
 
-#include "devices/drivers/hd_servo.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/hd_shared.hpp"
 
@@ -69,7 +68,7 @@ public:
         sample.time_ns = now_ns;
         sample.buttons = newest_.buttons;
         sample.fault = is_lost ? DeviceFault::disconnected : fault_of(newest_.condition);
-        const Pose pose = pose_at(now_ns - nanoseconds(kTurn_s));
+        const Pose pose = omni_pose_at(before_, newest_, now_ns - nanoseconds(kTurn_s));
         sample.position_device_m = pose.position_m - device_->workspace_middle_hd_m();
         sample.orientation_device = pose.orientation;
         may_push_ = sample.fault == DeviceFault::none;
@@ -83,18 +82,6 @@ public:
     [[nodiscard]] std::vector<std::string> take_messages() override { return device_->take_messages(); }
 
 private:
-    // Between the two newest turns, as far as the time is between theirs.
-    [[nodiscard]] Pose pose_at(Nanoseconds time_ns) const noexcept {
-        const Nanoseconds between_ns = newest_.time_ns - before_.time_ns;
-        if (before_.time_ns == 0 || between_ns <= 0 || between_ns > kOmniLost_ns) return newest_.pose_hd;
-        const double share = std::clamp(seconds(time_ns - before_.time_ns) / seconds(between_ns), 0.0, 1.0);
-        const Pose &from = before_.pose_hd, &to = newest_.pose_hd;
-        return {from.position_m + share * (to.position_m - from.position_m),
-                glm::normalize(glm::lerp(
-                    from.orientation,
-                    glm::dot(from.orientation, to.orientation) < 0.0 ? -to.orientation : to.orientation, share))};
-    }
-
     DeviceDescription description_ = omni_description();
     std::unique_ptr<HdDevice> device_;
     AnyHand hand_;
@@ -130,6 +117,16 @@ std::string emulated_library() {
 }
 
 }  // namespace
+
+Pose omni_pose_at(const HdState& before, const HdState& newest, Nanoseconds time_ns) noexcept {
+    const Nanoseconds between_ns = newest.time_ns - before.time_ns;
+    if (before.time_ns == 0 || between_ns <= 0 || between_ns > kOmniLost_ns) return newest.pose_hd;
+    const double share = std::clamp(seconds(time_ns - before.time_ns) / seconds(between_ns), 0.0, 1.0);
+    const Pose &from = before.pose_hd, &to = newest.pose_hd;
+    const Quat nearer = glm::dot(from.orientation, to.orientation) < 0.0 ? -to.orientation : to.orientation;
+    return {from.position_m + share * (to.position_m - from.position_m),
+            glm::normalize(glm::lerp(from.orientation, nearer, share))};
+}
 
 Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock) {
     const std::size_t at = name_at_library.find('@');

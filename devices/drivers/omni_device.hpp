@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/drivers/hd_servo.hpp"
 #include "devices/hand/any_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/presence/device_presence.hpp"
@@ -24,6 +25,10 @@ namespace burin::devices {
 inline constexpr const char* kOmni = "omni";
 inline constexpr Nanoseconds kOmniLost_ns = 20'000'000;
 inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
+
+// Returns where the stylus was at a time, about HDAPI's origin: on the straight line between two servo turns, and
+// nowhere beyond them.
+[[nodiscard]] Pose omni_pose_at(const HdState& before, const HdState& newest, Nanoseconds time_ns) noexcept;
 
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);

@@ -5,9 +5,11 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "devices/emulators/emulated_dtrack.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/emulators/emulated_vrpn.hpp"
+#include "devices/trackers/dtrack_protocol.hpp"
 
 namespace burin::devices {
 namespace {
@@ -41,10 +43,19 @@ Result<void> run_omni(const EmulatorOptions& options) {
     return {};
 }
 
+Result<void> run_dtrack(const EmulatorOptions& options) {
+    const auto to = network_address(options.at, {"127.0.0.1", kDTrackPort});
+    if (!to) return fail("emulated DTrack", "has no address " + options.at, "write HOST, PORT or HOST:PORT");
+    options.is_there("--tracker dtrack:" + std::to_string(to->port));
+    return run_emulated_dtrack(*to, options.silence, options.ends);
+}
+
 constexpr std::array kKinds{
     EmulatorKind{"glove", "a force-feedback glove on a serial line, whose fingers close and open", run_glove},
     EmulatorKind{"omni", "a PHANTOM Omni whose hand circles with its button down; --at emulated-2 for a second one",
                  run_omni},
+    EmulatorKind{"dtrack", "ART's DTrack with a head and a flystick that sway, which sends to 127.0.0.1:5000",
+                 run_dtrack},
     EmulatorKind{"vrpn", "a VRPN server with a head and a wand that sway, at 127.0.0.1:3883", run_vrpn},
 };
 

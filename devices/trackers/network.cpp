@@ -101,6 +101,19 @@ std::expected<BoundSocket, std::string> listen_at(const NetworkAddress& at) {
 
 std::expected<BoundSocket, std::string> receive_at(const NetworkAddress& at) { return bound_at(at, SOCK_DGRAM); }
 
+std::expected<OwnedFile, std::string> sender_to(const NetworkAddress& to) {
+    const auto address = resolved(to);
+    if (!address) return std::unexpected(address.error());
+    OwnedFile socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) != 0)
+        return because(errno);
+    return socket;
+}
+
+void send_datagram(const OwnedFile& socket, std::string_view datagram) {
+    static_cast<void>(::send(socket.get(), datagram.data(), datagram.size(), MSG_NOSIGNAL));
+}
+
 StopSign::StopSign() : file_(::eventfd(0, EFD_CLOEXEC)) {}
 
 void StopSign::give() const {

@@ -7,6 +7,7 @@
 #include <expected>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/clock.hpp"
@@ -49,6 +50,10 @@ struct BoundSocket {
 };
 [[nodiscard]] std::expected<BoundSocket, std::string> listen_at(const NetworkAddress& at);
 [[nodiscard]] std::expected<BoundSocket, std::string> receive_at(const NetworkAddress& at);
+
+// Opens a socket that sends datagrams to one address; a datagram that nobody takes is lost.
+[[nodiscard]] std::expected<OwnedFile, std::string> sender_to(const NetworkAddress& to);
+void send_datagram(const OwnedFile& socket, std::string_view datagram);
 
 // Lets a thread that waits for sockets be told to end.
 class StopSign {

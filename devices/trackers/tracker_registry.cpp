@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/trackers/dtrack_tracker.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "devices/trackers/udp_tracker.hpp"
 #include "devices/trackers/vrpn_tracker.hpp"
@@ -18,6 +19,10 @@ constexpr std::array kKinds{
         "vrpn:HOST or vrpn:HOST:PORT, a VRPN server, and after a comma which of its devices are the head and the "
         "wands: vrpn:localhost,head=Tracker0/0,wand0=Tracker0/1,buttons0=Button0,stick0=Analog0,axes=+x+y+z",
         VrpnTracker::open, look_for_vrpn},
+    TrackerKind{"dtrack",
+                "dtrack:PORT, or dtrack:ADDRESS:PORT for other machines: ART's DTrack, and after a comma which of its "
+                "bodies are the head and the wands: dtrack:5000,head=body/0,wand0=flystick/0,axes=+x+z-y",
+                open_dtrack},
 };
 
 bool is_pose_or_stick(const TrackerSample& sample) { return !std::holds_alternative<WandClick>(sample.input); }

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// ART's DTrack: a packet of its public documentation, packets that are not sound, and the emulated one over loopback.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "devices/emulators/emulated_dtrack.hpp"
+#include "devices/trackers/dtrack_tracker.hpp"
+
+namespace burin::devices {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A tracker on a free port of this machine, and a socket that sends to it.
+class HeardDTrack {
+public:
+    explicit HeardDTrack(const std::string& settings = "")
+        : tracker_(DTrackTracker::open("dtrack:0" + settings, {clock_, {}, {}}).value()),
+          sender_(sender_to({"127.0.0.1", tracker_->port()}).value()) {}
+    void send(const std::string& datagram) const { send_datagram(sender_, datagram); }
+    // Waits until so many samples have come, but not for ever.
+    [[nodiscard]] std::vector<TrackerSample> heard(std::size_t count) {
+        std::vector<TrackerSample> all;
+        for (int i = 0; i < 10'000 && all.size() < count; ++i) {
+            for (TrackerSample& sample : tracker_->take()) all.push_back(std::move(sample));
+            if (all.size() < count) std::this_thread::sleep_for(milliseconds(1));
+        }
+        return all;
+    }
+    // Waits until so much has been refused, but not for ever.
+    [[nodiscard]] std::uint64_t refused(std::uint64_t count) {
+        for (int i = 0; i < 5000 && tracker_->refused() < count; ++i) std::this_thread::sleep_for(milliseconds(1));
+        return tracker_->refused();
+    }
+    [[nodiscard]] std::string messages() {
+        for (const std::string& message : tracker_->take_messages()) said_ += message + "\n";
+        return said_;
+    }
+    [[nodiscard]] DTrackTracker& tracker() { return *tracker_; }
+
+private:
+    MonotonicClock clock_;
+    std::unique_ptr<DTrackTracker> tracker_;
+    OwnedFile sender_;
+    std::string said_;
+};
+
+const std::string kHead = "fr 1\r\n6d 1 [0 1.000][100 1650 2000 0 0 0][1 0 0 0 1 0 0 0 1]\r\n";
+
+}  // namespace
+
+// The sample of DTrackSDK's documentation.
+TEST(DTrackProtocol, ReadsThePublicSample) {
+    const DTrackFrame frame = dtrack_frame(
+        "fr 3823\r\nts 44597.741924\r\n6dcal 1\r\n6df2 1 1 [0 -1.000 8 3][0.000 0.000 0.000][0.000000 0.000000 "
+        "0.000000 "
+        "0.000000 0.000000 0.000000 0.000000 0.000000 0.000000][0 0.00 0.00 0.00] \r\n6d 1 [0 1.000][84.203 37.681 "
+        "172.102 99.1970 6.7130 9.6575][0.979069 0.086946 0.184021 -0.166608 -0.176923 0.970021 0.116897 -0.980377 "
+        "-0.158734] \r\n3d 0\r\n");
+    EXPECT_EQ(frame.fault, "");
+    EXPECT_EQ(frame.number, 3823u);
+    ASSERT_EQ(frame.bodies.size(), 1u);
+    EXPECT_TRUE(frame.bodies[0].is_tracked);
+    EXPECT_LT(glm::distance(frame.bodies[0].pose.position_m, Vec3(0.084203, 0.037681, 0.172102)), 1e-12);
+    // Its three angles say the same rotation: R = Rx(99.1970) Ry(6.7130) Rz(9.6575), in degrees.
+    const auto about = [](double degrees, const Vec3& axis) { return glm::angleAxis(glm::radians(degrees), axis); };
+    const Quat by_angles = about(99.1970, {1, 0, 0}) * about(6.7130, {0, 1, 0}) * about(9.6575, {0, 0, 1});
+    EXPECT_GT(std::abs(glm::dot(frame.bodies[0].pose.orientation, by_angles)), 1.0 - 1e-8);
+    ASSERT_EQ(frame.flysticks.size(), 1u);
+    EXPECT_FALSE(frame.flysticks[0].body.is_tracked);
+    EXPECT_EQ(frame.flysticks[0].button_count, 8u);
+    EXPECT_EQ(frame.flysticks[0].sticks.size(), 3u);
+}
+
+TEST(DTrackProtocol, ReadsBothFormsOfFlysticksAndTheNewerWhereBothAreThere) {
+    const std::string block = "[1 2 3][1 0 0 0 1 0 0 0 1]";
+    const DTrackFrame older = dtrack_frame("6df 1 [0 1.0 161][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]\n");
+    ASSERT_EQ(older.flysticks.size(), 1u);
+    EXPECT_EQ(older.flysticks[0].buttons, 161u);  // 0xa1: the first button, and both 0x20 and 0x80
+    EXPECT_EQ(older.flysticks[0].sticks, (std::vector<double>{-1.0, 0.0}));
+    EXPECT_EQ(dtrack_frame("6df 1 [0 1 192]" + block).flysticks[0].sticks, (std::vector<double>{1.0, 1.0}));
+    const DTrackFrame both =
+        dtrack_frame("6df2 2 1 [1 1.0 4 2]" + block + "[21 0.5 -0.25 9 9 9]\n6df 1 [0 1 0]" + block);
+    ASSERT_EQ(both.flysticks.size(), 1u);
+    EXPECT_EQ(both.flysticks[0].body.number, 1);
+    EXPECT_EQ(both.flysticks[0].buttons, 5u) << "it has four buttons: the fifth bit is none";
+    EXPECT_EQ(both.flysticks[0].sticks, (std::vector<double>{0.5, -0.25}));
+}
+
+TEST(DTrackProtocol, WritesWhatItReads) {
+    DTrackFrame frame;
+    frame.number = 7;
+    const Quat turned = glm::angleAxis(1.1, glm::normalize(Vec3(1.0, -2.0, 0.5)));
+    frame.bodies = {{0, true, {{0.1, 1.65, 2.0}, turned}}, {3, false, {}}};
+    frame.flysticks = {{{1, true, {{-0.4, 1.2, 1.4}, turned}}, 5, 9u, {0.25, -1.0}}};
+    const DTrackFrame again = dtrack_frame(dtrack_datagram(frame));
+    EXPECT_EQ(again.fault, "");
+    ASSERT_EQ(again.bodies.size(), 2u);
+    ASSERT_EQ(again.flysticks.size(), 1u);
+    EXPECT_LT(glm::distance(again.bodies[0].pose.position_m, frame.bodies[0].pose.position_m), 1e-6);
+    EXPECT_GT(std::abs(glm::dot(again.bodies[0].pose.orientation, turned)), 1.0 - 1e-9);
+    EXPECT_FALSE(again.bodies[1].is_tracked);
+    EXPECT_EQ(again.flysticks[0].buttons, 9u);
+    EXPECT_EQ(again.flysticks[0].sticks, frame.flysticks[0].sticks);
+}
+
+TEST(DTrackProtocol, LeavesOutALineThatIsCutAndNamesIt) {
+    const std::string whole = kHead;
+    int with_body = 0;
+    for (std::size_t length = 0; length <= whole.size(); ++length) {
+        const DTrackFrame frame = dtrack_frame(std::string_view(whole).substr(0, length));
+        if (frame.bodies.empty()) continue;
+        ++with_body;
+        EXPECT_EQ(frame.bodies[0].pose.orientation, Quat(1.0, 0.0, 0.0, 0.0)) << length;
+    }
+    EXPECT_EQ(with_body, 3) << "with its last bracket, and with either end of the line behind that";
+    EXPECT_EQ(dtrack_frame("6d 1 [0 1.0][1 2").fault, "6d");
+    EXPECT_EQ(dtrack_frame("6d 4000000000 [0 1.0]").fault, "6d");
+    EXPECT_EQ(dtrack_frame("6d 2 [0 1.0][1 2 3][1 0 0 0 1 0 0 0 1]").fault, "6d") << "two are said, and one comes";
+    EXPECT_EQ(dtrack_frame("6df2 1 1 [0 1.0 9999 2][1 2 3][1 0 0 0 1 0 0 0 1][0 0 0]").fault, "6df2");
+    EXPECT_EQ(dtrack_frame("6df2 1 1 [0 1.0 -5 nan][1 2 3][1 0 0 0 1 0 0 0 1][]").fault, "");
+    EXPECT_EQ(dtrack_frame("fr x").fault, "fr");
+    EXPECT_EQ(dtrack_frame("6dj 1 whatever [[\n6di 1\ngl 0\n").fault, "") << "lines of other kinds are no fault";
+}
+
+TEST(DTrackTracker, P2HearsHeadAndFlystickOfTheEmulatedOne) {
+    HeardDTrack dtrack;
+    std::atomic<bool> ends = false;
+    std::thread sends([&] {
+        EXPECT_TRUE(run_emulated_dtrack({"127.0.0.1", dtrack.tracker().port()}, {}, [&] { return ends.load(); }));
+    });
+    int heads = 0, wands = 0;
+    std::vector<WandClick> clicks;
+    for (int i = 0; i < 100 && clicks.size() < 2; ++i)
+        for (const TrackerSample& sample : dtrack.heard(10)) {
+            if (const auto* head = std::get_if<HeadInput>(&sample.input)) {
+                ++heads;
+                EXPECT_NEAR(head->pose_world.position_m.z, 2.0, 1e-7);
+                EXPECT_NEAR(2.0 * std::atan2(head->pose_world.orientation.y, head->pose_world.orientation.w),
+                            0.15 * head->pose_world.position_m.x / 0.2, 1e-6);
+            }
+            if (const auto* wand = std::get_if<WandInput>(&sample.input)) {
+                ++wands;
+                EXPECT_NEAR(glm::length(wand->pose_world.position_m - Vec3(0.3, 1.2, 1.4)), 0.15, 1e-6);
+            }
+            if (const auto* click = std::get_if<WandClick>(&sample.input)) clicks.push_back(*click);
+        }
+    ends = true;
+    sends.join();
+    EXPECT_GT(heads, 100);
+    EXPECT_GT(wands, 100);
+    ASSERT_GE(clicks.size(), 2u);
+    EXPECT_EQ(clicks[0], (WandClick{0, 0, true}));
+    EXPECT_EQ(clicks[1], (WandClick{0, 0, false}));
+    EXPECT_EQ(dtrack.tracker().refused(), 0u);
+    EXPECT_TRUE(dtrack.messages().contains("DTrack at 127.0.0.1 is there"));
+}
+
+TEST(DTrackTracker, AbsorbsTenThousandMeasurementsASecondAndHasTheNewest) {
+    HeardDTrack dtrack;
+    constexpr std::uint32_t kMeasurements = 10'000;
+    std::thread sends([&] {
+        DTrackFrame frame;
+        frame.bodies = {{0, true, {}}};
+        for (std::uint32_t number = 1; number <= kMeasurements; ++number) {
+            frame.number = number;
+            frame.bodies[0].pose.position_m.x = 0.0001 * number;
+            dtrack.send(dtrack_datagram(frame));
+            // Datagrams that a busy machine does not take in time are lost: a few at a time.
+            if (number % 20 == 0) std::this_thread::sleep_for(milliseconds(2));
+        }
+    });
+    std::size_t count = 0;
+    double newest_m = 0.0;
+    for (int i = 0; i < 2000 && newest_m < 0.99999; ++i) {
+        for (const TrackerSample& sample : dtrack.tracker().take()) {
+            ++count;
+            newest_m = std::get<HeadInput>(sample.input).pose_world.position_m.x;
+        }
+        std::this_thread::sleep_for(milliseconds(16));
+    }
+    sends.join();
+    EXPECT_EQ(count, std::size_t{kMeasurements});
+    EXPECT_NEAR(newest_m, 1.0, 1e-9);
+    EXPECT_EQ(dtrack.tracker().refused(), 0u);
+}
+
+TEST(DTrackTracker, LeavesOutWhatIsOvertakenAndWhatIsNoMeasurement) {
+    HeardDTrack dtrack(",head=body/0,axes=+x+z-y");
+    dtrack.send("fr 10\r\n6d 1 [0 1.0][100 200 300 0 0 0][1 0 0 0 1 0 0 0 1]\r\n");
+    const auto heard = dtrack.heard(1);
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_LT(glm::distance(std::get<HeadInput>(heard[0].input).pose_world.position_m, Vec3(0.1, 0.3, -0.2)), 1e-12);
+    dtrack.send("fr 9\r\n6d 1 [0 1.0][999 200 300 0 0 0][1 0 0 0 1 0 0 0 1]\r\n");
+    EXPECT_EQ(dtrack.refused(1), 1u);
+    dtrack.send("hello\n");
+    EXPECT_EQ(dtrack.refused(2), 2u);
+    dtrack.send("fr 11\r\n6d 1 [0 1.0][nan 200 300 0 0 0][1 0 0 0 1 0 0 0 1]\r\n");
+    EXPECT_EQ(dtrack.refused(3), 3u) << "a place that is no number";
+    dtrack.send("fr 12\r\n6d 1 [0 1.0][100 200 300 0 0 0][2 0 0 0 1 0 0 0 1]\r\n");
+    EXPECT_EQ(dtrack.refused(4), 4u) << "a rotation that is none";
+    dtrack.send("fr 13\r\n6d 1 [0 1.0][100 200 300 0 0 0][1 0");
+    EXPECT_EQ(dtrack.refused(5), 5u) << "a line that is cut";
+    EXPECT_TRUE(dtrack.tracker().take().empty());
+    dtrack.send("fr 14\r\n6d 1 [0 -1.0][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]\r\n");
+    const auto lost = dtrack.heard(1);
+    ASSERT_EQ(lost.size(), 1u);
+    EXPECT_FALSE(std::get<HeadInput>(lost[0].input).tracked);
+    EXPECT_LT(glm::distance(std::get<HeadInput>(lost[0].input).pose_world.position_m, Vec3(0.1, 0.3, -0.2)), 1e-12)
+        << "where it was last";
+}
+
+TEST(DTrackTracker, ListensToOneMachineUntilThatIsSilent) {
+    HeardDTrack dtrack;
+    dtrack.send(kHead);
+    ASSERT_EQ(dtrack.heard(1).size(), 1u);
+    // All of 127.0.0.0/8 is this machine: a second sender.
+    const auto other = receive_at({"127.0.0.2", 0}).value();
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(dtrack.tracker().port());
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const auto send_from_other = [&](const std::string& datagram) {
+        ASSERT_EQ(::sendto(other.socket.get(), datagram.data(), datagram.size(), 0,
+                           reinterpret_cast<const sockaddr*>(&to), sizeof(to)),
+                  static_cast<ssize_t>(datagram.size()));
+    };
+    send_from_other(kHead);
+    EXPECT_EQ(dtrack.refused(1), 1u);
+    EXPECT_TRUE(dtrack.messages().contains("gets measurements of a second machine"));
+    const auto lost = dtrack.heard(1);  // the first one is silent now
+    ASSERT_EQ(lost.size(), 1u);
+    EXPECT_FALSE(std::get<HeadInput>(lost[0].input).tracked);
+    EXPECT_TRUE(dtrack.messages().contains("DTrack is silent"));
+    send_from_other(kHead);
+    ASSERT_EQ(dtrack.heard(1).size(), 1u);
+    EXPECT_TRUE(dtrack.messages().contains("DTrack at 127.0.0.2 is there"));
+}
+
+TEST(DTrackTracker, SaysWhatIsWrongWithAnAddress) {
+    MonotonicClock clock;
+    const auto refusal = [&](const std::string& where) {
+        const auto tracker = open_tracker(where, {clock, {}, {}});
+        return tracker ? "nothing" : tracker.error().line();
+    };
+    EXPECT_TRUE(refusal("dtrack:localhost:x").contains("has no such port or address"));
+    EXPECT_TRUE(refusal("dtrack:10.255.255.1:0").contains("cannot be listened to"));
+    EXPECT_TRUE(refusal("dtrack:0,haed=body/0").contains("the nearest is head="));
+    HeardDTrack first;
+    EXPECT_TRUE(refusal("dtrack:" + std::to_string(first.tracker().port())).contains("another program may have"));
+}
+
+}  // namespace burin::devices
