@@ -56,6 +56,12 @@ Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) 
     return {va / sum, vb / sum, vc / sum};
 }
 
+// A body falls as a ball of the same volume.
+std::optional<FlightRoom> room_of(const SoftPartSetup& setup, std::optional<FlightRoom> room) {
+    if (room) room->radius_m = std::cbrt(setup.half_axes_m.x * setup.half_axes_m.y * setup.half_axes_m.z);
+    return room;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SoftPart>> SoftPart::create(const SoftPartSetup& given) {
@@ -71,6 +77,7 @@ Result<std::unique_ptr<SoftPart>> SoftPart::create(const SoftPartSetup& given) {
 
 SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
     : setup_(setup),
+      frame_(setup.scene_from_body, room_of(setup, setup.room)),
       body_(std::move(body)),
       state_(body_.at_rest()),
       touched_(ellipsoid_surface(body_.rest(), setup.half_axes_m, kTouchedLevel)),
@@ -80,6 +87,7 @@ SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
     for (std::uint32_t t = 0; t < touched_.triangles.size(); ++t)
         for (const std::uint32_t corner : touched_.triangles[t]) triangles_at_[corner].push_back(t);
     double core_kg = 0.0;
+    for (std::uint32_t i = 0; i < body_.corners(); ++i) mass_kg_ += body_.mass_kg(i);
     for (std::uint32_t i = 0; i < body_.corners(); ++i)
         if (glm::length(body_.rest().places_m[i] / setup.half_axes_m) < kCore) core_kg += body_.mass_kg(i);
     for (std::uint32_t i = 0; i < body_.corners(); ++i)
@@ -92,11 +100,14 @@ void SoftPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord>
     if (hands_.size() <= hand) hands_.resize(hand + 1);
     if (ticks.empty()) return;
     const haptics::ContactRecord& contact = ticks.back().contact;
-    const Pose body_from_scene = scene::inverse(setup_.scene_from_body);
+    frame_.take_tick(hand, ticks.back());
+    hands_[hand].time_ns = ticks.back().time_ns;
     hands_[hand].points = contact.point_count;
     for (std::uint32_t i = 0; i < contact.point_count; ++i)
-        hands_[hand].places_m[i] = body_from_scene * contact.points[i].hip_object_m;
+        hands_[hand].places_scene_m[i] = contact.points[i].hip_object_m;
 }
+
+void SoftPart::fall_among(FlightRoom room) { frame_.use(room_of(setup_, std::move(room))); }
 
 // The contact of a point with the surface as it is now; nothing where it is far away.
 std::optional<SoftContact> SoftPart::contact_at(const Vec3& point_m) const {
@@ -146,9 +157,10 @@ void SoftPart::find_contacts() {
     }
     pressed_.clear();
     contacts_.clear();
+    const Pose body_from_scene = scene::inverse(frame_.pose());
     for (std::size_t hand = 0; hand < hands_.size(); ++hand)
         for (std::uint32_t i = 0; i < hands_[hand].points; ++i) {
-            const Vec3& place_m = hands_[hand].places_m[i];
+            const Vec3 place_m = body_from_scene * hands_[hand].places_scene_m[i];
             const auto contact = contact_at(place_m);
             if (!contact) continue;
             pressed_.push_back({hand, i, place_m, -contact->normal});
@@ -169,15 +181,24 @@ void SoftPart::make_models(Nanoseconds now_ns) {
         geometry::LocalModel model;
         model.point = at.point;
         model.object = setup_.object;
-        model.normal_object = setup_.scene_from_body.orientation * at.normal;
-        model.place_object_m = setup_.scene_from_body * at.place_m;
+        model.normal_object = frame_.pose().orientation * at.normal;
+        model.place_object_m = frame_.pose() * at.place_m;
+        model.velocity_object_m_per_s = frame_.velocity_at(model.place_object_m);
         model.stiffness_N_per_m = std::clamp(secant, kLeastShare * surface_N_per_m, surface_N_per_m);
         model.force_N = force_N > 0.0 ? force_N : model.stiffness_N_per_m * contact.depth_m(state_.places_m);
         model.damping_Ns_per_m = kDamping_s * model.stiffness_N_per_m;
         model.surface_N_per_m = surface_N_per_m;
-        model.time_ns = now_ns;
+        // A hand that holds the body has taken it to where the hand was then.
+        model.time_ns = frame_.is_held() ? hands_[at.hand].time_ns : now_ns;
         hands_[at.hand].models.push_back(model);
     }
+}
+
+// The acceleration of the whole body by what touches it.
+Vec3 SoftPart::push_m_per_s2() const {
+    Vec3 sum_N(0.0);
+    for (const SoftContact& contact : contacts_) sum_N += contact.force_N(state_.places_m) * contact.normal;
+    return frame_.pose().orientation * sum_N / mass_kg_;
 }
 
 bool SoftPart::rests() const {
@@ -195,6 +216,9 @@ Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recor
     if (!stepped_to_ns_) stepped_to_ns_ = now_ns;
     const Nanoseconds due = (now_ns - *stepped_to_ns_) / setup_.step_ns;
     *stepped_to_ns_ += due * setup_.step_ns;
+    const Pose before = frame_.pose();
+    frame_.update(now_ns, push_m_per_s2());
+    has_moved_ = has_moved_ || frame_.pose() != before;
     find_contacts();
     const int steps = rests() ? 0 : static_cast<int>(std::min<Nanoseconds>(due, kMostSteps));
     for (int i = 0; i < steps; ++i) {
@@ -222,7 +246,7 @@ std::span<const geometry::LocalModel> SoftPart::models(std::size_t hand) const {
 void SoftPart::take_changes(scene::SceneChanges& changes) {
     if (!std::exchange(has_moved_, false)) return;
     auto shape = std::make_shared<SoftShape>();
-    shape->scene_from_body = setup_.scene_from_body;
+    shape->scene_from_body = frame_.pose();
     shape->places_m = places_of(drawn_, state_.places_m);
     changes.drawn.push_back(std::move(shape));
 }

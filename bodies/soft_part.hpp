@@ -7,8 +7,9 @@
 // and how it will change (geometry/contact/local_model.hpp) -> add_near() hands these to the publisher. The body is
 // drawn as take_changes() tells it. The stiffness of a model is the secant: the force over how deep the point is in the
 // body at rest. It says how the body gives when it is pressed slowly, which is what a finger does within a step of 4 ms
-// (docs/decisions/030-bodies-that-give.md). The body is held at its place by springs on its core. It has no weight
-// there. Hardest cases: an update that comes late steps kMostSteps at most and leaves the rest of the time out, and its
+// (docs/decisions/030-bodies-that-give.md). The body is held in its frame by springs on its core. The frame stands,
+// goes with a hand or flies (bodies/body_frame.hpp); what its acceleration does inside the body is not felt.
+// Hardest cases: an update that comes late steps kMostSteps at most and leaves the rest of the time out, and its
 // old models fade by themselves. A body at rest that nobody is near is not stepped. Frame: the scene's; the body's own
 // has its middle at the origin. Deterministic: an update depends on its time and its ticks alone. Threads: as any
 // part's (scene/scene_part.hpp).
@@ -20,6 +21,7 @@
 #include <optional>
 #include <vector>
 
+#include "bodies/body_frame.hpp"
 #include "bodies/mesh/embedded_surface.hpp"
 #include "bodies/solver/soft_body.hpp"
 #include "bodies/solver/soft_step.hpp"
@@ -37,7 +39,9 @@ struct SoftPartSetup {
     Nanoseconds step_ns = 4'000'000;
     unsigned sweeps = 4;
     double point_radius_m = 0.001;  // of a probe's points
-    double held_N_per_m = 3000.0;   // with which its core is held at its place
+    double held_N_per_m = 3000.0;   // with which its core is held in its frame
+    // What it falls among when a hand has let go of it; its radius is the body's. None: it stays where it was left.
+    std::optional<FlightRoom> room = {};
 };
 
 // Its surface as an update left it, for pictures, on its way to the frames.
@@ -66,6 +70,11 @@ public:
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return drawn_.triangles; }
     // Returns the models of a hand's points as of the last update.
     [[nodiscard]] std::span<const geometry::LocalModel> models(std::size_t hand) const;
+    // Where the body is, and what hands do with it as a whole; from the scene's thread, between updates.
+    [[nodiscard]] BodyFrame& frame() { return frame_; }
+    [[nodiscard]] const BodyFrame& frame() const { return frame_; }
+    // What it falls among from now on; the radius is the body's.
+    void fall_among(FlightRoom room);
     // The body, its state now, and the number of steps since creation, which measures their cost.
     [[nodiscard]] const SoftBody& body() const { return body_; }
     [[nodiscard]] const SoftState& state() const { return state_; }
@@ -80,7 +89,8 @@ private:
     };
     struct Hand {
         std::uint32_t points = 0;
-        std::array<Vec3, haptics::kMostProbePoints> places_m{};  // in the body's frame
+        std::array<Vec3, haptics::kMostProbePoints> places_scene_m{};
+        Nanoseconds time_ns = 0;  // when they were there
         std::vector<geometry::LocalModel> models;
     };
 
@@ -88,10 +98,13 @@ private:
     void find_contacts();
     [[nodiscard]] std::optional<SoftContact> contact_at(const Vec3& point_m) const;
     void make_models(Nanoseconds now_ns);
+    [[nodiscard]] Vec3 push_m_per_s2() const;
     [[nodiscard]] bool rests() const;
 
     SoftPartSetup setup_;
+    BodyFrame frame_;
     SoftBody body_;
+    double mass_kg_ = 0.0;
     SoftState state_;
     SoftSolver solver_;
     EmbeddedSurface touched_, drawn_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "base/text.hpp"
 #include "session/record/session_check.hpp"
@@ -26,6 +28,30 @@ void each_turn(std::span<const session::PartView> parts, Each each) {
         }
         if (all) each(ticks);
     }
+}
+
+constexpr double kLost_m = 0.4;            // below its place
+constexpr double kRolling_m_per_s2 = 1.0;  // soft, on cloth
+
+// What a body falls among: a box around each object that is felt, and nothing below them. What bears the body where it
+// stands, such as a ring in which a ball sinks a little, is as high as the body's lowest point.
+bodies::FlightRoom room_among(const session::WorldObjects& world, const bodies::SoftPartSetup& body) {
+    bodies::FlightRoom room;
+    room.restitution = 0.6;
+    room.tangential_kept = 0.8;
+    room.rolling_m_per_s2 = kRolling_m_per_s2;
+    const Vec3 stands = body.scene_from_body.position_m;
+    const double low_m = stands.y - body.half_axes_m.y;
+    for (const auto& object : world.objects) {
+        if (!object->felt || object->id == body.object) continue;
+        Box box;
+        for (const Vec3& p : object->mesh->positions_m) box.include(object->pose * (object->scale * p));
+        const bool bears = box.lo.y < low_m && box.hi.y >= low_m && std::abs(stands.x - box.center().x) < 0.01 &&
+                           std::abs(stands.z - box.center().z) < 0.01;
+        if (bears) box.hi.y = low_m;
+        if (!box.empty()) room.obstacles.emplace_back(box);
+    }
+    return room;
 }
 
 FingersTurn fingers_of(const FingerTicks& ticks, double dt_s) {
@@ -73,10 +99,34 @@ void Rehab::take_over(const session::ActivityView& view, session::ActivityOrders
     const scene::SceneObject* own = view.world != nullptr ? view.world->find(body_->setup().object) : nullptr;
     if (own != nullptr && object_.empty()) {
         object_ = own->name;
+        if (exercise_->is_carried())
+            orders.on_scene.push_back(
+                [body = body_.get(), room = room_among(*view.world, body_->setup())] { body->fall_among(room); });
         orders.edits.push_back({object_, ObjectProperty::felt, {0.0}});
         orders.edits.push_back({object_, ObjectProperty::seen, {0.0}});
     }
     has_given_way_ = own == nullptr || !own->seen;
+}
+
+void Rehab::carry(std::span<const session::HoldObject> holds, session::ActivityOrders& orders) {
+    for (const session::HoldObject& hold : holds) {
+        if (hold.object != object_) continue;
+        std::vector<std::size_t> parts;  // of the only hand, which is the first: as the scene counts them
+        for (const session::PartOfHand& of : hold.by) parts.push_back(of.part);
+        orders.on_scene.push_back([body = body_.get(), parts] {
+            if (parts.empty())
+                body->frame().let_go();
+            else
+                body->frame().take_hold(parts);
+        });
+    }
+    const Pose& stands = body_->setup().scene_from_body;
+    const bool is_lost = scene_from_drawn_.position_m.y < stands.position_m.y - kLost_m;
+    if (is_lost && !std::exchange(is_lost_, true)) {
+        orders.on_scene.push_back([body = body_.get(), stands] { body->frame().put(stands.position_m); });
+        orders.messages.push_back("the " + object_ + " has fallen down, and is back at its place");
+    }
+    is_lost_ = is_lost;
 }
 
 void Rehab::take_shape(const session::ActivityView& view) {
@@ -92,7 +142,8 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
     take_shape(view);
     hand_.step(view, orders);
     orders.trials.clear();  // a trial is the exercise's here, not a grasp
-    orders.holds.clear();   // the body stays at its place
+    const auto holds_now = std::exchange(orders.holds, {});
+    if (exercise_->is_carried()) carry(holds_now, orders);
     const auto parts = view.hands.front().parts;
     if (parts.size() < kFelt) return;
     const bool holds = hand_.gesture().grasps() && !hand_.grasps().empty() && hand_.grasps().back().object == object_;

@@ -44,6 +44,8 @@ public:
 private:
     void take_over(const session::ActivityView& view, session::ActivityOrders& orders);
     void take_shape(const session::ActivityView& view);
+    // Has the body follow what the hand has taken hold of and let go of.
+    void carry(std::span<const session::HoldObject> holds, session::ActivityOrders& orders);
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders);
 
     std::unique_ptr<Exercise> exercise_;
@@ -53,6 +55,7 @@ private:
     bool has_given_way_ = false;                        // the world's own
     std::shared_ptr<const renderer::DrawnMesh> drawn_;  // the body, as of the update that the frame has taken
     Pose scene_from_drawn_;
+    bool is_lost_ = false;  // the body has fallen so deep that nobody reaches it
     Nanoseconds turn_ns_ = 0;
     HandMeasures measures_;
     std::size_t written_ = 0;  // events

@@ -88,6 +88,7 @@ void ActivitySide::carry_out(ActivityOrders wanted, SessionState& state, Session
     for (const std::string& message : wanted.messages) orders.messages.push_back({message});
     for (const std::string& name : wanted.screenshots) orders.screenshots.push_back({name});
     std::ranges::move(wanted.trials, std::back_inserter(trials_));
+    std::ranges::move(wanted.on_scene, std::back_inserter(on_scene_));
     orders.parameters = orders.parameters || wanted.parameters;
     state.quit = state.quit || wanted.quit;
 }

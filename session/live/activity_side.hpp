@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -59,6 +60,8 @@ public:
     }
     // Returns the trials that it has begun and ended since the last call.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
+    // Returns what it wants done on the scene's thread since the last call.
+    [[nodiscard]] std::vector<std::function<void()>> take_on_scene() { return std::exchange(on_scene_, {}); }
     // Returns what it has written into the recording since the last call.
     [[nodiscard]] std::vector<EventMark> take_events() { return std::exchange(events_, {}); }
     // Returns Activity::check(); 0 without an activity.
@@ -78,6 +81,7 @@ private:
     std::vector<scene::DrawnShare> drawn_;
     std::vector<TrialMark> trials_;  // not taken yet, as are
     std::vector<EventMark> events_;
+    std::vector<std::function<void()>> on_scene_;
 };
 
 }  // namespace burin::session

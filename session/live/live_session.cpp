@@ -38,6 +38,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     }
     if (before) hold_governed(*before, step.orders);
     activity_.step(state_, step.orders, input.time_ns, hands(), tools_);
+    for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
     scene_.news().frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     hands().move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -103,7 +104,10 @@ struct ActivityOrders {
     std::vector<std::string> messages;     // for the user, on panel and terminal
     std::vector<std::string> screenshots;  // names
     std::vector<TrialMark> trials;         // kept where a session file is recorded
-    bool parameters = false;               // adjust() has changed
+    // Done on the scene's thread before its next update, in order: what its own part of the scene is told. Whatever a
+    // function refers to must outlive the session.
+    std::vector<std::function<void()>> on_scene;
+    bool parameters = false;  // adjust() has changed
     bool quit = false;
 };
 

@@ -22,6 +22,7 @@ public:
     [[nodiscard]] const char* name() const override { return "ball"; }
     [[nodiscard]] const SettingValues& settings() const override { return values_; }
     [[nodiscard]] bodies::SoftPartSetup body() const override;
+    [[nodiscard]] bool is_carried() const override { return true; }
     [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.colour).srgb; }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
