@@ -57,7 +57,7 @@ void BodyFrame::let_go() {
     held_by_.clear();
     velocities_ = {};
     FlyingBall ball{pose_.position_m, Vec3(0.0), {}};
-    if (been_.size() > 1) {
+    if (been_.size() > 1 && flown_to_ns_ - been_.back().time_ns <= kThrow_ns) {
         const double over_s = seconds(been_.back().time_ns - been_.front().time_ns);
         ball.velocity_m_per_s = scene::velocities_between(been_.front().pose, been_.back().pose, over_s).linear_m_per_s;
     }
@@ -78,6 +78,13 @@ void BodyFrame::put(const Vec3& place_m) {
     flying_.reset();
     pose_.position_m = place_m;
     velocities_ = {};
+}
+
+void BodyFrame::use(std::optional<FlightRoom> room) {
+    room_ = std::move(room);
+    if (!flying_) return;
+    flying_->support.reset();  // a number among the obstacles before
+    if (!room_) put(flying_->place_m);
 }
 
 void BodyFrame::follow_hand() {
@@ -102,7 +109,7 @@ void BodyFrame::fly_on(Nanoseconds now_ns, const Vec3& push_m_per_s2) {
     if (now_ns <= flown_to_ns_) return;
     const double time_s = seconds(now_ns - flown_to_ns_);
     if (push_m_per_s2 != Vec3(0.0)) {
-        flying_->velocity_m_per_s += time_s * push_m_per_s2;
+        flying_->velocity_m_per_s += std::min(time_s, kMostPush_s) * push_m_per_s2;
         flying_->support.reset();
     }
     flying_ = flight_of(*flying_, *room_, time_s).ball;

@@ -25,8 +25,11 @@ namespace burin::bodies {
 
 class BodyFrame {
 public:
-    // A ball that is let go of flies with the mean velocity of this time.
+    // A ball that is let go of flies with the mean velocity of this time; without one where the hand has told nothing
+    // for so long.
     static constexpr Nanoseconds kThrow_ns = 20'000'000;
+    // A push counts for so long at most, however late an update comes: it is known as of the update before.
+    static constexpr double kMostPush_s = 0.016;
 
     // room: what it falls among; none: it stays where a hand has left it.
     BodyFrame(const Pose& stands, std::optional<FlightRoom> room) : pose_(stands), room_(std::move(room)) {}
@@ -40,7 +43,8 @@ public:
     void fly(const FlyingBall& ball, Nanoseconds at_ns);
     // Puts it to a place, where it stands.
     void put(const Vec3& place_m);
-    void use(std::optional<FlightRoom> room) { room_ = std::move(room); }
+    // What it falls among from now on. What rolls has to find anew what bears it.
+    void use(std::optional<FlightRoom> room);
 
     // Brings it to a time. push_m_per_s2: the acceleration by what touched it since the last update; only what flies
     // follows it.

@@ -62,15 +62,19 @@ std::uint32_t whole(double value) {
 DTrackBody body_of(const std::vector<double>& who, const std::vector<double>& place_mm,
                    const std::vector<double>& rotation) {
     DTrackBody body;
-    body.number = static_cast<std::int32_t>(std::min(whole(who[0]), 1'000'000u));
+    constexpr double kMostNumber = 1e6;
+    // What is no number is -1, which no body has.
+    body.number = who[0] >= 0.0 && who[0] <= kMostNumber ? static_cast<std::int32_t>(who[0]) : -1;
     body.is_tracked = who[1] >= 0.0;
     body.pose.position_m = 0.001 * Vec3(place_mm[0], place_mm[1], place_mm[2]);
     glm::dmat3 turn;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row) turn[column][row] = rotation[static_cast<std::size_t>(3 * column + row)];
-    // What is no rotation becomes a quaternion of no length, which nobody takes for one.
-    const bool is_rotation = std::abs(glm::determinant(turn) - 1.0) < 0.01 &&
-                             std::abs(glm::dot(turn[0], turn[1])) < 0.01 && std::abs(glm::length(turn[0]) - 1.0) < 0.01;
+    // What is no rotation becomes a quaternion of no length, which nobody takes for one. Columns of length 1 that span
+    // the volume 1 are at right angles (Hadamard's inequality).
+    bool is_rotation = std::abs(glm::determinant(turn) - 1.0) < 0.01;
+    for (int column = 0; column < 3; ++column)
+        is_rotation = is_rotation && std::abs(glm::length(turn[column]) - 1.0) < 0.01;
     body.pose.orientation = is_rotation ? glm::normalize(glm::quat_cast(turn)) : Quat(0.0, 0.0, 0.0, 0.0);
     return body;
 }

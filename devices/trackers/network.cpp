@@ -65,6 +65,8 @@ std::optional<NetworkAddress> network_address(const std::string& text, const Net
     std::uint16_t port = 0;
     const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), port);
     const bool is_port = !last.empty() && error == std::errc{} && end == last.data() + last.size();
+    const bool is_number = !last.empty() && last.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && !is_port) return std::nullopt;  // beyond 65535; as a machine it would be an address of four bytes
     if (is_port) address.port = port;
     if (colon == std::string::npos && !is_port && !text.empty()) address.host = text;
     if (colon != std::string::npos) {

@@ -94,6 +94,17 @@ TEST_F(KeptRunsFolder, AreReadAsTheyWereKeptByParticipantAndTime) {
     EXPECT_EQ(kept->runs.front().report, run_of(1, "2026-10-31", 60).report);
 }
 
+// What is proposed depends on which run was the last.
+TEST_F(KeptRunsFolder, AreInTheOrderInWhichTheyWereDoneWithinASecond) {
+    constexpr int kRuns = 11;
+    for (int i = 0; i < kRuns; ++i) keep(run_of(1, "2026-11-03", i));
+    const auto kept = read_runs(folder);
+    ASSERT_TRUE(kept) << kept.error().line();
+    ASSERT_EQ(kept->runs.size(), std::size_t{kRuns});
+    for (int i = 0; i < kRuns; ++i)
+        EXPECT_EQ(kept->runs[static_cast<std::size_t>(i)].report.at("score").get<double>(), i);
+}
+
 // A file that is cut, or is anything else, is named and left out; the others are read.
 TEST_F(KeptRunsFolder, TellWhatCannotBeRead) {
     keep(run_of(1, "2026-11-03", 70));

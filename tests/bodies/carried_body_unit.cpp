@@ -78,6 +78,13 @@ public:
             EXPECT_TRUE(part_->update(now_ns_, nullptr));
         }
     }
+    // Updates alone, as when the device has fallen silent.
+    void updates_without_ticks(double for_s, double each_s = 0.004) {
+        for (int i = static_cast<int>(for_s / each_s + 0.5); i > 0; --i) {
+            now_ns_ += nanoseconds(each_s);
+            EXPECT_TRUE(part_->update(now_ns_, nullptr));
+        }
+    }
     void grasp() { part_->frame().take_hold(std::array<std::size_t, 2>{0, 1}); }
     void let_go() { part_->frame().let_go(); }
     // The largest change of a finger's force from a turn to the next since the last call, and the largest force.
@@ -171,6 +178,47 @@ TEST(CarriedBody, FliesAsItWasThrown) {
     const Vec3 fallen = thrown_at + 0.14 * velocity + Vec3(0.0, -0.5 * 9.81 * 0.14 * 0.14, 0.0);
     EXPECT_LT(glm::length(hand.place_m() - fallen), 1e-9);
     EXPECT_TRUE(hand.part().frame().flies());
+}
+
+// A device that tells nothing more leaves the ball where the hand was last, which is no throw.
+TEST(CarriedBody, FallsWithoutAThrowFromAHandThatHasFallenSilent) {
+    Carrying hand;
+    hand.go_on(0.1, still_at(kPedestal_m), pressed(kOpenHand_m));
+    hand.grasp();
+    const double from_s = hand.now_s();
+    hand.go_on(0.1, [&](double t) { return kPedestal_m + Vec3(0.0, (t - from_s) * 2.0, 0.0); }, pressed(kOpenHand_m));
+    const Vec3 silent_at = hand.place_m();
+    hand.updates_without_ticks(0.5);
+    hand.let_go();
+    hand.updates_without_ticks(0.1);
+    EXPECT_LT(glm::length(hand.place_m() - silent_at - Vec3(0.0, -0.5 * 9.81 * 0.1 * 0.1, 0.0)), 1e-9);
+}
+
+// The push is as old as the update before: it is not what pressed through all the time that an update is late.
+TEST(CarriedBody, IsNotHurledByAnUpdateThatComesLate) {
+    Carrying hand;
+    hand.go_on(0.1, still_at(kPedestal_m), pressed(0.003));
+    hand.part().frame().fly({kPedestal_m + Vec3(0.003, 1.0, 0.0), Vec3(0.0), {}}, nanoseconds(hand.now_s()));
+    hand.go_on(0.012, still_at(kPedestal_m + Vec3(0.0, 1.0, 0.0)), pressed(0.001));
+    const Vec3 before = hand.part().frame().velocity_at(hand.place_m());
+    hand.updates_without_ticks(0.3, 0.3);
+    const Vec3 after = hand.part().frame().velocity_at(hand.place_m());
+    EXPECT_LT(std::abs(after.x - before.x), 1.0);
+}
+
+TEST(CarriedBody, ThatRollsFallsWhenWhatItRolledOnIsTakenAway) {
+    SoftPartSetup setup = on_a_table();
+    std::swap(setup.room->obstacles[0], setup.room->obstacles[1]);  // the table last
+    Carrying hand(setup);
+    hand.part().frame().fly({kPedestal_m, {0.3, 0.0, 0.0}, {}}, 0);
+    hand.updates_without_ticks(0.1);
+    ASSERT_NEAR(hand.place_m().y, 0.5, 1e-6);
+    ASSERT_TRUE(hand.part().frame().flies()) << "it rolls";
+    FlightRoom room = *setup.room;
+    room.obstacles.pop_back();
+    hand.part().fall_among(room);
+    hand.updates_without_ticks(0.2);
+    EXPECT_NEAR(hand.place_m().y, 0.5 - 0.5 * 9.81 * 0.2 * 0.2, 0.005);
 }
 
 TEST(CarriedBody, FallsOnTheTableBouncesAndCanBeSqueezedThere) {

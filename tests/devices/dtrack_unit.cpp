@@ -94,6 +94,20 @@ TEST(DTrackProtocol, ReadsBothFormsOfFlysticksAndTheNewerWhereBothAreThere) {
     EXPECT_EQ(both.flysticks[0].sticks, (std::vector<double>{0.5, -0.25}));
 }
 
+// Each passes some of the checks of a rotation: a stretched one of the volume 1, and one whose third column leans.
+TEST(DTrackProtocol, TakesNoOtherMatrixForARotationAndNoOtherNumberForABody) {
+    for (const std::string turn : {"1 0 0 0 2 0 0 0 0.5", "1 0 0 0 1 0 3 0 1"}) {
+        const DTrackFrame frame = dtrack_frame("6d 1 [0 1.0][100 200 300 0 0 0][" + turn + "]");
+        ASSERT_EQ(frame.bodies.size(), 1u) << frame.fault;
+        EXPECT_EQ(glm::length(frame.bodies[0].pose.orientation), 0.0) << turn;
+    }
+    for (const std::string number : {"-1", "nan", "1e9"}) {
+        const DTrackFrame frame = dtrack_frame("6d 1 [" + number + " 1.0][0 0 0 0 0 0][1 0 0 0 1 0 0 0 1]");
+        ASSERT_EQ(frame.bodies.size(), 1u) << frame.fault;
+        EXPECT_EQ(frame.bodies[0].number, -1) << number;
+    }
+}
+
 TEST(DTrackProtocol, WritesWhatItReads) {
     DTrackFrame frame;
     frame.number = 7;
@@ -251,6 +265,7 @@ TEST(DTrackTracker, SaysWhatIsWrongWithAnAddress) {
         return tracker ? "nothing" : tracker.error().line();
     };
     EXPECT_TRUE(refusal("dtrack:localhost:x").contains("has no such port or address"));
+    EXPECT_TRUE(refusal("dtrack:99999").contains("has no such port or address")) << "99999 is no machine's name";
     EXPECT_TRUE(refusal("dtrack:10.255.255.1:0").contains("cannot be listened to"));
     EXPECT_TRUE(refusal("dtrack:0,haed=body/0").contains("the nearest is head="));
     HeardDTrack first;

@@ -150,7 +150,11 @@ Result<KeptRuns> read_runs(const fs::path& folder) {
             files.push_back(at->path());
     }
     if (error) return fail(folder.string(), "cannot be read: " + error.message(), "see to its permissions");
-    std::ranges::sort(files);
+    // Of two of one second the later has a number, or a greater one, behind the same name.
+    std::ranges::sort(files, {}, [](const fs::path& file) {
+        const std::string name = file.stem().string();
+        return std::tuple(file.parent_path(), name.size(), name);
+    });
     KeptRuns kept;
     for (const fs::path& file : files) {
         Result<KeptRun> run = run_of(file);
