@@ -98,6 +98,47 @@ TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
         EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
+// The glove at the far end of a line, whose fingers close and open by themselves. In real time, on machines that may
+// be busy: how much of it counts is not foretold.
+TEST_F(RehabSessions, RunOnAGloveAreRecordedAndDoneAgainToTheBit) {
+    const auto recorded = at.run(
+        "(" + std::string(kBurinCommand) + " glove emulate --seconds 60 > " + path("port.txt") +
+        " &) ; while ! test -s " + path("port.txt") + "; do sleep 0.05; done; " +
+        rehab("--device glove:$(cat " + path("port.txt") + ") --offscreen --repetitions 1 --hold 0.1 --record " +
+              path("g.session") + " --results " + path("results") + " --participant 12 --report " + path("g.json")));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const Json json = Json::parse(at.read("g.json"));
+    ASSERT_FALSE(json.at("events").empty()) << recorded.output;
+    EXPECT_EQ(json.at("events").at(0).at("what"), "begun");
+    EXPECT_GT(json.at("fingers").at(1).at("range_of_motion_rad").at(1).get<double>(), 0.2) << recorded.output;
+    EXPECT_TRUE(at.read("results/report.html").contains("Participant 12: Ball"));
+    EXPECT_TRUE(recorded.output.contains("results/participant-012/")) << recorded.output;
+    const auto replayed =
+        at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("g.session"));
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
+TEST_F(RehabSessions, KeepRunsOfAParticipantAndToldDays) {
+    const std::string kept = "--hand scripted --offscreen --repetitions 1 --results " + path("results");
+    for (const char* day : {"2026-11-02", "2026-11-04"}) {
+        const auto run = at.run(rehab(kept + " --participant 3 --date " + day));
+        ASSERT_EQ(run.status, 0) << run.output;
+        EXPECT_TRUE(run.output.contains("Level 1 stays")) << run.output;
+    }
+    const std::string page = at.read("results/report.html");
+    EXPECT_TRUE(page.contains("2 runs from 2026-11-02 to 2026-11-04")) << page.substr(0, 2000);
+    EXPECT_TRUE(page.contains("2 of these runs were done by a simulated hand"));
+    for (const char* wrong :
+         {"--results r", "--participant 3", "--results r --participant 0",
+          "--results r --participant 3 --date 2026-11-02",
+          "--hand scripted --results r --participant 3 --date 2026-02-30", "--hand scripted --date 2026-11-02"})
+        EXPECT_NE(at.run(rehab(std::string("--offscreen ") + wrong)).status, 0) << wrong;
+    const auto nothing = at.run(std::string(kBurinCommand) + " rehab report " + path("nowhere"));
+    EXPECT_EQ(nothing.status, 1);
+    EXPECT_TRUE(nothing.output.contains("is no folder of results")) << nothing.output;
+}
+
 TEST_F(RehabSessions, SayWhatTheyTake) {
     EXPECT_EQ(at.run(rehab("--time-limit 0")).status, 1);
     EXPECT_EQ(at.run(rehab("--level 9")).status, 1);

@@ -127,6 +127,45 @@ TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
     EXPECT_GT(in_contact, 300);
 }
 
+// A body that gives, beside a carved surface: models come each 4 ms, more of them than there is room for and some that
+// are none, and then stay away.
+TEST(HapticLoop, StepsOnABodyThatGivesAllocateLockThrowAndOpenNothing) {
+    std::vector<devices::HandPose> script;
+    for (int i = 0; i < 50; ++i) script.push_back({0.2 * i, Vec3(0.0, i % 2 == 0 ? 0.05 : 0.02, 0.0)});
+    test::Rig rig(script);
+    TickParameters parameters;
+    parameters.probe.points[0].radius_m = 0.005;
+    rig.publish(parameters, 1);
+    geometry::LocalSurface surface = *test::groove(0.005, 0.1, 24, 60, 2e-5);
+    int pushed = 0;
+    burin::test::RealtimeCounts total;
+    for (int i = 0; i < 5000; ++i) {
+        if (i % 4 == 0 && i % 1000 < 800) {
+            surface.models = {};
+            for (std::uint32_t n = 0; n < geometry::LocalModels::kMost + 3; ++n) {
+                geometry::LocalModel model;
+                model.point = n % 3;  // the probe has one
+                model.object = 2;
+                model.normal_object = n % 5 == 4 ? Vec3(0.0) : Vec3(0.0, 1.0, 0.0);
+                model.place_object_m = Vec3(0.0, 0.03, 0.0);
+                model.stiffness_N_per_m = 10.0;
+                model.surface_N_per_m = 100.0;
+                model.time_ns = rig.clock.now_ns();
+                surface.models.add(model);
+            }
+            rig.publish(surface, static_cast<std::uint64_t>(i) + 1);
+        }
+        rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
+        const burin::test::RealtimeScope scope;
+        const TickRecord record = rig.loop.step();
+        total += scope.counts();
+        pushed += record.contact.points[0].object == 2;
+    }
+    expect_none(total);
+    EXPECT_GT(pushed, 1000);
+    EXPECT_LT(pushed, 4500);
+}
+
 TEST(HapticLoop, TurnsOfTwentyPartsAllocateLockThrowAndOpenNothing) {
     test::PartsRig rig(test::point_hands(20, 2.0));
     const test::Surface sphere = test::fingertip_sphere();

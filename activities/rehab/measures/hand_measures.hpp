@@ -31,7 +31,7 @@ struct FingersTurn {
 // A mean force is over the time in which the finger was pushed at all: more than kPushed_N. A mean speed is over the
 // windows in which it moved at all: more than kMoved_rad.
 struct FingerMeasures {
-    static constexpr double kPushed_N = 0.05, kWindow_s = 0.05, kMoved_rad = 0.01;
+    static constexpr double kPushed_N = 0.05, kWindow_s = 0.05, kMoved_rad = 0.01, kLed_rad = 0.5;
 
     double peak_N = 0.0, pushed_s = 0.0, impulse_Ns = 0.0;
     std::array<double, devices::kFingerJoints> least_rad{}, most_rad{};
@@ -41,9 +41,9 @@ struct FingerMeasures {
     [[nodiscard]] double mean_N() const { return pushed_s > 0.0 ? impulse_Ns / pushed_s : 0.0; }
     [[nodiscard]] double range_rad(std::size_t joint) const { return most_rad[joint] - least_rad[joint]; }
     [[nodiscard]] double mean_rad_per_s() const { return moved_s > 0.0 ? moved_rad / moved_s : 0.0; }
-    // Nothing where it never led.
+    // Nothing where it led by less than kLed_rad in all: chance has led then.
     [[nodiscard]] std::optional<double> fractionation() const {
-        return led_rad > 0.0 ? std::optional(1.0 - followed_rad / led_rad) : std::nullopt;
+        return led_rad >= kLed_rad ? std::optional(1.0 - followed_rad / led_rad) : std::nullopt;
     }
     bool operator==(const FingerMeasures&) const = default;
 };

@@ -35,21 +35,22 @@ double bending_deg(const Json& finger) {
            });
 }
 
-// A plot over the days since the first run.
-plot::Plot over_days(const std::string& title, const std::string& unit) {
+// A plot over the days since the first run, from zero to at least `highest`: so that what hardly changes looks so.
+plot::Plot over_days(const std::string& title, const std::string& unit, double highest) {
     plot::Plot made;
     made.title = title;
     made.x_label = "day";
     made.y_label = unit;
     made.x_linear = made.y_linear = true;
+    made.y_highest = highest;
     return made;
 }
 
 // A line for each finger, of one figure of it.
 template <typename Figure>
 plot::Plot of_fingers(const Runs& runs, int first_day, const std::string& title, const std::string& unit,
-                      Figure figure) {
-    plot::Plot made = over_days(title, unit);
+                      double highest, Figure figure) {
+    plot::Plot made = over_days(title, unit, highest);
     std::map<std::string, std::size_t> places;
     for (const KeptRun* run : runs)
         for (const Json& finger : run->report.at("fingers")) {
@@ -65,8 +66,7 @@ plot::Plot of_fingers(const Runs& runs, int first_day, const std::string& title,
 
 std::string figures_of(const Runs& runs) {
     const int first_day = day_of(runs.front()->date);
-    plot::Plot scores = over_days("Score", "of 100");
-    scores.y_highest = 100.0;
+    plot::Plot scores = over_days("Score", "of 100", 100.0);
     std::map<double, std::size_t> levels;
     for (const KeptRun* run : runs) {
         const double level = number_at(run->report.at("settings"), "level");
@@ -76,19 +76,19 @@ std::string figures_of(const Runs& runs) {
             {static_cast<double>(day_of(run->date) - first_day), number_at(run->report, "score"), ""});
     }
     const auto of = [](const char* key) { return [key](const Json& finger) { return number_at(finger, key); }; };
-    std::vector<plot::Plot> fingers{
-        of_fingers(runs, first_day, "Highest force", "N", of("peak_force_N")),
-        of_fingers(runs, first_day, "Mean force while pushed", "N", of("mean_force_N")),
-        of_fingers(runs, first_day, "How far each finger bent, its three joints together", "degrees", bending_deg),
-        of_fingers(runs, first_day, "Mean speed of bending", "degrees a second",
+    std::vector<plot::Plot> plots{
+        scores,
+        of_fingers(runs, first_day, "Highest force", "N", 1.0, of("peak_force_N")),
+        of_fingers(runs, first_day, "Mean force while pushed", "N", 1.0, of("mean_force_N")),
+        of_fingers(runs, first_day, "Bending of three joints together", "degrees", 90.0, bending_deg),
+        of_fingers(runs, first_day, "Mean speed of bending", "degrees a second", 60.0,
                    [](const Json& finger) { return kDegrees * number_at(finger, "mean_speed_rad_per_s"); }),
-        of_fingers(runs, first_day, "Fractionation: 1 where the others stay still", "", of("fractionation"))};
-    std::erase_if(fingers.back().series, [](const plot::PlotSeries& series) {
+        of_fingers(runs, first_day, "Fractionation", "1: others still, 0: all move", 1.0, of("fractionation"))};
+    std::erase_if(plots.back().series, [](const plot::PlotSeries& series) {
         return std::ranges::none_of(series.points, [](const plot::PlotPoint& point) { return std::isfinite(point.y); });
     });
-    if (fingers.back().series.empty()) fingers.pop_back();
-    return "<div class=\"wide\">\n" + plot::svg_figure("Score over days", {scores}) + "</div>\n<div class=\"wide\">\n" +
-           plot::svg_figure("The hand over days", fingers, 2) + "</div>\n";
+    if (plots.back().series.empty()) plots.pop_back();
+    return "<div class=\"wide\">\n" + plot::svg_figure("Day by day", plots, 3) + "</div>\n";
 }
 
 std::string pairs_of(const Json& object) {
