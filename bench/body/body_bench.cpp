@@ -71,13 +71,101 @@ Result<BodyBenchFigures> measure_body(const BodyBenchTask& task) {
     if (!body) return std::unexpected(body.error());
     constexpr unsigned kLevel = 4;
     const bodies::EmbeddedSurface surface = bodies::ellipsoid_surface(body->rest(), Vec3(task.radius_m), kLevel);
-    BodyBenchFigures figures{task, body->rest().cells.size(), body->corners(), {}, {}};
+    BodyBenchFigures figures{task, body->rest().cells.size(), body->corners(), {}, {}, {}, {}, {}, {}, {}};
     for (const double closed : kSqueezes) figures.squeezes.push_back(pressed(task, *body, surface, closed, 4, 0.004));
     if (task.quick) return figures;
     for (const auto& [sweeps, dt_s] : kSweepsAndSteps)
         figures.settings.push_back(pressed(task, *body, surface, 0.1, sweeps, dt_s));
+    figures.still = hold_putty(task.still_s);
+    figures.kneaded = knead_putty(task.kneads);
+    figures.grasps = grasp_at_random(task.grasps);
+    figures.meeting = squeeze_until_they_meet();
+    figures.felt = feel_between_steps();
     return figures;
 }
+
+namespace {
+
+std::string table_of_trials(const BodyBenchFigures& figures) {
+    const StillPutty& still = figures.still;
+    const KneadedPutty& kneaded = figures.kneaded;
+    const RandomGrasps& grasps = figures.grasps;
+    std::string text = formatted(
+        "putty under still fingers: dent %.3f mm after %.0f s, %.3f mm after %.0f s, %+.4f %%; as the paper prints it "
+        "%+.0f %% from the first frame on\n",
+        1e3 * still.early_dent_m, still.early_s, 1e3 * still.late_dent_m, still.late_s,
+        100.0 * (still.late_dent_m / still.early_dent_m - 1.0),
+        100.0 * (still.paper_late_m3 / still.paper_early_m3 - 1.0));
+    text += formatted(
+        "kneaded %zu times: volume %+.2f %%, worst element %.3f of its own, %zu inverted when pressed, %zu of "
+        "%zu stopped, %.2f ms a step\n",
+        kneaded.kneads, 100.0 * (kneaded.volume_share - 1.0), kneaded.least_share, kneaded.inverted, kneaded.stopped,
+        kneaded.elements, kneaded.step_ms);
+    text += formatted(
+        "%zu random grasps: %zu not finite, asked %.1f N, given %.2f N of %.0f, %zu with an inverted element "
+        "after\n",
+        grasps.grasps, grasps.not_finite, grasps.most_asked_N, grasps.most_given_N, grasps.limit_N,
+        grasps.inverted_after);
+    text += "two fingers in by a share of the radius\n   share         N     volume   least\n";
+    for (const MeetingFingers& at : figures.meeting)
+        text += formatted("%8.1f %9.3f %+8.2f %% %7.3f\n", at.share, at.force_N, 100.0 * (at.volume_share - 1.0),
+                          at.least_share);
+    text += "felt between steps\n     kPa     Hz   most N  held off N  model off N  true step N  felt step N\n";
+    for (const FeltBetweenSteps& felt : figures.felt)
+        text += formatted("%8.0f %6.0f %8.2f %11.4f %12.4f %12.4f %12.4f\n", 1e-3 * felt.young_Pa, felt.hertz,
+                          felt.most_N, felt.held_off_N, felt.model_off_N, felt.true_step_N, felt.felt_step_N);
+    return text;
+}
+
+Json json_of_trials(const BodyBenchFigures& figures) {
+    const StillPutty& still = figures.still;
+    const KneadedPutty& kneaded = figures.kneaded;
+    const RandomGrasps& grasps = figures.grasps;
+    Json json{{"still_putty",
+               {{"early_s", still.early_s},
+                {"late_s", still.late_s},
+                {"early_dent_m", still.early_dent_m},
+                {"late_dent_m", still.late_dent_m},
+                {"change", still.late_dent_m / still.early_dent_m - 1.0},
+                {"early_N", still.early_N},
+                {"late_N", still.late_N},
+                {"change_as_the_paper_prints_it", still.paper_late_m3 / still.paper_early_m3 - 1.0}}},
+              {"kneaded_putty",
+               {{"kneads", kneaded.kneads},
+                {"volume_share", kneaded.volume_share},
+                {"volume_share_of_the_surface", kneaded.enclosed_share},
+                {"least_volume_share_of_an_element", kneaded.least_share},
+                {"inverted_when_pressed", kneaded.inverted},
+                {"worst_quality_of_a_rest_shape", kneaded.worst_rest_quality},
+                {"elements", kneaded.elements},
+                {"stopped", kneaded.stopped},
+                {"timing", {{"step_ms", kneaded.step_ms}}}}},
+              {"random_grasps",
+               {{"grasps", grasps.grasps},
+                {"not_finite", grasps.not_finite},
+                {"most_asked_N", grasps.most_asked_N},
+                {"most_given_N", grasps.most_given_N},
+                {"limit_N", grasps.limit_N},
+                {"with_an_inverted_element_after", grasps.inverted_after}}},
+              {"two_fingers_that_meet", Json::array()},
+              {"felt_between_steps", Json::array()}};
+    for (const MeetingFingers& at : figures.meeting)
+        json["two_fingers_that_meet"].push_back({{"share_of_radius", at.share},
+                                                 {"force_N", at.force_N},
+                                                 {"volume_share", at.volume_share},
+                                                 {"least_volume_share_of_an_element", at.least_share}});
+    for (const FeltBetweenSteps& felt : figures.felt)
+        json["felt_between_steps"].push_back({{"young_Pa", felt.young_Pa},
+                                              {"hertz", felt.hertz},
+                                              {"most_N", felt.most_N},
+                                              {"off_with_the_surface_held_still_N", felt.held_off_N},
+                                              {"off_with_the_local_model_N", felt.model_off_N},
+                                              {"largest_true_step_N", felt.true_step_N},
+                                              {"largest_felt_step_N", felt.felt_step_N}});
+    return json;
+}
+
+}  // namespace
 
 std::string body_bench_table(const BodyBenchFigures& figures) {
     std::string text =
@@ -87,7 +175,7 @@ std::string body_bench_table(const BodyBenchFigures& figures) {
     for (const PressedBall& ball : figures.squeezes) text += line_of(ball);
     if (!figures.settings.empty()) text += "over sweeps and steps\n";
     for (const PressedBall& ball : figures.settings) text += line_of(ball);
-    return text;
+    return figures.task.quick ? text : text + table_of_trials(figures);
 }
 
 Json body_bench_json(const BodyBenchFigures& figures) {
@@ -97,6 +185,7 @@ Json body_bench_json(const BodyBenchFigures& figures) {
               {"sweeps_and_steps", Json::array()}};
     for (const PressedBall& ball : figures.squeezes) json["squeezes"].push_back(json_of(ball));
     for (const PressedBall& ball : figures.settings) json["sweeps_and_steps"].push_back(json_of(ball));
+    if (!figures.task.quick) json.update(json_of_trials(figures));
     return json;
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The ball game's rules, by throws whose way is worked out by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "activities/rehab/game/game_exercise.hpp"
+
+namespace burin::activities {
+namespace {
+
+constexpr double kCupped = 0.5, kFlat = 0.0;
+
+// A game whose hand is led from place to place.
+class Played {
+public:
+    explicit Played(const GameSettings& settings) : settings_(settings) {}
+    void turn(const Vec3& grip_m, double closure, double turn_s = 0.001) {
+        now_ns_ += static_cast<Nanoseconds>(1e9 * turn_s + 0.5);
+        GameStep step = step_game(state, settings_, room, {now_ns_, grip_m, closure});
+        state = step.state;
+        events.insert(events.end(), step.events.begin(), step.events.end());
+    }
+    void stay(const Vec3& grip_m, double closure, double for_s, double turn_s = 0.001) {
+        for (double t = 0.5 * turn_s; t < for_s; t += turn_s) turn(grip_m, closure, turn_s);
+    }
+    // Takes the ball from its place and throws it; returns where it leaves the hand.
+    Vec3 throws(const Vec3& velocity) {
+        Vec3 at = room.serve_m;
+        stay(at, kFlat, 0.01);
+        stay(at, kCupped, 0.01);
+        for (int i = 0; i < 50; ++i) turn(at += 0.001 * velocity, kCupped);
+        turn(at += 0.001 * velocity, kFlat);
+        return at;
+    }
+    [[nodiscard]] bool has(std::string_view what) const {
+        return std::ranges::any_of(events, [&](const GameEvent& event) { return event.what == what; });
+    }
+    GameRoom room;
+    GameState state;
+    std::vector<GameEvent> events;
+
+private:
+    GameSettings settings_;
+    Nanoseconds now_ns_ = 1'000'000'000;
+};
+
+// Where a thrown ball is some seconds after it has left the hand, having hit the wall and not the floor.
+Vec3 back_from_wall(const Played& game, const GameSettings& settings, const Vec3& from, const Vec3& v, double t) {
+    const double g = 9.81 * settings.weight(), kept = game.room.tangential_kept, e = game.room.restitution;
+    const double wall_s = (from.z - game.room.wall_z_m - game.room.radius_m) / -v.z, left_s = t - wall_s;
+    const double hit_y = from.y + v.y * wall_s - 0.5 * g * wall_s * wall_s, rise = kept * (v.y - g * wall_s);
+    return {from.x + v.x * wall_s + kept * v.x * left_s, hit_y + rise * left_s - 0.5 * g * left_s * left_s,
+            game.room.wall_z_m + game.room.radius_m - e * v.z * left_s};
+}
+
+}  // namespace
+
+TEST(GameExercise, CountsACatchWhereTheBallComesBackInto) {
+    for (const GameSpeed speed : {GameSpeed::slow, GameSpeed::fast}) {
+        const GameSettings settings{.speed = speed, .throws = 1};
+        Played game(settings);
+        const Vec3 velocity(0.02, 0.3, -0.6), from = game.throws(velocity);
+        const Vec3 there = back_from_wall(game, settings, from, velocity, 0.7);
+        game.stay(there, kFlat, 0.55);  // it is open while the ball passes on its way to the wall
+        game.stay(there, kCupped, 0.3);
+        EXPECT_TRUE(game.has(game_event::kHit));
+        EXPECT_EQ(game.state.catches, 1u);
+        EXPECT_EQ(game.state.end, GameEnd::done);
+        EXPECT_DOUBLE_EQ(score_of(game.state, settings), 100.0);
+        Played beside(settings);
+        beside.throws(velocity);
+        beside.stay(there + Vec3(2.0 * GameState::kReach_m, 0.0, 0.0), kCupped, 60.0);
+        EXPECT_EQ(beside.state.misses, 1u);
+    }
+}
+
+TEST(GameExercise, CatchesNothingWithAnOpenHandOrAFist) {
+    const GameSettings settings{.throws = 1};
+    for (const double closure : {0.1, 0.99}) {
+        Played game(settings);
+        const Vec3 velocity(0.0, 0.3, -0.6), from = game.throws(velocity);
+        game.stay(back_from_wall(game, settings, from, velocity, 0.9), closure, 60.0);
+        EXPECT_EQ(game.state.catches, 0u) << closure;
+        EXPECT_EQ(game.state.misses, 1u);
+    }
+}
+
+// At neither end of the turn is the ball in the hand, and the hand is open at its beginning.
+TEST(GameExercise, CatchesABallThatPassesWithinATurn) {
+    const GameSettings settings{.throws = 1};
+    Played game(settings);
+    const Vec3 velocity(0.0, 0.3, -0.6), from = game.throws(velocity);
+    const Vec3 there = back_from_wall(game, settings, from, velocity, 0.9);
+    game.stay(there + Vec3(0.0, 0.0, 0.5), kFlat, 0.8);
+    ASSERT_GT(glm::length(game.state.ball.place_m - there), 1.2 * GameState::kReach_m);
+    game.turn(there - Vec3(0.0, 0.0, 0.5), 0.9, 0.2);
+    EXPECT_EQ(game.state.catches, 1u);
+}
+
+TEST(GameExercise, CountsAMissBelowTheLineAndWithTheSecondBounce) {
+    Played low({.level = 3, .throws = 1});
+    low.throws({0.0, 0.0, -0.6});
+    low.stay({5.0, 5.0, 5.0}, kCupped, 2.0);
+    EXPECT_TRUE(low.has(game_event::kBelow));
+    EXPECT_EQ(low.state.misses, 1u);
+    Played twice({.throws = 1});
+    twice.throws({0.0, 0.2, -0.6});
+    twice.stay({5.0, 5.0, 5.0}, kCupped, 20.0);
+    EXPECT_TRUE(twice.has(game_event::kHit));
+    EXPECT_EQ(std::ranges::count(twice.events, game_event::kBounced, &GameEvent::what), 2);
+    EXPECT_EQ(twice.state.misses, 1u);
+}
+
+TEST(GameExercise, EndsWithItsTimeAndTellsWhatCannotBe) {
+    Played game({.time_limit_s = 0.5});
+    game.stay(Vec3(1.0), kFlat, 1.0);
+    EXPECT_EQ(game.state.end, GameEnd::time_over);
+    EXPECT_NEAR(game.state.time_s(), 0.5, 1e-9);
+    EXPECT_TRUE(problems(GameSettings{}).empty());
+    EXPECT_EQ(problems({.level = 4, .throws = 0, .time_limit_s = 0.0}).size(), 3u);
+}
+
+}  // namespace burin::activities
