@@ -19,7 +19,7 @@ std::span<const ExerciseKind> all_kinds() {
         ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "assets/worlds/hand.toml",
                      "assets/sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball},
         ExerciseKind{"putty", "Knead putty that keeps its dents, pinched or in the whole hand",
-                     "assets/worlds/hand.toml", "assets/sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make,
+                     "assets/worlds/putty.toml", "assets/sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make,
                      scripted_putty, Putty::grip},
     };
     return kinds;

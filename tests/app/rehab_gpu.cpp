@@ -76,7 +76,7 @@ TEST_F(RehabSessions, WithPuttyAreDoneAgainToTheBit) {
     const auto recorded = at.run(rehab(
         "--hand scripted --offscreen --kneads 1 --hardness soft --seed 2 --record " + path("p.session"), "putty"));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    EXPECT_TRUE(recorded.output.contains("the hand pinches ball")) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the hand pinches putty")) << recorded.output;
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("p.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;

@@ -47,10 +47,11 @@ std::string with_squeezes(std::string_view script, const std::vector<ScriptedSqu
         text += line;
         script.remove_prefix(end);
     }
-    for (std::size_t i = 0; i < squeezes.size(); ++i) {
-        text += formatted("%.3f button press left\n", squeezes[i].closes_s);
-        if (i == 0) text += formatted("%.3f command screenshot squeezed.png\n", squeezes[i].opens_s - 0.05);
-        text += formatted("%.3f button release left\n", squeezes[i].opens_s);
+    const auto shown = std::ranges::find(squeezes, false, &ScriptedSqueeze::too_short);
+    for (auto squeeze = squeezes.begin(); squeeze != squeezes.end(); ++squeeze) {
+        text += formatted("%.3f button press left\n", squeeze->closes_s);
+        if (squeeze == shown) text += formatted("%.3f command screenshot squeezed.png\n", squeeze->opens_s - 0.05);
+        text += formatted("%.3f button release left\n", squeeze->opens_s);
     }
     const double end_s = squeezes.empty() ? 0.0 : squeezes.back().opens_s + kOpens_s;
     return text + formatted("%.3f command quit\n", end_s);

@@ -8,7 +8,7 @@
 namespace burin::activities {
 namespace {
 
-// It takes the place of the world's ball, as assets/worlds/hand.toml has it: its number, and the top of its stand.
+// It takes the place of the world's putty, as assets/worlds/putty.toml has it: its number, and the top of its stand.
 constexpr std::uint32_t kObject = 2;
 constexpr Vec3 kOnStand_m{0.02, 0.0475, 0.0};
 // A ball as two fingertips take it, and an ellipsoid that lies across the fingers.
