@@ -254,23 +254,30 @@ void HdServo::calibrate(HdDevice& device) noexcept {
 
 void HdServo::take_errors(Nanoseconds now_ns) noexcept {
     constexpr int kMost = 16;  // a turn; what is left is taken in the next
+    // Of those of a turn the gravest counts, whatever their order: else each turn would bring a new one.
+    std::array<HdError, kMostDevices> gravest{};
     for (int i = 0; i < kMost; ++i) {
         const HdError error = api_.error();
-        if (error.code == 0) return;
+        if (error.code == 0) break;
         bool is_of_one = false;
         for (HdDevice* const device : devices_)
             is_of_one = is_of_one || (device != nullptr && device->handle_ == error.device);
         // An error of no device that is open is taken to be of all.
-        for (HdDevice* const device : devices_) {
-            if (device == nullptr || (is_of_one && device->handle_ != error.device)) continue;
-            const HdCondition condition = condition_of(error.code);
-            const bool is_new = device->error_ != condition;
-            device->error_ = condition;
-            device->error_ns_ = now_ns;
-            // relaxed: the watch only looks whether it has work.
-            device->is_gone_.store(condition == HdCondition::gone, std::memory_order_relaxed);
-            if (is_new) device->notices_.push(error);
+        for (std::size_t at = 0; at < kMostDevices; ++at) {
+            if (devices_[at] == nullptr || (is_of_one && devices_[at]->handle_ != error.device)) continue;
+            if (gravest[at].code == 0 || condition_of(error.code) > condition_of(gravest[at].code)) gravest[at] = error;
         }
+    }
+    for (std::size_t at = 0; at < kMostDevices; ++at) {
+        if (gravest[at].code == 0) continue;
+        HdDevice& device = *devices_[at];
+        const HdCondition condition = condition_of(gravest[at].code);
+        const bool is_new = device.error_ != condition;
+        device.error_ = condition;
+        device.error_ns_ = now_ns;
+        // relaxed: the watch only looks whether it has work.
+        device.is_gone_.store(condition == HdCondition::gone, std::memory_order_relaxed);
+        if (is_new) device.notices_.push(gravest[at]);
     }
 }
 

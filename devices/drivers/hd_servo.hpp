@@ -6,7 +6,7 @@
 // the haptic thread has given a force within the last kSilent_ns, the device is calibrated, its state is sound, and no
 // error has come within kErrorHolds_ns: so whatever fails, the last force written is zero.
 // Errors of the library are a stack, newest first: each turn takes all of them, says which device they are of, and
-// leaves them for whoever shows them.
+// leaves the gravest of each device for whoever shows it.
 // A device that says it is gone (no communication, a fault) is opened anew from a thread of its own, once in
 // kAgain_ns, when no other device of the library is well: opening stops the library's thread for all. Before that
 // thread is stopped, for whatever reason, it has written zero to every device. Threads: open() and close on one;
@@ -30,6 +30,7 @@
 
 namespace burin::devices {
 
+// The graver the later.
 enum class HdCondition : std::uint8_t { well, uncalibrated, unsound, warm, too_fast, force_error, gone };
 
 struct HdState {

@@ -240,6 +240,22 @@ TEST(Omni, APoseThatIsNoneAndErrorsOfTheMotorsTakeTheForce) {
     EXPECT_TRUE(said.contains("the velocity is too great (0x0203")) << said;
 }
 
+TEST(Omni, TellsTheGraverOfTwoErrorsAndNotBothAnewWithEachTurn) {
+    RunningOmni running(own_name());
+    TickedOmni omni(own_name());
+    ASSERT_TRUE(omni.is_well());
+    running->raise(kHdWarmMotors);
+    ASSERT_TRUE(omni.ticks_until(Vec3(0.0), [](const DeviceSample& s) { return s.fault == DeviceFault::overheated; }));
+    static_cast<void>(omni.messages());
+    running->fall_silent(true);
+    ASSERT_TRUE(
+        omni.ticks_until(Vec3(0.0), [](const DeviceSample& s) { return s.fault == DeviceFault::disconnected; }));
+    for (int i = 0; i < 20; ++i) static_cast<void>(omni.tick(Vec3(0.0)));
+    const std::vector<std::string> said = omni.opened().messages->take_messages();
+    EXPECT_FALSE(said.empty());
+    EXPECT_LE(said.size(), 2u);
+}
+
 TEST(Omni, WaitsForItsCalibrationWithoutForceAndSaysWhatToDo) {
     RunningOmni running(own_name());
     running->need_calibration(kHdCalibrationNeedsHand);
