@@ -50,6 +50,8 @@ Result<void> prepare_results(const ResultsOptions& options, bool scripted) {
                             std::string(scripted ? "there is no --results" : "there is no --hand scripted"),
                         "leave it out: a person's run has today's date");
         if (const auto date = activities::check_date(options.date); !date) return date;
+        if (options.date > now_as("%Y-%m-%d"))
+            return fail("--date " + options.date, "is still to come", "name a day that has been");
     }
     if (options.folder.empty()) return {};
     if (!options.participant)
@@ -64,7 +66,11 @@ Result<void> keep_results(const ResultsOptions& options, const std::string& hand
     const KeptRun run{*options.participant, options.date.empty() ? now_as("%Y-%m-%d") : options.date,
                       now_as("%H:%M:%S"), hand, report};
     const auto path = activities::keep_run(options.folder, run);
-    if (!path) return std::unexpected(path.error());
+    if (!path) {
+        std::printf("the run could not be kept; this is all of it:\n%s", json_text(report).c_str());
+        return std::unexpected(path.error());
+    }
+    std::printf("kept as %s\n", path->c_str());
     const Result<activities::KeptRuns> kept = activities::read_runs(options.folder);
     if (!kept) return std::unexpected(kept.error());
     std::vector<const KeptRun*> own;
@@ -72,7 +78,7 @@ Result<void> keep_results(const ResultsOptions& options, const std::string& hand
         if (other.participant == run.participant && other.report.at("exercise") == report.at("exercise"))
             own.push_back(&other);
     if (const auto written = write_page(*kept, page_of(options.folder)); !written) return written;
-    std::printf("kept as %s; progress: %s\n", path->c_str(), page_of(options.folder).c_str());
+    std::printf("progress: %s\n", page_of(options.folder).c_str());
     if (!own.empty())
         std::printf(
             "%s\n",

@@ -102,8 +102,10 @@ void SoftPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord>
     const haptics::ContactRecord& contact = ticks.back().contact;
     frame_.take_tick(hand, ticks.back());
     hands_[hand].time_ns = ticks.back().time_ns;
-    hands_[hand].points = contact.point_count;
-    for (std::uint32_t i = 0; i < contact.point_count; ++i)
+    // Where the force is off, or the hand is not in its place yet, it touches nothing.
+    const bool touches = (ticks.back().flags & haptics::kTickProxyReset) == 0;
+    hands_[hand].points = touches ? contact.point_count : 0;
+    for (std::uint32_t i = 0; i < hands_[hand].points; ++i)
         hands_[hand].places_scene_m[i] = contact.points[i].hip_object_m;
 }
 

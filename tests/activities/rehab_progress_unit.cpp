@@ -119,7 +119,8 @@ TEST_F(KeptRunsFolder, TellWhatCannotBeRead) {
           std::string("{\"run\": 1, \"participant\": 1, \"date\": \"2026-13-45\", \"time\": \"10:00:00\", \"hand\": "
                       "\"x\", \"report\": {}}"),
           std::string("{\"run\": 1, \"participant\": 1, \"date\": \"2026-11-03\", \"time\": \"10:00:00\", \"hand\": "
-                      "\"x\", \"report\": {\"exercise\": \"ball\"}}")})
+                      "\"x\", \"report\": {\"exercise\": \"ball\"}}"),
+          text})
         std::ofstream(own / ("wrong" + std::to_string(wrong++) + ".json")) << damaged;
     const auto kept = read_runs(folder);
     ASSERT_TRUE(kept);

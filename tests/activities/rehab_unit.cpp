@@ -94,6 +94,21 @@ TEST(BallExercise, BeginsTheTimeAnewWhereTheForceSinks) {
     EXPECT_DOUBLE_EQ(score_of(ball.state(), {.repetitions = 4}), 22.5);
 }
 
+// A stiff ball pushes fingers that leave it by fits: 5 ms of twice the target, 5 ms of nothing, less and less.
+TEST(BallExercise, TakesFitsOfAHandThatLetsGoForNoSqueezes) {
+    Exercised ball({.level = 1, .repetitions = 3, .hold_s = 0.5});  // 2 N
+    ball.squeeze(0.8, 3.0);
+    EXPECT_EQ(ball.state().repetitions, 1u);
+    for (int i = 0; i < 20; ++i) {
+        ball.squeeze(0.005, 4.0 * (1.0 - i / 20.0));
+        ball.squeeze(0.005, 0.0);
+    }
+    ball.rest(0.5);
+    EXPECT_EQ(ball.state().too_short, 0u);
+    ball.squeeze(0.8, 3.0);
+    EXPECT_EQ(ball.state().repetitions, 2u);
+}
+
 TEST(BallExercise, TakesNoForceOfAHandThatGraspsNothing) {
     Exercised ball({.hold_s = 0.1});
     ball.squeeze(1.0, 9.0, false);

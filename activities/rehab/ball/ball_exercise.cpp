@@ -33,7 +33,9 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
     BallStep step{state, {}};
     BallState& next = step.state;
     if (state.phase == BallPhase::ended) return step;
-    const double force_N = sum_of(turn.fingers.forces_N), target_N = settings.target_N();
+    const double sum_N = sum_of(turn.fingers.forces_N), target_N = settings.target_N();
+    next.smooth_N += (sum_N - state.smooth_N) * (1.0 - std::exp(-turn.fingers.dt_s / BallState::kSmooths_s));
+    const double force_N = next.smooth_N;
     const auto tell = [&](std::string_view what) { step.events.push_back({what, turn.time_ns, force_N}); };
     if (state.phase == BallPhase::begins) {
         next.begun_ns = turn.time_ns;

@@ -48,12 +48,14 @@ enum class BallPhase : std::uint8_t { begins, waits, holds, relaxes, ended };
 
 struct BallState {
     static constexpr double kKept = 0.8, kRelaxed = 0.5;
+    static constexpr double kSmooths_s = 0.03;  // a stiff ball that is let go of may push by fits of some milliseconds
 
     BallPhase phase = BallPhase::begins;
     ExerciseEnd end = ExerciseEnd::not_yet;
     Nanoseconds begun_ns = 0, last_ns = 0, held_since_ns = 0;
     unsigned repetitions = 0, too_short = 0, grasps = 0;
     bool grasped = false;
+    double smooth_N = 0.0;  // the sum of the fingers' forces, over kSmooths_s
 
     [[nodiscard]] double time_s() const { return seconds(last_ns - begun_ns); }
     bool operator==(const BallState&) const = default;

@@ -63,6 +63,8 @@ bool is_report(const Json& report) {
     for (const char* key : {"settings", "counts"})
         if (const Json* const value = find_value(report, std::string("/") + key); !value || !value->is_object())
             return false;
+    const double score = report.at("score").get<double>(), time_s = report.at("time_s").get<double>();
+    if (!(score >= 0.0 && score <= 100.0) || !(time_s >= 0.0 && time_s < 1e6)) return false;
     const Json* const fingers = find_value(report, "/fingers");
     return fingers != nullptr && fingers->is_array() &&
            std::ranges::all_of(*fingers, [](const Json& finger) { return finger.is_object(); });
@@ -94,6 +96,8 @@ Result<KeptRun> run_of(const fs::path& path) {
     const auto report = json.find("report");
     if (report == json.end() || !is_report(*report)) return other("its report is not whole");
     run.report = *report;
+    if (path.parent_path().filename() != folder_of({}, run.participant).filename())
+        return other("it is of a participant whose folder is another");
     return run;
 }
 
@@ -113,6 +117,10 @@ int day_of(const std::string& date) {
 Result<void> prepare_results(const fs::path& folder, unsigned participant) {
     const fs::path own = folder_of(folder, participant);
     std::error_code error;
+    const fs::path above = fs::absolute(folder, error).parent_path();
+    if (!fs::is_directory(folder, error) && !fs::is_directory(above, error))
+        return fail(folder.string(), "would stand in " + above.string() + ", which is no folder",
+                    "make that first, or see whether the name is right");
     fs::create_directories(own, error);
     if (error) return fail(own.string(), "cannot be made: " + error.message(), "name a folder that you may write to");
     return check_writable(own / "a-run.json");
@@ -158,10 +166,16 @@ Result<KeptRuns> read_runs(const fs::path& folder) {
     KeptRuns kept;
     for (const fs::path& file : files) {
         Result<KeptRun> run = run_of(file);
-        if (run)
-            kept.runs.push_back(std::move(*run));
-        else
+        const auto is_same = [&](const KeptRun& other) {
+            return run && other.participant == run->participant && other.date == run->date && other.time == run->time &&
+                   other.report == run->report;
+        };
+        if (!run)
             kept.errors.push_back(run.error());
+        else if (std::ranges::any_of(kept.runs, is_same))
+            kept.errors.push_back({"is a copy of another run", file.string(), "take it out of the folder"});
+        else
+            kept.runs.push_back(std::move(*run));
     }
     std::ranges::stable_sort(kept.runs, {},
                              [](const KeptRun& run) { return std::tuple(run.participant, run.date, run.time); });
