@@ -25,6 +25,9 @@ bool SceneNews::collect(const scene::SceneThread::Ended& update) {
                           !report.news.drawn.empty() || !report.news.messages.empty();
     const bool ticks = report.news.hands.has_ticks();
     const std::lock_guard lock(mutex_);
+    // Frames that stand still while a body moves are shown its newest shapes alone.
+    if (!report.news.drawn.empty() && reports_.size() >= kMostShapes)
+        reports_[reports_.size() - kMostShapes].news.drawn.clear();
     report.update = ++updates_;
     if (anything || ticks || !report.news.hands.contacts.empty()) reports_.push_back(std::move(report));
     return anything || (ticks && frames_for_ticks_.load(std::memory_order_relaxed));

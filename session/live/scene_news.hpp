@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -23,6 +24,9 @@ namespace burin::session {
 
 class SceneNews {
 public:
+    // Reports, from the newest back, that keep how parts look.
+    static constexpr std::size_t kMostShapes = 256;
+
     // Sets whose changes are collected, before the first update; it must outlive this.
     void report_of(scene::SceneService& service) { service_ = &service; }
     // Sets whether ticks alone are worth a frame. Any thread.

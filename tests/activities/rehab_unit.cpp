@@ -70,7 +70,10 @@ TEST(BallExercise, CountsASqueezeThatIsHeldAndRelaxed) {
     EXPECT_EQ(ball.state().repetitions, 1u);
     ball.squeeze(2.0, 4.1);
     EXPECT_EQ(ball.state().repetitions, 1u) << "one squeeze counts once, however long it lasts";
-    ball.squeeze(0.1, 1.9);
+    ball.squeeze(0.2, 1.9);
+    ball.squeeze(1.2, 5.0);
+    EXPECT_EQ(ball.state().repetitions, 1u) << "that was no rest";
+    ball.squeeze(0.5, 1.9);
     ball.squeeze(1.2, 5.0);
     EXPECT_EQ(ball.state().repetitions, 2u);
     EXPECT_EQ(ball.state().end, ExerciseEnd::done);

@@ -49,8 +49,9 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
         tell(turn.grasped ? ball_event::kGrasped : ball_event::kLetGo);
     }
     const bool kept = turn.grasped && force_N >= BallState::kKept * target_N;
-    if (next.phase == BallPhase::relaxes && (!turn.grasped || force_N <= BallState::kRelaxed * target_N))
-        next.phase = BallPhase::waits;
+    if (force_N > BallState::kRelaxed * target_N) next.pressed_ns = turn.time_ns;
+    const bool relaxed = seconds(turn.time_ns - next.pressed_ns) >= BallState::kRelaxes_s;
+    if (next.phase == BallPhase::relaxes && (!turn.grasped || relaxed)) next.phase = BallPhase::waits;
     if (next.phase == BallPhase::waits && turn.grasped && force_N >= target_N) {
         next.phase = BallPhase::holds;
         next.held_since_ns = turn.time_ns;

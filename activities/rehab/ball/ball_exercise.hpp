@@ -3,7 +3,7 @@
 // step from the turns of the haptic loop to what is counted.
 //
 //   waiting -> grasped -> squeezing, the fingers' forces add up to the target -> held for hold_s: a repetition
-//           -> relaxed to kRelaxed of the target, or let go -> the next
+//           -> relaxed to kRelaxed of the target for kRelaxes_s, or let go -> the next
 // Who lets the force sink below kKept of the target before hold_s has passed has held too short: that is counted too,
 // and the time begins anew. It ends with the last repetition, or with the time limit.
 // Units: newtons, seconds; times of the loop's clock in nanoseconds. No heap but for the events; any thread.
@@ -48,11 +48,12 @@ enum class BallPhase : std::uint8_t { begins, waits, holds, relaxes, ended };
 
 struct BallState {
     static constexpr double kKept = 0.8, kRelaxed = 0.5;
+    static constexpr double kRelaxes_s = 0.25;  // for so long, at least, or until it is let go of
     static constexpr double kSmooths_s = 0.03;  // a stiff ball that is let go of may push by fits of some milliseconds
 
     BallPhase phase = BallPhase::begins;
     ExerciseEnd end = ExerciseEnd::not_yet;
-    Nanoseconds begun_ns = 0, last_ns = 0, held_since_ns = 0;
+    Nanoseconds begun_ns = 0, last_ns = 0, held_since_ns = 0, pressed_ns = 0;
     unsigned repetitions = 0, too_short = 0, grasps = 0;
     bool grasped = false;
     double smooth_N = 0.0;  // the sum of the fingers' forces, over kSmooths_s

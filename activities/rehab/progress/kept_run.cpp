@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 constexpr int kVersion = 1;
 constexpr std::uint64_t kMostBytes = 8 << 20;  // hours of events
 
-fs::path folder_of(const fs::path& folder, unsigned participant) {
-    return folder / formatted("participant-%03u", participant);
-}
+std::string folder_name(unsigned participant) { return formatted("participant-%03u", participant); }
+
+fs::path folder_of(const fs::path& folder, unsigned participant) { return folder / folder_name(participant); }
 
 // Two or four digits, as a date and a time have them.
 std::optional<unsigned> digits(std::string_view text, std::size_t from, std::size_t count) {
@@ -96,7 +96,7 @@ Result<KeptRun> run_of(const fs::path& path) {
     const auto report = json.find("report");
     if (report == json.end() || !is_report(*report)) return other("its report is not whole");
     run.report = *report;
-    if (path.parent_path().filename() != folder_of({}, run.participant).filename())
+    if (path.parent_path().filename().string() != folder_name(run.participant))
         return other("it is of a participant whose folder is another");
     return run;
 }
