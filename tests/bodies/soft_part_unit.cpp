@@ -211,4 +211,20 @@ TEST(SoftPart, RefusesABodyThatCannotBe) {
     EXPECT_FALSE(SoftPart::create(setup));
 }
 
+// A hand without force goes through a body as through air: what reaches in must not knead putty before its exercise.
+TEST(SoftPart, IsLeftAloneByAHandWhoseForceIsOff) {
+    SoftPartSetup setup = coarse_setup();
+    setup.material.yield_Pa = 3e3;
+    Pressing through(setup), pressed(setup);
+    for (int i = 0; i < 60; ++i) {
+        haptics::TickRecord tick = fingertip(0.01);
+        pressed.press(tick, i * 4 * kTick_ns);
+        tick.flags |= haptics::kTickProxyReset;
+        through.press(tick, i * 4 * kTick_ns);
+    }
+    EXPECT_EQ(through.part().state().places_m, through.part().body().rest().places_m);
+    EXPECT_TRUE(through.part().models(0).empty());
+    EXPECT_NE(pressed.part().state().places_m, pressed.part().body().rest().places_m);
+}
+
 }  // namespace burin::bodies
