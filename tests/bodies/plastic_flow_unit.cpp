@@ -238,7 +238,10 @@ TEST(Putty, StaysClosedWholeAndAsLargeWhateverItsKneading) {
             kneaded.close(axis, 0.45 * at_m, 1.3 * at_m, 0.12);
         }
         const SoftState state = kneaded.let_go();
-        EXPECT_GT(dent_m(kneaded.part(), state), 0.0);
+        double farthest_m = 0.0;  // in some direction: where it was dented last, it may bulge elsewhere
+        for (std::size_t i = 0; i < state.places_m.size(); ++i)
+            farthest_m = std::max(farthest_m, glm::length(state.places_m[i] - body.rest().places_m[i]));
+        EXPECT_GT(farthest_m, 0.005);
         EXPECT_NEAR(volume_share(body, state), 1.0, 0.01);
         EXPECT_GT(volume_of(body, state.places_m).least_share, 0.5);
         EXPECT_GE(worst_rest_quality(body, state), kLeastPlasticQuality);
