@@ -62,7 +62,7 @@ struct BallState {
     bool operator==(const BallState&) const = default;
 };
 
-// What happens, as the events of a course name it.
+// Names of the events of a ball exercise (ExerciseEvent::what).
 namespace ball_event {
 inline constexpr std::string_view kBegun = "begun", kGrasped = "grasped", kReached = "force reached",
                                   kCounted = "counted", kTooShort = "held too short", kLetGo = "let go", kDone = "done",

@@ -37,7 +37,7 @@ struct ExerciseEvent {
     bool operator==(const ExerciseEvent&) const = default;
 };
 
-// How an exercise went until now.
+// The course of an exercise until now.
 struct ExerciseCourse {
     struct Count {
         const char* key = "";             // in a report: "held_too_short"
@@ -65,8 +65,8 @@ public:
     // The body that takes the place of the world's object of that number, and its colour.
     [[nodiscard]] virtual bodies::SoftPartSetup body() const = 0;
     [[nodiscard]] virtual std::array<double, 3> srgb() const = 0;
-    // Whether a hand that grasps the body carries it, and the body falls when it is let go of. Otherwise it stays at
-    // its place.
+    // Returns whether a hand that grasps the body carries it, and the body falls when it is let go of. Otherwise it
+    // stays at its place.
     [[nodiscard]] virtual bool is_carried() const { return false; }
 
     // Goes on by a turn; whatever comes after the end changes nothing.

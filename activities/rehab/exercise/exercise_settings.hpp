@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a therapist may set of an exercise. Each exercise has one table of its settings (SettingKind); from it follow
-// the options of the command, the keys of the settings' file, the line that a recording keeps, and every message.
+// Settings of an exercise that a therapist chooses. Each exercise has one table of its settings (SettingKind); from it
+// follow the options of the command, the keys of the settings' file, the line that a recording keeps, and every
+// message.
 //
 //   [ball] of a TOML file -> values <- options of the command, which go before
 //   values -> the exercise; -> the file's text (--print-config); -> the recording's line, and back from it

@@ -45,7 +45,7 @@ struct GameSettings {
 // Returns what nobody can do: each names its setting and what would be right. Empty: the settings are sound.
 [[nodiscard]] std::vector<Error> problems(const GameSettings& settings);
 
-// What there is to throw at: a floor at y = 0 and a wall, whose face looks along +z.
+// The room of the game: a floor at y = 0, and a wall whose face looks along +z.
 struct GameRoom {
     double wall_z_m = -0.3;
     Vec3 serve_m{0.0, 0.2, 0.05};  // where the ball waits

@@ -41,7 +41,7 @@ struct FingerMeasures {
     [[nodiscard]] double mean_N() const { return pushed_s > 0.0 ? impulse_Ns / pushed_s : 0.0; }
     [[nodiscard]] double range_rad(std::size_t joint) const { return most_rad[joint] - least_rad[joint]; }
     [[nodiscard]] double mean_rad_per_s() const { return moved_s > 0.0 ? moved_rad / moved_s : 0.0; }
-    // Nothing where it led by less than kLed_rad in all: chance has led then.
+    // Returns nothing where the finger led by less than kLed_rad in all: that it led at all may be chance.
     [[nodiscard]] std::optional<double> fractionation() const {
         return led_rad >= kLed_rad ? std::optional(1.0 - followed_rad / led_rad) : std::nullopt;
     }

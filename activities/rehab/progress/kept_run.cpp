@@ -53,7 +53,7 @@ const Json* text_at(const Json& json, const char* key) {
     return found != json.end() && found->is_string() ? &*found : nullptr;
 }
 
-// What the page reads of a report; the rest may be anything.
+// Checks that a report has all that the page reads of it; the rest may be anything.
 bool is_report(const Json& report) {
     if (!report.is_object() || text_at(report, "exercise") == nullptr || text_at(report, "ended") == nullptr)
         return false;
@@ -158,7 +158,7 @@ Result<KeptRuns> read_runs(const fs::path& folder) {
             files.push_back(at->path());
     }
     if (error) return fail(folder.string(), "cannot be read: " + error.message(), "see to its permissions");
-    // Of two of one second the later has a number, or a greater one, behind the same name.
+    // Runs of one second have the same name with a number behind it, which rises with each.
     std::ranges::sort(files, {}, [](const fs::path& file) {
         const std::string name = file.stem().string();
         return std::tuple(file.parent_path(), name.size(), name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is kept of a person's runs of exercises: a folder for each participant, a file for each run, so that a file that
-// is cut or a disk that is full loses no other run.
+// Runs of exercises, as they are kept: a folder for each participant, a file for each run, so that a file that is cut
+// or a disk that is full loses no other run.
 //
 //   FOLDER/participant-007/2026-11-03T10-15-00-ball.json: {"run": 1, participant, date, time, hand, "report": {...}}
 // Participants are numbers: no name is kept. Failure: an Error that names the file; what was kept before stays as it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a participant's runs of one exercise say of the next: a level is proposed, and never set. Pure; any thread.
+// Proposes a level of difficulty by a participant's last runs of one exercise; it is never set. Pure; any thread.
 #pragma once
 
 #include <span>

@@ -26,7 +26,7 @@ double number_at(const Json& json, const char* key) {
     return found != json.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
-// How far a finger bent in all: the sum of its three joints that bend, in degrees.
+// Returns the range of motion of a finger: the sum of its three joints that bend, in degrees.
 double bending_deg(const Json& finger) {
     const auto ranges = finger.find("range_of_motion_rad");
     if (ranges == finger.end() || !ranges->is_array() || ranges->size() < 2) return std::nan("");

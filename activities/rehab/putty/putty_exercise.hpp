@@ -23,7 +23,7 @@ namespace burin::activities {
 enum class PuttyShape : std::uint8_t { ball, ellipsoid };
 enum class PuttyHardness : std::uint8_t { soft, medium, firm };
 
-// How hard putty is: three are not published with their figures, so these are ours; each is twice the one before.
+// Hardnesses of putty. No figures of therapists' putty are published, so these are ours: each is twice the one before.
 struct PuttyKind {
     double young_Pa = 0.0, yield_Pa = 0.0;
     std::array<double, 3> srgb{};  // 0 to 1
