@@ -22,13 +22,12 @@ struct Plates {
     }
 };
 
-// Points that lie in the half of the body that the plate comes from.
+// Any point of the surface, since a body between them may turn.
 Plates plates_on(const SoftBody& body, const EmbeddedSurface& surface, double half_height_m, double softness) {
     Plates plates;
     const double pressure_per_m = body.material().young_Pa / (softness * half_height_m);
     for (const double side : {-1.0, 1.0})
         for (std::size_t i = 0; i < surface.points.size(); ++i) {
-            if (side * place_of(surface.points[i], body.rest().places_m).y < 0.2 * half_height_m) continue;
             SoftContact contact;
             contact.add(surface.points[i], 1.0);
             contact.normal = {0.0, -side, 0.0};
@@ -40,9 +39,13 @@ Plates plates_on(const SoftBody& body, const EmbeddedSurface& surface, double ha
 
 // The elements' forces, along y, on the corners that started above the middle: what the upper plate has to bear.
 double elastic_above_N(const SoftBody& body, const SoftState& state, double above_m) {
+    std::vector<double> volumes_m3;
+    sum_volumes_around(body, state.places_m, volumes_m3);
+    RingSlopes slopes;
     double sum = 0.0;
     for (std::uint32_t corner = 0; corner < body.corners(); ++corner)
-        if (body.rest().places_m[corner].y > above_m) sum += elastic_force(body, state, corner).force_N.y;
+        if (body.rest().places_m[corner].y > above_m)
+            sum += elastic_force(body, state, volumes_m3, corner, slopes).force_N.y;
     return sum;
 }
 

@@ -79,6 +79,7 @@ Result<SoftBody> SoftBody::create(Tetrahedra rest, const SoftMaterial& material)
     body.rest_ = std::move(rest);
     body.material_ = material;
     body.find_incidences();
+    if (const auto found = body.find_rings(); !found) return std::unexpected(found.error());
     body.colour();
     return body;
 }
@@ -114,6 +115,31 @@ void SoftBody::find_incidences() {
     }
 }
 
+Result<void> SoftBody::find_rings() {
+    first_of_ring_.push_back(0);
+    std::vector<std::uint32_t> ring;
+    for (std::uint32_t corner = 0; corner < corners(); ++corner) {
+        ring.clear();
+        double volume = 0.0;
+        for (Incidence& incidence : std::span(incidences_).subspan(first_[corner], around(corner).size())) {
+            volume += incidence.volume_m3;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto at = std::ranges::find(ring, incidence.corners[i]);
+                incidence.ring[i] = static_cast<std::uint8_t>(at - ring.begin());
+                if (at != ring.end()) continue;
+                if (ring.size() == kMostInRing)
+                    return fail("body", formatted("corner %u has more than %zu neighbours", corner, kMostInRing - 1),
+                                "mesh it anew, with elements alike in size");
+                ring.push_back(incidence.corners[i]);
+            }
+        }
+        volumes_around_m3_.push_back(volume);
+        rings_.insert(rings_.end(), ring.begin(), ring.end());
+        first_of_ring_.push_back(static_cast<std::uint32_t>(rings_.size()));
+    }
+    return {};
+}
+
 SoftState SoftBody::at_rest() const {
     SoftState state{rest_.places_m, std::vector<Vec3>(corners(), Vec3(0.0)), {}};
     if (!material_.is_plastic()) return state;
@@ -140,40 +166,80 @@ void SoftBody::colour() {
     }
 }
 
+void sum_volumes_around(const SoftBody& body, std::span<const Vec3> places_m, std::vector<double>& volumes_m3) {
+    volumes_m3.assign(body.corners(), 0.0);
+    for (const Cell& cell : body.rest().cells) {
+        const double volume = volume_m3(places_m[cell[0]], places_m[cell[1]], places_m[cell[2]], places_m[cell[3]]);
+        for (const std::uint32_t corner : cell) volumes_m3[corner] += volume;
+    }
+}
+
 namespace {
 
-CornerForce force_of(const SoftMaterial& material, std::span<const SoftIncidence> around,
-                     std::span<const Vec3> places_m) {
-    const double mu = material.mu_Pa(), lambda = material.lambda_Pa() + mu;
-    CornerForce sum;
-    double of_mu = 0.0;
-    for (const SoftIncidence& e : around) {
-        const Vec3 &a = places_m[e.corners[0]], &b = places_m[e.corners[1]], &c = places_m[e.corners[2]],
-                   &d = places_m[e.corners[3]];
-        // J = det(b - a, c - a, d - a) / (6 V), and its derivative with respect to a.
-        const double per_volume = 1.0 / (6.0 * e.volume_m3);
-        const Vec3 slope = glm::cross(d - b, c - b) * per_volume;
-        const double j = glm::dot(slope, a - b);
-        const Vec3 spread = e.gram[0] * a + e.gram[1] * b + e.gram[2] * c + e.gram[3] * d;  // F g
-        sum.force_N -= e.volume_m3 * (mu * spread + (lambda * (j - 1.0) - mu) * slope);
-        of_mu += e.volume_m3 * mu * e.gram[0];
-        const Vec3 scaled = e.volume_m3 * lambda * slope;
-        sum.stiffness_N_per_m[0] += scaled.x * slope;
-        sum.stiffness_N_per_m[1] += scaled.y * slope;
-        sum.stiffness_N_per_m[2] += scaled.z * slope;
+// The sum of V F g over the elements around a corner, and what of it a way of the corner changes.
+struct Spread {
+    Vec3 of_places_m2{0.0};
+    double of_corner_m = 0.0;
+
+    void add(const SoftIncidence& e, std::span<const Vec3> at) {
+        const Vec3 spread = e.gram[0] * at[e.corners[0]] + e.gram[1] * at[e.corners[1]] + e.gram[2] * at[e.corners[2]] +
+                            e.gram[3] * at[e.corners[3]];
+        of_places_m2 += e.volume_m3 * spread;
+        of_corner_m += e.volume_m3 * e.gram[0];
     }
-    for (int axis = 0; axis < 3; ++axis) sum.stiffness_N_per_m[axis][axis] += of_mu;
-    return sum;
-}
+};
+
+// A sum of factor v v': symmetric, so that six numbers hold it.
+struct Outers {
+    Vec3 diagonal{0.0}, beside{0.0};  // xx, yy, zz; yz, zx, xy
+
+    void add(double factor, const Vec3& v) {
+        const Vec3 scaled = factor * v;
+        diagonal += scaled * v;
+        beside += Vec3(scaled.y * v.z, scaled.z * v.x, scaled.x * v.y);
+    }
+    [[nodiscard]] glm::dmat3 matrix(double on_diagonal) const {
+        const Vec3 d = diagonal + on_diagonal;
+        return {d.x, beside.z, beside.y, beside.z, d.y, beside.x, beside.y, beside.x, d.z};
+    }
+};
 
 }  // namespace
 
-CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner) {
-    return force_of(body.material(), body.around(corner), places_m);
+CornerForce elastic_force(const SoftBody& body, const SoftState& state, std::span<const double> volumes_around_m3,
+                          std::uint32_t corner, RingSlopes& slopes) {
+    const double mu = body.material().mu_Pa(), lambda = body.material().lambda_Pa() + mu;
+    const double of_element = kElementShare * lambda, of_rest = (1.0 - kElementShare) * lambda;
+    const std::span<const std::uint32_t> ring = body.ring(corner);
+    std::fill_n(slopes.begin(), ring.size(), Vec3(0.0));
+    Vec3 of_volume_N(0.0);
+    Outers outers;
+    Spread sum;
+    for (const SoftIncidence& e : body.around(state, corner)) {
+        const Vec3 &a = state.places_m[e.corners[0]], &b = state.places_m[e.corners[1]],
+                   &c = state.places_m[e.corners[2]], &d = state.places_m[e.corners[3]];
+        sum.add(e, state.places_m);
+        // The volume is det(b - a, c - a, d - a) / 6; its derivative with respect to a.
+        const Vec3 slope = glm::cross(d - b, c - b) * (1.0 / 6.0);
+        const double j = glm::dot(slope, a - b) / e.volume_m3;
+        const double squeezed = j < kSqueezed ? of_rest : 0.0;
+        of_volume_N -= (of_element * (j - 1.0) + squeezed * (j - kSqueezed) - mu) * slope;
+        outers.add((of_element + squeezed) / e.volume_m3, slope);
+        for (const std::uint8_t at : e.ring) slopes[at] += slope;
+    }
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const double rest_m3 = body.volume_around_m3(ring[i]);
+        of_volume_N -= 0.25 * of_rest * (volumes_around_m3[ring[i]] / rest_m3 - 1.0) * slopes[i];
+        outers.add(0.25 * of_rest / rest_m3, slopes[i]);
+    }
+    const Vec3 of_spread_N = -mu * sum.of_places_m2;
+    return {of_spread_N + of_volume_N, outers.matrix(mu * sum.of_corner_m), of_spread_N, mu * sum.of_corner_m};
 }
 
-CornerForce elastic_force(const SoftBody& body, const SoftState& state, std::uint32_t corner) {
-    return force_of(body.material(), body.around(state, corner), state.places_m);
+Vec3 spread_force_N(const SoftBody& body, const SoftState& state, std::uint32_t corner) {
+    Spread sum;
+    for (const SoftIncidence& e : body.around(state, corner)) sum.add(e, state.places_m);
+    return -body.material().mu_Pa() * sum.of_places_m2;
 }
 
 double elastic_energy_J(const SoftBody& body, std::span<const Vec3> places_m) {
@@ -186,8 +252,17 @@ double elastic_energy_J(const SoftBody& body, std::span<const Vec3> places_m) {
         for (std::size_t i = 0; i < 4; ++i) f += glm::outerProduct(places_m[cell[i]], g[i]);
         const double j = glm::determinant(f);
         const double trace = glm::dot(f[0], f[0]) + glm::dot(f[1], f[1]) + glm::dot(f[2], f[2]);
-        const double density = 0.5 * mu * (trace - 3.0) - mu * (j - 1.0) + 0.5 * lambda * (j - 1.0) * (j - 1.0);
+        double density =
+            0.5 * mu * (trace - 3.0) - mu * (j - 1.0) + 0.5 * kElementShare * lambda * (j - 1.0) * (j - 1.0);
+        const double squeezed = std::min(j - kSqueezed, 0.0);
+        density += 0.5 * (1.0 - kElementShare) * lambda * squeezed * squeezed;
         sum += volume_m3(rest(0), rest(1), rest(2), rest(3)) * density;
+    }
+    std::vector<double> volumes_m3;
+    sum_volumes_around(body, places_m, volumes_m3);
+    for (std::uint32_t corner = 0; corner < body.corners(); ++corner) {
+        const double rest_m3 = body.volume_around_m3(corner), too_large = volumes_m3[corner] / rest_m3 - 1.0;
+        sum += 0.25 * rest_m3 * 0.5 * (1.0 - kElementShare) * lambda * too_large * too_large;
     }
     return sum;
 }

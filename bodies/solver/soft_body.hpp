@@ -5,8 +5,14 @@
 //   W = mu/2 (tr F'F - 3) - mu (J - 1) + lambda'/2 (J - 1)^2,   F the deformation gradient, J its determinant.
 // At rest it has no stress, and for small strains it is Hooke's law with Lame's mu and lambda = lambda' - mu; so
 // lambda' = lambda + mu, else Poisson's ratio is wrong. It is defined for inverted elements too, and drives them back.
-// In each corner alone J is affine, so the second derivative with respect to one corner, mu |g|^2 + lambda' c c', is
-// positive definite whatever the deformation: g is the gradient of the corner's shape function at rest, c = dJ/dx.
+// Linear elements that must each keep their volume lock: a ball of them is up to a fifth too stiff. So of lambda' only
+// kElementShare weighs on each element's J; the rest weighs on the mean J of the elements around each corner, as in
+// Bonet and Burton 1998 ("A simple average nodal pressure tetrahedral element", Communications in Numerical Methods in
+// Engineering 14). Where all elements are deformed alike nothing changes by that. An element that has lost much of its
+// volume is turned back by the rest as well: (1 - kElementShare) lambda'/2 (kSqueezed - J)^2 where J < kSqueezed.
+// In each corner alone every J and every mean is affine, so the second derivative with respect to one corner is positive
+// definite whatever the deformation: mu |g|^2 of each element, g the gradient of the corner's shape function at rest,
+// and c c' of each J or mean, c its derivative.
 // A material with a yield stress is plastic as well: its elements' rest shapes follow (plastic_flow.hpp).
 // Units: SI; frame: the body's own. Pure; any thread. What is made once allocates, the rest does not.
 #pragma once
@@ -23,7 +29,7 @@ namespace burin::bodies {
 
 struct SoftMaterial {
     double young_Pa = 100e3;
-    double poisson = 0.48;  // above 0.48 linear elements lock, below the volume is not kept
+    double poisson = 0.48;  // below it the volume is not kept
     double density_kg_per_m3 = 1000.0;
     // Of the elements: stress per rate of strain over stress per strain.
     double damping_s = 0.002;
@@ -35,6 +41,9 @@ struct SoftMaterial {
     [[nodiscard]] double lambda_Pa() const { return young_Pa * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
 };
 
+// Without any of it elements take volume from each other that the mean does not see.
+constexpr double kElementShare = 0.3, kSqueezed = 0.3;
+
 // Even permutations that put each corner of an element first.
 constexpr std::array<std::array<std::size_t, 4>, 4> kCornerFirst{
     {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
@@ -44,7 +53,11 @@ struct SoftIncidence {
     std::array<std::uint32_t, 4> corners{};  // the corner itself first, in the cell's orientation
     std::array<double, 4> gram{};            // g of the corner times g of each, 1/m^2
     double volume_m3 = 0.0;                  // at rest
+    std::array<std::uint8_t, 4> ring{};      // where each of the four stands in the ring of the corner
 };
+// How the volumes around the corners of a ring change with the place of the corner in its middle.
+constexpr std::size_t kMostInRing = 64;
+using RingSlopes = std::array<Vec3, kMostInRing>;  // m^2
 
 // What has flowed of a plastic body (plastic_flow.hpp); empty for an elastic one.
 struct SoftFlow {
@@ -69,8 +82,8 @@ public:
         std::array<std::uint32_t, 4> incidences;
     };
 
-    // Fails on a body without elements, with elements that are flat or inside out, or that does not hang together; and
-    // on a material that none is.
+    // Fails on a body without elements, with elements that are flat or inside out, that does not hang together, or with
+    // a corner that has more than kMostInRing - 1 neighbours; and on a material that none is.
     [[nodiscard]] static Result<SoftBody> create(Tetrahedra rest, const SoftMaterial& material);
 
     [[nodiscard]] const Tetrahedra& rest() const { return rest_; }
@@ -85,9 +98,15 @@ public:
         const auto& all = state.flow.incidences.empty() ? incidences_ : state.flow.incidences;
         return std::span(all).subspan(first_[corner], first_[corner + 1] - first_[corner]);
     }
+    // A corner and those with which it shares an element, itself among them.
+    [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t corner) const {
+        return std::span(rings_).subspan(first_of_ring_[corner], first_of_ring_[corner + 1] - first_of_ring_[corner]);
+    }
+    // Of the elements around a corner together, at rest.
+    [[nodiscard]] double volume_around_m3(std::uint32_t corner) const { return volumes_around_m3_[corner]; }
     [[nodiscard]] std::span<const Incidence> incidences() const { return incidences_; }
     [[nodiscard]] std::span<const Element> elements() const { return elements_; }
-    // Corners of one colour share no element: they can be moved at once.
+    // Corners of one colour share no element, but volumes around the corners between them.
     [[nodiscard]] std::size_t colours() const { return colours_.size(); }
     [[nodiscard]] std::span<const std::uint32_t> of_colour(std::size_t colour) const { return colours_[colour]; }
 
@@ -96,6 +115,7 @@ public:
 private:
     SoftBody() = default;
     void find_incidences();
+    [[nodiscard]] Result<void> find_rings();
     void colour();
 
     Tetrahedra rest_;
@@ -104,6 +124,8 @@ private:
     std::vector<Incidence> incidences_;
     std::vector<Element> elements_;     // of each cell
     std::vector<std::uint32_t> first_;  // of each corner's incidences
+    std::vector<std::uint32_t> rings_, first_of_ring_;
+    std::vector<double> volumes_around_m3_;
     std::vector<std::vector<std::uint32_t>> colours_;
 };
 
@@ -111,9 +133,17 @@ private:
 struct CornerForce {
     Vec3 force_N{0.0};
     glm::dmat3 stiffness_N_per_m{0.0};
+    // Of these, what comes of mu/2 tr F'F: it is linear in the places, so that damping can be had of it.
+    Vec3 of_spread_N{0.0};
+    double of_spread_N_per_m = 0.0;
 };
-[[nodiscard]] CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner);
-[[nodiscard]] CornerForce elastic_force(const SoftBody& body, const SoftState& state, std::uint32_t corner);
+[[nodiscard]] Vec3 spread_force_N(const SoftBody& body, const SoftState& state, std::uint32_t corner);
+// Sums up the volumes of the elements around each corner, as they are now.
+void sum_volumes_around(const SoftBody& body, std::span<const Vec3> places_m, std::vector<double>& volumes_m3);
+// Requires those volumes. Leaves in slopes how they change with the corner's place, in the order of its ring.
+[[nodiscard]] CornerForce elastic_force(const SoftBody& body, const SoftState& state,
+                                        std::span<const double> volumes_around_m3, std::uint32_t corner,
+                                        RingSlopes& slopes);
 [[nodiscard]] double elastic_energy_J(const SoftBody& body, std::span<const Vec3> places_m);
 // Returns the volume now, and the least share of its own that an element has left; below 0 one is inside out.
 struct VolumeNow {

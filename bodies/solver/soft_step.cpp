@@ -87,23 +87,18 @@ void SoftSolver::sort_contacts(const SoftBody& body, std::span<const SoftContact
             at_[next[contacts[c].corners[i]]++] = {c, contacts[c].shares[i]};
 }
 
-Vec3 SoftSolver::moved(const SoftBody& body, const SoftState& state, const SoftStepInput& input,
-                       std::uint32_t corner) const {
-    const std::vector<Vec3>& places = state.places_m;
-    CornerForce sum = elastic_force(body, state, corner);
+void SoftSolver::move(const SoftBody& body, SoftState& state, const SoftStepInput& input, std::uint32_t corner) {
+    std::vector<Vec3>& places = state.places_m;
+    CornerForce sum = elastic_force(body, state, volumes_around_m3_, corner, slopes_m2_);
     const double inertia = body.mass_kg(corner) / (input.dt_s * input.dt_s);
     const double hold = input.holds_N_per_m.empty() ? 0.0 : input.holds_N_per_m[corner];
     const std::span<const Vec3> held_at = input.held_at_m.empty() ? body.rest().places_m : input.held_at_m;
     double diagonal = inertia + hold;
     sum.force_N += inertia * (drawn_to_m_[corner] - places[corner]);
     sum.force_N += hold * (held_at[corner] - places[corner]);
-    if (const double viscous = body.material().damping_s / input.dt_s * body.material().mu_Pa(); viscous > 0.0)
-        for (const SoftIncidence& e : body.around(state, corner)) {
-            Vec3 spread(0.0);
-            for (std::size_t i = 0; i < 4; ++i) spread += e.gram[i] * (places[e.corners[i]] - before_m_[e.corners[i]]);
-            sum.force_N -= e.volume_m3 * viscous * spread;
-            diagonal += e.volume_m3 * viscous * e.gram[0];
-        }
+    const double damping = body.material().damping_s / input.dt_s;
+    sum.force_N += damping * (sum.of_spread_N - spread_before_N_[corner]);
+    diagonal += damping * sum.of_spread_N_per_m;
     for (std::uint32_t i = first_[corner]; i < first_[corner + 1]; ++i) {
         const SoftContact& contact = input.contacts[at_[i].contact];
         const double force_N = contact.force_N(places);
@@ -114,7 +109,10 @@ Vec3 SoftSolver::moved(const SoftBody& body, const SoftState& state, const SoftS
             share * share * contact.stiffness_N_per_m * glm::outerProduct(contact.normal, contact.normal);
     }
     for (int axis = 0; axis < 3; ++axis) sum.stiffness_N_per_m[axis][axis] += diagonal;
-    return places[corner] + glm::inverse(sum.stiffness_N_per_m) * sum.force_N;
+    const Vec3 way = glm::inverse(sum.stiffness_N_per_m) * sum.force_N;
+    places[corner] += way;
+    const std::span<const std::uint32_t> ring = body.ring(corner);
+    for (std::size_t i = 0; i < ring.size(); ++i) volumes_around_m3_[ring[i]] += glm::dot(slopes_m2_[i], way);
 }
 
 void SoftSolver::move_rigidly(const SoftBody& body, SoftState& state, const SoftStepInput& input) const {
@@ -157,12 +155,14 @@ void SoftSolver::step(const SoftBody& body, SoftState& state, const SoftStepInpu
     drawn_to_m_.resize(before_m_.size());
     for (std::size_t i = 0; i < before_m_.size(); ++i)
         drawn_to_m_[i] = before_m_[i] + dt_s * state.velocities_m_per_s[i] + dt_s * dt_s * input.acceleration_m_per_s2;
+    spread_before_N_.resize(before_m_.size());
+    for (std::uint32_t i = 0; i < before_m_.size(); ++i) spread_before_N_[i] = spread_force_N(body, state, i);
     sort_contacts(body, input.contacts);
     state.places_m = drawn_to_m_;  // the first guess
+    sum_volumes_around(body, state.places_m, volumes_around_m3_);
     for (unsigned sweep = 0; sweep < input.sweeps; ++sweep) {
         for (std::size_t colour = 0; colour < body.colours(); ++colour)
-            for (const std::uint32_t corner : body.of_colour(colour))
-                state.places_m[corner] = moved(body, state, input, corner);
+            for (const std::uint32_t corner : body.of_colour(colour)) move(body, state, input, corner);
         move_rigidly(body, state, input);
     }
     for (std::size_t i = 0; i < before_m_.size(); ++i)

@@ -61,16 +61,16 @@ public:
 
 private:
     void sort_contacts(const SoftBody& body, std::span<const SoftContact> contacts);
-    [[nodiscard]] Vec3 moved(const SoftBody& body, const SoftState& state, const SoftStepInput& input,
-                             std::uint32_t corner) const;
-
+    void move(const SoftBody& body, SoftState& state, const SoftStepInput& input, std::uint32_t corner);
     void move_rigidly(const SoftBody& body, SoftState& state, const SoftStepInput& input) const;
 
     struct At {
         std::uint32_t contact;
         double share;
     };
-    std::vector<Vec3> before_m_, drawn_to_m_;
+    std::vector<Vec3> before_m_, drawn_to_m_, spread_before_N_;
+    std::vector<double> volumes_around_m3_;  // of each corner, as the sweep has left them
+    RingSlopes slopes_m2_{};
     std::vector<std::uint32_t> first_;  // of each corner's contacts
     std::vector<At> at_;
 };

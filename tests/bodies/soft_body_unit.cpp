@@ -39,6 +39,15 @@ std::vector<Vec3> mapped(const SoftBody& body, const glm::dmat3& map, const Vec3
     return places;
 }
 
+CornerForce elastic_force(const SoftBody& body, std::span<const Vec3> places_m, std::uint32_t corner) {
+    SoftState state = body.at_rest();
+    state.places_m.assign(places_m.begin(), places_m.end());
+    std::vector<double> volumes_m3;
+    sum_volumes_around(body, places_m, volumes_m3);
+    RingSlopes slopes;
+    return bodies::elastic_force(body, state, volumes_m3, corner, slopes);
+}
+
 double largest_force_N(const SoftBody& body, std::span<const Vec3> places_m) {
     double most = 0.0;
     for (std::uint32_t i = 0; i < body.corners(); ++i)
