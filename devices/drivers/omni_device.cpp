@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "devices/drivers/omni_device.hpp"
 
-#include <dlfcn.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
+#include "devices/drivers/served_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/hd_shared.hpp"
 
@@ -62,21 +57,16 @@ public:
         // The mouse's way is taken from its channel and left: a person's hand leads the stylus.
         static_cast<void>(target_of(hand_, seconds(now_ns - start_ns_)));
         const HdState& newest = device_->newest();
-        if (newest.time_ns != newest_.time_ns) before_ = std::exchange(newest_, newest);
-        const bool is_lost = newest_.time_ns == 0 || now_ns - newest_.time_ns > kOmniLost_ns;
-        DeviceSample sample;
-        sample.time_ns = now_ns;
-        sample.buttons = newest_.buttons;
-        sample.fault = is_lost ? DeviceFault::disconnected : fault_of(newest_.condition);
-        const Pose pose = omni_pose_at(before_, newest_, now_ns - nanoseconds(kTurn_s));
-        sample.position_device_m = pose.position_m - device_->workspace_middle_hd_m();
-        sample.orientation_device = pose.orientation;
-        may_push_ = sample.fault == DeviceFault::none;
-        return sample;
+        ServedState state;
+        state.time_ns = newest.time_ns;
+        state.pose_device = {newest.pose_hd.position_m - device_->workspace_middle_hd_m(), newest.pose_hd.orientation};
+        state.buttons = newest.buttons;
+        state.fault = fault_of(newest.condition);
+        return samples_.sample(state, now_ns);
     }
 
     void write(const DeviceWrench& wrench) noexcept override {
-        device_->command(may_push_ ? wrench.force_device_N : Vec3(0.0));
+        device_->command(samples_.may_push() ? wrench.force_device_N : Vec3(0.0));
     }
 
     [[nodiscard]] std::vector<std::string> take_messages() override { return device_->take_messages(); }
@@ -87,8 +77,7 @@ private:
     AnyHand hand_;
     Clock& clock_;
     Nanoseconds start_ns_;
-    HdState newest_, before_;
-    bool may_push_ = false;
+    ServedSamples samples_{nanoseconds(kTurn_s)};
 };
 
 class RestingOmni final : public HapticDevice {
@@ -107,32 +96,13 @@ private:
     Clock& clock_;
 };
 
-// Beside the program, or in the folder above it.
-std::string emulated_library() {
-    std::error_code ignored;
-    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (const std::filesystem::path& at : {folder, folder.parent_path()})
-        if (std::filesystem::exists(at / kEmulatedHdLibrary, ignored)) return (at / kEmulatedHdLibrary).string();
-    return kEmulatedHdLibrary;
-}
-
 }  // namespace
-
-Pose omni_pose_at(const HdState& before, const HdState& newest, Nanoseconds time_ns) noexcept {
-    const Nanoseconds between_ns = newest.time_ns - before.time_ns;
-    if (before.time_ns == 0 || between_ns <= 0 || between_ns > kOmniLost_ns) return newest.pose_hd;
-    const double share = std::clamp(seconds(time_ns - before.time_ns) / seconds(between_ns), 0.0, 1.0);
-    const Pose &from = before.pose_hd, &to = newest.pose_hd;
-    const Quat nearer = glm::dot(from.orientation, to.orientation) < 0.0 ? -to.orientation : to.orientation;
-    return {from.position_m + share * (to.position_m - from.position_m),
-            glm::normalize(glm::lerp(from.orientation, nearer, share))};
-}
 
 Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock) {
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
     std::string library = kHdLibrary;
-    if (name.starts_with("emulated")) library = emulated_library();
+    if (name.starts_with("emulated")) library = library_beside_program(kEmulatedHdLibrary);
     if (at != std::string::npos) library = name_at_library.substr(at + 1);
     auto servo = HdServo::of_library(library);
     if (!servo) return std::unexpected(servo.error());

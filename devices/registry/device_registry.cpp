@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "devices/drivers/omni_device.hpp"
+#include "devices/drivers/wand_device.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
@@ -69,6 +70,15 @@ Result<OpenedDevice> open_omni_by(HapticHost host, const std::string& name) {
     return open_omni(name, std::move(host.hand), host.clock);
 }
 
+Result<OpenedDevice> open_wand_by(HapticHost host, const std::string& text) {
+    if (host.stands_in) return wand_that_rests(text, host.clock);
+    if (dynamic_cast<MonotonicClock*>(&host.clock) == nullptr)
+        return fail("haptic device " + std::string(kHilWand),
+                    "is there in real time, and this session's time is simulated",
+                    "run it in a window, or with --record FILE.session, which plays an --input in real time");
+    return open_wand(text, std::move(host.hand), host.clock);
+}
+
 constexpr std::array kKinds{
     HapticKind{.name = kDefaultHapticDevice,
                .usage = "a PHANTOM Omni in a simulated hand",
@@ -129,6 +139,19 @@ constexpr std::array kKinds{
                .handle = nullptr,
                .open = open_omni_by,
                .look = look_for_omnis},
+    HapticKind{.name = kHilWand,
+               .usage = "a Quanser 5-DOF wand by its maker's library (HIL); wand:IDENTIFIER of its card, "
+                        "wand:FILE.toml as FILE describes it, wand:IDENTIFIER,FILE.toml, each with @LIBRARY for a "
+                        "library elsewhere; wand:emulated by burin devices emulate",
+               .parts = 1,
+               .is_upright = true,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = true,
+               .handle = wand_at,
+               .open = open_wand_by,
+               .look = look_for_wands,
+               .file_of = [](const std::string& text) { return wand_address(text).file; }},
 };
 
 struct ChosenKind {
@@ -184,7 +207,8 @@ std::string devices_with_handles() {
 
 std::string handle_file_of(std::string_view name) {
     const Result<ChosenKind> wanted = chosen(name);
-    return wanted && wanted->kind->handle != nullptr ? wanted->file : std::string();
+    if (!wanted || wanted->kind->handle == nullptr) return {};
+    return wanted->kind->file_of != nullptr ? wanted->kind->file_of(wanted->file) : wanted->file;
 }
 
 std::string haptic_usage() {

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "devices/drivers/hd_servo.hpp"
+#include "devices/drivers/served_device.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/registry/device_registry.hpp"
 
@@ -153,29 +154,30 @@ TEST(Omni, P3GivesItsForceToTheStylusAndSeesItGiveWay) {
 }
 
 // Ticks and servo turns, each by its own clock: 1.003 ms and 1 ms. A hand that moves evenly does so for the ticks, too.
-TEST(Omni, SeesAMotionAndNoStepsWhereTwoClocksBeat) {
+TEST(ServedDevice, SeesAMotionAndNoStepsWhereTwoClocksBeat) {
     constexpr Nanoseconds kTurn_ns = 1'000'000, kTick_ns = 1'003'000;
     constexpr double kSpeed_m_per_s = 0.1;
     const auto turn_at = [](Nanoseconds time_ns) {
-        HdState state;
+        ServedState state;
         state.time_ns = time_ns;
-        state.pose_hd.position_m.x = kSpeed_m_per_s * seconds(time_ns);
+        state.pose_device.position_m.x = kSpeed_m_per_s * seconds(time_ns);
         return state;
     };
     Vec3 last_m(0.0);
     for (Nanoseconds now_ns = 10 * kTurn_ns, first_ns = now_ns; now_ns < 2000 * kTick_ns; now_ns += kTick_ns) {
         const Nanoseconds newest_ns = now_ns / kTurn_ns * kTurn_ns;
-        const Pose pose = omni_pose_at(turn_at(newest_ns - kTurn_ns), turn_at(newest_ns), now_ns - kTurn_ns);
+        const Pose pose = pose_between(turn_at(newest_ns - kTurn_ns), turn_at(newest_ns), now_ns - kTurn_ns);
         const double step_m = now_ns > first_ns ? pose.position_m.x - last_m.x : kSpeed_m_per_s * seconds(kTick_ns);
         EXPECT_NEAR(step_m, kSpeed_m_per_s * seconds(kTick_ns), 1e-12);
         last_m = pose.position_m;
     }
-    const HdState from = turn_at(5 * kTurn_ns), to = turn_at(6 * kTurn_ns);
-    EXPECT_EQ(omni_pose_at(from, to, 9 * kTurn_ns).position_m, to.pose_hd.position_m) << "it does not go on by itself";
-    EXPECT_EQ(omni_pose_at(from, to, 1 * kTurn_ns).position_m, from.pose_hd.position_m);
-    EXPECT_EQ(omni_pose_at({}, to, 0).position_m, to.pose_hd.position_m) << "the first of all turns";
-    EXPECT_EQ(omni_pose_at(from, turn_at(500 * kTurn_ns), 6 * kTurn_ns).position_m,
-              turn_at(500 * kTurn_ns).pose_hd.position_m)
+    const ServedState from = turn_at(5 * kTurn_ns), to = turn_at(6 * kTurn_ns);
+    EXPECT_EQ(pose_between(from, to, 9 * kTurn_ns).position_m, to.pose_device.position_m)
+        << "it does not go on by itself";
+    EXPECT_EQ(pose_between(from, to, 1 * kTurn_ns).position_m, from.pose_device.position_m);
+    EXPECT_EQ(pose_between({}, to, 0).position_m, to.pose_device.position_m) << "the first of all turns";
+    EXPECT_EQ(pose_between(from, turn_at(500 * kTurn_ns), 6 * kTurn_ns).position_m,
+              turn_at(500 * kTurn_ns).pose_device.position_m)
         << "after a gap it is where it is";
 }
 
