@@ -1,36 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "devices/emulators/emulated_omni.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "devices/drivers/hd_api.hpp"
+#include "devices/emulators/circling_hand.hpp"
 
 namespace burin::devices {
-namespace {
-
-// The usual script, for an hour.
-std::vector<HandPose> circling() {
-    constexpr double kRest_s = 2.0, kDown_s = 1.0, kCircle_s = 8.0, kUp_s = 1.0, kStep_s = 0.25;
-    constexpr double kRadius_m = 0.02, kAbove_m = 0.03;
-    const Quat upright(1.0, 0.0, 0.0, 0.0);
-    std::vector<HandPose> script;
-    for (double begin_s = 0.0; begin_s < EmulatedOmni::kScript_s; begin_s += kRest_s + kDown_s + kCircle_s + kUp_s) {
-        const Vec3 first(kRadius_m, 0.0, 0.0), above(kRadius_m, 0.0, kAbove_m);
-        script.push_back({begin_s, above, upright, 0});
-        script.push_back({begin_s + kRest_s, above, upright, 0});
-        for (double t = 0.0; t < kCircle_s; t += kStep_s) {
-            const double angle = 2.0 * std::numbers::pi * t / kCircle_s;
-            script.push_back(
-                {begin_s + kRest_s + kDown_s + t, kRadius_m * Vec3(std::cos(angle), std::sin(angle), 0.0), upright, 1});
-        }
-        script.push_back({begin_s + kRest_s + kDown_s + kCircle_s, first, upright, 0});
-    }
-    return script;
-}
-
-}  // namespace
-
 Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniOptions options) {
     if (!name.starts_with("emulated"))
         return fail("emulated omni " + name, "has no such name", "begin it with emulated: emulated, emulated-2");
@@ -38,7 +12,7 @@ Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniO
     if (!memory)
         return fail("emulated omni " + name, "cannot be made: another one may be running by this name",
                     "end that one, or choose another name: --at emulated-2");
-    if (options.script.empty()) options.script = circling();
+    if (options.script.empty()) options.script = circling_hand();
     (*memory)->calibration.store(kHdCalibrated, std::memory_order_relaxed);
     return EmulatedOmni(std::move(*memory), std::move(options));
 }
