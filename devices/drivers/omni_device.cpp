@@ -2,11 +2,11 @@
 #include "devices/drivers/omni_device.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "devices/drivers/hd_servo.hpp"
+#include "devices/drivers/library_beside.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/hd_shared.hpp"
 
@@ -31,22 +31,13 @@ DeviceDescription omni_description() {
     return d;
 }
 
-// Beside the program, or in the folder above it.
-std::string emulated_library() {
-    std::error_code ignored;
-    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (const std::filesystem::path& at : {folder, folder.parent_path()})
-        if (std::filesystem::exists(at / kEmulatedHdLibrary, ignored)) return (at / kEmulatedHdLibrary).string();
-    return kEmulatedHdLibrary;
-}
-
 }  // namespace
 
 Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock) {
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
     std::string library = kHdLibrary;
-    if (name.starts_with("emulated")) library = emulated_library();
+    if (name.starts_with("emulated")) library = library_beside(kEmulatedHdLibrary);
     if (at != std::string::npos) library = name_at_library.substr(at + 1);
     auto servo = HdServo::of_library(library);
     if (!servo) return std::unexpected(servo.error());

@@ -3,6 +3,7 @@
 
 #include "devices/drivers/hd_api.hpp"
 #include "devices/emulators/circling_hand.hpp"
+#include "devices/emulators/emulated_arm.hpp"
 
 namespace burin::devices {
 Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniOptions options) {
@@ -40,29 +41,15 @@ void EmulatedOmni::publish(SimulatedOmni& omni, Nanoseconds now_ns) {
 }
 
 void EmulatedOmni::run(const std::function<bool()>& ends) {
-    constexpr Nanoseconds kPeriod_ns = 1'000'000;
-    MonotonicClock clock;
     auto hand = SimulatedHand::create(options_.script, HandPath::monotone_cubic);
     if (!hand) return;
     SimulatedOmni omni(std::move(*hand));
-    const Nanoseconds begun_ns = clock.now_ns();
-    Nanoseconds due_ns = begun_ns;
-    while (!ends()) {
-        due_ns = std::max(due_ns + kPeriod_ns, clock.now_ns() - 50 * kPeriod_ns);
-        clock.sleep_until(due_ns);
-        const Nanoseconds now_ns = clock.now_ns();
-        if (drill_->is_silent || options_.silence.is_silent(seconds(now_ns - begun_ns))) continue;
-        const Nanoseconds frame_ns = memory_->frame_ns.load(std::memory_order_relaxed);
-        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < HdShared::kSilent_ns;
-        const auto force = memory_->force_N.read();
-        if (!is_heard)
-            omni.write({});
-        else if (force)
-            omni.write({Vec3((*force)[0], (*force)[1], (*force)[2]), Vec3(0.0)});
-        // Before a session has opened it the hand's time stands.
-        if (frame_ns > 0) omni.advance(kPeriod_ns);
-        publish(omni, now_ns);
-    }
+    run_emulated_arm(
+        *memory_, omni,
+        {.ends = ends,
+         .is_silent = [&](double time_s) { return drill_->is_silent || options_.silence.is_silent(time_s); },
+         .written_N = [&] { return written_N(); },
+         .publish = [&](Nanoseconds now_ns) { publish(omni, now_ns); }});
 }
 
 }  // namespace burin::devices

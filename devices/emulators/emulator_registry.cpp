@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_dtrack.hpp"
 #include "devices/emulators/emulated_falcon.hpp"
 #include "devices/emulators/emulated_glove.hpp"
@@ -53,6 +54,15 @@ Result<void> run_falcon(const EmulatorOptions& options) {
     return {};
 }
 
+Result<void> run_dhd(const EmulatorOptions& options) {
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto dhd = EmulatedDhd::create(name, {.script = {}, .silence = options.silence});
+    if (!dhd) return std::unexpected(dhd.error());
+    options.is_there("--device dhd:" + name);
+    dhd->run(options.ends);
+    return {};
+}
+
 Result<void> run_dtrack(const EmulatorOptions& options) {
     const auto to = network_address(options.at, {"127.0.0.1", kDTrackPort});
     if (!to) return fail("emulated DTrack", "has no address " + options.at, "write HOST, PORT or HOST:PORT");
@@ -66,6 +76,7 @@ constexpr std::array kKinds{
                  run_omni},
     EmulatorKind{"falcon", "a Novint Falcon in the same hand, at the far end of its USB cable; --at as for the omni",
                  run_falcon},
+    EmulatorKind{"dhd", "a Force Dimension omega.3 in the same hand; --at as for the omni", run_dhd},
     EmulatorKind{"dtrack", "ART's DTrack with a head and a flystick that sway, which sends to 127.0.0.1:5000",
                  run_dtrack},
     EmulatorKind{"vrpn", "a VRPN server with a head and a wand that sway, at 127.0.0.1:3883", run_vrpn},

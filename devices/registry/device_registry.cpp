@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/drivers/dhd_device.hpp"
 #include "devices/drivers/omni_device.hpp"
 #include "devices/falcon/falcon_device.hpp"
 #include "devices/gloves/glove_device.hpp"
@@ -80,6 +81,12 @@ Result<OpenedDevice> open_falcon_by(HapticHost host, const std::string& choice) 
     return open_falcon(choice, std::move(host.hand), host.clock);
 }
 
+Result<OpenedDevice> open_dhd_by(HapticHost host, const std::string& choice) {
+    if (host.stands_in) return dhd_that_rests(host.clock);
+    if (auto may = in_real_time(host.clock, kDhd); !may) return std::unexpected(may.error());
+    return open_dhd(choice, std::move(host.hand), host.clock);
+}
+
 constexpr std::array kKinds{
     HapticKind{.name = kDefaultHapticDevice,
                .usage = "a PHANTOM Omni in a simulated hand",
@@ -151,6 +158,18 @@ constexpr std::array kKinds{
                .handle = nullptr,
                .open = open_falcon_by,
                .look = look_for_falcons},
+    HapticKind{.name = kDhd,
+               .usage = "a Force Dimension omega, delta, sigma or lambda by its maker's library; dhd:INDEX as that "
+                        "lists them, dhd:SERIAL, dhd:INDEX@LIBRARY for a library elsewhere, dhd:emulated by burin "
+                        "devices emulate",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_dhd_by,
+               .look = look_for_dhds},
 };
 
 struct ChosenKind {

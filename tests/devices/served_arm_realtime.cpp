@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ticks of an Omni by its maker's library, here the emulated one, and of a Falcon: the driver's work on the haptic
-// thread allocates, locks, throws and opens nothing, also while the device comes and goes.
+// Ticks of an Omni by its maker's library, here the emulated one, of a Force Dimension device and of a Falcon: the
+// driver's work on the haptic thread allocates, locks, throws and opens nothing, also while the device comes and goes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_falcon.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -69,6 +70,10 @@ std::string realtime_name() { return "emulated-realtime-" + std::to_string(::get
 
 TEST(Omni, AllocatesLocksThrowsAndOpensNothingInATick) {
     ticks_without_cost(EmulatedOmni::create(realtime_name()).value(), "omni:" + realtime_name());
+}
+
+TEST(Dhd, AllocatesLocksThrowsAndOpensNothingInATick) {
+    ticks_without_cost(EmulatedDhd::create(realtime_name()).value(), "dhd:" + realtime_name());
 }
 
 TEST(Falcon, AllocatesLocksThrowsAndOpensNothingInATick) {
