@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/haptic/wand_hardware.hpp"
+
 namespace burin::devices {
 namespace {
 
@@ -34,7 +36,7 @@ HilWand::HilWand(const HilApi& api, std::string card, const WandDescription& wan
     : api_(api),
       card_name_(std::move(card)),
       wand_(wand),
-      description_(device_of(wand_)),
+      description_(device_of_hardware(wand_)),
       device_from_maker_(device_from_maker(wand_)) {}
 
 Result<std::unique_ptr<HilWand>> HilWand::open(const std::string& library, const std::string& card,
@@ -112,7 +114,7 @@ void HilWand::serve() {
 
 void HilWand::turn(Nanoseconds now_ns) noexcept {
     if (card_ == nullptr) return find_again(now_ns);
-    ServedState& state = state_.draft();
+    ServedState& state = exchange_.draft();
     state.time_ns = now_ns;
     std::array<std::int32_t, kWandJoints> counts{};
     HilError error = api_.read_encoder(card_, kChannel.data(), kChannels, counts.data());
@@ -121,13 +123,11 @@ void HilWand::turn(Nanoseconds now_ns) noexcept {
     if (error < 0) return fail_with(error, now_ns);
     joints_ = joints_of_counts(wand_.mechanism, counts);
     const bool is_sound = read_pose(state, now_ns);
-    const bool is_well = is_sound && is_on_ && !needs_jig_ && (error_ns_ == 0 || now_ns - error_ns_ >= kErrorHolds_ns);
+    const bool is_well =
+        is_sound && is_on_ && !needs_jig_ && (error_ns_ == 0 || now_ns - error_ns_ >= kServedErrorHolds_ns);
     state.fault = is_well ? DeviceFault::none : DeviceFault::other;
-    state_.publish();
-    const ServedWrench& wanted = wanted_.newest();
-    const bool may = is_well && now_ns - wanted.time_ns < kServedSilent_ns && finite(wanted.wrench.force_device_N) &&
-                     finite(wanted.wrench.torque_device_Nm);
-    const WandJoints volts = may ? volts_for(wanted.wrench) : kZeroVolts;
+    exchange_.publish();
+    const WandJoints volts = is_well ? volts_for(exchange_.wanted(now_ns)) : kZeroVolts;
     error = api_.write_analog(card_, kChannel.data(), kChannels, volts.data());
     if (error < 0) fail_with(error, now_ns);
 }
@@ -200,14 +200,14 @@ void HilWand::fail_with(HilError error, Nanoseconds now_ns) noexcept {
 }
 
 void HilWand::find_again(Nanoseconds now_ns) noexcept {
-    ServedState& state = state_.draft();
+    ServedState& state = exchange_.draft();
     state.time_ns = now_ns;
     state.fault = DeviceFault::disconnected;
     for (std::size_t i = 0; i < kWandJoints; ++i) state.joints[i] = joints_[i];
     const Quat& turn = device_from_maker_.orientation;
     const Pose maker = pose_of(axis_);
     state.pose_device = {device_from_maker_ * maker.position_m, turn * maker.orientation * glm::conjugate(turn)};
-    state_.publish();
+    exchange_.publish();
     if (now_ns - tried_ns_ < kAgain_ns) return;
     tried_ns_ = now_ns;
     if (open_card() < 0) return;
@@ -227,11 +227,6 @@ void HilWand::find_again(Nanoseconds now_ns) noexcept {
     error_ns_ = now_ns;
     is_gone_.store(false, std::memory_order_relaxed);
     tell(needs_jig_ ? Notice::needs_jig : Notice::back);
-}
-
-void HilWand::command(const DeviceWrench& wrench) noexcept {
-    wanted_.draft() = {wrench, clock_.now_ns()};
-    wanted_.publish();
 }
 
 AmplifierAnswer HilWand::switch_amplifiers(bool on) noexcept {

@@ -3,14 +3,14 @@
 //
 // Data flow: encoders -> joints -> both tips -> pose of the newest turn -> the haptic thread; newest wrench of that ->
 // motors' torques -> volts -> card. A turn writes zero unless the haptic thread has given a wrench within the last
-// kServedSilent_ns, the amplifiers are on, the pose is sound, and nothing has failed within kErrorHolds_ns. The card's
+// kServedSilent_ns, the amplifiers are on, the pose is sound, and nothing has failed within kServedErrorHolds_ns. The card's
 // own watchdog takes the volts off where this program dies.
 // Limits: each axis is kept within the description's, each motor within its current; ticks at either are counted.
 // A card that fails is left with zero volts and its amplifiers off, and opened anew once in kAgain_ns. Counters that
 // have lived on go on to count; others need the jig: the wand stays without force until its amplifiers are switched on
 // there, which sets the counters to zero.
 // Failures: of open(), an Error; later ones are messages and faults of the samples. Threads: created, destroyed and
-// asked for messages by one; newest() and command() are the haptic thread's, wait-free; switch_amplifiers() is any's.
+// asked for messages by one; switch_amplifiers() is any's.
 #pragma once
 
 #include <array>
@@ -20,12 +20,11 @@
 #include <thread>
 #include <vector>
 
-#include "base/newest_slot.hpp"
 #include "base/ring.hpp"
 #include "devices/drivers/hil_api.hpp"
-#include "devices/drivers/served_device.hpp"
 #include "devices/haptic/amplifiers.hpp"
 #include "devices/haptic/wand_description.hpp"
+#include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
 
@@ -35,22 +34,23 @@ struct WandLimits {
     std::array<std::uint64_t, kWandJoints> motor{};
 };
 
-class HilWand {
+class HilWand final : public ServedLink, public Amplifiers {
 public:
-    static constexpr Nanoseconds kErrorHolds_ns = 250'000'000, kAgain_ns = 1'000'000'000;
+    static constexpr Nanoseconds kAgain_ns = 1'000'000'000;
     static constexpr double kWatchdog_s = 0.05;
 
     // Opens the card, sets the counters to zero, for which the handle has to be in its jig, and begins to serve it.
     [[nodiscard]] static Result<std::unique_ptr<HilWand>> open(const std::string& library, const std::string& card,
                                                                const WandDescription& wand);
-    ~HilWand();
+    ~HilWand() override;
     HilWand(const HilWand&) = delete;
     HilWand& operator=(const HilWand&) = delete;
 
-    [[nodiscard]] const ServedState& newest() noexcept { return state_.newest(); }
-    void command(const DeviceWrench& wrench) noexcept;
-    [[nodiscard]] AmplifierAnswer switch_amplifiers(bool on) noexcept;
-    [[nodiscard]] std::vector<std::string> take_messages();
+    [[nodiscard]] ServedExchange& exchange() noexcept override { return exchange_; }
+    [[nodiscard]] AmplifierAnswer switch_amplifiers(bool on) noexcept override;
+    [[nodiscard]] std::vector<std::string> take_messages() override;
+    // Of the wand, as long as this lives.
+    [[nodiscard]] const DeviceDescription& description() const noexcept { return description_; }
     [[nodiscard]] WandLimits limits() const noexcept;
 
 private:
@@ -79,9 +79,8 @@ private:
     DeviceDescription description_;
     Pose device_from_maker_;
     MonotonicClock clock_;
-    NewestSlot<ServedState> state_;    // this thread -> the haptic thread
-    NewestSlot<ServedWrench> wanted_;  // the haptic thread -> this one
-    Ring<Told> told_{64};              // this thread -> the frame's
+    ServedExchange exchange_;
+    Ring<Told> told_{64};  // this thread -> the frame's
     // Flags and counts of their own, that say nothing of other memory: relaxed order is enough for all of them.
     std::atomic<bool> ends_ = false, is_wanted_on_ = true, is_gone_ = false;
     std::array<std::atomic<std::uint64_t>, 3> at_force_{}, at_torque_{};

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "devices/drivers/omni_device.hpp"
 
-#include <memory>
+#include <algorithm>
+#include <string>
 #include <utility>
 
-#include "devices/drivers/served_device.hpp"
+#include "devices/drivers/hd_servo.hpp"
+#include "devices/drivers/library_beside.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/hd_shared.hpp"
 
 namespace burin::devices {
 namespace {
-
-constexpr double kTurn_s = 0.001;  // of the library's thread
 
 DeviceDescription omni_description() {
     const OmniModel model;
@@ -25,76 +25,11 @@ DeviceDescription omni_description() {
     d.apparent_mass_kg = model.apparent_mass_kg;
     d.damping_Ns_per_m = model.damping_Ns_per_m;
     d.friction_N = model.friction_N;
-    // A turn until the library's thread takes the force, a turn that the sample is old, and the device's own.
-    d.delay_s = 2.0 * kTurn_s + seconds(SimulatedOmni::kDelay_ns);
-    d.watchdog_s = seconds(HdServo::kSilent_ns);
+    d.delay_s = kServedDelay_s + seconds(SimulatedOmni::kDelay_ns);  // its exchange with ticks, and the device's own
+    d.watchdog_s = seconds(kServedSilent_ns);
     d.felt_by_person = true;
     return d;
 }
-
-DeviceFault fault_of(HdCondition condition) {
-    switch (condition) {
-        case HdCondition::well: return DeviceFault::none;
-        case HdCondition::warm: return DeviceFault::overheated;
-        case HdCondition::too_fast: return DeviceFault::overspeed;
-        case HdCondition::gone: return DeviceFault::disconnected;
-        case HdCondition::uncalibrated:
-        case HdCondition::unsound:
-        case HdCondition::force_error: break;
-    }
-    return DeviceFault::other;
-}
-
-class OmniDevice final : public HapticDevice, public DeviceMessages {
-public:
-    OmniDevice(std::unique_ptr<HdDevice> device, AnyHand hand, Clock& clock)
-        : device_(std::move(device)), hand_(std::move(hand)), clock_(clock), start_ns_(clock.now_ns()) {}
-
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-
-    [[nodiscard]] DeviceSample read() noexcept override {
-        const Nanoseconds now_ns = clock_.now_ns();
-        // The mouse's way is taken from its channel and left: a person's hand leads the stylus.
-        static_cast<void>(target_of(hand_, seconds(now_ns - start_ns_)));
-        const HdState& newest = device_->newest();
-        ServedState state;
-        state.time_ns = newest.time_ns;
-        state.pose_device = {newest.pose_hd.position_m - device_->workspace_middle_hd_m(), newest.pose_hd.orientation};
-        state.buttons = newest.buttons;
-        state.fault = fault_of(newest.condition);
-        return samples_.sample(state, now_ns);
-    }
-
-    void write(const DeviceWrench& wrench) noexcept override {
-        device_->command(samples_.may_push() ? wrench.force_device_N : Vec3(0.0));
-    }
-
-    [[nodiscard]] std::vector<std::string> take_messages() override { return device_->take_messages(); }
-
-private:
-    DeviceDescription description_ = omni_description();
-    std::unique_ptr<HdDevice> device_;
-    AnyHand hand_;
-    Clock& clock_;
-    Nanoseconds start_ns_;
-    ServedSamples samples_{nanoseconds(kTurn_s)};
-};
-
-class RestingOmni final : public HapticDevice {
-public:
-    explicit RestingOmni(Clock& clock) : clock_(clock) {}
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-    [[nodiscard]] DeviceSample read() noexcept override {
-        DeviceSample sample;
-        sample.time_ns = clock_.now_ns();
-        return sample;
-    }
-    void write(const DeviceWrench& /*wrench*/) noexcept override {}
-
-private:
-    DeviceDescription description_ = omni_description();
-    Clock& clock_;
-};
 
 }  // namespace
 
@@ -102,20 +37,22 @@ Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand,
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
     std::string library = kHdLibrary;
-    if (name.starts_with("emulated")) library = library_beside_program(kEmulatedHdLibrary);
+    if (name.starts_with("emulated")) library = library_beside(kEmulatedHdLibrary);
     if (at != std::string::npos) library = name_at_library.substr(at + 1);
     auto servo = HdServo::of_library(library);
     if (!servo) return std::unexpected(servo.error());
     auto device = (*servo)->open(name);
-    if (!device) return std::unexpected(device.error());
-    auto omni = std::make_unique<OmniDevice>(std::move(*device), std::move(hand), clock);
-    DeviceMessages* const messages = omni.get();
-    OpenedDevice opened = of_one_part(std::move(omni));
-    opened.messages = messages;
-    return opened;
+    if (!device) {
+        const bool runs = !name.starts_with("emulated") || std::ranges::count(emulated_omnis(), name) > 0;
+        if (runs) return std::unexpected(device.error());
+        return fail(device.error().where, device.error().what,
+                    "no emulator runs by this name: start it in another terminal, burin devices emulate omni" +
+                        (name == "emulated" ? std::string() : " --at " + name));
+    }
+    return served_arm(std::move(*device), omni_description(), std::move(hand), clock);
 }
 
-OpenedDevice omni_that_rests(Clock& clock) { return of_one_part(std::make_unique<RestingOmni>(clock)); }
+OpenedDevice omni_that_rests(Clock& clock) { return arm_that_rests(omni_description(), clock); }
 
 std::vector<DevicePresence> look_for_omnis() {
     std::vector<DevicePresence> found;

@@ -6,14 +6,14 @@
 // Frames: HDAPI's axes are the device frame's; its origin is not, and is moved to the middle of the workspace that the
 // library calls usable. The description is that of an Omni as the PowerWall paper and the data sheet give it, whatever
 // the device is, so that a recording is done again without it; a device that gives less force is not asked for more.
-// A tick's sample is of a turn ago (served_device.hpp). Faults: a device that is gone or silent, that is not
-// calibrated, whose pose is no pose, that is warm or was too fast. Threads: as haptic_device.hpp.
+// Faults: a device that is gone or silent for kServedLost_ns, that is not calibrated, whose pose is no pose, that
+// is warm or was too fast. Threads: as haptic_device.hpp.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "devices/drivers/hd_servo.hpp"
+#include "base/clock.hpp"
 #include "devices/hand/any_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/presence/device_presence.hpp"

@@ -4,7 +4,7 @@
 // system's loader does not find. Identifiers that begin with "emulated" are those of `burin devices emulate wand`,
 // whose library stands beside the program; an identifier with :// is of a card on another machine.
 //
-// What a file leaves out is the wand of quanser_wand_of_maker(). A tick's sample is of a turn ago (served_device.hpp).
+// What a file leaves out is the wand of quanser_wand_of_maker(). A tick's sample is of a turn ago (served_arm.hpp).
 // Steps of place and turn are what the encoders' steps make at the handle, the greatest over the workspace. The wand
 // has no button that is known. Threads: as haptic_device.hpp.
 #pragma once

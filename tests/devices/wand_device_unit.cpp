@@ -14,24 +14,20 @@
 #include <thread>
 
 #include "devices/drivers/hil_wand.hpp"
-#include "devices/drivers/served_device.hpp"
+#include "devices/drivers/library_beside.hpp"
 #include "devices/emulators/emulated_wand.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "tests/devices/ticked_arm.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::devices {
 namespace {
 
-const SimulatedHand& nobodys_wand_hand() {
-    static const SimulatedHand hand = SimulatedHand::create({{0.0, Vec3(0.0)}}).value();
-    return hand;
-}
-
 // Names of this process's own, so that tests beside it and a user's emulators are not met.
 std::string own_wand(const std::string& number = "") { return "emulated-test-" + std::to_string(::getpid()) + number; }
 
-std::string library_of_tests(const std::string& name) { return library_beside_program(name.c_str()); }
+std::string library_of_tests(const std::string& name) { return library_beside(name.c_str()); }
 
 Vec3 jig_device_m() {
     const WandDescription wand = quanser_wand_of_maker();
@@ -74,10 +70,10 @@ class TickedWand {
 public:
     explicit TickedWand(const std::string& name) {
         // A busy machine may keep an emulated device from stepping for so long that it seems to be gone.
-        auto opened = open_haptic_device("wand:" + name, {clock_, nobodys_wand_hand()});
+        auto opened = open_haptic_device("wand:" + name, {clock_, nobodys_hand()});
         for (int i = 0; i < 100 && !opened; ++i) {
             clock_.sleep_until(clock_.now_ns() + 10'000'000);
-            opened = open_haptic_device("wand:" + name, {clock_, nobodys_wand_hand()});
+            opened = open_haptic_device("wand:" + name, {clock_, nobodys_hand()});
         }
         EXPECT_TRUE(opened) << opened.error().line();
         if (opened) opened_ = std::move(*opened);
@@ -119,7 +115,7 @@ private:
 
 std::string refusal_of_wand(const std::string& device) {
     MonotonicClock clock;
-    const auto opened = open_haptic_device(device, {clock, nobodys_wand_hand()});
+    const auto opened = open_haptic_device(device, {clock, nobodys_hand()});
     return opened ? "nothing" : opened.error().line();
 }
 
@@ -181,7 +177,7 @@ TEST(Wand, W2KeepsEveryLimitAndCountsWhatIsAtIt) {
     DeviceWrench worst;
     for (int i = 0; i < 1500; ++i) {
         clock.sleep_until(clock.now_ns() + 1'000'000);
-        (*served)->command({Vec3(50.0, -50.0, 50.0), Vec3(5.0, 5.0, -5.0)});
+        (*served)->exchange().command({Vec3(50.0, -50.0, 50.0), Vec3(5.0, 5.0, -5.0)}, clock.now_ns());
         const DeviceWrench acts = running->acting();
         worst.force_device_N = glm::max(worst.force_device_N, glm::abs(acts.force_device_N));
         worst.torque_device_Nm = glm::max(worst.torque_device_Nm, glm::abs(acts.torque_device_Nm));
@@ -194,7 +190,7 @@ TEST(Wand, W2KeepsEveryLimitAndCountsWhatIsAtIt) {
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_GT(limits.force[axis], 200u) << axis;
     EXPECT_GT(limits.torque[0], 200u);
     EXPECT_EQ(limits.torque[1], 0u) << "yaw gets none";
-    (*served)->command({Vec3(std::nan(""), 0.0, 0.0), Vec3(0.0)});
+    (*served)->exchange().command({Vec3(std::nan(""), 0.0, 0.0), Vec3(0.0)}, clock.now_ns());
     clock.sleep_until(clock.now_ns() + 10'000'000);
     EXPECT_TRUE(running.is_without_force()) << "no number, no force";
 }
@@ -359,7 +355,7 @@ TEST(Wand, SaysWhatIsWrongWithALibraryACardAndADescription) {
     EXPECT_TRUE(problems.contains("motor_signs") && problems.contains("what")) << problems;
     EXPECT_FALSE(EmulatedWand::create("wand"));
     SimulatedClock simulated;
-    const auto opened = open_haptic_device("wand", {simulated, nobodys_wand_hand()});
+    const auto opened = open_haptic_device("wand", {simulated, nobodys_hand()});
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("time is simulated"));
 }
