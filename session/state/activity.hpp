@@ -174,8 +174,8 @@ public:
     // Returns what it brings into the scene besides, such as a body that gives: a part that is updated with the others,
     // on the scene's thread, as long as the session runs. Asked once, before the first update. Null: nothing.
     [[nodiscard]] virtual scene::ScenePart* scene_part() { return nullptr; }
-    // Returns how the hand of a glove is led by a desk, where its scene asks for something of its own; nothing: over all
-    // that is seen, with the palm down. Asked once, when the session begins.
+    // Returns how the hand of a glove is led by a desk, where its scene asks for something of its own; nothing: over
+    // all that is seen, with the palm down. Asked once, when the session begins.
     [[nodiscard]] virtual std::optional<LedHand> led_hand() const { return std::nullopt; }
     // Returns whether stage() draws the hands, so that no tools are drawn for them.
     [[nodiscard]] virtual bool draws_hands() const { return false; }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The ball game in a session: its settings, its ball, its rules' steps. It moves the ball by itself: the rules say who
-// has it, and the body goes with the hand, flies or waits accordingly (bodies/body_frame.hpp). In flight fingers do not
-// turn its way, so what is seen and felt is the flight that is judged. One thread, the frame's; the body is the scene's.
+// has it, and the body goes with the hand, flies or waits accordingly (bodies/body_frame.hpp). In flight fingers do
+// not turn its way, so what is seen and felt is the flight that is judged. One thread, the frame's; the body is the
+// scene's.
 #pragma once
 
 #include <memory>
