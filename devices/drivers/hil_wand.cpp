@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "devices/haptic/wand_hardware.hpp"
+#include "devices/drivers/wand_hardware.hpp"
 
 namespace burin::devices {
 namespace {

@@ -3,8 +3,8 @@
 //
 // Data flow: encoders -> joints -> both tips -> pose of the newest turn -> the haptic thread; newest wrench of that ->
 // motors' torques -> volts -> card. A turn writes zero unless the haptic thread has given a wrench within the last
-// kServedSilent_ns, the amplifiers are on, the pose is sound, and nothing has failed within kServedErrorHolds_ns. The card's
-// own watchdog takes the volts off where this program dies.
+// kServedSilent_ns, the amplifiers are on, the pose is sound, and nothing has failed within kServedErrorHolds_ns. The
+// card's own watchdog takes the volts off where this program dies.
 // Limits: each axis is kept within the description's, each motor within its current; ticks at either are counted.
 // A card that fails is left with zero volts and its amplifiers off, and opened anew once in kAgain_ns. Counters that
 // have lived on go on to count; others need the jig: the wand stays without force until its amplifiers are switched on

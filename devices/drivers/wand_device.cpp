@@ -6,8 +6,8 @@
 
 #include "devices/drivers/hil_wand.hpp"
 #include "devices/drivers/library_beside.hpp"
+#include "devices/drivers/wand_hardware.hpp"
 #include "devices/haptic/wand_file.hpp"
-#include "devices/haptic/wand_hardware.hpp"
 #include "devices/presence/hil_shared.hpp"
 
 namespace burin::devices {

@@ -24,7 +24,7 @@ Pose jig_of(const WandDescription& wand) {
     return {tips ? device_from_maker(wand) * wand_axis(*tips).middle_m : Vec3(0.0), Quat(1.0, 0.0, 0.0, 0.0)};
 }
 
-// The usual script, for an hour: out of the jig, then round and round in the plane of the workspace that faces the user.
+// The usual script, for an hour: out of the jig, then round and round in the plane that faces the user.
 std::vector<HandPose> circling(const Pose& jig) {
     constexpr double kRest_s = 2.0, kOut_s = 2.0, kCircle_s = 6.0, kStep_s = 0.25, kRadius_m = 0.06, kNod_rad = 0.3;
     const Quat upright(1.0, 0.0, 0.0, 0.0);
@@ -78,7 +78,7 @@ DeviceWrench EmulatedWand::wrench_of_volts(const Pose& device_from_handle, Nanos
 }
 
 void EmulatedWand::publish(const Pose& device_from_handle, Nanoseconds now_ns) {
-    // A hand that would take the handle where no linkage reaches finds the mechanism's end there: it stays where it was.
+    // A hand that would take the handle where no linkage reaches finds its end there: it stays where it was.
     if (const auto joints = wand_joints(wand_.mechanism.arm, axis_in_mechanism(wand_, device_from_handle))) {
         std::array<double, 6> counts = counts_of_joints(wand_.mechanism, *joints);
         counts[0] += drill_->miscount.load(std::memory_order_relaxed);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A Quanser wand that is not there: the simulated wand in a scripted hand, with encoders and motors as the maker's
 // description has them, offered through shared memory to the emulated library of its maker
-// (devices/emulators/hil_library/), which a session loads in place of the maker's. Between two sessions the handle rests
-// in its jig; when one has opened it, the hand goes out to the workspace's middle, circles there and nods. Volts that no
-// library has renewed for kSharedSilent_ns, of which the watchdog has expired, or whose amplifiers are off, are none.
-// One thread runs it; the drills may be set by any.
+// (devices/emulators/hil_library/), which a session loads in place of the maker's. Between two sessions the handle
+// rests in its jig; when one has opened it, the hand goes out to the workspace's middle, circles there and nods.
+// Volts are none where no library has renewed them for kSharedSilent_ns, where the watchdog has expired, and while the
+// amplifiers are off. One thread runs it; the drills may be set by any.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/haptic/wand_hardware.hpp"
+#include "devices/drivers/wand_hardware.hpp"
 
 #include <array>
 #include <cmath>
