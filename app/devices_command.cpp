@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "app/devices_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 
+#include "app/check_terminal.hpp"
+#include "app/device_check.hpp"
 #include "app/output_files.hpp"
 #include "base/clock.hpp"
 #include "base/json.hpp"
+#include "devices/emulators/circling_hand.hpp"
 #include "devices/emulators/emulator_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "devices/registry/present_devices.hpp"
 #include "session/drive/end_signals.hpp"
 
@@ -35,10 +41,22 @@ void print(const std::vector<devices::LookedForKind>& all) {
         }
 }
 
+Json described(const std::string& device, const std::vector<CheckLine>& lines, bool passed) {
+    Json list = Json::array();
+    for (const CheckLine& line : lines)
+        list.push_back({{"check", line.check},
+                        {"verdict", name_of(line.verdict)},
+                        {"found", line.found},
+                        {"figures", line.figures}});
+    return {{"device", device}, {"passed", passed}, {"checks", list}};
+}
+
 }  // namespace
 
 struct DevicesCommand::Options {
-    std::string json, emulated;
+    std::string json, emulated, tested, test_json;
+    CheckOptions check;
+    std::optional<double> watch_s;
     devices::EmulatorOptions emulator;
     double for_s = 0.0;
 };
@@ -60,17 +78,39 @@ DevicesCommand::DevicesCommand(Command app)
         .within(0.0, 86400.0);
     emulate_.option("--silent-for", options_->emulator.silence.for_s, "... for so many seconds; 0: for good")
         .within(0.0, 86400.0);
+    test_ = command_.subcommand(
+        "test", "A guided check of a force-feedback device: position, buttons, and a gentle force while a key is held");
+    test_.option("NAME", options_->tested, "The device, as --device takes it").required();
+    test_.option("--json", options_->test_json, "A file for the verdicts; - for standard output");
+    test_.option("--force", options_->check.force_N, "The most that it taps with, in newtons")
+        .within(0.1, 3.0)
+        .show_default();
+    test_
+        .option("--seconds", options_->watch_s,
+                "The longest that it waits for the handle's motion and for buttons; 60, or 15 with --yes")
+        .within(0.1, 600.0);
+    test_.flag("--yes", options_->check.by_itself,
+               "Nobody is there: what is asked for counts as done, and the space bar as held. For emulated devices, or "
+               "where somebody holds the handle");
+    test_.flag("!--no-force", options_->check.pushes, "Try no force");
 }
 
 DevicesCommand::~DevicesCommand() = default;
 
 Result<void> DevicesCommand::run() const {
-    if (!emulate_.parsed()) {
-        if (const auto place = check_place(options_->json); !place) return place;
-        const auto all = devices::look_for_devices();
-        if (options_->json != kStandardOutput) print(all);
-        return write_output(options_->json, json_text(described(all)));
-    }
+    if (emulate_.parsed()) return emulate();
+    if (test_.parsed()) return test();
+    return list();
+}
+
+Result<void> DevicesCommand::list() const {
+    if (const auto place = check_place(options_->json); !place) return place;
+    const auto all = devices::look_for_devices();
+    if (options_->json != kStandardOutput) print(all);
+    return write_output(options_->json, json_text(described(all)));
+}
+
+Result<void> DevicesCommand::emulate() const {
     if (options_->emulator.silence.for_s > 0.0 && options_->emulator.silence.from_s == 0.0)
         return fail("--silent-for", "says for how long, and nothing says from when on", "give --silent-from too");
     const session::EndSignals signals;
@@ -85,6 +125,36 @@ Result<void> DevicesCommand::run() const {
         std::fflush(stdout);
     };
     return devices::run_emulator(options_->emulated, options);
+}
+
+Result<void> DevicesCommand::test() const {
+    const std::string where = "burin devices test " + options_->tested;
+    CheckOptions check = options_->check;
+    check.watch_s = options_->watch_s.value_or(check.by_itself ? 15.0 : 60.0);
+    if (!check.by_itself && !TerminalGuide::is_there())
+        return fail(where, "asks a person at a terminal, and there is none",
+                    "run it in a terminal, or with --yes for a device that is emulated or held");
+    if (const auto place = check_place(options_->test_json); !place) return place;
+    MonotonicClock clock;
+    // Leads the handle of a simulated device as emulated ones are led.
+    auto hand = devices::SimulatedHand::create(devices::circling_hand(), devices::HandPath::monotone_cubic);
+    if (!hand) return std::unexpected(hand.error());
+    auto device = devices::open_haptic_device(options_->tested, {clock, std::move(*hand)});
+    if (!device) return std::unexpected(device.error());
+    std::vector<CheckLine> lines;
+    {
+        TerminalGuide guide(options_->test_json == kStandardOutput, !check.by_itself);
+        lines = check_device(*device, clock, guide, check);
+    }
+    std::string failed;
+    for (const CheckLine& line : lines)
+        if (line.verdict == Verdict::failed) failed += (failed.empty() ? "" : ", ") + line.check;
+    if (const auto written =
+            write_output(options_->test_json, json_text(described(options_->tested, lines, failed.empty())));
+        !written)
+        return written;
+    if (!failed.empty()) return fail(where, "failed: " + failed, "the lines above say what was found");
+    return {};
 }
 
 }  // namespace burin::app

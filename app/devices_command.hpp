@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// burin devices: which devices and trackers there are, and why others are not; and emulators of them.
+// burin devices: which devices and trackers there are, and why others are not; emulators of them; and a guided check of
+// a force-feedback device.
 #pragma once
 
 #include <memory>
@@ -21,9 +22,13 @@ public:
     [[nodiscard]] Result<void> run() const;
 
 private:
+    [[nodiscard]] Result<void> list() const;
+    [[nodiscard]] Result<void> emulate() const;
+    [[nodiscard]] Result<void> test() const;
+
     struct Options;
     std::unique_ptr<Options> options_;
-    Command command_, emulate_;
+    Command command_, emulate_, test_;
 };
 
 }  // namespace burin::app

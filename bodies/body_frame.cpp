@@ -43,11 +43,12 @@ std::optional<BodyFrame::Known> BodyFrame::palm_of(std::span<const std::size_t> 
     return Known{palm.scene_from_hand, palm.time_ns};
 }
 
-void BodyFrame::take_hold(std::span<const std::size_t> hands) {
+void BodyFrame::take_hold(std::span<const std::size_t> hands, const std::optional<Vec3>& seat_palm_m) {
     const auto palm = palm_of(hands);
     if (!palm) return;
     held_by_.assign(hands.begin(), hands.end());
     palm_from_body_ = scene::composed(scene::inverse(palm->scene_from_palm), pose_);
+    seat_palm_m_ = seat_palm_m;
     flying_.reset();
     been_.clear();
 }
@@ -64,10 +65,11 @@ void BodyFrame::let_go() {
     fly(ball, flown_to_ns_);
 }
 
-void BodyFrame::fly(const FlyingBall& ball, Nanoseconds at_ns) {
+void BodyFrame::fly(const FlyingBall& ball, Nanoseconds at_ns, bool is_pushed) {
     if (!room_) return put(ball.place_m);
     held_by_.clear();
     flying_ = ball;
+    is_pushed_ = is_pushed;
     flown_to_ns_ = at_ns;
     pose_.position_m = ball.place_m;
     velocities_ = {ball.velocity_m_per_s, Vec3(0.0)};
@@ -90,6 +92,12 @@ void BodyFrame::use(std::optional<FlightRoom> room) {
 void BodyFrame::follow_hand() {
     const auto palm = palm_of(held_by_);
     if (!palm) return;
+    if (seat_palm_m_ && !been_.empty()) {
+        const Vec3 way_m = *seat_palm_m_ - palm_from_body_.position_m;
+        const double far_m = glm::length(way_m);
+        const double step_m = kSeats_m_per_s * std::max(seconds(palm->time_ns - been_.back().time_ns), 0.0);
+        palm_from_body_.position_m += far_m > step_m ? step_m / far_m * way_m : way_m;
+    }
     pose_ = scene::composed(palm->scene_from_palm, palm_from_body_);
     pose_.orientation = glm::normalize(pose_.orientation);
     if (!been_.empty() && palm->time_ns <= been_.back().time_ns) {
@@ -108,7 +116,7 @@ void BodyFrame::follow_hand() {
 void BodyFrame::fly_on(Nanoseconds now_ns, const Vec3& push_m_per_s2) {
     if (now_ns <= flown_to_ns_) return;
     const double time_s = seconds(now_ns - flown_to_ns_);
-    if (push_m_per_s2 != Vec3(0.0)) {
+    if (is_pushed_ && push_m_per_s2 != Vec3(0.0)) {
         flying_->velocity_m_per_s += std::min(time_s, kMostPush_s) * push_m_per_s2;
         flying_->support.reset();
     }

@@ -28,6 +28,7 @@ public:
     // A ball that is let go of flies with the mean velocity of this time; without one where the hand has told nothing
     // for so long.
     static constexpr Nanoseconds kThrow_ns = 20'000'000;
+    static constexpr double kSeats_m_per_s = 0.15;
     // A push counts for so long at most, however late an update comes: it is known as of the update before.
     static constexpr double kMostPush_s = 0.016;
 
@@ -36,11 +37,12 @@ public:
 
     void take_tick(std::size_t hand, const haptics::TickRecord& newest);
     // Has it move with parts of one hand from where they and it are then; or leaves it, with the velocity that it has.
-    // With no part that is known it stays as it is.
-    void take_hold(std::span<const std::size_t> hands);
+    // With no part that is known it stays as it is. seat_palm_m: where its middle comes to lie in the palm, at
+    // kSeats_m_per_s, as fingers draw in what they close on; none: where it was.
+    void take_hold(std::span<const std::size_t> hands, const std::optional<Vec3>& seat_palm_m = std::nullopt);
     void let_go();
-    // Puts it into flight as of a time.
-    void fly(const FlyingBall& ball, Nanoseconds at_ns);
+    // Puts it into flight as of a time. is_pushed: what touches it in flight turns its way.
+    void fly(const FlyingBall& ball, Nanoseconds at_ns, bool is_pushed = true);
     // Puts it to a place, where it stands.
     void put(const Vec3& place_m);
     // What it falls among from now on. What rolls has to find anew what bears it.
@@ -57,6 +59,10 @@ public:
     [[nodiscard]] bool stands() const { return held_by_.empty() && !flying_; }
     [[nodiscard]] bool is_held() const { return !held_by_.empty(); }
     [[nodiscard]] bool flies() const { return flying_.has_value(); }
+    // Returns how it lies in the palm that holds it; nothing where none does.
+    [[nodiscard]] std::optional<Pose> palm_from_body() const {
+        return is_held() ? std::optional(palm_from_body_) : std::nullopt;
+    }
 
 private:
     struct Known {
@@ -78,8 +84,10 @@ private:
     std::map<std::size_t, Known> hands_;
     std::vector<std::size_t> held_by_;
     Pose palm_from_body_;
+    std::optional<Vec3> seat_palm_m_;
     std::vector<Been> been_;  // while it is held, the newest last: those of the last kThrow_ns
     std::optional<FlyingBall> flying_;
+    bool is_pushed_ = true;        // in flight
     Nanoseconds flown_to_ns_ = 0;  // or to when it has come otherwise
 };
 

@@ -250,6 +250,7 @@ void SoftPart::take_changes(scene::SceneChanges& changes) {
     auto shape = std::make_shared<SoftShape>();
     shape->scene_from_body = frame_.pose();
     shape->places_m = places_of(drawn_, state_.places_m);
+    shape->palm_from_body = frame_.palm_from_body();
     changes.drawn.push_back(std::move(shape));
 }
 

@@ -48,7 +48,8 @@ struct SoftPartSetup {
 class SoftShape final : public scene::DrawnChange {
 public:
     Pose scene_from_body;
-    std::vector<Vec3> places_m;  // in the body's frame
+    std::vector<Vec3> places_m;          // in the body's frame
+    std::optional<Pose> palm_from_body;  // in the hand that holds it; none: no hand does
 };
 
 class SoftPart final : public scene::ScenePart {

@@ -64,6 +64,13 @@ FingersTurn fingers_of(const FingerTicks& ticks, double dt_s) {
     return turn;
 }
 
+// The little finger has no piston and is not read.
+double closure_of(const HandReading& hand) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kFelt; ++i) sum += geometry::closure_of(static_cast<geometry::Finger>(i), hand.bend[i]);
+    return sum / static_cast<double>(kFelt);
+}
+
 Json json_of(const FingerMeasures& finger, const char* name) {
     Json ranges = Json::array();
     for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) ranges.push_back(finger.range_rad(joint));
@@ -104,6 +111,7 @@ void Rehab::take_over(const session::ActivityView& view, session::ActivityOrders
                 [body = body_.get(), room = room_among(*view.world, body_->setup())] { body->fall_among(room); });
         orders.edits.push_back({object_, ObjectProperty::felt, {0.0}});
         orders.edits.push_back({object_, ObjectProperty::seen, {0.0}});
+        exercise_->begin(*body_, orders);
     }
     has_given_way_ = own == nullptr || !own->seen;
 }
@@ -134,6 +142,8 @@ void Rehab::take_shape(const session::ActivityView& view) {
         if (const auto* const shape = dynamic_cast<const bodies::SoftShape*>(change.get())) {
             drawn_ = renderer::smooth_mesh(shape->places_m, body_->triangles());
             scene_from_drawn_ = shape->scene_from_body;
+            lies_in_palm_m_.reset();
+            if (shape->palm_from_body) lies_in_palm_m_ = shape->palm_from_body->position_m;
         }
 }
 
@@ -151,7 +161,8 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         const Nanoseconds now_ns = ticks[0]->time_ns;
         const double dt_s = turn_ns_ > 0 ? seconds(now_ns - turn_ns_) : 0.0;
         turn_ns_ = now_ns;
-        turn({now_ns, holds, fingers_of(ticks, dt_s)}, orders);
+        const HandReading hand = reading_of(ticks);
+        turn({now_ns, holds, fingers_of(ticks, dt_s), hand.scene_from_hand, closure_of(hand), lies_in_palm_m_}, orders);
     });
 }
 

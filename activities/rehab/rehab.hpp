@@ -32,6 +32,7 @@ public:
         hand_.adjust(of, parameters);
     }
     [[nodiscard]] bool draws_hands() const override { return true; }
+    [[nodiscard]] std::optional<session::LedHand> led_hand() const override { return exercise_->led_hand(); }
     void stage(renderer::Scene& scene, std::size_t screen) const override;
     [[nodiscard]] scene::ScenePart* scene_part() override { return body_.get(); }
     [[nodiscard]] session::ActivityPanel panel() const override;
@@ -55,7 +56,8 @@ private:
     bool has_given_way_ = false;                        // the world's own
     std::shared_ptr<const renderer::DrawnMesh> drawn_;  // the body, as of the update that the frame has taken
     Pose scene_from_drawn_;
-    bool is_lost_ = false;  // the body has fallen so deep that nobody reaches it
+    std::optional<Vec3> lies_in_palm_m_;  // by that update
+    bool is_lost_ = false;                // the body has fallen so deep that nobody reaches it
     Nanoseconds turn_ns_ = 0;
     HandMeasures measures_;
     std::size_t written_ = 0;  // events

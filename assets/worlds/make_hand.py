@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the meshes of hand.toml into hand/, as OBJ files in metres. Python 3, standard library only.
+"""Writes the meshes of hand.toml, putty.toml and game.toml into hand/, as OBJ files in metres.
+
+Python 3, standard library only.
 
 Each mesh stands on its own origin, +Y up, closed and oriented outwards.
 """
@@ -99,5 +101,8 @@ write("ball", ball(0.035, 40))
 write("box", rounded_box((0.05, 0.05, 0.05), 0.003, 9))
 write("card", rounded_box((0.05, 0.075, 0.016), 0.004, 9))
 write("table", rounded_box((0.3, 0.02, 0.24), 0.004, 9))
+write("floor", rounded_box((0.4, 0.02, 0.5), 0.004, 9))
+write("wall", rounded_box((0.4, 0.47, 0.02), 0.004, 9))
+write("line", rounded_box((0.4, 0.004, 0.002), 0.0005, 3))
 write("stand", turned([(0.0, 0.0), (0.021, 0.0), (0.022, 0.001), (0.022, 0.003), (0.021, 0.004), (0.011, 0.007),
                        (0.008, 0.012), (0.008, 0.04), (0.011, 0.046), (0.016, 0.049), (0.0155, 0.05), (0.0, 0.046)], 40))

@@ -27,6 +27,19 @@ HdCondition condition_of(unsigned int error) {
     return error >= kHdFirstDeviceError && error <= kHdLastDeviceError ? HdCondition::gone : HdCondition::unsound;
 }
 
+DeviceFault fault_of(HdCondition condition) {
+    switch (condition) {
+        case HdCondition::well: return DeviceFault::none;
+        case HdCondition::warm: return DeviceFault::overheated;
+        case HdCondition::too_fast: return DeviceFault::overspeed;
+        case HdCondition::gone: return DeviceFault::disconnected;
+        case HdCondition::uncalibrated:
+        case HdCondition::unsound:
+        case HdCondition::force_error: break;
+    }
+    return DeviceFault::other;
+}
+
 // Sixteen numbers, column by column, in millimetres; nothing where they are no rigid transform.
 std::optional<Pose> pose_of(const std::array<double, 16>& transform) {
     glm::dmat3 turn;
@@ -46,11 +59,6 @@ std::optional<Pose> pose_of(const std::array<double, 16>& transform) {
 }  // namespace
 
 HdDevice::~HdDevice() { servo_->close(*this); }
-
-void HdDevice::command(const Vec3& force_N) noexcept {
-    wanted_.draft() = {force_N, servo_->clock_.now_ns()};
-    wanted_.publish();
-}
 
 std::vector<std::string> HdDevice::take_messages() {
     std::vector<std::string> messages;
@@ -212,25 +220,21 @@ void HdServo::serve(HdDevice& device, Nanoseconds now_ns) noexcept {
     api_.read_integers(kHdButtons, &buttons);
     calibrate(device);
     const std::optional<Pose> pose = pose_of(transform);
-    HdState& state = device.state_.draft();
-    state.time_ns = now_ns;
-    state.buttons = static_cast<std::uint32_t>(buttons);
-    state.condition = HdCondition::well;
-    if (device.calibration_ != kHdCalibrated) state.condition = HdCondition::uncalibrated;
-    if (!pose) state.condition = HdCondition::unsound;
-    if (device.error_ != HdCondition::well && now_ns - device.error_ns_ >= kErrorHolds_ns) {
+    HdCondition condition = HdCondition::well;
+    if (device.calibration_ != kHdCalibrated) condition = HdCondition::uncalibrated;
+    if (!pose) condition = HdCondition::unsound;
+    if (device.error_ != HdCondition::well && now_ns - device.error_ns_ >= kServedErrorHolds_ns) {
         device.error_ = HdCondition::well;
         device.is_gone_.store(false, std::memory_order_relaxed);
     }
-    if (device.error_ != HdCondition::well) state.condition = device.error_;
-    if (pose) state.pose_hd = *pose;
-    const HdDevice::Wanted wanted = device.wanted_.newest();
-    const bool may = !pauses_.load(std::memory_order_relaxed) && state.condition == HdCondition::well &&
-                     now_ns - wanted.time_ns < kSilent_ns && finite(wanted.force_N);
-    Vec3 force_N = may ? wanted.force_N : Vec3(0.0);
+    if (device.error_ != HdCondition::well) condition = device.error_;
+    if (pose) device.pose_device_ = {pose->position_m - device.middle_m_, pose->orientation};
+    device.exchange_.draft() = {now_ns, device.pose_device_, static_cast<std::uint32_t>(buttons), fault_of(condition)};
+    device.exchange_.publish();
+    const bool may = !pauses_.load(std::memory_order_relaxed) && condition == HdCondition::well;
+    Vec3 force_N = may ? device.exchange_.wanted_N(now_ns) : Vec3(0.0);
     const double size_N = glm::length(force_N);
     if (device.most_N_ > 0.0 && size_N > device.most_N_) force_N *= device.most_N_ / size_N;
-    device.state_.publish();
     const std::array<double, 3> given{force_N.x, force_N.y, force_N.z};
     api_.write_doubles(kHdForce, given.data());
     api_.end_frame(handle);

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The devices of one HDAPI library, and the turn that its servo thread makes of them a thousand times a second.
 //
-// Data flow: servo turn -> newest state of each device -> the haptic thread; newest force of each -> servo turn ->
-// device. The library's own thread waits for the device, and the haptic thread never does. A turn writes zero unless
-// the haptic thread has given a force within the last kSilent_ns, the device is calibrated, its state is sound, and no
-// error has come within kErrorHolds_ns: so whatever fails, the last force written is zero.
+// The library's own thread waits for the device, and meets the haptic thread as served_arm.hpp says. A turn writes zero
+// unless the haptic thread has given a force within the last kServedSilent_ns, the device is calibrated, its state is
+// sound, and no error has come within kServedErrorHolds_ns: so whatever fails, the last force written is zero.
 // Errors of the library are a stack, newest first: each turn takes all of them, says which device they are of, and
 // leaves the gravest of each device for whoever shows it.
 // A device that says it is gone (no communication, a fault) is opened anew from a thread of its own, once in
 // kAgain_ns, when no other device of the library is well: opening stops the library's thread for all. Before that
 // thread is stopped, for whatever reason, it has written zero to every device. Threads: open() and close on one;
-// newest() and command() on the haptic thread, wait-free; take_messages() on the frame's. HDAPI is one for a process,
-// so its servo is too.
+// take_messages() on the frame's. HDAPI is one for a process, so its servo is too.
 #pragma once
 
 #include <array>
@@ -23,66 +21,53 @@
 #include <vector>
 
 #include "base/clock.hpp"
-#include "base/newest_slot.hpp"
 #include "base/ring.hpp"
 #include "base/space.hpp"
 #include "devices/drivers/hd_api.hpp"
+#include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
 
 // The graver the later.
 enum class HdCondition : std::uint8_t { well, uncalibrated, unsound, warm, too_fast, force_error, gone };
 
-struct HdState {
-    Nanoseconds time_ns = 0;  // of the servo turn; 0: none yet
-    Pose pose_hd;             // metres, about HDAPI's own origin
-    std::uint32_t buttons = 0;
-    HdCondition condition = HdCondition::uncalibrated;
-};
-
 class HdServo;
 
 // One device, while it lives. Destroying it leaves zero force and gives the device back.
-class HdDevice {
+class HdDevice final : public ServedLink {
 public:
-    ~HdDevice();
+    ~HdDevice() override;
     HdDevice(const HdDevice&) = delete;
     HdDevice& operator=(const HdDevice&) = delete;
 
-    [[nodiscard]] const HdState& newest() noexcept { return state_.newest(); }
-    void command(const Vec3& force_N) noexcept;
-    [[nodiscard]] const Vec3& workspace_middle_hd_m() const { return middle_m_; }
+    [[nodiscard]] ServedExchange& exchange() noexcept override { return exchange_; }
     [[nodiscard]] const std::string& model() const { return model_; }
-    [[nodiscard]] std::vector<std::string> take_messages();
+    [[nodiscard]] std::vector<std::string> take_messages() override;
 
 private:
     friend class HdServo;
     HdDevice(std::shared_ptr<HdServo> servo, std::string name)
         : servo_(std::move(servo)), name_(std::move(name)), notices_(64) {}
 
-    struct Wanted {
-        Vec3 force_N{0.0};
-        Nanoseconds time_ns = 0;
-    };
     std::shared_ptr<HdServo> servo_;
     std::string name_, model_;
     std::atomic<HdHandle> handle_ = kHdNoDevice;
-    Vec3 middle_m_{0.0};
+    Vec3 middle_m_{0.0};  // of the workspace, about HDAPI's origin
     double most_N_ = 0.0;
     unsigned int calibrates_by_ = 0;
-    NewestSlot<HdState> state_;  // the servo's thread -> the haptic thread
-    NewestSlot<Wanted> wanted_;  // the haptic thread -> the servo's
-    Ring<HdError> notices_;      // the servo's thread -> the frame's; kHdCalibrationNeedsHand: it waits for a hand
+    ServedExchange exchange_;
+    Ring<HdError> notices_;  // the servo's thread -> the frame's; kHdCalibrationNeedsHand: it waits for a hand
     std::atomic<bool> is_gone_ = false;
     // Of the servo's thread:
     Nanoseconds error_ns_ = 0;
     HdCondition error_ = HdCondition::well;
+    Pose pose_device_;  // the last that was one
     unsigned int calibration_ = 0, told_calibration_ = 0, turns_ = 0;
 };
 
 class HdServo : public std::enable_shared_from_this<HdServo> {
 public:
-    static constexpr Nanoseconds kSilent_ns = 20'000'000, kErrorHolds_ns = 250'000'000, kAgain_ns = 1'000'000'000;
+    static constexpr Nanoseconds kAgain_ns = 1'000'000'000;
     static constexpr std::size_t kMostDevices = 4;
 
     // Returns the servo of a library, which all who ask for it share.

@@ -6,16 +6,14 @@
 // Frames: HDAPI's axes are the device frame's; its origin is not, and is moved to the middle of the workspace that the
 // library calls usable. The description is that of an Omni as the PowerWall paper and the data sheet give it, whatever
 // the device is, so that a recording is done again without it; a device that gives less force is not asked for more.
-// Servo turns and ticks are a millisecond apart, each by its own clock. A sample is where the stylus was a turn ago, on
-// the straight line between the two newest turns, so that a tick sees a motion and neither the same place twice nor a
-// jump. Faults: a device that is gone or silent for kOmniLost_ns, that is not calibrated, whose pose is no pose, that
+// Faults: a device that is gone or silent for kServedLost_ns, that is not calibrated, whose pose is no pose, that
 // is warm or was too fast. Threads: as haptic_device.hpp.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "devices/drivers/hd_servo.hpp"
+#include "base/clock.hpp"
 #include "devices/hand/any_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/presence/device_presence.hpp"
@@ -23,12 +21,7 @@
 namespace burin::devices {
 
 inline constexpr const char* kOmni = "omni";
-inline constexpr Nanoseconds kOmniLost_ns = 20'000'000;
 inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
-
-// Returns where the stylus was at a time, about HDAPI's origin: on the straight line between two servo turns, and
-// nowhere beyond them.
-[[nodiscard]] Pose omni_pose_at(const HdState& before, const HdState& newest, Nanoseconds time_ns) noexcept;
 
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);

@@ -1,36 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "devices/emulators/emulated_omni.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "devices/drivers/hd_api.hpp"
+#include "devices/emulators/circling_hand.hpp"
+#include "devices/emulators/emulated_arm.hpp"
 
 namespace burin::devices {
-namespace {
-
-// The usual script, for an hour.
-std::vector<HandPose> circling() {
-    constexpr double kRest_s = 2.0, kDown_s = 1.0, kCircle_s = 8.0, kUp_s = 1.0, kStep_s = 0.25;
-    constexpr double kRadius_m = 0.02, kAbove_m = 0.03;
-    const Quat upright(1.0, 0.0, 0.0, 0.0);
-    std::vector<HandPose> script;
-    for (double begin_s = 0.0; begin_s < EmulatedOmni::kScript_s; begin_s += kRest_s + kDown_s + kCircle_s + kUp_s) {
-        const Vec3 first(kRadius_m, 0.0, 0.0), above(kRadius_m, 0.0, kAbove_m);
-        script.push_back({begin_s, above, upright, 0});
-        script.push_back({begin_s + kRest_s, above, upright, 0});
-        for (double t = 0.0; t < kCircle_s; t += kStep_s) {
-            const double angle = 2.0 * std::numbers::pi * t / kCircle_s;
-            script.push_back(
-                {begin_s + kRest_s + kDown_s + t, kRadius_m * Vec3(std::cos(angle), std::sin(angle), 0.0), upright, 1});
-        }
-        script.push_back({begin_s + kRest_s + kDown_s + kCircle_s, first, upright, 0});
-    }
-    return script;
-}
-
-}  // namespace
-
 Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniOptions options) {
     if (!name.starts_with("emulated"))
         return fail("emulated omni " + name, "has no such name", "begin it with emulated: emulated, emulated-2");
@@ -38,7 +13,7 @@ Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniO
     if (!memory)
         return fail("emulated omni " + name, "cannot be made: another one may be running by this name",
                     "end that one, or choose another name: --at emulated-2");
-    if (options.script.empty()) options.script = circling();
+    if (options.script.empty()) options.script = circling_hand();
     (*memory)->calibration.store(kHdCalibrated, std::memory_order_relaxed);
     return EmulatedOmni(std::move(*memory), std::move(options));
 }
@@ -66,29 +41,15 @@ void EmulatedOmni::publish(SimulatedOmni& omni, Nanoseconds now_ns) {
 }
 
 void EmulatedOmni::run(const std::function<bool()>& ends) {
-    constexpr Nanoseconds kPeriod_ns = 1'000'000;
-    MonotonicClock clock;
     auto hand = SimulatedHand::create(options_.script, HandPath::monotone_cubic);
     if (!hand) return;
     SimulatedOmni omni(std::move(*hand));
-    const Nanoseconds begun_ns = clock.now_ns();
-    Nanoseconds due_ns = begun_ns;
-    while (!ends()) {
-        due_ns = std::max(due_ns + kPeriod_ns, clock.now_ns() - 50 * kPeriod_ns);
-        clock.sleep_until(due_ns);
-        const Nanoseconds now_ns = clock.now_ns();
-        if (drill_->is_silent || options_.silence.is_silent(seconds(now_ns - begun_ns))) continue;
-        const Nanoseconds frame_ns = memory_->frame_ns.load(std::memory_order_relaxed);
-        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < HdShared::kSilent_ns;
-        const auto force = memory_->force_N.read();
-        if (!is_heard)
-            omni.write({});
-        else if (force)
-            omni.write({Vec3((*force)[0], (*force)[1], (*force)[2]), Vec3(0.0)});
-        // Before a session has opened it the hand's time stands.
-        if (frame_ns > 0) omni.advance(kPeriod_ns);
-        publish(omni, now_ns);
-    }
+    run_emulated_arm(
+        *memory_, omni,
+        {.ends = ends,
+         .is_silent = [&](double time_s) { return drill_->is_silent || options_.silence.is_silent(time_s); },
+         .written_N = [&] { return written_N(); },
+         .publish = [&](Nanoseconds now_ns) { publish(omni, now_ns); }});
 }
 
 }  // namespace burin::devices

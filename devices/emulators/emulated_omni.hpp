@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A PHANTOM Omni that is not there: the simulated Omni in a scripted hand, offered through shared memory to the
 // emulated library of its maker (devices/emulators/hd_library/), which a session loads in place of the maker's. The
-// script begins when a session has opened it: the hand rests, goes down to the workspace's middle and circles there
-// with its first button pressed, lifts, and begins anew. A force that no library has renewed for HdShared::kSilent_ns
-// is none. One thread runs it; the drills may be set by any.
+// script (circling_hand.hpp) begins when a session has opened it. A force that no library has renewed for
+// HdShared::kSilent_ns is none. One thread runs it; the drills may be set by any.
 #pragma once
 
 #include <atomic>
@@ -21,7 +20,7 @@
 namespace burin::devices {
 
 struct EmulatedOmniOptions {
-    // Of the hand, in the device frame, from when a session has opened it; empty: as above.
+    // Of the hand, in the device frame, from when a session has opened it; empty: circling_hand().
     std::vector<HandPose> script;
     SilenceDrill silence;  // it stops stepping then, as a device whose cable is pulled
 };
@@ -30,8 +29,6 @@ class EmulatedOmni {
 public:
     // Where the workspace's middle is in HDAPI's own frame, which begins elsewhere: metres.
     static constexpr Vec3 kMiddle_hd_m{0.0, 0.04, -0.02};
-    // Beyond it a hand is at rest again: the script is this long.
-    static constexpr double kScript_s = 3600.0;
 
     // Fails where one of that name is there already.
     [[nodiscard]] static Result<EmulatedOmni> create(const std::string& name, EmulatedOmniOptions options = {});

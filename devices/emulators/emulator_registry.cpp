@@ -5,10 +5,13 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_dtrack.hpp"
+#include "devices/emulators/emulated_falcon.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/emulators/emulated_vrpn.hpp"
+#include "devices/emulators/emulated_wand.hpp"
 #include "devices/trackers/dtrack_protocol.hpp"
 
 namespace burin::devices {
@@ -43,6 +46,33 @@ Result<void> run_omni(const EmulatorOptions& options) {
     return {};
 }
 
+Result<void> run_falcon(const EmulatorOptions& options) {
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto falcon = EmulatedFalcon::create(name, {.script = {}, .silence = options.silence});
+    if (!falcon) return std::unexpected(falcon.error());
+    options.is_there("--device falcon:" + name);
+    falcon->run(options.ends);
+    return {};
+}
+
+Result<void> run_dhd(const EmulatorOptions& options) {
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto dhd = EmulatedDhd::create(name, {.script = {}, .silence = options.silence});
+    if (!dhd) return std::unexpected(dhd.error());
+    options.is_there("--device dhd:" + name);
+    dhd->run(options.ends);
+    return {};
+}
+
+Result<void> run_wand(const EmulatorOptions& options) {
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto wand = EmulatedWand::create(name, {.script = {}, .silence = options.silence});
+    if (!wand) return std::unexpected(wand.error());
+    options.is_there("--device wand:" + name);
+    wand->run(options.ends);
+    return {};
+}
+
 Result<void> run_dtrack(const EmulatorOptions& options) {
     const auto to = network_address(options.at, {"127.0.0.1", kDTrackPort});
     if (!to) return fail("emulated DTrack", "has no address " + options.at, "write HOST, PORT or HOST:PORT");
@@ -54,6 +84,10 @@ constexpr std::array kKinds{
     EmulatorKind{"glove", "a force-feedback glove on a serial line, whose fingers close and open", run_glove},
     EmulatorKind{"omni", "a PHANTOM Omni whose hand circles with its button down; --at emulated-2 for a second one",
                  run_omni},
+    EmulatorKind{"falcon", "a Novint Falcon in the same hand, at the far end of its USB cable; --at as for the omni",
+                 run_falcon},
+    EmulatorKind{"dhd", "a Force Dimension omega.3 in the same hand; --at as for the omni", run_dhd},
+    EmulatorKind{"wand", "a Quanser wand that a hand takes out of its jig and circles; --at as for the omni", run_wand},
     EmulatorKind{"dtrack", "ART's DTrack with a head and a flystick that sway, which sends to 127.0.0.1:5000",
                  run_dtrack},
     EmulatorKind{"vrpn", "a VRPN server with a head and a wand that sway, at 127.0.0.1:3883", run_vrpn},

@@ -19,6 +19,18 @@ Vec3 device_limits(const AxisMap& axes, const Vec3& maker) noexcept { return glm
 
 }  // namespace
 
+WandDescription quanser_wand_of_maker() {
+    WandDescription wand;
+    wand.axes = {{0, 2, 1}, {-1.0, 1.0, 1.0}};
+    wand.lowest_turn_rad = {-65.0 * kDegree_rad, -85.0 * kDegree_rad, 0.0};
+    wand.highest_turn_rad = -wand.lowest_turn_rad;
+    wand.max_torque_maker_Nm = {0.230, 0.250, 0.0};
+    // Half a turn about the axis between the device's y and z takes the one's axes to the other's.
+    wand.scene_from_maker = {{0.0, 0.2, -0.2}, Quat(0.0, 0.0, std::sqrt(0.5), std::sqrt(0.5))};
+    wand.calibration.maker_from_handle = {{0.0, 0.124, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)};
+    return wand;
+}
+
 Vec3 device_axes(const AxisMap& axes, const Vec3& maker) noexcept {
     return {axes.sign[0] * maker[axes.maker[0]], axes.sign[1] * maker[axes.maker[1]],
             axes.sign[2] * maker[axes.maker[2]]};

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "devices/haptic/haptic_device.hpp"
+#include "devices/haptic/wand_mechanism.hpp"
 
 namespace burin::devices {
 
@@ -78,9 +79,16 @@ struct WandDescription {
     std::vector<WandPoint> points{{"top", {0.0, 0.08, 0.0}}, {"bottom", {0.0, -0.08, 0.0}}};
     WandCalibration calibration;
     WandArm arm;
+    WandMechanism mechanism;  // of a device that is there; its frame is then the maker's
 
     bool operator==(const WandDescription&) const = default;
 };
+
+// Returns the Quanser wand as its maker's own program counts: the maker's frame is the mechanism's, +x along the waist
+// axes, +y outwards from them towards the user, +z up. So the table of the thesis (torque about x and y) and its jig at
+// [0, 0, 123] mm, whose last number is the distance outwards, fit together; assets/devices/quanser-wand-hil.toml has
+// it. A world stands as with the wand of the thesis: its axes are the device's.
+[[nodiscard]] WandDescription quanser_wand_of_maker();
 
 // Most points that can be named; a probe holds no more.
 inline constexpr std::size_t kMostWandPoints = 20;

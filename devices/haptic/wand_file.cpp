@@ -70,7 +70,7 @@ std::string not_a_point_name(std::string_view name) {
 // Reads one file; collects problems on the way.
 class WandReader {
 public:
-    explicit WandReader(const std::string& name) : reading_{name} {}
+    WandReader(const std::string& name, const WandDescription& otherwise) : reading_{name}, wand_(otherwise) {}
 
     WandOrProblems read(const toml::table& root) {
         TableReader t(reading_, &root, "the file");
@@ -84,6 +84,7 @@ public:
         if (t.has("point")) read_points(points);
         read_calibration(t.table("calibration"));
         read_arm(t.table("arm"));
+        read_mechanism(t.table("mechanism"));
         t.refuse_unknown();
         if (!reading_.errors.empty()) return std::unexpected(std::move(reading_.errors));
         return std::move(wand_);
@@ -243,22 +244,71 @@ private:
         t.refuse_unknown();
     }
 
+    // Six numbers, one a joint, each within bounds.
+    void read_joints(TableReader& t, const char* key, double least, double most, double unit, WandJoints& to) {
+        const std::optional<std::vector<double>> values = t.numbers(key, kWandJoints);
+        if (!values) return;
+        for (std::size_t i = 0; i < kWandJoints; ++i) {
+            if (!((*values)[i] >= least && (*values)[i] <= most))
+                return t.refuse(key, formatted("has %g for joint %zu", (*values)[i], i),
+                                formatted("write a number from %g to %g there", least, most));
+            to[i] = unit * (*values)[i];
+        }
+    }
+
+    void read_signs(TableReader& t, const char* key, WandJoints& to) {
+        WandJoints signs = to;
+        read_joints(t, key, -1.0, 1.0, 1.0, signs);
+        for (const double sign : signs)
+            if (std::abs(sign) != 1.0) return t.refuse(key, formatted("has %g", sign), "write 1 or -1 for each joint");
+        to = signs;
+    }
+
+    void read_mechanism(const toml::table* table) {
+        TableReader t(reading_, table, "[mechanism]");
+        WandMechanism& m = wand_.mechanism;
+        constexpr double kMostLink_m = 2.0;
+        m.card = t.text("card").value_or(m.card);
+        m.arm.shoulders_m = bounded(t, "shoulders", 0.0, kMostLink_m, m.arm.shoulders_m);
+        m.arm.upper_m = bounded(t, "upper", 1e-3, kMostLink_m, m.arm.upper_m);
+        m.arm.fore_m = bounded(t, "fore", 1e-3, kMostLink_m, m.arm.fore_m);
+        m.arm.waists_m = bounded(t, "waists", 1e-3, kMostLink_m, m.arm.waists_m);
+        m.arm.offset_m = bounded(t, "offset", 0.0, kMostLink_m, m.arm.offset_m);
+        m.handle_tolerance_m = positive(t, "handle_tolerance", 0.1, m.handle_tolerance_m);
+        m.counts_a_turn = bounded(t, "counts", 100.0, 1e8, m.counts_a_turn);
+        read_signs(t, "encoder_signs", m.encoder_sign);
+        read_joints(t, "jig", -360.0, 360.0, kDegree_rad, m.jig_rad);
+        read_joints(t, "torque_constants", 1e-4, 100.0, 1.0, m.torque_Nm_per_A);
+        read_joints(t, "currents", 1e-3, 100.0, 1.0, m.most_A);
+        read_signs(t, "motor_signs", m.motor_sign);
+        m.volts_per_A = bounded(t, "volts_per_ampere", 1e-3, 100.0, m.volts_per_A);
+        WandJoints lines;
+        std::ranges::copy(m.enable_lines, lines.begin());
+        read_joints(t, "enable_lines", 0.0, 63.0, 1.0, lines);
+        std::ranges::transform(lines, m.enable_lines.begin(),
+                               [](double line) { return static_cast<std::uint32_t>(line); });
+        if (t.has("jig") && !wand_tips(m.arm, m.jig_rad))
+            t.refuse("jig", "is a pose that its linkages do not reach",
+                     "see the order of the joints in docs/devices.md");
+        t.refuse_unknown();
+    }
+
     TableReading reading_;
     WandDescription wand_;
 };
 
 }  // namespace
 
-WandOrProblems parse_wand(std::string_view text, const std::string& name) {
+WandOrProblems parse_wand(std::string_view text, const std::string& name, const WandDescription& otherwise) {
     const Result<toml::table> root = parse_toml(text, name);
     if (!root) return std::unexpected(std::vector{root.error()});
-    return WandReader(name).read(*root);
+    return WandReader(name, otherwise).read(*root);
 }
 
-Result<WandDescription> read_wand(const std::filesystem::path& path) {
+Result<WandDescription> read_wand(const std::filesystem::path& path, const WandDescription& otherwise) {
     const Result<std::string> text = read_text_file(path, kMostBytes);
     if (!text) return std::unexpected(text.error());
-    WandOrProblems wand = parse_wand(*text, path.string());
+    WandOrProblems wand = parse_wand(*text, path.string(), otherwise);
     if (wand) return std::move(*wand);
     const std::vector<Error>& problems = wand.error();
     if (problems.size() == 1) return std::unexpected(problems.front());

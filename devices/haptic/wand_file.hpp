@@ -19,9 +19,12 @@ namespace burin::devices {
 using WandOrProblems = std::expected<WandDescription, std::vector<Error>>;
 
 // Reads the text of a description. `name` stands for the file in messages.
-[[nodiscard]] WandOrProblems parse_wand(std::string_view text, const std::string& name);
+// `otherwise` is the wand of whatever the text leaves out.
+[[nodiscard]] WandOrProblems parse_wand(std::string_view text, const std::string& name,
+                                        const WandDescription& otherwise = {});
 
 // Reads a file. Fails with one Error that lists all problems, one a line where there are several.
-[[nodiscard]] Result<WandDescription> read_wand(const std::filesystem::path& path);
+[[nodiscard]] Result<WandDescription> read_wand(const std::filesystem::path& path,
+                                                const WandDescription& otherwise = {});
 
 }  // namespace burin::devices

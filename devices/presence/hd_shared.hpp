@@ -1,59 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The memory that an emulated Omni and the emulated library of its maker share: the emulator is a process of its own
-// (devices/emulators/emulated_omni.hpp), and the library is loaded into a session's, as the maker's is
-// (devices/emulators/hd_library/). Named in POSIX shared memory after the user and the emulator: "emulated",
-// "emulated-2".
-//
-// Each value has one writer. A reader takes a group of them between two equal, even counts of its sequence; where it
-// does not come to that in a few tries, it keeps what it had. Lengths in millimetres, as HDAPI's. Any thread; wait-free
-// but for opening.
+// What an emulated Omni and the emulated library of its maker share (devices/emulators/emulated_omni.hpp,
+// devices/emulators/hd_library/). Lengths in millimetres, as HDAPI's.
 #pragma once
 
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "base/clock.hpp"
+#include "devices/presence/shared_memory.hpp"
 
 namespace burin::devices {
 
-// A group of numbers with one writer.
-template <std::size_t Count>
-class SharedNumbers {
-public:
-    void write(const std::array<double, Count>& values) noexcept {
-        // release and acquire as of a sequence lock: numbers are atomic themselves, so nothing is torn, and the fences
-        // keep them between the two counts.
-        const std::uint32_t before = sequence_.load(std::memory_order_relaxed);
-        sequence_.store(before + 1, std::memory_order_relaxed);
-        std::atomic_thread_fence(std::memory_order_release);
-        for (std::size_t i = 0; i < Count; ++i) values_[i].store(values[i], std::memory_order_relaxed);
-        sequence_.store(before + 2, std::memory_order_release);
-    }
-    [[nodiscard]] std::optional<std::array<double, Count>> read() const noexcept {
-        constexpr int kTries = 8;
-        for (int i = 0; i < kTries; ++i) {
-            const std::uint32_t before = sequence_.load(std::memory_order_acquire);
-            std::array<double, Count> values;
-            for (std::size_t k = 0; k < Count; ++k) values[k] = values_[k].load(std::memory_order_relaxed);
-            std::atomic_thread_fence(std::memory_order_acquire);
-            if (before % 2 == 0 && sequence_.load(std::memory_order_relaxed) == before) return values;
-        }
-        return std::nullopt;
-    }
-
-private:
-    std::atomic<std::uint32_t> sequence_ = 0;
-    std::array<std::atomic<double>, Count> values_{};
-};
-
 struct HdShared {
     static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4431;  // "burinHD1": of this layout
-    static constexpr Nanoseconds kSilent_ns = 50'000'000;           // an end that is silent for so long is gone
+    static constexpr Nanoseconds kSilent_ns = kSharedSilent_ns;
+    static constexpr const char* kPrefix = "burin-hd-";
 
     std::atomic<std::uint64_t> magic = 0;
     // ---- The emulator's
@@ -75,28 +32,9 @@ struct HdShared {
 };
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<Nanoseconds>::is_always_lock_free);
 
-// Memory of that name, mapped while the object lives.
-class HdSharedMemory {
-public:
-    // Makes it, as an emulator does: nothing where another lives by that name, or the system refuses. It is gone when
-    // the object ends.
-    [[nodiscard]] static std::optional<HdSharedMemory> create(const std::string& name);
-    // Maps what an emulator has made.
-    [[nodiscard]] static std::optional<HdSharedMemory> open(const std::string& name);
-    ~HdSharedMemory();
-    HdSharedMemory(HdSharedMemory&& other) noexcept;
-    HdSharedMemory& operator=(HdSharedMemory&&) = delete;
-
-    [[nodiscard]] HdShared& operator*() const { return *shared_; }
-    [[nodiscard]] HdShared* operator->() const { return shared_; }
-
-private:
-    HdSharedMemory(HdShared* shared, std::string owned) : shared_(shared), owned_(std::move(owned)) {}
-    HdShared* shared_;
-    std::string owned_;  // what is unlinked at the end; empty: another's
-};
+using HdSharedMemory = SharedMemory<HdShared>;
 
 // Returns the names of the emulated Omnis that run now.
-[[nodiscard]] std::vector<std::string> emulated_omnis();
+[[nodiscard]] inline std::vector<std::string> emulated_omnis() { return emulated_of<HdShared>(); }
 
 }  // namespace burin::devices

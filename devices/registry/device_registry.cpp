@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/drivers/dhd_device.hpp"
 #include "devices/drivers/omni_device.hpp"
+#include "devices/drivers/wand_device.hpp"
+#include "devices/falcon/falcon_device.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
@@ -60,13 +63,35 @@ Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& sh
     return simulated_glove(*grip, std::move(host.hand), host.clock);
 }
 
+// Fails where a device that is really there was asked for in simulated time.
+Result<void> in_real_time(Clock& clock, const char* name) {
+    if (dynamic_cast<MonotonicClock*>(&clock) != nullptr) return {};
+    return fail("haptic device " + std::string(name), "is there in real time, and this session's time is simulated",
+                "run it in a window, or with --record FILE.session, which plays an --input in real time");
+}
+
 Result<OpenedDevice> open_omni_by(HapticHost host, const std::string& name) {
     if (host.stands_in) return omni_that_rests(host.clock);
-    if (dynamic_cast<MonotonicClock*>(&host.clock) == nullptr)
-        return fail("haptic device " + std::string(kOmni),
-                    "is there in real time, and this session's time is simulated",
-                    "run it in a window, or with --record FILE.session, which plays an --input in real time");
+    if (auto may = in_real_time(host.clock, kOmni); !may) return std::unexpected(may.error());
     return open_omni(name, std::move(host.hand), host.clock);
+}
+
+Result<OpenedDevice> open_falcon_by(HapticHost host, const std::string& choice) {
+    if (host.stands_in) return falcon_that_rests(host.clock);
+    if (auto may = in_real_time(host.clock, kFalcon); !may) return std::unexpected(may.error());
+    return open_falcon(choice, std::move(host.hand), host.clock);
+}
+
+Result<OpenedDevice> open_dhd_by(HapticHost host, const std::string& choice) {
+    if (host.stands_in) return dhd_that_rests(host.clock);
+    if (auto may = in_real_time(host.clock, kDhd); !may) return std::unexpected(may.error());
+    return open_dhd(choice, std::move(host.hand), host.clock);
+}
+
+Result<OpenedDevice> open_wand_by(HapticHost host, const std::string& text) {
+    if (host.stands_in) return wand_that_rests(text, host.clock);
+    if (auto may = in_real_time(host.clock, kHilWand); !may) return std::unexpected(may.error());
+    return open_wand(text, std::move(host.hand), host.clock);
 }
 
 constexpr std::array kKinds{
@@ -129,6 +154,42 @@ constexpr std::array kKinds{
                .handle = nullptr,
                .open = open_omni_by,
                .look = look_for_omnis},
+    HapticKind{.name = kHilWand,
+               .usage = "a Quanser 5-DOF wand by its maker's library (HIL); wand:IDENTIFIER of its card, "
+                        "wand:FILE.toml as FILE describes it, wand:IDENTIFIER,FILE.toml, each with @LIBRARY for a "
+                        "library elsewhere; wand:emulated by burin devices emulate",
+               .parts = 1,
+               .is_upright = true,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = true,
+               .handle = wand_at,
+               .open = open_wand_by,
+               .look = look_for_wands,
+               .file_of = [](const std::string& text) { return wand_address(text).file; }},
+    HapticKind{.name = kFalcon,
+               .usage = "a Novint Falcon on USB; falcon:FIRMWARE to give it its firmware, falcon:PLACE or "
+                        "falcon:PLACE@FIRMWARE where there are several, falcon:emulated by burin devices emulate",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_falcon_by,
+               .look = look_for_falcons},
+    HapticKind{.name = kDhd,
+               .usage = "a Force Dimension omega, delta, sigma or lambda by its maker's library; dhd:INDEX as that "
+                        "lists them, dhd:SERIAL, dhd:INDEX@LIBRARY for a library elsewhere, dhd:emulated by burin "
+                        "devices emulate",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_dhd_by,
+               .look = look_for_dhds},
 };
 
 struct ChosenKind {
@@ -184,7 +245,8 @@ std::string devices_with_handles() {
 
 std::string handle_file_of(std::string_view name) {
     const Result<ChosenKind> wanted = chosen(name);
-    return wanted && wanted->kind->handle != nullptr ? wanted->file : std::string();
+    if (!wanted || wanted->kind->handle == nullptr) return {};
+    return wanted->kind->file_of != nullptr ? wanted->kind->file_of(wanted->file) : wanted->file;
 }
 
 std::string haptic_usage() {

@@ -54,6 +54,8 @@ struct HapticKind {
     Result<OpenedDevice> (*open)(HapticHost host, const std::string& file);
     // Looks for such devices without opening them; null: it is simulated and always there.
     std::vector<DevicePresence> (*look)() = nullptr;
+    // Returns the file in what follows the name, where more than a file can; null: all of it is the file.
+    std::string (*file_of)(const std::string& text) = nullptr;
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 

@@ -11,13 +11,19 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <memory>
+#include <mutex>
+#include <thread>
 
 namespace burin::devices {
 namespace {
+
+int as_milliseconds(Nanoseconds time_ns) { return static_cast<int>(time_ns / 1'000'000); }
 
 std::unexpected<std::string> because(int code) { return std::unexpected(std::string(std::strerror(code))); }
 
@@ -33,6 +39,34 @@ std::expected<sockaddr_in, std::string> resolved(const NetworkAddress& address) 
     ::freeaddrinfo(found);
     result.sin_port = htons(address.port);
     return result;
+}
+
+// The search for a name asks servers, which may take their time, and cannot be ended: a thread of its own makes it, and
+// is left alone where nobody waits any more.
+struct NameSearch {
+    std::mutex mutex;
+    std::optional<std::expected<sockaddr_in, std::string>> found;
+    StopSign is_done;
+};
+
+constexpr const char* kToldToEnd = "it was told to end";
+
+std::expected<sockaddr_in, std::string> resolved_within(const NetworkAddress& address, Nanoseconds within_ns,
+                                                        const StopSign* stop) {
+    in_addr number{};
+    if (stop == nullptr || ::inet_pton(AF_INET, address.host.c_str(), &number) == 1) return resolved(address);
+    auto search = std::make_shared<NameSearch>();
+    std::thread([search, address] {
+        auto found = resolved(address);
+        const std::lock_guard lock(search->mutex);
+        search->found = std::move(found);
+        search->is_done.give();
+    }).detach();
+    const auto woken = stop->wait_for(search->is_done.file(), as_milliseconds(within_ns));
+    if (woken == StopSign::Woken::by_sign) return std::unexpected(std::string(kToldToEnd));
+    const std::lock_guard lock(search->mutex);
+    if (!search->found) return std::unexpected("no server says where " + address.host + " is");
+    return std::move(*search->found);
 }
 
 std::expected<BoundSocket, std::string> bound_at(const NetworkAddress& at, int kind) {
@@ -76,8 +110,11 @@ std::optional<NetworkAddress> network_address(const std::string& text, const Net
     return address;
 }
 
-std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns) {
-    const auto address = resolved(to);
+std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns,
+                                                 const StopSign* stop) {
+    MonotonicClock clock;
+    const Nanoseconds until_ns = clock.now_ns() + within_ns;
+    const auto address = resolved_within(to, within_ns, stop);
     if (!address) return std::unexpected(address.error());
     OwnedFile socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     if (!socket) return because(errno);
@@ -85,8 +122,11 @@ std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanos
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof(yes));
     if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) == 0) return socket;
     if (errno != EINPROGRESS) return because(errno);
-    pollfd ready{socket.get(), POLLOUT, 0};
-    const int came = ::poll(&ready, 1, static_cast<int>(within_ns / 1'000'000));
+    std::array<pollfd, 2> ready{
+        {{socket.get(), POLLOUT, 0}, {stop != nullptr ? stop->file() : -1, POLLIN, 0}}};  // poll skips a negative file
+    const int came =
+        ::poll(ready.data(), ready.size(), as_milliseconds(std::max<Nanoseconds>(until_ns - clock.now_ns(), 0)));
+    if (came > 0 && ready[1].revents != 0) return std::unexpected(std::string(kToldToEnd));
     if (came == 0) return std::unexpected(std::string("it does not answer"));
     int code = 0;
     socklen_t size = sizeof(code);

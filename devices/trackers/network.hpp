@@ -41,8 +41,12 @@ struct NetworkAddress {
 // Reads HOST, HOST:PORT or PORT alone; what is left out is as in `usual`. Nothing where it is none of these.
 [[nodiscard]] std::optional<NetworkAddress> network_address(const std::string& text, const NetworkAddress& usual);
 
-// Connects by TCP, within so long. Nothing that is sent waits for more to send (TCP_NODELAY); reads do not block.
-[[nodiscard]] std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns);
+class StopSign;
+
+// Connects by TCP, within so long, the search for the machine's name included. Nothing that is sent waits for more to
+// send (TCP_NODELAY); reads do not block. `stop` ends it early; null: nothing does.
+[[nodiscard]] std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns,
+                                                               const StopSign* stop = nullptr);
 // Listens for TCP connections, or binds for datagrams; of the port 0 the system's choice is in `bound`.
 struct BoundSocket {
     OwnedFile socket;

@@ -38,7 +38,7 @@ bool read_some(VrpnConnection& connection) {
 }  // namespace
 
 std::expected<VrpnConnection, std::string> connect_to_vrpn(const NetworkAddress& to, const StopSign& stop) {
-    auto socket = connect_to(to, kVrpnAnswer_ns);
+    auto socket = connect_to(to, kVrpnAnswer_ns, &stop);
     if (!socket) return std::unexpected("cannot be reached at " + to.text() + ": " + socket.error());
     VrpnConnection connection{std::move(*socket), std::make_unique<VrpnReader>(), {}};
     if (!send_all(connection.socket.get(), VrpnBytes().cookie().bytes()))

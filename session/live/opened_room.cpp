@@ -8,6 +8,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/state/activity.hpp"
 
 namespace burin::session {
 namespace {
@@ -56,6 +57,11 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
             room.desk.leans_sideways = true;
         }
         if (nature->is_worn) use_glove(room);
+        if (nature->is_worn && i == 0 && options.activity != nullptr)
+            if (const std::optional<LedHand> led = options.activity->led_hand()) {
+                opened.room.reach_object = led->reach_scene;
+                room.desk.rest_device = led->rest_device;
+            }
         if (!nature->handle) continue;
         steer_over(room, devices::device_of(*nature->handle).workspace_m);
         if (options.points.empty()) continue;

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -111,6 +112,12 @@ struct ActivityOrders {
     bool quit = false;
 };
 
+// Where a desk's mouse leads the hand of a glove: over which box of the scene, and how the hand is turned there.
+struct LedHand {
+    Box reach_scene;
+    Quat rest_device{1.0, 0.0, 0.0, 0.0};  // fingers along +Y, the palm looks along -Z
+};
+
 // Its section of the panel, from top to bottom.
 struct ActivityPanel {
     struct Row {
@@ -167,6 +174,9 @@ public:
     // Returns what it brings into the scene besides, such as a body that gives: a part that is updated with the others,
     // on the scene's thread, as long as the session runs. Asked once, before the first update. Null: nothing.
     [[nodiscard]] virtual scene::ScenePart* scene_part() { return nullptr; }
+    // Returns how the hand of a glove is led by a desk, where its scene asks for something of its own; nothing: over
+    // all that is seen, with the palm down. Asked once, when the session begins.
+    [[nodiscard]] virtual std::optional<LedHand> led_hand() const { return std::nullopt; }
     // Returns whether stage() draws the hands, so that no tools are drawn for them.
     [[nodiscard]] virtual bool draws_hands() const { return false; }
     // Changes what a screen shows.

@@ -61,9 +61,10 @@ Similarity place_workpiece(const Room& room, const HeldHandle* held) {
 Similarity place_workspace(const Room& room, const HandRoom& hand, const Similarity& world_from_object,
                            const HeldHandle* held) {
     if (held != nullptr) return world_from_object * object_from_device(*held, room.workpiece_object);
-    const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
+    const Box& reached = room.reach_object ? *room.reach_object : room.workpiece_object;
+    const Vec3 size = reached.extent() * world_from_object.scale;
     const Vec3 needed = kWorkspaceCovers * size / hand.workspace_device_m;
-    Vec3 place = room.workpiece_object.center();
+    Vec3 place = reached.center();
     if (room.covers_depth) return {world_from_object * place, world_from_object.orientation, longest(needed)};
     place.z = room.workpiece_object.hi.z;
     return {world_from_object * place, world_from_object.orientation, std::max(needed.x, needed.y)};

@@ -102,8 +102,9 @@ struct HandRoom {
 
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
 struct Room : HandRoom {
-    Box workpiece_object;       // of all that stands before the viewer
-    bool covers_depth = false;  // the workspace reaches all of it, not its front alone
+    Box workpiece_object;             // of all that stands before the viewer
+    bool covers_depth = false;        // the workspace reaches all of it, not its front alone
+    std::optional<Box> reach_object;  // what the workspace reaches, if not that
     SessionWall wall;
     std::vector<HandRoom> others;  // of the hands after the first
 

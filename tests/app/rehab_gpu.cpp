@@ -10,6 +10,7 @@
 #include "activities/rehab/putty/scripted_kneads.hpp"
 #include "base/json.hpp"
 #include "gpu/device.hpp"
+#include "tests/activities/foretold_throws.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -70,6 +71,52 @@ TEST_F(RehabSessions, CountTheKneadsThatTheSeedForetells) {
             EXPECT_EQ(json.at("counts").at("wrong_grip"), 0) << done.output;
             EXPECT_DOUBLE_EQ(json.at("score").get<double>(), 25.0 * static_cast<double>(kneads));
         }
+}
+
+// Through hand, fingers, body and rules it comes out as it does of a ball that the test throws by itself.
+TEST_F(RehabSessions, EndWithTheCatchesThatTheSeedForetells) {
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+        const activities::GameSettings settings{.speed = static_cast<activities::GameSpeed>(seed % 2),
+                                                .level = static_cast<unsigned>(1 + seed % 3),
+                                                .throws = 4};
+        unsigned catches = 0, below = 0;
+        for (const activities::ScriptedThrow& thrown : activities::drawn_throws(settings, {}, seed)) {
+            const activities::ForetoldThrow foretold = foretold_of(thrown, settings);
+            catches += foretold.catches ? 1 : 0;
+            below += foretold.above_line ? 0 : 1;
+        }
+        const std::string name = "t" + std::to_string(seed) + ".json";
+        const auto done = at.run(rehab("--hand scripted --offscreen --throws 4 --seed " + std::to_string(seed) +
+                                           " --level " + std::to_string(settings.level) + " --speed " +
+                                           (seed % 2 == 0 ? "slow" : "fast") + " --report " + path(name),
+                                       "game"));
+        ASSERT_EQ(done.status, 0) << done.output;
+        const Json json = Json::parse(at.read(name));
+        EXPECT_EQ(json.at("ended"), "done") << done.output;
+        EXPECT_EQ(json.at("counts").at("throws"), 4) << done.output;
+        EXPECT_EQ(json.at("counts").at("catches"), catches) << done.output;
+        EXPECT_EQ(json.at("counts").at("misses"), 4 - catches) << done.output;
+        EXPECT_DOUBLE_EQ(json.at("score").get<double>(), 25.0 * catches);
+        EXPECT_EQ(std::ranges::count_if(json.at("events"),
+                                        [](const Json& event) { return event.at("what") == "hit below the line"; }),
+                  below);
+    }
+}
+
+// In real time: how much of it is caught depends on the machine as well.
+TEST_F(RehabSessions, WithAThrownBallAreDoneAgainToTheBit) {
+    const auto recorded = at.run(rehab("--hand scripted --offscreen --throws 2 --seed 1 --record " + path("t.session") +
+                                           " --results " + path("results") + " --participant 4",
+                                       "game"));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the hand grasps ball")) << recorded.output;
+    EXPECT_TRUE(at.read("results/report.html").contains("Participant 4: Game"));
+    const auto replayed =
+        at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("t.session"));
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    for (const std::string of : {"caught: 1 of 2 throws", "caught: 2 of 2 throws", "missed", "the hand lets go"})
+        EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
 TEST_F(RehabSessions, WithPuttyAreDoneAgainToTheBit) {

@@ -72,7 +72,10 @@ TEST(HapticRegistry, KnowsAHandleByTheFileThatDescribesIt) {
     EXPECT_EQ(handle_file_of("simulated-wand"), "");
     EXPECT_EQ(handle_file_of("glove:/dev/ttyUSB0"), "") << "a port describes nothing";
     EXPECT_FALSE(has_handle("glove:/dev/ttyUSB0"));
-    EXPECT_EQ(devices_with_handles(), "simulated-wand");
+    EXPECT_EQ(devices_with_handles(), "simulated-wand, wand");
+    EXPECT_EQ(handle_file_of("wand:emulated," + file), file);
+    EXPECT_EQ(handle_file_of("wand:" + file + "@/opt/libhil.so"), file);
+    EXPECT_EQ(handle_file_of("wand:emulated"), "");
     const auto missing = nature_of_device("simulated-wand:none.toml");
     ASSERT_FALSE(missing);
     EXPECT_TRUE(missing.error().line().contains("none.toml")) << missing.error().line();

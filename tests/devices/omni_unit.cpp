@@ -17,14 +17,10 @@
 #include "devices/drivers/hd_servo.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "tests/devices/ticked_arm.hpp"
 
 namespace burin::devices {
 namespace {
-
-const SimulatedHand& nobodys_hand() {
-    static const SimulatedHand hand = SimulatedHand::create({{0.0, Vec3(0.0)}}).value();
-    return hand;
-}
 
 // Names of this process's own, so that tests beside it and a user's emulators are not met.
 std::string own_name(const std::string& number = "") { return "emulated-test-" + std::to_string(::getpid()) + number; }
@@ -65,48 +61,6 @@ private:
     std::thread thread_;
 };
 
-// A driver and its ticks of a millisecond.
-class TickedOmni {
-public:
-    explicit TickedOmni(const std::string& name) {
-        // A busy machine may keep an emulated device from stepping for so long that it seems to be gone.
-        auto opened = open_haptic_device("omni:" + name, {clock_, nobodys_hand()});
-        for (int i = 0; i < 100 && !opened; ++i) {
-            clock_.sleep_until(clock_.now_ns() + 10'000'000);
-            opened = open_haptic_device("omni:" + name, {clock_, nobodys_hand()});
-        }
-        EXPECT_TRUE(opened) << opened.error().line();
-        if (opened) opened_ = std::move(*opened);
-    }
-    [[nodiscard]] DeviceSample tick(const Vec3& force_N) {
-        clock_.sleep_until(clock_.now_ns() + 1'000'000);
-        const DeviceSample sample = opened_.parts[0].device->read();
-        opened_.parts[0].device->write({force_N, Vec3(0.0)});
-        return sample;
-    }
-    // Ticks until it holds, but not for ever.
-    template <typename Holds>
-    bool ticks_until(const Vec3& force_N, Holds holds, int most = 5000) {
-        for (int i = 0; i < most; ++i)
-            if (holds(tick(force_N))) return true;
-        return false;
-    }
-    [[nodiscard]] bool is_well() {
-        return ticks_until(Vec3(0.0), [](const DeviceSample& s) { return s.fault == DeviceFault::none; });
-    }
-    [[nodiscard]] std::string messages() {
-        std::string text;
-        for (const std::string& message : opened_.messages->take_messages()) text += message + "\n";
-        return text;
-    }
-    [[nodiscard]] OpenedDevice& opened() { return opened_; }
-    [[nodiscard]] Clock& clock() { return clock_; }
-
-private:
-    MonotonicClock clock_;
-    OpenedDevice opened_;
-};
-
 std::string refusal(const std::string& device) {
     MonotonicClock clock;
     const auto opened = open_haptic_device(device, {clock, nobodys_hand()});
@@ -119,7 +73,7 @@ TEST(Omni, P3ReadsPlaceTurnAndButtonInTheDeviceFrame) {
     const Quat turned = glm::angleAxis(0.4, glm::normalize(Vec3(0.2, 0.9, -0.3)));
     const Vec3 place(0.021, -0.013, 0.011);
     RunningOmni running(own_name(), {{0.0, place, turned, 3}});
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     const DeviceDescription& description = omni.opened().parts[0].device->description();
     EXPECT_EQ(description.workspace_m, OmniModel{}.workspace_m);
     EXPECT_EQ(description.max_force_N, 3.3);
@@ -136,7 +90,7 @@ TEST(Omni, P3ReadsPlaceTurnAndButtonInTheDeviceFrame) {
 
 TEST(Omni, P3GivesItsForceToTheStylusAndSeesItGiveWay) {
     RunningOmni running(own_name());
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     ASSERT_TRUE(omni.is_well());
     // The hand's 200 N/m give way by 5 mm to a newton, less the arm's friction of 0.26 N.
     DeviceSample sample;
@@ -157,31 +111,32 @@ TEST(Omni, SeesAMotionAndNoStepsWhereTwoClocksBeat) {
     constexpr Nanoseconds kTurn_ns = 1'000'000, kTick_ns = 1'003'000;
     constexpr double kSpeed_m_per_s = 0.1;
     const auto turn_at = [](Nanoseconds time_ns) {
-        HdState state;
+        ServedState state;
         state.time_ns = time_ns;
-        state.pose_hd.position_m.x = kSpeed_m_per_s * seconds(time_ns);
+        state.pose_device.position_m.x = kSpeed_m_per_s * seconds(time_ns);
         return state;
     };
     Vec3 last_m(0.0);
     for (Nanoseconds now_ns = 10 * kTurn_ns, first_ns = now_ns; now_ns < 2000 * kTick_ns; now_ns += kTick_ns) {
         const Nanoseconds newest_ns = now_ns / kTurn_ns * kTurn_ns;
-        const Pose pose = omni_pose_at(turn_at(newest_ns - kTurn_ns), turn_at(newest_ns), now_ns - kTurn_ns);
+        const Pose pose = served_pose_at(turn_at(newest_ns - kTurn_ns), turn_at(newest_ns), now_ns - kTurn_ns);
         const double step_m = now_ns > first_ns ? pose.position_m.x - last_m.x : kSpeed_m_per_s * seconds(kTick_ns);
         EXPECT_NEAR(step_m, kSpeed_m_per_s * seconds(kTick_ns), 1e-12);
         last_m = pose.position_m;
     }
-    const HdState from = turn_at(5 * kTurn_ns), to = turn_at(6 * kTurn_ns);
-    EXPECT_EQ(omni_pose_at(from, to, 9 * kTurn_ns).position_m, to.pose_hd.position_m) << "it does not go on by itself";
-    EXPECT_EQ(omni_pose_at(from, to, 1 * kTurn_ns).position_m, from.pose_hd.position_m);
-    EXPECT_EQ(omni_pose_at({}, to, 0).position_m, to.pose_hd.position_m) << "the first of all turns";
-    EXPECT_EQ(omni_pose_at(from, turn_at(500 * kTurn_ns), 6 * kTurn_ns).position_m,
-              turn_at(500 * kTurn_ns).pose_hd.position_m)
+    const ServedState from = turn_at(5 * kTurn_ns), to = turn_at(6 * kTurn_ns);
+    EXPECT_EQ(served_pose_at(from, to, 9 * kTurn_ns).position_m, to.pose_device.position_m)
+        << "it does not go on by itself";
+    EXPECT_EQ(served_pose_at(from, to, 1 * kTurn_ns).position_m, from.pose_device.position_m);
+    EXPECT_EQ(served_pose_at({}, to, 0).position_m, to.pose_device.position_m) << "the first of all turns";
+    EXPECT_EQ(served_pose_at(from, turn_at(500 * kTurn_ns), 6 * kTurn_ns).position_m,
+              turn_at(500 * kTurn_ns).pose_device.position_m)
         << "after a gap it is where it is";
 }
 
 TEST(Omni, UnpluggedWhilePressingIsLeftWithoutForceEveryTime) {
     RunningOmni running(own_name());
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     ASSERT_TRUE(omni.is_well());
     const Vec3 presses(0.0, 0.0, 2.0);
     constexpr int kDrills = 30;  // each takes a third of a second
@@ -204,7 +159,7 @@ TEST(Omni, UnpluggedWhilePressingIsLeftWithoutForceEveryTime) {
 
 TEST(Omni, AHapticThreadThatStandsStillIsNoForce) {
     RunningOmni running(own_name());
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     ASSERT_TRUE(omni.is_well());
     const Vec3 presses(1.0, 0.0, 0.0);
     ASSERT_TRUE(omni.ticks_until(presses, [&](const DeviceSample&) { return running->written_N() == presses; }));
@@ -215,7 +170,7 @@ TEST(Omni, AHapticThreadThatStandsStillIsNoForce) {
 
 TEST(Omni, APoseThatIsNoneAndErrorsOfTheMotorsTakeTheForce) {
     RunningOmni running(own_name());
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     ASSERT_TRUE(omni.is_well());
     const Vec3 presses(0.0, 1.0, 0.0);
     const auto loses_force_by = [&](DeviceFault fault) {
@@ -242,7 +197,7 @@ TEST(Omni, APoseThatIsNoneAndErrorsOfTheMotorsTakeTheForce) {
 
 TEST(Omni, TellsTheGraverOfTwoErrorsAndNotBothAnewWithEachTurn) {
     RunningOmni running(own_name());
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     ASSERT_TRUE(omni.is_well());
     running->raise(kHdWarmMotors);
     ASSERT_TRUE(omni.ticks_until(Vec3(0.0), [](const DeviceSample& s) { return s.fault == DeviceFault::overheated; }));
@@ -259,7 +214,7 @@ TEST(Omni, TellsTheGraverOfTwoErrorsAndNotBothAnewWithEachTurn) {
 TEST(Omni, WaitsForItsCalibrationWithoutForceAndSaysWhatToDo) {
     RunningOmni running(own_name());
     running->need_calibration(kHdCalibrationNeedsHand);
-    TickedOmni omni(own_name());
+    TickedArm omni("omni:" + own_name());
     const Vec3 presses(0.0, 1.0, 0.0);
     for (int i = 0; i < 150; ++i) EXPECT_NE(omni.tick(presses).fault, DeviceFault::none);
     EXPECT_EQ(running->written_N(), Vec3(0.0));
@@ -274,7 +229,7 @@ TEST(Omni, WaitsForItsCalibrationWithoutForceAndSaysWhatToDo) {
 TEST(Omni, TwoOfThemEachHaveTheirOwnForceAndFault) {
     RunningOmni right(own_name("-r"), standing_at({0.01, 0.0, 0.0})),
         left(own_name("-l"), standing_at({-0.01, 0.0, 0.0}));
-    TickedOmni first(own_name("-r")), second(own_name("-l"));
+    TickedArm first("omni:" + own_name("-r")), second("omni:" + own_name("-l"));
     ASSERT_TRUE(first.is_well());
     ASSERT_TRUE(second.is_well());
     const Vec3 up(0.0, 1.0, 0.0), down(0.0, -1.0, 0.0);
@@ -302,7 +257,7 @@ TEST(Omni, ItsEndLeavesNoForceAndGivesItBack) {
     RunningOmni running(own_name());
     const Vec3 presses(0.0, 1.0, 0.0);
     {
-        TickedOmni omni(own_name());
+        TickedArm omni("omni:" + own_name());
         ASSERT_TRUE(omni.is_well());
         ASSERT_TRUE(omni.ticks_until(presses, [&](const DeviceSample&) { return running->written_N() == presses; }));
         EXPECT_TRUE(refusal("omni:" + own_name()).contains("the device is in use (0x0301)"))
@@ -312,7 +267,7 @@ TEST(Omni, ItsEndLeavesNoForceAndGivesItBack) {
         })) << "who asked in vain has not taken it away";
     }
     EXPECT_EQ(running->written_N(), Vec3(0.0));
-    EXPECT_TRUE(TickedOmni(own_name()).is_well());
+    EXPECT_TRUE(TickedArm("omni:" + own_name()).is_well());
 }
 
 TEST(Omni, SaysWhatIsWrongWithALibraryAndADevice) {
@@ -330,7 +285,7 @@ TEST(Omni, SaysWhatIsWrongWithALibraryAndADevice) {
             other = refusal("omni:" + own_name() + "@" + library_named("libburin_emulated_hd_9.so"));
         EXPECT_TRUE(other.contains("is HDAPI 9.01.2, and Burin knows version 3")) << other;
         EXPECT_FALSE(EmulatedOmni::create(own_name())) << "there is one of that name";
-        EXPECT_TRUE(TickedOmni(own_name()).is_well()) << "and what was refused has given it back";
+        EXPECT_TRUE(TickedArm("omni:" + own_name()).is_well()) << "and what was refused has given it back";
     }
     EXPECT_FALSE(EmulatedOmni::create("omni"));
     EXPECT_FALSE(EmulatedOmni::create("emulated/../x"));

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ struct ExerciseTurn {
     Nanoseconds time_ns = 0;  // of the loop's clock
     bool grasped = false;     // the body, by any gesture of grasping
     FingersTurn fingers;
+    Similarity scene_from_hand = {};                    // of the hand that the joints tell
+    double closure = 0.0;                               // the mean of the fingers' (geometry/hand/hand_joints.hpp)
+    std::optional<Vec3> lies_in_palm_m = std::nullopt;  // of a held body's middle, by its newest shape
 };
 
 enum class ExerciseEnd : std::uint8_t { not_yet, done, time_over };
@@ -68,6 +72,11 @@ public:
     // Returns whether a hand that grasps the body carries it, and the body falls when it is let go of. Otherwise it
     // stays at its place.
     [[nodiscard]] virtual bool is_carried() const { return false; }
+    // Returns how a desk leads the hand of a glove, where that is not as usual.
+    [[nodiscard]] virtual std::optional<session::LedHand> led_hand() const { return std::nullopt; }
+    // Called once, when the body has taken the place of the world's object. An exercise that moves its body by itself
+    // keeps it, and orders what becomes of it by orders.on_scene alone: the body is the scene's thread's.
+    virtual void begin(bodies::SoftPart& /*body*/, session::ActivityOrders& /*orders*/) {}
 
     // Goes on by a turn; whatever comes after the end changes nothing.
     virtual void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) = 0;

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include "base/text.hpp"
+#include <numeric>
 
 namespace burin::activities {
 namespace {
@@ -56,13 +54,16 @@ std::optional<double> caught_s(const std::vector<bodies::Arc>& arcs, const GameT
 }
 
 // Tells what happens, and keeps the ball and the counts by it.
-class Game {
+class TurnOfGame {
 public:
-    Game(const State& state, const GameSettings& settings, const GameRoom& room, const GameTurn& turn)
-        : settings_(settings), room_(room), turn_(turn), step_{state, {}} {}
+    TurnOfGame(const State& state, const GameSettings& settings, const GameRoom& room, const ExerciseTurn& turn)
+        : settings_(settings), room_(room), turn_(game_turn(turn)), lies_m_(turn.lies_in_palm_m), step_{state, {}} {
+        const FingerForces& forces_N = turn.fingers.forces_N;
+        force_N_ = std::accumulate(forces_N.begin(), forces_N.end(), 0.0);
+    }
 
     GameStep go_on() {
-        if (state().phase == GamePhase::ended) return step_;
+        if (state().end != ExerciseEnd::not_yet) return step_;
         if (state().phase == GamePhase::begins) begin();
         if (state().phase == GamePhase::waits) wait();
         if (state().phase == GamePhase::held)
@@ -76,9 +77,7 @@ public:
 
 private:
     State& state() { return step_.state; }
-    void tell(std::string_view what, Nanoseconds time_ns) {
-        step_.events.push_back({what, time_ns, state().ball.place_m});
-    }
+    void tell(std::string_view what, Nanoseconds time_ns) { step_.events.push_back({what, time_ns, force_N_}); }
     void serve() {
         state().phase = GamePhase::waits;
         state().ball = {room_.serve_m, Vec3(0.0), {}};
@@ -92,25 +91,38 @@ private:
     void take(std::string_view what, Nanoseconds time_ns) {
         state().phase = GamePhase::held;
         state().recent.clear();
+        const Pose palm = palm_at(time_ns);
+        state().in_palm_m = glm::conjugate(palm.orientation) * (state().ball.place_m - palm.position_m);
         tell(what, time_ns);
+    }
+    // The palm moves evenly within a turn, and turns at its beginning.
+    [[nodiscard]] Pose palm_at(Nanoseconds time_ns) const {
+        const GameTurn& last = step_.state.last;
+        const double turn_s = seconds(turn_.time_ns - last.time_ns);
+        const double share = turn_s > 0.0 ? seconds(time_ns - last.time_ns) / turn_s : 1.0;
+        return {last.palm.position_m + share * (turn_.palm.position_m - last.palm.position_m), turn_.palm.orientation};
+    }
+    [[nodiscard]] Vec3 held_at(const GameTurn& turn) const {
+        return turn.palm.position_m + turn.palm.orientation * step_.state.in_palm_m;
     }
     void wait() {
         const double turn_s = seconds(turn_.time_ns - state().last.time_ns);
         const std::vector still{bodies::Arc{0.0, turn_s, state().ball.place_m, Vec3(0.0), Vec3(0.0)}};
         if (caught_s(still, state().last, turn_)) take(game_event::kTaken, turn_.time_ns);
     }
-    // The ball is in the grip; an opened hand throws it with its own velocity.
+    // The ball goes with the palm; an opened hand throws it with the velocity that it has there.
     void hold() {
         auto& recent = state().recent;
-        state().ball = {turn_.grip_m, Vec3(0.0), {}};
+        if (lies_m_) state().in_palm_m = *lies_m_;
+        state().ball = {held_at(turn_), Vec3(0.0), {}};
         recent.push_back(turn_);
         const auto is_old = [&](const GameTurn& t) { return turn_.time_ns - t.time_ns > State::kThrow_ns; };
         recent.erase(recent.begin(), std::ranges::find_if_not(recent, is_old));
         if (turn_.closure >= State::kOpen) return;
         const double over_s = seconds(turn_.time_ns - recent.front().time_ns);
-        if (over_s > 0.0) state().ball.velocity_m_per_s = (turn_.grip_m - recent.front().grip_m) / over_s;
+        if (over_s > 0.0) state().ball.velocity_m_per_s = (held_at(turn_) - held_at(recent.front())) / over_s;
         state().phase = GamePhase::flies;
-        state().hit_wall = false;
+        state().has_left = state().hit_wall = false;
         state().bounces = 0;
         ++state().throws;
         tell(game_event::kThrown, turn_.time_ns);
@@ -141,7 +153,8 @@ private:
     void fly() {
         const double turn_s = seconds(turn_.time_ns - state().last.time_ns);
         const bodies::Flight flight = bodies::flight_of(state().ball, flight_room(room_, settings_), turn_s);
-        const std::optional<double> caught = caught_s(flight.arcs, state().last, turn_);
+        const std::optional<double> caught =
+            state().has_left ? caught_s(flight.arcs, state().last, turn_) : std::nullopt;
         for (const bodies::Bounce& of : flight.bounces)
             if ((!caught || of.at_s <= *caught) && bounce(of)) return;
         if (caught) {
@@ -152,13 +165,14 @@ private:
             return take(state().hit_wall ? game_event::kCaught : game_event::kMissed, at_ns);
         }
         state().ball = flight.ball;
+        state().has_left = state().has_left || !flight.bounces.empty() ||
+                           glm::length(state().ball.place_m - turn_.grip_m) > State::kReach_m;
         if (flight.ball.rests() || flight.ball.place_m.z > kAway_m) miss(turn_.time_ns);
     }
     void end_where_due() {
         const bool done = state().catches + state().misses >= settings_.throws;
         if (!done && state().time_s() < settings_.time_limit_s) return;
-        state().phase = GamePhase::ended;
-        state().end = done ? GameEnd::done : GameEnd::time_over;
+        state().end = done ? ExerciseEnd::done : ExerciseEnd::time_over;
         tell(done ? game_event::kDone : game_event::kTimeOver, turn_.time_ns);
     }
 
@@ -166,22 +180,17 @@ private:
 
     const GameSettings& settings_;
     const GameRoom& room_;
-    const GameTurn& turn_;
+    const GameTurn turn_;
+    const std::optional<Vec3> lies_m_;
+    double force_N_ = 0.0;
     GameStep step_;
 };
 
 }  // namespace
 
-std::vector<Error> problems(const GameSettings& settings) {
-    std::vector<Error> found;
-    if (settings.level < 1 || settings.level > GameSettings::kLines_m.size())
-        found.push_back({formatted("is %u", settings.level), "level", "there are levels 1, 2 and 3"});
-    if (settings.throws < 1 || settings.throws > GameSettings::kMostThrows)
-        found.push_back({formatted("is %u", settings.throws), "throws", "ask for 1 to 1000 throws"});
-    if (!(settings.time_limit_s > 0.0 && settings.time_limit_s <= GameSettings::kMostTime_s))
-        found.push_back(
-            {formatted("is %g", settings.time_limit_s), "time_limit_s", "give more than 0 and at most 3600 seconds"});
-    return found;
+GameTurn game_turn(const ExerciseTurn& turn) {
+    const Similarity& hand = turn.scene_from_hand;
+    return {turn.time_ns, {hand.position_m, hand.orientation}, hand * kGrip_hand_m, turn.closure};
 }
 
 bodies::FlightRoom flight_room(const GameRoom& room, const GameSettings& settings) {
@@ -194,8 +203,8 @@ bodies::FlightRoom flight_room(const GameRoom& room, const GameSettings& setting
     return flight;
 }
 
-GameStep step_game(GameState state, const GameSettings& settings, const GameRoom& room, const GameTurn& turn) {
-    return Game(state, settings, room, turn).go_on();
+GameStep step_game(GameState state, const GameSettings& settings, const GameRoom& room, const ExerciseTurn& turn) {
+    return TurnOfGame(state, settings, room, turn).go_on();
 }
 
 double score_of(const GameState& state, const GameSettings& settings) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Emulated Omnis in sessions by the command line: they carve, two at once, and are done again without them.
+// Emulated arms in sessions by the command line: they carve, two at once, also of two makers, and are done again
+// without them.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -12,16 +13,16 @@
 namespace burin::app {
 namespace {
 
-// Starts emulated Omnis of this workplace's own names in the background; they end by themselves.
-std::string emulators(const std::string& burin, const std::string& suffixes) {
-    return "for n in " + suffixes + "; do (" + burin +
-           " devices emulate omni --seconds 60 --at emulated-$$-$n > $n.txt &) ; "
+// Starts emulated arms of this workplace's own names in the background; they end by themselves.
+std::string emulators(const std::string& burin, const std::string& suffixes, const std::string& kind = "omni") {
+    return "for n in " + suffixes + "; do (" + burin + " devices emulate " + kind +
+           " --seconds 60 --at emulated-$$-$n > $n.txt &) ; "
            "while ! test -s $n.txt; do sleep 0.05; done; done; ";
 }
 
 }  // namespace
 
-TEST(OmniSession, P3CarvesIsRecordedAndDoneAgainToTheBitWithoutTheDevice) {
+TEST(EmulatedArms, P3CarvesIsRecordedAndDoneAgainToTheBitWithoutTheDevice) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace at;
     const std::string burin = kBurinCommand;
@@ -46,7 +47,7 @@ TEST(OmniSession, P3CarvesIsRecordedAndDoneAgainToTheBitWithoutTheDevice) {
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
-TEST(OmniSession, TwoOfThemAreTwoHandsOfOneScene) {
+TEST(EmulatedArms, TwoOfThemAreTwoHandsOfOneScene) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace at;
     const std::string burin = kBurinCommand;
@@ -63,14 +64,39 @@ TEST(OmniSession, TwoOfThemAreTwoHandsOfOneScene) {
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
-TEST(OmniSession, SaysThatThereIsNone) {
+TEST(EmulatedArms, TwoOfTwoMakersAreTwoHandsOfOneScene) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 two\n0.1 mouse 160 90\n5 close\n");
+    const auto recorded = at.run(
+        emulators(burin, "a") + emulators(burin, "b", "falcon") + burin +
+        " sculpt --workpiece ball:0.08 --resolution 64 --device right=omni:emulated-$$-a "
+        "--device left=falcon:emulated-$$-b --input s.txt --offscreen --width 320 --height 180 --record o.session");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    for (const char* hand : {"right", "left"}) {
+        const auto ticks = at.run(burin + " convert o.session --to csv --part " + hand +
+                                  " --columns 'buttons,fault,commanded_force_device_z_N' -");
+        ASSERT_EQ(ticks.status, 0) << ticks.output;
+        int felt = 0;
+        std::istringstream lines(ticks.output);
+        for (std::string line; std::getline(lines, line);)
+            felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
+        EXPECT_GT(felt, 100) << hand << " feels what it cuts";
+    }
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
+TEST(EmulatedArms, SaysThatThereIsNone) {
     const Workplace at;
     at.write("s.txt", "burin-input 1 omni\n0.1 close\n");
     const auto without = at.run(std::string(kBurinCommand) +
                                 " sculpt --device omni:emulated-nowhere --input s.txt --offscreen --record h.session");
     EXPECT_EQ(without.status, 1);
     EXPECT_TRUE(without.output.contains("there is no communication with the device")) << without.output;
-    EXPECT_TRUE(without.output.contains("see that it is plugged in")) << without.output;
+    EXPECT_TRUE(without.output.contains("burin devices emulate omni --at emulated-nowhere")) << without.output;
 }
 
 }  // namespace burin::app

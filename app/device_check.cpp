@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+#include "app/device_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "base/text.hpp"
+#include "haptics/stability/safety_gate.hpp"
+
+namespace burin::app {
+namespace {
+
+using devices::DeviceFault;
+using devices::DeviceSample;
+
+constexpr Nanoseconds kTick_ns = 1'000'000;
+constexpr double kShow_s = 0.1;
+
+const char* words_for(DeviceFault fault) {
+    switch (fault) {
+        case DeviceFault::none: return "no fault";
+        case DeviceFault::disconnected: return "it does not answer";
+        case DeviceFault::overheated: return "its motors are warm";
+        case DeviceFault::overspeed: return "it was moved too fast";
+        case DeviceFault::other: return "it reports a fault";
+    }
+    return "";
+}
+
+std::string millimetres(const Vec3& v_m) {
+    return formatted("%.0f x %.0f x %.0f mm", 1000.0 * v_m.x, 1000.0 * v_m.y, 1000.0 * v_m.z);
+}
+Json numbers(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+// One part of the device, and the gate before its motors.
+struct CheckedPart {
+    devices::HapticDevice* device = nullptr;
+    std::string of;  // " of index"; empty: the only one
+    DeviceSample sample;
+    Vec3 velocity_m_per_s{0.0}, last_m{0.0}, wanted_N{0.0};
+    haptics::GateState gate;
+};
+
+class DeviceCheck {
+public:
+    DeviceCheck(devices::OpenedDevice& device, Clock& clock, CheckGuide& guide, const CheckOptions& options)
+        : device_(device), clock_(clock), guide_(guide), options_(options) {
+        for (const devices::DevicePart& part : device.parts)
+            parts_.push_back(
+                {part.device.get(), part.name.empty() ? std::string() : " of " + part.name, {}, {}, {}, {}, {}});
+        // Gentle: a newton comes in a twentieth of a second.
+        limits_.max_slew_N_per_s = 20.0;
+        limits_.max_force_N = options.force_N;
+    }
+
+    std::vector<CheckLine> run() {
+        if (answers()) {
+            for (CheckedPart& part : parts_) position(part);
+            buttons();
+            if (options_.pushes)
+                for (CheckedPart& part : parts_) force(part);
+        }
+        rest();
+        steadiness();
+        return std::move(lines_);
+    }
+
+private:
+    // Takes all parts on by a tick, each with the force that is wanted of it as the gate lets it through.
+    void tick() {
+        due_ns_ = std::max(due_ns_ + kTick_ns, clock_.now_ns());
+        clock_.sleep_until(due_ns_);
+        const Nanoseconds now_ns = clock_.now_ns();
+        const double gap_s = last_ns_ > 0 ? seconds(now_ns - last_ns_) : 0.0, dt_s = std::max(gap_s, 1e-4);
+        last_ns_ = now_ns;
+        for (CheckedPart& part : parts_) part.sample = part.device->read();
+        bool is_well = true;
+        for (CheckedPart& part : parts_) {
+            is_well = is_well && part.sample.fault == DeviceFault::none;
+            write(part, now_ns, gap_s, dt_s);
+        }
+        if (has_answered_) {
+            ++ticks_;
+            faulty_ += is_well ? 0 : 1;
+        }
+        for (std::string& message : taken_messages()) messages_.push_back(std::move(message));
+        said_ = guide_.answers(now_ns);
+        ends_ = ends_ || said_.ends;
+    }
+
+    void write(CheckedPart& part, Nanoseconds now_ns, double gap_s, double dt_s) {
+        const devices::DeviceDescription& about = part.device->description();
+        const Vec3& place_m = part.sample.position_device_m;
+        constexpr double kBand_s = 0.01;
+        if (finite(place_m)) {
+            const double follows = dt_s / (dt_s + kBand_s);
+            part.velocity_m_per_s += follows * ((place_m - part.last_m) / dt_s - part.velocity_m_per_s);
+            part.last_m = place_m;
+        }
+        if (!has_answered_) part.velocity_m_per_s = Vec3(0.0);
+        haptics::GateInput input;
+        input.wanted.force_device_N = part.wanted_N;
+        input.velocity_device_m_per_s = part.velocity_m_per_s;
+        input.device_max_force_N = about.max_force_N;
+        input.device_axis_max_force_N = about.axis_max_force_N;
+        input.drives_device = part.sample.drive.along_device;
+        input.sample_age_s = seconds(now_ns - part.sample.time_ns);
+        input.loop_gap_s = gap_s;
+        input.device_fault = part.sample.fault;
+        input.sample_finite = finite(place_m);
+        const haptics::GateStep step = haptics::pass_gate(part.gate, input, limits_, dt_s);
+        part.gate = step.next;
+        part.device->write(step.output.given);
+    }
+
+    std::vector<std::string> taken_messages() {
+        return device_.messages != nullptr ? device_.messages->take_messages() : std::vector<std::string>{};
+    }
+
+    // Ticks until it is seen, the person goes on or skips, or the time is over; shows what `shown` says.
+    bool watch(double most_s, const std::function<bool()>& is_seen, const std::function<std::string()>& shown) {
+        const Nanoseconds begun_ns = clock_.now_ns();
+        double showed_s = -kShow_s;
+        while (!ends_) {
+            tick();
+            for (; told_ < messages_.size(); ++told_) guide_.say("  " + messages_[told_]);
+            const double time_s = seconds(clock_.now_ns() - begun_ns);
+            if (time_s - showed_s >= kShow_s) {
+                guide_.show(shown());
+                showed_s = time_s;
+            }
+            if (is_seen()) return true;
+            if (said_.goes_on || said_.skips || time_s > most_s) return false;
+        }
+        return false;
+    }
+
+    void note(std::string check, Verdict verdict, std::string found, Json figures = Json::object()) {
+        guide_.say(formatted("%-8s ", name_of(verdict)) + check + ": " + found);
+        lines_.push_back({std::move(check), verdict, std::move(found), std::move(figures)});
+    }
+
+    bool answers() {
+        const Nanoseconds begun_ns = clock_.now_ns();
+        const auto are_well = [&] {
+            return std::ranges::all_of(parts_, [](const CheckedPart& part) {
+                return part.sample.fault == DeviceFault::none && finite(part.sample.position_device_m);
+            });
+        };
+        const auto first_fault = [&] {
+            for (const CheckedPart& part : parts_)
+                if (part.sample.fault != DeviceFault::none) return words_for(part.sample.fault);
+            return "its position is no number";
+        };
+        constexpr double kPatient_s = 30.0;
+        const bool is_well = watch(options_.by_itself ? 5.0 : kPatient_s, are_well,
+                                   [&] { return std::string("waits: ") + first_fault(); });
+        const double took_s = seconds(clock_.now_ns() - begun_ns);
+        if (is_well)
+            note("answers", Verdict::passed, formatted("well after %.2f s", took_s), {{"seconds", took_s}});
+        else
+            note("answers", Verdict::failed,
+                 first_fault() + (messages_.empty() ? std::string() : "; " + messages_.back()));
+        has_answered_ = is_well;
+        return is_well && !ends_;
+    }
+
+    void position(CheckedPart& part) {
+        if (ends_) return note("position" + part.of, Verdict::skipped, "the check was ended");
+        const Vec3& box_m = part.device->description().workspace_m;
+        // A person goes through half of the box at least; a script shows that it moves at all.
+        const Vec3 enough_m = options_.by_itself ? Vec3(0.001) : 0.5 * box_m;
+        if (!options_.by_itself)
+            guide_.say("Move the handle" + part.of + " to all its ends; Enter goes on, s skips, q ends.");
+        constexpr double kMost = std::numeric_limits<double>::infinity();
+        Vec3 lowest_m(kMost), highest_m(-kMost);
+        bool is_within = true;
+        const bool is_seen = watch(
+            options_.watch_s,
+            [&] {
+                const Vec3& place_m = part.sample.position_device_m;
+                if (part.sample.fault != DeviceFault::none || !finite(place_m)) return false;
+                lowest_m = glm::min(lowest_m, place_m);
+                highest_m = glm::max(highest_m, place_m);
+                for (int axis = 0; axis < 3; ++axis) is_within = is_within && std::abs(place_m[axis]) <= box_m[axis];
+                if (!options_.by_itself) return false;
+                return glm::all(glm::greaterThanEqual(highest_m - lowest_m, enough_m));
+            },
+            [&] {
+                const Vec3& p = part.sample.position_device_m;
+                return formatted("  at %6.1f %6.1f %6.1f mm, seen ", 1000.0 * p.x, 1000.0 * p.y, 1000.0 * p.z) +
+                       millimetres(glm::max(highest_m - lowest_m, Vec3(0.0)));
+            });
+        static_cast<void>(is_seen);
+        if (said_.skips) return note("position" + part.of, Verdict::skipped, "skipped");
+        const Vec3 seen_m = highest_m.x >= lowest_m.x ? highest_m - lowest_m : Vec3(0.0);
+        const bool is_enough = glm::all(glm::greaterThanEqual(seen_m, enough_m));
+        std::string found = "moved through " + millimetres(seen_m) + " of " + millimetres(box_m);
+        if (!is_enough) found += options_.by_itself ? "; along some axis not at all" : "; of some axis less than half";
+        if (!is_within) found += "; it was farther out than twice its box";
+        note("position" + part.of, is_enough && is_within ? Verdict::passed : Verdict::failed, found,
+             {{"lowest_m", numbers(lowest_m)}, {"highest_m", numbers(highest_m)}, {"workspace_m", numbers(box_m)}});
+    }
+
+    void buttons() {
+        if (ends_) return note("buttons", Verdict::skipped, "the check was ended");
+        if (!options_.by_itself) guide_.say("Press each of its buttons; Enter goes on, s skips, q ends.");
+        std::uint32_t seen = 0;
+        watch(
+            options_.watch_s,
+            [&] {
+                seen |= parts_.front().sample.buttons;
+                return options_.by_itself && seen != 0;
+            },
+            [&] { return formatted("  down %04x, seen %04x", parts_.front().sample.buttons, seen); });
+        if (said_.skips) return note("buttons", Verdict::skipped, "skipped");
+        std::string names;
+        for (int bit = 0; bit < 32; ++bit)
+            if ((seen >> bit & 1u) != 0) names += (names.empty() ? "" : ", ") + std::to_string(bit + 1);
+        note("buttons", seen != 0 ? Verdict::passed : Verdict::failed, seen != 0 ? "seen: " + names : "none was seen",
+             {{"seen", seen}});
+    }
+
+    void force(CheckedPart& part) {
+        if (part.device->description().drives_one_way)
+            return tap(part, part.sample.drive.along_device, "outwards", true);
+        tap(part, Vec3(1.0, 0.0, 0.0), "to the right and left", false);
+        tap(part, Vec3(0.0, 1.0, 0.0), "up and down", false);
+        tap(part, Vec3(0.0, 0.0, 1.0), "to you and away", false);
+    }
+
+    // Taps along a direction, and finds how far the handle gives way to the difference of the two forces.
+    void tap(CheckedPart& part, const Vec3& along, const char* way, bool is_one_way) {
+        const std::string check = std::string("force ") + way + part.of;
+        if (ends_) return note(check, Verdict::skipped, "the check was ended");
+        const double most_N = std::min(options_.force_N, part.device->description().max_force_N);
+        if (!options_.by_itself)
+            guide_.say(formatted("Hold the handle loosely, and hold the space bar: it taps with %.1f N ", most_N) +
+                       way + part.of + "; s skips, q ends.");
+        constexpr std::array<int, 8> kOrder{1, -1, -1, 1, -1, 1, 1, -1};
+        constexpr double kTap_s = 0.25, kMean_s = 0.03;
+        double signal_m = 0.0, sum_m = 0.0;
+        int samples = 0;
+        std::size_t at = 0;
+        Nanoseconds tap_ns = clock_.now_ns();
+        bool is_held = options_.by_itself;
+        const auto begin = [&](std::size_t where) {
+            at = where;
+            tap_ns = clock_.now_ns();
+            sum_m = 0.0;
+            samples = 0;
+        };
+        const bool is_done = watch(
+            options_.by_itself ? 4.0 : 60.0,
+            [&] {
+                is_held = (options_.by_itself || said_.holds) && part.sample.fault == DeviceFault::none;
+                part.wanted_N = Vec3(0.0);
+                if (!is_held) {
+                    signal_m = 0.0;
+                    begin(0);
+                    return false;
+                }
+                if (kOrder[at] > 0 || !is_one_way) part.wanted_N = kOrder[at] * most_N * along;
+                const double time_s = seconds(clock_.now_ns() - tap_ns);
+                if (time_s > kTap_s - kMean_s) {
+                    // A piston's length does not know how the hand moves as a whole.
+                    sum_m += is_one_way ? part.sample.drive.length_m : glm::dot(part.sample.position_device_m, along);
+                    ++samples;
+                }
+                if (time_s < kTap_s || samples == 0) return false;
+                signal_m += kOrder[at] * sum_m / samples / 4.0;
+                begin(at + 1);
+                return at == kOrder.size();
+            },
+            [&] { return std::string(is_held ? "  taps" : "  waits for the space bar"); });
+        part.wanted_N = Vec3(0.0);
+        if (!is_done) {
+            if (said_.skips || ends_) return note(check, Verdict::skipped, "skipped");
+            return note(check, Verdict::failed, std::string("was not finished: ") + words_for(part.sample.fault));
+        }
+        constexpr double kLeast_m = 0.0003;
+        const Json figures{{"force_N", most_N}, {"gives_way_m", signal_m}};
+        const std::string moved = formatted("%.1f N either way move it by %.2f mm", most_N, 1000.0 * signal_m);
+        if (signal_m > kLeast_m) return note(check, Verdict::passed, moved, figures);
+        note(check, Verdict::failed,
+             signal_m < -kLeast_m ? moved + ": against the force"
+                                  : moved + ": it does not feel the force, or is held fast",
+             figures);
+    }
+
+    // Takes the force off before anybody goes on.
+    void rest() {
+        constexpr int kTicks = 200;
+        for (CheckedPart& part : parts_) part.wanted_N = Vec3(0.0);
+        for (int i = 0; i < kTicks; ++i) tick();
+    }
+
+    void steadiness() {
+        if (!has_answered_) return;
+        const double share = static_cast<double>(faulty_) / std::max(1.0, static_cast<double>(ticks_));
+        constexpr double kMost = 0.05;
+        std::string found = formatted("%lld of %lld ticks with a fault", static_cast<long long>(faulty_),
+                                      static_cast<long long>(ticks_));
+        if (faulty_ > 0 && !messages_.empty()) found += "; " + messages_.back();
+        note("steadiness", share <= kMost ? Verdict::passed : Verdict::failed, found,
+             {{"ticks", ticks_}, {"faulty", faulty_}});
+    }
+
+    devices::OpenedDevice& device_;
+    Clock& clock_;
+    CheckGuide& guide_;
+    CheckOptions options_;
+    haptics::GateLimits limits_;
+    std::vector<CheckedPart> parts_;
+    std::vector<CheckLine> lines_;
+    std::vector<std::string> messages_;
+    std::size_t told_ = 0;
+    CheckAnswers said_;
+    Nanoseconds due_ns_ = 0, last_ns_ = 0;
+    std::int64_t ticks_ = 0, faulty_ = 0;
+    bool ends_ = false, has_answered_ = false;
+};
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::passed: return "passed";
+        case Verdict::failed: return "failed";
+        case Verdict::skipped: return "skipped";
+    }
+    return "";
+}
+
+std::vector<CheckLine> check_device(devices::OpenedDevice& device, Clock& clock, CheckGuide& guide,
+                                    const CheckOptions& options) {
+    return DeviceCheck(device, clock, guide, options).run();
+}
+
+}  // namespace burin::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// A Force Dimension device (omega, delta, sigma, lambda, or a Falcon) by the maker's library: dhd, dhd:INDEX (0 to 9,
+// as the library lists them), dhd:SERIAL, and any of these with @LIBRARY. Names that begin with "emulated" are those of
+// `burin devices emulate dhd`, whose library stands beside the program.
+//
+// The description is that of an omega.3 whatever the device is, so that a recording is done again without it: 12 N and
+// 5,000 N/m as CHAI3D lists it, in a box within its 0.075 m; low mass, damping and friction are assumed. A device that
+// gives less is not asked for more, and torques and grippers are left at zero. Threads: as haptic_device.hpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "devices/hand/any_hand.hpp"
+#include "devices/haptic/opened_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+#include "devices/presence/device_presence.hpp"
+
+namespace burin::devices {
+
+inline constexpr const char* kDhd = "dhd";
+inline constexpr const char* kEmulatedDhdLibrary = "libburin_emulated_dhd.so";
+
+// What an omega.3 is, for the description and for emulated ones.
+[[nodiscard]] OmniModel omega_model();
+
+// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
+[[nodiscard]] Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand, Clock& clock);
+// One that is nowhere and rests, for a recording that is done again.
+[[nodiscard]] OpenedDevice dhd_that_rests(Clock& clock);
+// Looks for the maker's library and the devices that it counts, and for emulated ones. Opens none.
+[[nodiscard]] std::vector<DevicePresence> look_for_dhds();
+
+}  // namespace burin::devices

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The steps of an emulated arm in real time, a thousand a second: what its library has written last acts on it, as long
+// as that is renewed, and what it does is published. One thread.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+
+#include "base/clock.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+
+namespace burin::devices {
+
+struct EmulatedArmSteps {
+    std::function<bool()> ends;
+    std::function<bool(double time_s)> is_silent;  // since it runs: its cable is pulled, and it does not step
+    std::function<Vec3()> written_N;               // device frame; not finite: it could not be read, and stays
+    std::function<void(Nanoseconds now_ns)> publish;
+};
+
+// Shared has the time of the library's newest frame, frame_ns, and kSilent_ns. Before a library has had one the hand's
+// time stands.
+template <typename Shared>
+void run_emulated_arm(const Shared& shared, SimulatedOmni& arm, const EmulatedArmSteps& steps) {
+    constexpr Nanoseconds kPeriod_ns = 1'000'000;
+    MonotonicClock clock;
+    const Nanoseconds begun_ns = clock.now_ns();
+    Nanoseconds due_ns = begun_ns;
+    while (!steps.ends()) {
+        due_ns = std::max(due_ns + kPeriod_ns, clock.now_ns() - 50 * kPeriod_ns);
+        clock.sleep_until(due_ns);
+        const Nanoseconds now_ns = clock.now_ns();
+        if (steps.is_silent(seconds(now_ns - begun_ns))) continue;
+        const Nanoseconds frame_ns = shared.frame_ns.load(std::memory_order_relaxed);
+        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < Shared::kSilent_ns;
+        const Vec3 force_N = is_heard ? steps.written_N() : Vec3(0.0);
+        if (finite(force_N)) arm.write({force_N, Vec3(0.0)});
+        if (frame_ns > 0) arm.advance(kPeriod_ns);
+        steps.publish(now_ns);
+    }
+}
+
+}  // namespace burin::devices

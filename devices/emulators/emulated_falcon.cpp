@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "devices/emulators/emulated_falcon.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <string_view>
+
+#include "devices/emulators/circling_hand.hpp"
+#include "devices/falcon/falcon_device.hpp"
+#include "devices/falcon/falcon_line.hpp"
+#include "devices/falcon/falcon_packet.hpp"
+#include "devices/falcon/falcon_port.hpp"
+#include "devices/falcon/falcon_socket.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+
+namespace burin::devices {
+namespace {
+
+std::vector<std::byte> bytes_in(std::string_view text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+// All that is not drawn or told: the chip, what runs behind it, and the arm.
+class EmulatedFalcon::Device {
+public:
+    Device(EmulatedFalcon& owner, SimulatedHand hand)
+        : owner_(owner),
+          arm_(std::move(hand), falcon_model()),
+          has_firmware_(owner.options_.has_firmware),
+          pose_(falcon_forward(*falcon_inverse(kFalconMiddle_m)).value()) {}
+
+    // Takes the arm on by a millisecond; before a host has spoken the hand's time stands.
+    void step() {
+        const FalconAngles torques = falcon_torques_of(motors_);
+        arm_.write({falcon_force(pose_, torques), Vec3(0.0)});
+        if (has_packet_) arm_.advance(1'000'000);
+        const DeviceSample sample = arm_.read();
+        buttons_ = sample.buttons;
+        const auto angles = falcon_inverse(kFalconMiddle_m + sample.position_device_m);
+        if (!angles) return;  // a corner of the box, where the legs end before it
+        encoders_ = falcon_encoders(*angles);
+        owner_.encoders_->set(encoders_);
+        if (const auto pose = falcon_forward(falcon_angles(encoders_), pose_.grip_m)) pose_ = *pose;
+    }
+
+    void take(std::span<const std::byte> message) {
+        if (message.size() == 4 && message[0] == static_cast<std::byte>(kFalconControl))
+            set(static_cast<FtdiRequest>(message[1]),
+                static_cast<std::uint16_t>(std::to_integer<int>(message[2]) | std::to_integer<int>(message[3]) << 8));
+        if (message.size() > 1 && message[0] == static_cast<std::byte>(kFalconWrite)) hear(message.subspan(1));
+    }
+
+    // Returns the next piece for the host; nothing: there is none.
+    [[nodiscard]] std::optional<std::vector<std::byte>> piece() {
+        if (owner_.drill_->is_silent) said_.clear();
+        if (said_.empty()) return std::nullopt;
+        std::vector<std::byte> piece{std::byte{0x01}, std::byte{0x60}};  // the chip's: ready, and the line is free
+        // Some have nothing but that, and some end in the middle of a packet.
+        ++pieces_;
+        std::size_t count = std::min(said_.size(), kFtdiPiece - kFtdiOwn);
+        if (pieces_ % 5 == 0) count = 0;
+        if (pieces_ % 7 == 0) count = std::min<std::size_t>(count, 9);
+        piece.insert(piece.end(), said_.begin(), said_.begin() + static_cast<long>(count));
+        said_.erase(said_.begin(), said_.begin() + static_cast<long>(count));
+        return piece;
+    }
+
+    // The cable is pulled: nothing that drives the motors comes any more.
+    void unplug() {
+        motors_ = {};
+        said_.clear();
+        has_firmware_ = owner_.options_.has_firmware;
+        owner_.drill_->is_homed = owner_.options_.is_homed;
+        loader_ = Loader::sleeps;
+        reader_.forget();
+    }
+
+private:
+    enum class Loader { sleeps, listens, greeted, loads };
+
+    void set(FtdiRequest what, std::uint16_t value) {
+        if (what == FtdiRequest::baud) {
+            if (loader_ == Loader::loads && value == kFtdiRun) end_load();
+            baud_ = value;
+        }
+        // The boot loader begins to listen when the line's signal rises, and takes firmware when it has fallen again.
+        if (what == FtdiRequest::modem && value == kFtdiDtrHigh && !has_firmware_) loader_ = Loader::listens;
+        if (what == FtdiRequest::modem && value == kFtdiDtrLow && loader_ != Loader::greeted) loader_ = Loader::sleeps;
+        if (what == FtdiRequest::reset) said_.clear();
+    }
+
+    void end_load() {
+        has_firmware_ = loaded_ == kNovintFirmware || loaded_ == kNventFirmware;
+        owner_.drill_->loads += has_firmware_ ? 1 : 0;
+        loader_ = Loader::sleeps;
+    }
+
+    void hear(std::span<const std::byte> bytes) {
+        if (has_firmware_ && baud_ == kFtdiRun) {
+            for (const std::byte byte : bytes)
+                if (const auto packet = reader_.take(byte); packet) answer(*packet);
+            return;
+        }
+        if (loader_ == Loader::loads && baud_ == kFtdiUpload) {
+            loaded_ += bytes.size();
+            said_.insert(said_.end(), bytes.begin(), bytes.end());
+        } else if (loader_ == Loader::greeted && baud_ == kFtdiUpload && std::ranges::equal(bytes, bytes_in("A"))) {
+            loader_ = Loader::loads;
+            loaded_ = 0;
+            said_ = bytes_in("A");
+        } else if (loader_ != Loader::sleeps && baud_ == kFtdiBoot &&
+                   std::ranges::equal(bytes, bytes_in("\x0a\x43\x0d"))) {
+            loader_ = Loader::greeted;
+            said_ = bytes_in("\x0a\x44\x2c\x0d");
+        }
+    }
+
+    void answer(const FalconBytes& packet) {
+        const auto command = falcon_command(packet);
+        if (!command) return;
+        has_packet_ = true;
+        motors_ = command->motors;
+        owner_.written_->set(motors_);
+        owner_.drill_->lamps = command->lamps;
+        FalconReport report{.encoders = encoders_, .buttons = static_cast<std::uint8_t>(buttons_ & 0xf), .homed = 0};
+        if (owner_.drill_->is_homed && command->homes) report.homed = 7;
+        if (owner_.drill_->is_lost) report.encoders = {-4000, 4000, 0};
+        for (int i = 0; i < owner_.drill_->babble; ++i) said_.push_back(static_cast<std::byte>("<>A\x7f"[i % 4]));
+        const FalconBytes bytes = falcon_bytes(report);
+        said_.insert(said_.end(), bytes.begin(), bytes.end());
+    }
+
+    EmulatedFalcon& owner_;
+    SimulatedOmni arm_;
+    bool has_firmware_, has_packet_ = false;
+    FalconPose pose_;
+    FalconCounts encoders_{}, motors_{};
+    std::uint32_t buttons_ = 0;
+    std::uint16_t baud_ = 0;
+    Loader loader_ = Loader::sleeps;
+    std::size_t loaded_ = 0;
+    FalconReader reader_;
+    std::vector<std::byte> said_;
+    unsigned int pieces_ = 0;
+};
+
+Result<EmulatedFalcon> EmulatedFalcon::create(const std::string& name, EmulatedFalconOptions options) {
+    const std::string where = "emulated falcon " + name;
+    if (!name.starts_with("emulated") || name.size() > 60 || name.find('/') != std::string::npos)
+        return fail(where, "has no such name", "begin it with emulated: emulated, emulated-2");
+    OwnedFile listener(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    const FalconSocketName at = falcon_socket_name(name);
+    if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&at.address), at.size) != 0 ||
+        ::listen(listener.get(), 4) != 0)
+        return fail(where, "cannot be made: another one may be running by this name",
+                    "end that one, or choose another name: --at emulated-2");
+    if (options.script.empty()) options.script = circling_hand();
+    EmulatedFalcon falcon(std::move(listener), std::move(options));
+    falcon.drill_->is_homed = falcon.options_.is_homed;
+    return falcon;
+}
+
+Vec3 EmulatedFalcon::written_N() const {
+    const auto pose = falcon_forward(falcon_angles(encoders_->get()));
+    return pose ? falcon_force(*pose, falcon_torques_of(written())) : Vec3(0.0);
+}
+
+void EmulatedFalcon::run(const std::function<bool()>& ends) {
+    constexpr Nanoseconds kPeriod_ns = 1'000'000;
+    MonotonicClock clock;
+    auto hand = SimulatedHand::create(options_.script, HandPath::monotone_cubic);
+    if (!hand) return;
+    Device device(*this, std::move(*hand));
+    OwnedFile host;
+    const Nanoseconds begun_ns = clock.now_ns();
+    Nanoseconds due_ns = begun_ns;
+    while (!ends()) {
+        const Nanoseconds now_ns = clock.now_ns();
+        const bool is_pulled = drill_->is_pulled || options_.silence.is_silent(seconds(now_ns - begun_ns));
+        if (is_pulled && host) {
+            host = OwnedFile();
+            device.unplug();
+        }
+        // One host at a time: others find the connection closed.
+        if (OwnedFile came(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)); came) {
+            if (!host && !is_pulled && is_own_process(came.get())) {
+                host = std::move(came);
+                constexpr std::array<std::byte, kFtdiOwn> kStatus{std::byte{0x01}, std::byte{0x60}};
+                static_cast<void>(::send(host.get(), kStatus.data(), kStatus.size(), MSG_NOSIGNAL));
+            }
+        }
+        // What the host says is answered at once, until the arm's next step is due.
+        due_ns = std::max(due_ns + kPeriod_ns, now_ns - 50 * kPeriod_ns);
+        for (Nanoseconds left_ns = due_ns - clock.now_ns(); left_ns > 0; left_ns = due_ns - clock.now_ns()) {
+            pollfd waits{host.get(), POLLIN, 0};
+            const timespec time{0, left_ns};
+            if (::ppoll(&waits, 1, &time, nullptr) <= 0) continue;
+            std::array<std::byte, kMostFalconMessage> message;
+            const ssize_t count = ::recv(host.get(), message.data(), message.size(), 0);
+            if (count == 0 || (count < 0 && errno != EAGAIN)) {
+                host = OwnedFile();
+                continue;
+            }
+            if (count > 0) device.take(std::span(message).first(static_cast<std::size_t>(count)));
+            while (const auto piece = device.piece())
+                static_cast<void>(::send(host.get(), piece->data(), piece->size(), MSG_NOSIGNAL));
+        }
+        device.step();
+    }
+}
+
+}  // namespace burin::devices

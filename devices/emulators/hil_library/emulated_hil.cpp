@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The emulated library of a Quanser wand's maker: the functions of the HIL API that Burin calls
+// (devices/drivers/hil_api.hpp), around an emulated wand that runs in a process of its own
+// (devices/emulators/emulated_wand.hpp). A session loads it in place of libhil.so, so that the driver at work is the
+// real one. A card that is not there, another's, or gone returns an error, as does each of its functions then.
+//
+// State is static, as the interface is of C. What a test changes is told when it is compiled: BURIN_EMULATED_HIL_MAJOR,
+// and BURIN_EMULATED_HIL_LACKS, which leaves a function out.
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "devices/drivers/hil_api.hpp"
+#include "devices/presence/hil_shared.hpp"
+
+#ifndef BURIN_EMULATED_HIL_MAJOR
+#define BURIN_EMULATED_HIL_MAJOR 2
+#endif
+
+namespace burin::devices {
+namespace {
+
+// Numbers of this library's own; the maker's are not needed.
+constexpr HilError kNoCard = -1001, kInUse = -1002, kGone = -1003, kBadChannel = -1004, kExpired = -1005;
+constexpr std::size_t kMostCards = 4;
+constexpr std::array<std::uint32_t, 6> kEnableLines{0, 1, 2, 3, 16, 17};
+
+struct Card {
+    HilSharedMemory memory;
+    double watchdog_s = 0.0;
+};
+
+struct Library {
+    std::mutex mutex;
+    std::array<std::optional<Card>, kMostCards> cards;
+    MonotonicClock clock;
+};
+
+Library& library() {
+    static Library one;
+    return one;
+}
+
+// Calls what is to be done with a card that is there, and gives the error of one that is not.
+template <typename Does>
+HilError with_card(HilCard handle, Does does) {
+    const std::lock_guard lock(library().mutex);
+    const auto at = reinterpret_cast<std::uintptr_t>(handle) - 1;
+    if (at >= kMostCards || !library().cards[at]) return kNoCard;
+    Card& card = *library().cards[at];
+    if (!card.memory->is_alive(library().clock.now_ns())) return kGone;
+    if (const std::int32_t error = card.memory->error) return error;
+    return does(card);
+}
+
+bool is_expired(const Card& card) {
+    const Nanoseconds at_ns = card.memory->watchdog_ns;
+    return at_ns != 0 && library().clock.now_ns() > at_ns;
+}
+
+void start_watchdog(Card& card) { card.memory->watchdog_ns = library().clock.now_ns() + nanoseconds(card.watchdog_s); }
+
+}  // namespace
+}  // namespace burin::devices
+
+using namespace burin::devices;  // NOLINT: the functions below are C's, outside of every namespace
+
+extern "C" {
+
+HilError hil_get_version(HilVersion* version) {
+    *version = {sizeof(HilVersion), BURIN_EMULATED_HIL_MAJOR, 4, 0, 0};
+    return 0;
+}
+
+HilError hil_open(const char* /*type*/, const char* identifier, HilCard* card) {
+    const std::lock_guard lock(library().mutex);
+    auto memory = HilSharedMemory::open(identifier != nullptr ? identifier : "");
+    if (!memory || !(*memory)->is_alive(library().clock.now_ns())) return kNoCard;
+    if (const std::int32_t error = (*memory)->error) return error;
+    // It is another's as long as that process lives.
+    const std::uint32_t owner = (*memory)->owner;
+    if (owner != 0 && ::kill(static_cast<pid_t>(owner), 0) == 0) return kInUse;
+    for (std::size_t i = 0; i < kMostCards; ++i) {
+        if (library().cards[i]) continue;
+        (*memory)->owner = static_cast<std::uint32_t>(::getpid());
+        (*memory)->watchdog_ns = 0;
+        (*memory)->opener = static_cast<std::uint32_t>(::getpid());
+        library().cards[i].emplace(Card{std::move(*memory)});
+        *card = reinterpret_cast<HilCard>(i + 1);
+        return 0;
+    }
+    return kNoCard;
+}
+
+HilError hil_close(HilCard handle) {
+    const std::lock_guard lock(library().mutex);
+    const auto at = reinterpret_cast<std::uintptr_t>(handle) - 1;
+    if (at >= kMostCards || !library().cards[at]) return kNoCard;
+    library().cards[at]->memory->owner = 0;
+    library().cards[at].reset();
+    return 0;
+}
+
+HilError hil_set_encoder_counts(HilCard handle, const std::uint32_t* channels, std::uint32_t count,
+                                const std::int32_t* to) {
+    return with_card(handle, [&](Card& card) {
+        const auto raw = card.memory->encoder_counts.read();
+        auto zero = card.memory->zero_counts.read();
+        if (!raw || !zero) return kGone;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (channels[i] >= raw->size()) return kBadChannel;
+            (*zero)[channels[i]] = (*raw)[channels[i]] - to[i];
+        }
+        card.memory->zero_counts.write(*zero);
+        return HilError{0};
+    });
+}
+
+HilError hil_set_digital_directions(HilCard handle, const std::uint32_t*, std::uint32_t, const std::uint32_t*,
+                                    std::uint32_t) {
+    return with_card(handle, [](Card&) { return HilError{0}; });
+}
+
+HilError hil_read_encoder(HilCard handle, const std::uint32_t* channels, std::uint32_t count, std::int32_t* to) {
+    return with_card(handle, [&](Card& card) {
+        const auto raw = card.memory->encoder_counts.read();
+        const auto zero = card.memory->zero_counts.read();
+        if (!raw || !zero) return kGone;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (channels[i] >= raw->size()) return kBadChannel;
+            to[i] = static_cast<std::int32_t>(std::lround((*raw)[channels[i]] - (*zero)[channels[i]]));
+        }
+        return HilError{0};
+    });
+}
+
+HilError hil_write_analog(HilCard handle, const std::uint32_t* channels, std::uint32_t count, const double* volts) {
+    // A driver that leaves a card writes to it once more: what reaches a card that is gone reaches no motor either.
+    const std::lock_guard lock(library().mutex);
+    const auto at = reinterpret_cast<std::uintptr_t>(handle) - 1;
+    if (at >= kMostCards || !library().cards[at]) return kNoCard;
+    Card& card = *library().cards[at];
+    if (is_expired(card)) return kExpired;
+    auto all = card.memory->volts.read().value_or(std::array<double, 6>{});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (channels[i] >= all.size()) return kBadChannel;
+        all[channels[i]] = volts[i];
+    }
+    card.memory->volts.write(all);
+    card.memory->written_ns = library().clock.now_ns();
+    if (!card.memory->is_alive(library().clock.now_ns())) return kGone;
+    return card.memory->error;
+}
+
+HilError hil_write_digital(HilCard handle, const std::uint32_t* channels, std::uint32_t count, const char* states) {
+    const std::lock_guard lock(library().mutex);
+    const auto at = reinterpret_cast<std::uintptr_t>(handle) - 1;
+    if (at >= kMostCards || !library().cards[at]) return kNoCard;
+    Card& card = *library().cards[at];
+    std::uint32_t enabled = card.memory->enabled;
+    for (std::uint32_t i = 0; i < count; ++i)
+        for (std::uint32_t motor = 0; motor < kEnableLines.size(); ++motor)
+            if (channels[i] == kEnableLines[motor])
+                enabled = states[i] != 0 ? enabled | 1u << motor : enabled & ~(1u << motor);
+    card.memory->enabled = enabled;
+    return card.memory->is_alive(library().clock.now_ns()) ? HilError{0} : kGone;
+}
+
+HilError hil_watchdog_set_analog_expiration_state(HilCard handle, const std::uint32_t*, std::uint32_t, const double*) {
+    return with_card(handle, [](Card&) { return HilError{0}; });
+}
+
+HilError hil_watchdog_start(HilCard handle, double timeout_s) {
+    return with_card(handle, [&](Card& card) {
+        card.watchdog_s = timeout_s;
+        start_watchdog(card);
+        return HilError{0};
+    });
+}
+
+HilError hil_watchdog_reload(HilCard handle) {
+    return with_card(handle, [](Card& card) {
+        if (is_expired(card)) return HilError{0};
+        start_watchdog(card);
+        return HilError{1};
+    });
+}
+
+HilError hil_watchdog_clear(HilCard handle) {
+    return with_card(handle, [](Card& card) {
+        card.memory->watchdog_ns = 0;
+        return HilError{0};
+    });
+}
+
+#ifndef BURIN_EMULATED_HIL_LACKS
+HilError hil_watchdog_stop(HilCard handle) {
+    return with_card(handle, [](Card& card) {
+        card.memory->watchdog_ns = 0;
+        return HilError{0};
+    });
+}
+#endif
+
+HilError msg_get_error_messageA(const char* /*locale*/, HilError error, char* to, std::size_t size) {
+    const char* text = "an error";
+    if (error == kNoCard) text = "there is no such card";
+    if (error == kInUse) text = "the card is in use";
+    if (error == kGone) text = "the card does not answer";
+    if (error == kExpired) text = "the watchdog has expired";
+    std::snprintf(to, size, "%s", text);
+    return 0;
+}
+
+}  // extern "C"

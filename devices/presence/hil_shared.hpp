@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What an emulated Quanser wand and the emulated library of its maker share (devices/emulators/emulated_wand.hpp,
+// devices/emulators/hil_library/): six encoders, six analog outputs, and the amplifiers' lines.
+#pragma once
+
+#include "devices/presence/shared_memory.hpp"
+
+namespace burin::devices {
+
+struct HilShared {
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c31;  // "burinHL1": of this layout
+    static constexpr const char* kPrefix = "burin-hil-";
+
+    std::atomic<std::uint64_t> magic = 0;
+    // ---- The emulator's
+    std::atomic<Nanoseconds> beat_ns = 0;  // of its newest step, CLOCK_MONOTONIC
+    SharedNumbers<6> encoder_counts;       // since the emulator began
+    std::atomic<std::int32_t> error = 0;   // returned by whatever is called; 0: none
+    // ---- The library's
+    std::atomic<Nanoseconds> written_ns = 0;  // of its newest write to the analog outputs
+    SharedNumbers<6> volts;
+    SharedNumbers<6> zero_counts;              // what the encoders' counters are set back by
+    std::atomic<std::uint32_t> enabled = 0;    // bit i: the amplifier of motor i
+    std::atomic<std::uint32_t> owner = 0;      // the process that has opened it; 0: none
+    std::atomic<std::uint32_t> opener = 0;     // the process that opened it last; 0: none has
+    std::atomic<Nanoseconds> watchdog_ns = 0;  // after which the outputs are zero; 0: none is started
+
+    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const {
+        return magic.load(std::memory_order_acquire) == kMagic &&
+               now_ns - beat_ns.load(std::memory_order_relaxed) < kSharedSilent_ns;
+    }
+};
+
+using HilSharedMemory = SharedMemory<HilShared>;
+
+// Returns the names of the emulated wands that run now.
+[[nodiscard]] inline std::vector<std::string> emulated_wands() { return emulated_of<HilShared>(); }
+
+}  // namespace burin::devices

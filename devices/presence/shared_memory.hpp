@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Memory that an emulated device and the emulated library of its maker share: the emulator is a process of its own, and
+// the library is loaded into a session's. Named in POSIX shared memory after the layout, the user and the emulator:
+// "emulated", "emulated-2".
+//
+// Each value has one writer. A reader takes a group of them between two equal, even counts of its sequence; where it
+// does not come to that in a few tries, it keeps what it had. Any thread; wait-free but for opening.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/clock.hpp"
+
+namespace burin::devices {
+
+// A group of numbers with one writer.
+template <std::size_t Count>
+class SharedNumbers {
+public:
+    void write(const std::array<double, Count>& values) noexcept {
+        // release and acquire as of a sequence lock: numbers are atomic themselves, so nothing is torn, and the fences
+        // keep them between the two counts.
+        const std::uint32_t before = sequence_.load(std::memory_order_relaxed);
+        sequence_.store(before + 1, std::memory_order_relaxed);
+        std::atomic_thread_fence(std::memory_order_release);
+        for (std::size_t i = 0; i < Count; ++i) values_[i].store(values[i], std::memory_order_relaxed);
+        sequence_.store(before + 2, std::memory_order_release);
+    }
+    [[nodiscard]] std::optional<std::array<double, Count>> read() const noexcept {
+        constexpr int kTries = 8;
+        for (int i = 0; i < kTries; ++i) {
+            const std::uint32_t before = sequence_.load(std::memory_order_acquire);
+            std::array<double, Count> values;
+            for (std::size_t k = 0; k < Count; ++k) values[k] = values_[k].load(std::memory_order_relaxed);
+            std::atomic_thread_fence(std::memory_order_acquire);
+            if (before % 2 == 0 && sequence_.load(std::memory_order_relaxed) == before) return values;
+        }
+        return std::nullopt;
+    }
+
+private:
+    std::atomic<std::uint32_t> sequence_ = 0;
+    std::array<std::atomic<double>, Count> values_{};
+};
+
+// An emulator says with each step that it lives; an end that is silent for so long is gone.
+inline constexpr Nanoseconds kSharedSilent_ns = 50'000'000;
+
+// Bytes of that name, mapped; the layout's own memory is made of it. `prefix` names the layout.
+struct SharedBytes {
+    void* at = nullptr;
+    std::string owned;  // what is unlinked at the end; empty: another's
+};
+[[nodiscard]] SharedBytes create_shared(const char* prefix, const std::string& name, std::size_t size);
+[[nodiscard]] void* open_shared(const char* prefix, const std::string& name, std::size_t size);
+void close_shared(const SharedBytes& bytes, std::size_t size);
+[[nodiscard]] std::vector<std::string> shared_names(const char* prefix);
+
+// Memory of one Layout, mapped while the object lives. A Layout has kPrefix, and is_alive(now_ns) for its emulator.
+template <typename Layout>
+class SharedMemory {
+public:
+    // Makes it, as an emulator does: nothing where another lives by that name, or the system refuses. It is gone when
+    // the object ends.
+    [[nodiscard]] static std::optional<SharedMemory> create(const std::string& name) {
+        MonotonicClock clock;
+        if (const auto other = open(name); other && (*other)->is_alive(clock.now_ns())) return std::nullopt;
+        SharedBytes bytes = create_shared(Layout::kPrefix, name, sizeof(Layout));
+        if (bytes.at == nullptr) return std::nullopt;
+        new (bytes.at) Layout();
+        return SharedMemory(std::move(bytes));
+    }
+    // Maps what an emulator has made.
+    [[nodiscard]] static std::optional<SharedMemory> open(const std::string& name) {
+        void* const at = open_shared(Layout::kPrefix, name, sizeof(Layout));
+        if (at == nullptr) return std::nullopt;
+        return SharedMemory(SharedBytes{at, {}});
+    }
+    ~SharedMemory() { close_shared(bytes_, sizeof(Layout)); }
+    SharedMemory(SharedMemory&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+    SharedMemory& operator=(SharedMemory&&) = delete;
+
+    [[nodiscard]] Layout& operator*() const { return *static_cast<Layout*>(bytes_.at); }
+    [[nodiscard]] Layout* operator->() const { return static_cast<Layout*>(bytes_.at); }
+
+private:
+    explicit SharedMemory(SharedBytes bytes) : bytes_(std::move(bytes)) {}
+    SharedBytes bytes_;
+};
+
+// Returns the names of the emulators of a layout that run now, in order.
+template <typename Layout>
+[[nodiscard]] std::vector<std::string> emulated_of() {
+    std::vector<std::string> names;
+    MonotonicClock clock;
+    for (const std::string& name : shared_names(Layout::kPrefix))
+        if (const auto shared = SharedMemory<Layout>::open(name); shared && (*shared)->is_alive(clock.now_ns()))
+            names.push_back(name);
+    return names;
+}
+
+}  // namespace burin::devices
