@@ -22,12 +22,13 @@ struct Plates {
     }
 };
 
-// Any point of the surface, since a body between them may turn.
+// Points that lie in the half of the body that the plate comes from.
 Plates plates_on(const SoftBody& body, const EmbeddedSurface& surface, double half_height_m, double softness) {
     Plates plates;
     const double pressure_per_m = body.material().young_Pa / (softness * half_height_m);
     for (const double side : {-1.0, 1.0})
         for (std::size_t i = 0; i < surface.points.size(); ++i) {
+            if (side * place_of(surface.points[i], body.rest().places_m).y < 0.2 * half_height_m) continue;
             SoftContact contact;
             contact.add(surface.points[i], 1.0);
             contact.normal = {0.0, -side, 0.0};

@@ -10,9 +10,9 @@
 // Bonet and Burton 1998 ("A simple average nodal pressure tetrahedral element", Communications in Numerical Methods in
 // Engineering 14). Where all elements are deformed alike nothing changes by that. An element that has lost much of its
 // volume is turned back by the rest as well: (1 - kElementShare) lambda'/2 (kSqueezed - J)^2 where J < kSqueezed.
-// In each corner alone every J and every mean is affine, so the second derivative with respect to one corner is positive
-// definite whatever the deformation: mu |g|^2 of each element, g the gradient of the corner's shape function at rest,
-// and c c' of each J or mean, c its derivative.
+// In each corner alone every J and every mean is affine, so the second derivative with respect to one corner is
+// positive definite whatever the deformation: mu |g|^2 of each element, g the gradient of the corner's shape function
+// at rest, and c c' of each J or mean, c its derivative.
 // A material with a yield stress is plastic as well: its elements' rest shapes follow (plastic_flow.hpp).
 // Units: SI; frame: the body's own. Pure; any thread. What is made once allocates, the rest does not.
 #pragma once
@@ -42,7 +42,7 @@ struct SoftMaterial {
 };
 
 // Without any of it elements take volume from each other that the mean does not see.
-constexpr double kElementShare = 0.3, kSqueezed = 0.3;
+constexpr double kElementShare = 0.25, kSqueezed = 0.3;
 
 // Even permutations that put each corner of an element first.
 constexpr std::array<std::array<std::size_t, 4>, 4> kCornerFirst{
