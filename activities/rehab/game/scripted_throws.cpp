@@ -80,9 +80,9 @@ std::string Leading::text() const {
         rest.remove_prefix(end);
     }
     const auto is_event = [](const std::string& line) { return !line.empty() && line[0] >= '0' && line[0] <= '9'; };
-    const auto events = std::ranges::find_if(lines, is_event);
+    const auto first_event = std::ranges::find_if(lines, is_event) - lines.begin();  // an insertion may move all
     lines.insert(lines.end(), later_.begin(), later_.end());
-    std::stable_sort(lines.begin() + (events - lines.begin()), lines.end(),
+    std::stable_sort(lines.begin() + first_event, lines.end(),
                      [](const std::string& a, const std::string& b) { return time_of(a) < time_of(b); });
     std::string all;
     for (const std::string& line : lines) all += line;
