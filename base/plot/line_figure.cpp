@@ -22,6 +22,7 @@ bool drawable(const Plot& plot, const PlotPoint& p) {
 // Maps values to positions along the axis, 0 to 1.
 struct Axis {
     bool linear = false;
+    bool whole = false;  // of whole numbers, with ticks at such alone
     // The range shown: of the values on a linear axis, else of their log10.
     double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();
 
@@ -35,7 +36,7 @@ struct Axis {
         if (lo > hi) lo = hi = 0.0;
         double margin = 0.08 * (hi - lo);
         if (!linear) margin = std::max(margin, 0.5 * (1.0 - (hi - lo)));
-        if (linear && !(margin > 0.0)) margin = 1.0;
+        if (linear && !(margin > 0.0)) margin = whole ? 0.5 : 1.0;
         lo -= margin;
         hi += margin;
     }
@@ -63,7 +64,8 @@ std::string tick_label(double value) { return formatted("%.12g", value); }
 template <typename Draw>
 void linear_ticks(const Axis& axis, Draw&& draw) {
     const double wanted = (axis.hi - axis.lo) / 5.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
-    const double step = power * (wanted < 2.0 * power ? 1.0 : wanted < 5.0 * power ? 2.0 : 5.0);
+    const double round = power * (wanted < 2.0 * power ? 1.0 : wanted < 5.0 * power ? 2.0 : 5.0);
+    const double step = axis.whole ? std::max(round, 1.0) : round;
     for (double i = std::ceil(axis.lo / step); i * step <= axis.hi; ++i)
         draw(i * step + 0.0, i == 0.0, true);  // + 0: no -0
 }
@@ -155,6 +157,7 @@ std::string plot_text(const Plot& plot, double left, double top, const std::vect
     f.left = left + kFrameLeft;
     f.top = top + kFrameTop;
     f.x.linear = plot.x_linear;
+    f.x.whole = plot.x_whole;
     f.y.linear = plot.y_linear;
     if (plot.y_lowest < plot.y_highest) {
         f.y.include(plot.y_lowest);

@@ -167,4 +167,22 @@ TEST(ProgressPage, ShowsEachParticipantByNumberAndSaysWhatNoPersonDid) {
     EXPECT_FALSE(page.contains("nan"));
 }
 
+// One run, and runs of a few days, once had ticks at fractions of a day, and before the first.
+TEST(ProgressPage, MarksWholeDaysAlone) {
+    for (const int last : {1, 3, 5}) {
+        KeptRuns kept;
+        for (int day = 1; day <= last; ++day) kept.runs.push_back(run_of(7, "2026-11-0" + std::to_string(day), 80));
+        const std::string page = progress_page(kept, levels_of_ball, "a test");
+        const std::string at_axis = "\" text-anchor=\"middle\">";  // neither bold, as titles are, nor upright
+        unsigned ticks = 0;
+        for (std::size_t at = page.find(at_axis); at != std::string::npos; at = page.find(at_axis, at + 1)) {
+            const std::string label = page.substr(at + at_axis.size(), page.find('<', at) - at - at_axis.size());
+            if (label == "day") continue;
+            ++ticks;
+            EXPECT_TRUE(label == "0" || label == "1" || label == "2" || label == "3" || label == "4") << label;
+        }
+        EXPECT_GE(ticks, static_cast<unsigned>(last));
+    }
+}
+
 }  // namespace burin::activities

@@ -166,6 +166,24 @@ TEST_F(RehabSessions, RunOnAGloveAreRecordedAndDoneAgainToTheBit) {
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
+// Likewise; what of it is caught is not foretold.
+TEST_F(RehabSessions, OfTheGameOnAGloveAreRecordedAndDoneAgainToTheBit) {
+    const auto recorded =
+        at.run("(" + std::string(kBurinCommand) + " glove emulate --seconds 60 > " + path("port.txt") +
+               " &) ; while ! test -s " + path("port.txt") + "; do sleep 0.05; done; " +
+               rehab("--device glove:$(cat " + path("port.txt") + ") --offscreen --throws 1 --time-limit 3 --record " +
+                         path("g.session") + " --report " + path("g.json"),
+                     "game"));
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const Json json = Json::parse(at.read("g.json"));
+    EXPECT_EQ(json.at("exercise"), "game");
+    EXPECT_GT(json.at("fingers").at(1).at("range_of_motion_rad").at(1).get<double>(), 0.2) << recorded.output;
+    const auto replayed =
+        at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("g.session"));
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
 TEST_F(RehabSessions, KeepRunsOfAParticipantAndToldDays) {
     const std::string kept = "--hand scripted --offscreen --repetitions 1 --results " + path("results");
     for (const char* day : {"2026-11-02", "2026-11-04"}) {

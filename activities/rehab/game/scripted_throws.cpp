@@ -17,8 +17,11 @@ constexpr double kEnds_z_m = -0.13;
 // The simulated hand's own: how long it takes until it has opened so far that it throws, from a ball that it holds; how
 // long from open until it has taken one, and until it holds it as firmly as it does.
 constexpr double kOpens_s = 0.375, kTakes_s = 0.9, kHolds_s = 1.4;
-constexpr double kFree_s = 0.15;   // by which it is closed before the ball comes
-constexpr double kShown_s = 0.28;  // from the throw until a picture shows the ball on its way
+constexpr double kFree_s = 0.15;  // by which it is closed before the ball comes
+constexpr double kShown_s = 0.5;  // from the throw until a picture shows the ball, which comes from the wall
+// From the front the hand hides the ball: so the eyes go to the right first, by the key for that. They come no nearer
+// to the screen, and the mouse leads the hand as far as before.
+constexpr double kAsideFrom_s = 0.12, kAside_s = 2.0;
 // As a share of a second from the throw until it is closed again, if it goes on opening until then.
 constexpr double kClosesAgain_s = 0.21;
 
@@ -134,6 +137,8 @@ std::string with_throws(std::string_view script, const std::vector<ScriptedThrow
     const std::size_t mouse = script.find(" mouse "), line = script.rfind('\n', mouse);
     std::string head(script.substr(0, mouse == std::string_view::npos ? script.size() : line + 1));
     Leading hand(std::move(head), 0.6);
+    hand.later(kAsideFrom_s, "key press d");
+    hand.later(kAsideFrom_s + kAside_s, "key release d");
     bool holds = false;
     for (const ScriptedThrow& thrown : throws) {
         if (hand.now_s() > settings.time_limit_s + 1.0) break;

@@ -41,7 +41,7 @@ plot::Plot over_days(const std::string& title, const std::string& unit, double h
     made.title = title;
     made.x_label = "day";
     made.y_label = unit;
-    made.x_linear = made.y_linear = true;
+    made.x_linear = made.y_linear = made.x_whole = true;
     made.y_highest = highest;
     return made;
 }
