@@ -226,8 +226,9 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
         return {};
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app_->exit(error);  // --help
-        const auto parsed = app_->get_subcommands();
-        const std::string command = parsed.empty() ? "" : parsed.front()->get_name() + " ";
+        std::string command;                                       // with its subcommands: "devices emulate "
+        for (auto parsed = app_->get_subcommands(); !parsed.empty(); parsed = parsed.front()->get_subcommands())
+            command += parsed.front()->get_name() + " ";
         std::fprintf(stderr, "burin: %s; see burin %s--help\n", error.what(), command.c_str());
         return 2;
     }

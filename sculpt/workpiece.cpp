@@ -189,7 +189,7 @@ Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t cou
     }
     if (at != end || numbers.size() != count) {
         return fail(what, "does not give " + std::to_string(count) + (count == 1 ? " number" : " numbers with commas"),
-                    "see burin sculpt --help");
+                    "see the command's --help");
     }
     return numbers;
 }

@@ -18,8 +18,7 @@ namespace {
 constexpr std::size_t kMostDatagram = 65'536;  // the most that UDP carries
 constexpr const char* kDTrackRemedy =
     "write dtrack:PORT, or dtrack:ADDRESS:PORT with an address of this machine, such as dtrack:0.0.0.0:5000, and after "
-    "a "
-    "comma which of its bodies they are: head=body/0,wand0=flystick/0,axes=+x+z-y";
+    "a comma which of its bodies they are: head=body/0,wand0=flystick/0,axes=+x+z-y";
 // A measurement that is older than the newest by more than this is of a system that has begun anew.
 constexpr std::uint32_t kOvertaken = 100;
 
@@ -54,6 +53,8 @@ Result<std::unique_ptr<DTrackTracker>> DTrackTracker::open(const std::string& wh
     auto bodies = tracker_bodies(where, items, usual_dtrack_bodies());
     if (!bodies) return std::unexpected(bodies.error());
     auto bound = receive_at(*at);
+    if (!bound && bound.error().starts_with(kNoSuchMachine))  // a word where the port belongs is taken for a machine
+        return fail("tracker " + where, "has no such port or address: " + at->host + " is neither", kDTrackRemedy);
     if (!bound)
         return fail("tracker " + where, "cannot be listened to: " + bound.error(),
                     "another program may have the port; choose another one, or an address of this machine");

@@ -33,7 +33,7 @@ std::expected<sockaddr_in, std::string> resolved(const NetworkAddress& address) 
     hints.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
     const int failed = ::getaddrinfo(address.host.c_str(), nullptr, &hints, &found);
-    if (failed != 0) return std::unexpected("no such machine: " + std::string(::gai_strerror(failed)));
+    if (failed != 0) return std::unexpected(std::string(kNoSuchMachine) + ": " + std::string(::gai_strerror(failed)));
     sockaddr_in result{};
     std::memcpy(&result, found->ai_addr, sizeof(result));
     ::freeaddrinfo(found);

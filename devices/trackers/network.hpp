@@ -15,6 +15,9 @@
 
 namespace burin::devices {
 
+// How the error of an address begins whose host is not known.
+inline constexpr std::string_view kNoSuchMachine = "no such machine";
+
 // Owns a file descriptor; -1: none.
 class OwnedFile {
 public:

@@ -10,6 +10,7 @@
 #include "session/drive/session_frames.hpp"
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
+#include "session/live/session_watch.hpp"
 #include "session/present/display_watch.hpp"
 #include "session/timing/machine_pace.hpp"
 
@@ -29,10 +30,12 @@ constexpr Nanoseconds kSettled_ns = 3'000'000'000;
 class LiveFrames final : public SessionFrames {
 public:
     // tracker: null where there is none. All must outlive it.
-    LiveFrames(LiveSession& session, Presenter& presenter, InputSource input, Clock& clock, devices::Tracker* tracker)
+    LiveFrames(LiveSession& session, Presenter& presenter, InputSource input, Clock& clock, devices::Tracker* tracker,
+               const std::string& tracker_name)
         : SessionFrames(session, presenter, std::move(input)),
           clock_(clock),
           tracker_(tracker),
+          first_word_(tracker_name),
           display_(presenter.refresh_Hz()) {}
 
     // Begins to measure; call it right before drive(). The first frames follow the display.
@@ -62,6 +65,7 @@ private:
 
     Clock& clock_;
     devices::Tracker* tracker_;
+    FirstWordWatch first_word_;
     DisplayWatch display_;
     EventTimes event_times_;
     FramePlan plan_;              // of the frame in progress
@@ -136,6 +140,7 @@ std::vector<InputEvent> LiveFrames::take_tracker_input() {
     for (devices::TrackerSample& sample : tracker_->take())
         heard.push_back({sample.time_ns - session_.start_ns(), input_of(std::move(sample.input))});
     for (const std::string& message : tracker_->take_messages()) session_.notify_of_event(message);
+    if (const auto silent = first_word_.look(!heard.empty(), clock_.now_ns())) session_.notify_of_event(*silent);
     return heard;
 }
 
@@ -231,7 +236,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         tracker = std::move(*port);
     }
 
-    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
+    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get(), options.live.tracker);
     const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), session.has_activity());
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {

@@ -78,6 +78,16 @@ Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wa
                 "give a --tracker whose wand works the panel, or an --input; or try the wall with --windowed");
 }
 
+// A session in simulated time hears nothing from outside, since its result depends on its --input alone.
+void tell_of_unheard_tracker(const LiveOptions& live) {
+    if (live.tracker.empty()) return;
+    std::fprintf(
+        stderr,
+        "burin: --tracker %s: is not opened, since an --input is done in simulated time; with --record as well "
+        "it is played in real time, and the tracker is heard\n",
+        live.tracker.c_str());
+}
+
 // Does a session file again, and compares every tick on the way.
 Result<void> run_compared(const SculptOptions& options, InputLog log) {
     Result<record::RecordReader> reader = record::RecordReader::open(options.live.input);
@@ -142,6 +152,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
         if (!read) return std::unexpected(read.error());
         const SessionOutputs outputs(options.live, inputs_of(options).list());
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
+        if (options.live.record.empty()) tell_of_unheard_tracker(options.live);
         if (read->threads && options.live.record.empty()) {
             return is_database(options.live.input) ? run_compared(options, std::move(*read))
                                                    : run_as_recorded(options, std::move(*read), {});

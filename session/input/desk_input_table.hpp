@@ -15,7 +15,8 @@ namespace burin::session {
 enum class Action : std::uint8_t {
     // clang-format off
     undo, redo, tool_1, tool_2, tool_3, tool_4, tool_5, smaller_radius, larger_radius, next_stereo_mode, swap_eyes,
-    next_workspace_technique, toggle_panel, toggle_help, toggle_frame_figures, toggle_full_screen, take_screenshot,
+    next_workspace_technique, toggle_panel, toggle_help, toggle_frame_figures, toggle_devices,
+    toggle_full_screen, take_screenshot,
     export_mesh, save_session, reset_view, next_hand, quit,
     // clang-format on
 };

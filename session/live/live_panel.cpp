@@ -74,6 +74,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.visible = state.panel;
     m.show_help = state.help;
     m.show_figures = state.figures;
+    m.show_devices = state.devices;
     m.workpiece = context.workpiece;
     add_objects(m, state);
     const auto value = [&](Quantity quantity) { return descriptor_of(quantity).value(state); };
@@ -116,6 +117,17 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     return m;
 }
 
+// A replay's pictures do not depend on what is plugged in where it is replayed.
+void LivePanel::add_devices(PanelModel& model, bool follows_recording) {
+    look_.show(model.show_devices && !model.show_help && !follows_recording);
+    if (!model.show_devices) return;
+    model.devices = look_.found();
+    if (follows_recording)
+        model.devices_note = "a replay looks for no devices; see burin devices";
+    else if (model.devices.empty())
+        model.devices_note = "looking ...";
+}
+
 void LivePanel::feed_times(const FrameInput& input, const PanelContext& context) {
     const haptics::ToolState& tool = context.tool;
     const bool stirring = !input.events.empty() || (tool.flags & haptics::kTickInContact) != 0 ||
@@ -156,6 +168,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
         PanelModel model = model_of(context, log.newest());
         model.visible = true;
         model.may_be_hidden = !in_window;
+        add_devices(model, log.follows_recording());
         layout_ = &panel_->show(model, input.time_ns);
         actions_ = layout_->actions;
         left.captured = {layout_->wants_mouse && !in_window, layout_->wants_keyboard};

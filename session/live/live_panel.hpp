@@ -13,6 +13,7 @@
 
 #include "haptics/haptic_loop.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/live/device_look.hpp"
 #include "session/live/message_log.hpp"
 #include "session/panel/panel.hpp"
 #include "session/panel/panel_feed.hpp"
@@ -77,6 +78,7 @@ public:
     void measure_again(const PanelMeasured& recorded) { recorded_ = recorded; }
 
 private:
+    void add_devices(PanelModel& model, bool follows_recording);
     void feed_times(const FrameInput& input, const PanelContext& context);
     [[nodiscard]] Result<void> open(std::optional<Panel>& panel, ImageSize size, MessageLog& log) const;
     [[nodiscard]] SceneInput feed_over_picture(const FrameInput& input, const PanelContext& context, ImageSize size);
@@ -92,6 +94,7 @@ private:
     std::vector<CommandInput> actions_;
     PanelPointer pointer_;
     PanelFeed feed_;
+    DeviceLook look_;
     std::optional<PanelMeasured> recorded_;
     renderer::RenderStats drawn_;
 };

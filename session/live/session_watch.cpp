@@ -58,6 +58,17 @@ std::optional<std::string> TrackerWatch::look(const SessionState& state, const R
     return "head tracker: " + report_.cause;
 }
 
+std::optional<std::string> FirstWordWatch::look(bool heard, Nanoseconds time_ns) {
+    if (!begun_ns_) begun_ns_ = time_ns;
+    if (heard_) return std::nullopt;
+    heard_ = heard;
+    if (heard && told_) return "tracker " + tracker_ + ": is heard now";
+    if (heard || told_ || time_ns - *begun_ns_ < kPatience_ns) return std::nullopt;
+    told_ = true;
+    return "tracker " + tracker_ +
+           ": nothing has come from it yet; see that it runs, and that it sends to this machine and port";
+}
+
 std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std::span<const haptics::ToolState> tools) {
     parts_.resize(hands.parts());
     std::vector<bool> lost;

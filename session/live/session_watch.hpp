@@ -39,6 +39,21 @@ private:
     wall::TrackerReport report_;
 };
 
+// Watches whether a tracker speaks at all: one that sends elsewhere, or is off, is otherwise silent without a word.
+class FirstWordWatch {
+public:
+    static constexpr Nanoseconds kPatience_ns = 5'000'000'000;
+    explicit FirstWordWatch(std::string tracker) : tracker_(std::move(tracker)) {}
+    // heard: something came since the last call. time_ns: on one clock, which begins with the first call. Returns a
+    // message once, when nothing has ever come for kPatience_ns; and once more when something comes after all.
+    [[nodiscard]] std::optional<std::string> look(bool heard, Nanoseconds time_ns);
+
+private:
+    std::string tracker_;  // as --tracker names it
+    std::optional<Nanoseconds> begun_ns_;
+    bool heard_ = false, told_ = false;
+};
+
 // Watches where the lamp stands relative to the workpiece. The lamp is fixed in the world, so that a workpiece that
 // turns is lit from elsewhere.
 class LampWatch {

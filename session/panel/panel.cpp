@@ -213,8 +213,10 @@ private:
         const ImVec2 inside{ImGui::GetContentRegionAvail().x + 0.8f * margin,
                             ImGui::GetContentRegionAvail().y - footer};
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-        ImGui::BeginChild(model.show_help ? "help" : "sections", inside, false,
-                          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysVerticalScrollbar);
+        ImGui::BeginChild(model.show_help      ? "help"
+                          : model.show_devices ? "devices"
+                                               : "sections",
+                          inside, false, ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysVerticalScrollbar);
         ImGui::PopStyleVar();
         kit_.visible_lo = top;
         kit_.visible_hi = {top.x + inside.x, top.y + inside.y};
@@ -237,6 +239,10 @@ private:
     void show_inside(const PanelModel& model) {
         if (model.show_help) {
             panel::show_help(kit_);
+            return;
+        }
+        if (model.show_devices) {
+            panel::show_devices(kit_, model);
             return;
         }
         if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever turns them on wants to see them

@@ -26,6 +26,15 @@ struct PanelSource {
     bool operator==(const PanelSource&) const = default;
 };
 
+// A line of `burin devices`.
+struct PanelDevice {
+    std::string option, name;          // "--device", "omni"
+    std::string state, cause, remedy;  // "absent", "the library ... cannot be loaded", what can be done; may be empty
+    Condition condition = Condition::idle;
+
+    bool operator==(const PanelDevice&) const = default;
+};
+
 // The last ten seconds or so of a figure. Empty where there is no device.
 struct PanelPlot {
     std::vector<float> values;
@@ -103,6 +112,9 @@ struct PanelObject {
 
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
+    bool show_devices = false;                                     // F3: the page of devices, in place of the sections
+    std::string devices_note;                                      // above them: "looking"
+    std::vector<PanelDevice> devices;
     bool may_be_hidden = true;
     bool page_alone = false;  // of the activity, for the person who is not to see the rest
     std::string title = "Burin";

@@ -28,6 +28,7 @@ void show_state(Kit& kit, const PanelModel& model);
 void show_figures(Kit& kit, const PanelModel& model);
 void show_plots(Kit& kit, const PanelModel& model);  // side by side, always visible
 void show_help(Kit& kit);
+void show_devices(Kit& kit, const PanelModel& model);
 void show_footer(Kit& kit, const PanelModel& model);
 
 // Draws colours to choose from; gives the one chosen, which may be held in the hand for a while.

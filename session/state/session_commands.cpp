@@ -189,8 +189,11 @@ Result<void> Runner::operator()(const RunAction& run) {
             state_.technique = next_technique(state_.technique);
             return update_touch();
         case Action::toggle_panel: return toggle(&SessionState::panel);
-        case Action::toggle_help: return toggle(&SessionState::help);
+        case Action::toggle_help:
+            state_.devices = false;  // one page at a time
+            return toggle(&SessionState::help);
         case Action::toggle_frame_figures: return toggle(&SessionState::figures);
+        case Action::toggle_devices: state_.help = false; return toggle(&SessionState::devices);
         case Action::toggle_full_screen: orders_.full_screen = true; return {};
         case Action::take_screenshot: orders_.screenshots.push_back({kScreenshotName, orders_.line}); return {};
         case Action::export_mesh: return export_to(state_.export_path);

@@ -44,7 +44,7 @@ struct SessionState : HandState {
     std::shared_ptr<const WorldObjects> world;  // null: none
     scene::ObjectId selected = 0;               // on the panel; 0: the first
     wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
-    bool panel = true, help = false, figures = false;
+    bool panel = true, help = false, figures = false, devices = false;
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
     bool quit = false;

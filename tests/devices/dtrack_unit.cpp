@@ -266,6 +266,8 @@ TEST(DTrackTracker, SaysWhatIsWrongWithAnAddress) {
     };
     EXPECT_TRUE(refusal("dtrack:localhost:x").contains("has no such port or address"));
     EXPECT_TRUE(refusal("dtrack:99999").contains("has no such port or address")) << "99999 is no machine's name";
+    EXPECT_TRUE(refusal("dtrack:no.such.invalid").contains("has no such port or address")) << "nor is that";
+    EXPECT_TRUE(refusal("dtrack:no.such.invalid").contains("write dtrack:PORT"));
     EXPECT_TRUE(refusal("dtrack:10.255.255.1:0").contains("cannot be listened to"));
     EXPECT_TRUE(refusal("dtrack:0,haed=body/0").contains("the nearest is head="));
     HeardDTrack first;

@@ -93,7 +93,7 @@ TEST(ToolKinds, AreRefusedWithTheRemedyWhenTheyAreNone) {
         const bool known = std::string(text).starts_with("ball");
         expect_refused(text, known ? "does not give 1 number" : "is not a tool", known ? "see" : kinds);
     }
-    expect_refused("cylinder:0.1", "does not give 2 numbers with commas", "see burin sculpt --help");
+    expect_refused("cylinder:0.1", "does not give 2 numbers with commas", "see the command's --help");
     expect_refused("box:0.1,0.1,0.1,0.1", "does not give 3 numbers with commas", "see");
     for (const char* text : {"ball:0", "ball:-1", "cylinder:0.1,0", "bullnose:0.1,0,0.1", "box:0.1,0.1,0"})
         expect_refused(text, "has no size", "give sizes above zero, in metres");

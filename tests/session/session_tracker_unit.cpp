@@ -12,6 +12,7 @@
 
 #include "devices/trackers/udp_tracker.hpp"
 #include "session/input/input_line.hpp"
+#include "session/live/session_watch.hpp"
 
 namespace burin::session {
 namespace {
@@ -173,6 +174,24 @@ TEST(UdpTracker, SaysWhatItRefusesAtMostOnceASecond) {
     send_nonsense();
     EXPECT_EQ((*opened)->take_messages().size(), 1u) << "a sender that never pauses is told of again";
     EXPECT_EQ((*opened)->refused(), 12u);
+}
+
+TEST(FirstWordWatch, TellsOnceOfATrackerThatNeverSpeaks) {
+    FirstWordWatch silent("udp:5005");
+    const Nanoseconds begun_ns = 7'000'000'000, late_ns = begun_ns + FirstWordWatch::kPatience_ns;
+    EXPECT_FALSE(silent.look(false, begun_ns));
+    EXPECT_FALSE(silent.look(false, late_ns - 1));
+    const auto told = silent.look(false, late_ns);
+    ASSERT_TRUE(told);
+    EXPECT_TRUE(told->starts_with("tracker udp:5005: nothing has come from it yet")) << *told;
+    EXPECT_FALSE(silent.look(false, 2 * late_ns)) << "once";
+    EXPECT_EQ(silent.look(true, 2 * late_ns), "tracker udp:5005: is heard now");
+    EXPECT_FALSE(silent.look(true, 3 * late_ns));
+    EXPECT_FALSE(silent.look(false, 4 * late_ns)) << "later silence is the head's watch to tell of";
+
+    FirstWordWatch well("udp:5005");
+    EXPECT_FALSE(well.look(true, begun_ns));
+    EXPECT_FALSE(well.look(false, late_ns));
 }
 
 }  // namespace burin::session
