@@ -156,6 +156,8 @@ Result<void> RehabCommand::run() const {
 Result<void> RehabCommand::run(const Of& of) const {
     const Result<SettingValues> values = of.values();
     if (!values) return std::unexpected(values.error());
+    const bool scripted = !of.hand.empty();
+    if (const auto ok = check_results(of.results, scripted); !ok) return ok;
     if (of.print_config) {
         std::fputs(activities::table_text(of.kind.name, *values).c_str(), stdout);
         return {};
@@ -163,7 +165,6 @@ Result<void> RehabCommand::run(const Of& of) const {
     session::SculptOptions session = of.session;
     session::LiveOptions& live = session.live;
     if (const auto glove = check_glove(live); !glove) return glove;
-    const bool scripted = !of.hand.empty();
     std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
     if (scripted) {
@@ -174,7 +175,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (live.offscreen && live.input.empty()) live.input = of.kind.script;
     if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
-    if (const auto ready = prepare_results(of.results, scripted); !ready) return ready;
+    if (const auto ready = prepare_results(of.results); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");

@@ -40,7 +40,7 @@ void add_results_options(Command command, ResultsOptions& options) {
     command.option("--date", options.date, "Of a run by --hand scripted, such as 2026-11-03, if not today's");
 }
 
-Result<void> prepare_results(const ResultsOptions& options, bool scripted) {
+Result<void> check_results(const ResultsOptions& options, bool scripted) {
     if (options.folder.empty() && options.participant)
         return fail("--participant", "is of nothing that is kept", "name a folder with --results");
     if (!options.date.empty()) {
@@ -58,6 +58,11 @@ Result<void> prepare_results(const ResultsOptions& options, bool scripted) {
         return fail("--results " + options.folder, "does not say whose run it keeps", "give --participant, a number");
     if (*options.participant < 1 || *options.participant > KeptRun::kMostParticipants)
         return fail("--participant", formatted("is %u", *options.participant), "give a number from 1 to 999");
+    return {};
+}
+
+Result<void> prepare_results(const ResultsOptions& options) {
+    if (options.folder.empty()) return {};
     return activities::prepare_results(options.folder, *options.participant);
 }
 

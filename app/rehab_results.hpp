@@ -19,8 +19,10 @@ struct ResultsOptions {
 };
 void add_results_options(Command command, ResultsOptions& options);
 
-// Checks the options, before the exercise, and makes the participant's folder. scripted: no person does it.
-[[nodiscard]] Result<void> prepare_results(const ResultsOptions& options, bool scripted);
+// Checks the options. scripted: no person does it.
+[[nodiscard]] Result<void> check_results(const ResultsOptions& options, bool scripted);
+// Makes the participant's folder, before the exercise. Requires checked options.
+[[nodiscard]] Result<void> prepare_results(const ResultsOptions& options);
 // Keeps the run that has ended now, brings the folder's page up to it, and prints where they are and what is proposed.
 // Does nothing where nothing is to be kept.
 [[nodiscard]] Result<void> keep_results(const ResultsOptions& options, const std::string& hand, const Json& report);

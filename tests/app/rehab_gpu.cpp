@@ -214,6 +214,9 @@ TEST_F(RehabSessions, SayWhatTheyTake) {
     const auto printed = at.run(rehab("--level 3 --print-config"));
     EXPECT_EQ(printed.status, 0);
     EXPECT_TRUE(printed.output.contains("level = 3")) << printed.output;
+    for (const char* wrong :
+         {"--results r --participant 0", "--hand scripted --results r --participant 3 --date 2026-02-30"})
+        EXPECT_EQ(at.run(rehab(std::string("--print-config ") + wrong)).status, 1) << wrong;
 }
 
 }  // namespace burin::app
