@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -93,6 +94,25 @@ TEST(ScriptedThrows, AreAsManyAsAreAskedForAndGoAsAnIndependentBallDoes) {
             }
     EXPECT_GT(caught, 500u);
     for (const unsigned missed : {low, elsewhere, open}) EXPECT_GT(missed, 50u);
+}
+
+TEST(ScriptedThrows, AreLinesInTheOrderOfTheirTimesWhateverTheirNumber) {
+    const ExerciseKind& kind = *exercise_named("game");
+    const auto script = read_text_file(kind.script);
+    ASSERT_TRUE(script);
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const std::string text = kind.scripted(SettingValues(kind.settings), seed, *script);
+        double last_s = 0.0;
+        std::size_t lines = 0;
+        for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
+            if (std::isdigit(static_cast<unsigned char>(text[at])) == 0) continue;
+            const double at_s = std::stod(text.substr(at));
+            EXPECT_GE(at_s, last_s) << "seed " << seed;
+            last_s = at_s;
+            ++lines;
+        }
+        EXPECT_GT(lines, 100u);
+    }
 }
 
 TEST(ScriptedThrows, EndWithTheTimeLimit) {
