@@ -28,11 +28,11 @@ struct Plot {
     std::string title, x_label, y_label;
     std::vector<PlotSeries> series;  // series of one name in several plots are drawn alike and listed once
     bool x_linear = false, y_linear = false;
-    bool x_whole = false;  // of a linear axis: days and the like, with no ticks between them
-    bool markers = true;   // false: only lines, for curves of many points; each series is dashed in its own way
+    bool markers = true;  // false: only lines, for curves of many points; each series is dashed in its own way
     // The least range that the y axis shows, so that plots side by side compare; equal values: as the series need.
     double y_lowest = 0, y_highest = 0;
     bool same_scale = false;  // both axes, which are linear: ways in space, where a circle is to be round
+    bool x_whole = false;     // of a linear axis: days and the like, with no ticks between them
 };
 
 // Draws the plots in rows of so many; 0: in one row.

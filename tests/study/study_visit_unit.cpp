@@ -150,7 +150,8 @@ TEST(StudyVisits, SayInTheHelpWhatAnInputIs) {
     const std::string input = help.substr(std::min(help.find("--input"), help.size()), 400);
     EXPECT_TRUE(input.contains("script of a visit")) << input;
     EXPECT_FALSE(input.contains("A recording, done again")) << input;
-    const std::string device = help.substr(std::min(help.find("--device"), help.size()), 1400);
+    const std::size_t at = std::min(help.find("--device"), help.size());
+    const std::string device = help.substr(at, help.find("\n  --", at) - at);
     EXPECT_TRUE(device.contains("not the Omni")) << device;
 }
 
