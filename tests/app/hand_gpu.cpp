@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -82,8 +83,8 @@ TEST_F(HandSessions, G10PinchesACardAndPointsAtABall) {
 TEST_F(HandSessions, GraspsInAGloveAndIsDoneAgainToTheBitWithoutIt) {
     const auto recorded = at.run(with_glove("", hand("glove") + " --record h.session"));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    EXPECT_TRUE(recorded.output.contains("\ngrasped ball, carried ")) << recorded.output;
-    EXPECT_FALSE(recorded.output.contains("carried 0 mm")) << recorded.output;
+    // On a machine that is late the line falls silent at times, and the ball is then grasped anew where it lies.
+    EXPECT_TRUE(std::regex_search(recorded.output, std::regex("\ngrasped ball, carried [1-9]"))) << recorded.output;
     const auto replayed = at.run(std::string(kBurinCommand) + " replay h.session");
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;

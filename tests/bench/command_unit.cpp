@@ -116,7 +116,7 @@ TEST(BenchCommand, WritesTheComparisonWhereAsked) {
 
 TEST(BenchCommand, RefusesWhatItCannotDo) {
     const Workplace place;
-    expect_refused(place, "stroke --resolution 8", 2, {"--resolution", "burin bench --help"});
+    expect_refused(place, "stroke --resolution 8", 2, {"--resolution", "burin bench stroke --help"});
     expect_refused(place, "stroke --engine auto", 2, {"--engine"});
     expect_refused(place, "stroke --tool cone", 2, {"--tool"});
     expect_refused(place, "stroke --peer blender", 2, {"--peer"});
