@@ -18,7 +18,7 @@ class TerminalGuide final : public CheckGuide {
 public:
     static constexpr Nanoseconds kFirst_ns = 600'000'000, kAgain_ns = 150'000'000;
 
-    // Whether a person is there: keys come from a terminal.
+    // Returns whether a person can press keys: standard input is a terminal.
     [[nodiscard]] static bool is_there();
 
     // is_quiet: nothing is written, as standard output has something else.

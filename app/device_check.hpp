@@ -26,7 +26,7 @@ struct CheckOptions {
     bool pushes = true;  // false: no force is tried
 };
 
-// What the person at the terminal does now.
+// Keys that the person at the terminal has pressed or holds.
 struct CheckAnswers {
     bool goes_on = false;  // has pressed Enter since the last time
     bool skips = false;    // s

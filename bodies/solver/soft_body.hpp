@@ -55,7 +55,7 @@ struct SoftIncidence {
     double volume_m3 = 0.0;                  // at rest
     std::array<std::uint8_t, 4> ring{};      // where each of the four stands in the ring of the corner
 };
-// How the volumes around the corners of a ring change with the place of the corner in its middle.
+// The volume around each corner of a ring, derived with respect to the place of the corner that the ring is around.
 constexpr std::size_t kMostInRing = 64;
 using RingSlopes = std::array<Vec3, kMostInRing>;  // m^2
 
@@ -102,7 +102,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t corner) const {
         return std::span(rings_).subspan(first_of_ring_[corner], first_of_ring_[corner + 1] - first_of_ring_[corner]);
     }
-    // Of the elements around a corner together, at rest.
+    // Returns the volume at rest of all elements that have this corner.
     [[nodiscard]] double volume_around_m3(std::uint32_t corner) const { return volumes_around_m3_[corner]; }
     [[nodiscard]] std::span<const Incidence> incidences() const { return incidences_; }
     [[nodiscard]] std::span<const Element> elements() const { return elements_; }
@@ -133,7 +133,7 @@ private:
 struct CornerForce {
     Vec3 force_N{0.0};
     glm::dmat3 stiffness_N_per_m{0.0};
-    // Of these, what comes of mu/2 tr F'F: it is linear in the places, so that damping can be had of it.
+    // The part of both that mu/2 tr F'F gives. It is linear in the places, so the solver derives its damping from it.
     Vec3 of_spread_N{0.0};
     double of_spread_N_per_m = 0.0;
 };

@@ -15,7 +15,7 @@
 
 namespace burin::devices {
 
-// What functions return: 0, one of these, or -1.
+// A function returns 0, one of these two, or -1 where it has failed.
 inline constexpr int kDhdTimeGuard = 1;  // asked for again too soon: the values are the last ones
 inline constexpr int kDhdSaturated = 2;  // a motor gives less than it is asked for
 

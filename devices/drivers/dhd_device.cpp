@@ -15,21 +15,7 @@ namespace burin::devices {
 namespace {
 
 DeviceDescription dhd_description() {
-    const OmniModel model = omega_model();
-    DeviceDescription d;
-    d.name = "Force Dimension";
-    d.workspace_m = model.workspace_m;
-    d.resolution_m = model.resolution_m;
-    d.max_force_N = model.max_force_N;
-    d.max_stiffness_N_per_m = model.max_stiffness_N_per_m;
-    d.rate_Hz = 1000.0;
-    d.apparent_mass_kg = model.apparent_mass_kg;
-    d.damping_Ns_per_m = model.damping_Ns_per_m;
-    d.friction_N = model.friction_N;
-    d.delay_s = kServedDelay_s + seconds(SimulatedOmni::kDelay_ns);  // its exchange with ticks, and the device's own
-    d.watchdog_s = seconds(kServedSilent_ns);
-    d.felt_by_person = true;
-    return d;
+    return describe_served_arm("Force Dimension", omega_model(), seconds(SimulatedOmni::kDelay_ns));
 }
 
 std::optional<DhdChoice> dhd_chosen(const std::string& text) {

@@ -21,7 +21,7 @@ namespace burin::devices {
 inline constexpr const char* kDhd = "dhd";
 inline constexpr const char* kEmulatedDhdLibrary = "libburin_emulated_dhd.so";
 
-// What an omega.3 is, for the description and for emulated ones.
+// Returns the figures of an omega.3, which the description and emulated devices have.
 [[nodiscard]] OmniModel omega_model();
 
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.

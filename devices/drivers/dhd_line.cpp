@@ -63,7 +63,7 @@ Result<void> DhdLine::open() {
     }
     static_cast<void>(api_.write_force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id));
     static_cast<void>(api_.enable_force(1, id));
-    // As CHAI3D lists it; the others give the description's 12 N at least.
+    // CHAI3D lists 8 N for a Falcon; all others give at least the 12 N of the description.
     most_N_ = api_.system_type(id) == kDhdFalcon ? 8.0 : 12.0;
     turns_ = 0;
     status_ = DeviceFault::none;
@@ -126,7 +126,7 @@ DeviceFault DhdLine::status_fault() noexcept {
 
 LineNotice DhdLine::notice() noexcept {
     const LineNotice notice = std::exchange(notice_, {});
-    // What goes on is told once.
+    // A state that lasts is told when it begins, and no more.
     if (notice == told_) return {};
     if (notice.what != 0) told_ = notice;
     return notice;

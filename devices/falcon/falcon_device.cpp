@@ -34,21 +34,8 @@ double falcon_step_m() {
 
 DeviceDescription falcon_description() {
     static const OmniModel model = falcon_model();
-    DeviceDescription d;
-    d.name = "Novint Falcon";
-    d.workspace_m = model.workspace_m;
-    d.resolution_m = model.resolution_m;
-    d.max_force_N = model.max_force_N;
-    d.max_stiffness_N_per_m = model.max_stiffness_N_per_m;
-    d.rate_Hz = 1000.0;
-    d.apparent_mass_kg = model.apparent_mass_kg;
-    d.damping_Ns_per_m = model.damping_Ns_per_m;
-    d.friction_N = model.friction_N;
     constexpr double kCable_s = 0.001;  // of a full-speed bus and its chip
-    d.delay_s = kServedDelay_s + kCable_s;
-    d.watchdog_s = seconds(kServedSilent_ns);
-    d.felt_by_person = true;
-    return d;
+    return describe_served_arm("Novint Falcon", model, kCable_s);
 }
 
 // PLACE, FIRMWARE, or PLACE@FIRMWARE.

@@ -94,6 +94,23 @@ DeviceWrench ServedExchange::wanted(Nanoseconds now_ns) noexcept {
     return is_fresh && is_sound ? wanted.wrench : DeviceWrench{};
 }
 
+DeviceDescription describe_served_arm(const char* name, const OmniModel& model, double own_delay_s) {
+    DeviceDescription d;
+    d.name = name;
+    d.workspace_m = model.workspace_m;
+    d.resolution_m = model.resolution_m;
+    d.max_force_N = model.max_force_N;
+    d.max_stiffness_N_per_m = model.max_stiffness_N_per_m;
+    d.rate_Hz = 1.0 / kServedTurn_s;
+    d.apparent_mass_kg = model.apparent_mass_kg;
+    d.damping_Ns_per_m = model.damping_Ns_per_m;
+    d.friction_N = model.friction_N;
+    d.delay_s = kServedDelay_s + own_delay_s;
+    d.watchdog_s = seconds(kServedSilent_ns);
+    d.felt_by_person = true;
+    return d;
+}
+
 OpenedDevice served_arm(std::unique_ptr<ServedLink> link, const DeviceDescription& description, AnyHand hand,
                         Clock& clock) {
     auto arm = std::make_unique<ServedArm>(std::move(link), description, std::move(hand), clock);

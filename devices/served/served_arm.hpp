@@ -18,6 +18,7 @@
 #include "base/newest_slot.hpp"
 #include "devices/hand/any_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 
 namespace burin::devices {
 
@@ -69,6 +70,10 @@ public:
     // As DeviceMessages.
     [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;
 };
+
+// Describes an arm of this kind that is served a thousand times a second and held by a person. `own_delay_s` is the
+// device's and its cable's, beside that of the exchange with ticks.
+[[nodiscard]] DeviceDescription describe_served_arm(const char* name, const OmniModel& model, double own_delay_s);
 
 // Returns an opened device whose samples come from a link. Its fault is disconnected where the servo has been silent
 // for kServedLost_ns. The clock must be the machine's and outlive the device. `hand` is not followed: a person's is

@@ -53,7 +53,7 @@ struct GameRoom {
 };
 [[nodiscard]] bodies::FlightRoom flight_room(const GameRoom& room, const GameSettings& settings);
 
-// What the rules take of a turn.
+// The hand at a turn of the session, as the rules read it.
 struct GameTurn {
     Nanoseconds time_ns = 0;
     Pose palm;

@@ -22,11 +22,12 @@ constexpr double kShown_s = 0.5;  // from the throw until a picture shows the ba
 // From the front the hand hides the ball: so the eyes go to the right first, by the key for that. They come no nearer
 // to the screen, and the mouse leads the hand as far as before.
 constexpr double kAsideFrom_s = 0.12, kAside_s = 2.0;
-// As a share of a second from the throw until it is closed again, if it goes on opening until then.
+// Closing again takes this much longer than the hand has gone on opening since the throw.
 constexpr double kClosesAgain_s = 0.21;
 
-// How the desk leads the hand at the usual size of the window: how far a pixel moves it, by the thumb's distance, and a
-// step of the wheel. (session/state/session_state.cpp, session/live/opened_room.cpp)
+// In a window of the usual size the desk leads the hand by kPixel_m a pixel, less kPixelLess of a metre for each metre
+// by which its z is above kThumbAhead_m, and by kWheelStep_m a step of the wheel (session/state/session_state.cpp,
+// session/live/opened_room.cpp).
 constexpr double kPixel_m = 0.0011377, kPixelLess = 0.00159, kThumbAhead_m = 0.0287, kWheelStep_m = 0.01;
 constexpr double kRest_y_m = 0.2209, kRest_z_m = 0.131;  // where the grip is at first
 constexpr double kStep_s = 1.0 / 30.0;
