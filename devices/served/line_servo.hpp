@@ -71,7 +71,7 @@ private:
     std::thread thread_;
     LineNotice told_;  // the frame's thread's
     // The servo thread's:
-    bool is_open_ = true, is_told_ = false;
+    bool is_open_ = true;
     ServedState state_;
     DeviceFault held_ = DeviceFault::none;
     Nanoseconds fault_ns_ = 0, tried_ns_ = 0;
