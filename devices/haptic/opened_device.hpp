@@ -30,6 +30,9 @@ public:
     virtual ~DeviceMessages() = default;
     // Returns what has been said since the last call. The frame's thread.
     [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;
+    // Returns the commands of a session that its keys have given since the last call, in order: "undo". The frame's
+    // thread.
+    [[nodiscard]] virtual std::vector<std::string> take_commands() { return {}; }
 };
 
 struct OpenedDevice {

@@ -95,6 +95,7 @@ struct TrackerKind {
     Result<std::unique_ptr<Tracker>> (*open)(const std::string& where, TrackerHost host);
     // Looks for what can be found without being named; null: it is sent to, and there is nothing to find.
     std::vector<DevicePresence> (*look)() = nullptr;
+    bool may_be_bare = false;  // the scheme alone, without a colon, names one
 };
 [[nodiscard]] std::span<const TrackerKind> tracker_kinds();
 

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "devices/trackers/dtrack_tracker.hpp"
+#include "devices/trackers/spacemouse_tracker.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "devices/trackers/udp_tracker.hpp"
 #include "devices/trackers/vrpn_tracker.hpp"
@@ -23,6 +24,11 @@ constexpr std::array kKinds{
                 "dtrack:PORT, or dtrack:ADDRESS:PORT for other machines: ART's DTrack, and after a comma which of its "
                 "bodies are the head and the wands: dtrack:5000,head=body/0,wand0=flystick/0,axes=+x+z-y",
                 open_dtrack},
+    TrackerKind{
+        "spacemouse",
+        "spacemouse:PLACE, or spacemouse for the first, a 3Dconnexion SpaceMouse that moves the scene, and settings "
+        "after commas: spacemouse:hidraw3,speed=0.3,turn=1.2,dead=0.1",
+        open_spacemouse_tracker, look_for_spacemice, true},
 };
 
 bool is_pose_or_stick(const TrackerSample& sample) { return !std::holds_alternative<WandClick>(sample.input); }
@@ -57,7 +63,8 @@ std::string tracker_usage() {
 Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host) {
     const std::string_view scheme = std::string_view(where).substr(0, where.find(':'));
     const auto kind = std::ranges::find(kKinds, scheme, &TrackerKind::scheme);
-    if (kind != kKinds.end() && scheme.size() < where.size()) return kind->open(where, std::move(host));
+    if (kind != kKinds.end() && (scheme.size() < where.size() || kind->may_be_bare))
+        return kind->open(where, std::move(host));
     return fail("tracker " + where, "is no tracker that Burin knows", "write " + tracker_usage());
 }
 

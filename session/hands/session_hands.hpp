@@ -75,6 +75,8 @@ public:
     [[nodiscard]] std::optional<devices::AmplifierAnswer> switch_amplifiers(std::size_t hand, bool on);
     // Returns what the devices have said since the last call, each with its hand's name.
     [[nodiscard]] std::vector<std::string> take_messages();
+    // Returns the commands that the devices' keys have given since the last call: "undo".
+    [[nodiscard]] std::vector<std::string> take_commands();
     // Returns the newest tool state that the loop has published for a part.
     [[nodiscard]] const haptics::ToolState& newest_tool(std::size_t part) { return channels(part).tool.newest(); }
 
