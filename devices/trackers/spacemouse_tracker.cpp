@@ -24,6 +24,9 @@ Result<std::unique_ptr<SpaceMouseTracker>> SpaceMouseTracker::open(const std::st
     if (!settings) return std::unexpected(settings.error());
     if (!settings->file.empty())
         return fail("tracker " + where, "takes no description: " + settings->file, "leave it out");
+    if (host.described != nullptr)
+        return fail("tracker " + where, "moves the scene, and has no bodies that a description could name",
+                    "give it without one: --tracker " + where);
     std::unique_ptr<SpaceMouseTracker> tracker(new SpaceMouseTracker(std::move(*settings), std::move(host)));
     tracker->wand_world_.position_m = kSceneMiddle_world;
     auto line = SpaceMouseLine::open("tracker " + where, tracker->settings_.place,

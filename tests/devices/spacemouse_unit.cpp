@@ -19,6 +19,7 @@
 #include "devices/emulators/emulated_spacemouse.hpp"
 #include "devices/spacemouse/spacemouse_line.hpp"
 #include "devices/trackers/spacemouse_tracker.hpp"
+#include "devices/trackers/tracker_bodies.hpp"
 #include "tests/devices/ticked_arm.hpp"
 
 namespace burin::devices {
@@ -333,6 +334,14 @@ TEST(SpaceMouse, MovesTheSceneAsAWandThatHoldsItWhileItIsPushed) {
     std::string messages;
     for (const std::string& message : (*tracker)->take_messages()) messages += message;
     EXPECT_TRUE(messages.contains("unplugged")) << messages;
+}
+
+TEST(SpaceMouse, HasNoBodiesForATrackersDescription) {
+    MonotonicClock clock;
+    const TrackerBodies bodies;
+    const auto tracker = open_tracker("spacemouse", {clock, [] {}, {}, &bodies, {}});
+    ASSERT_FALSE(tracker);
+    EXPECT_TRUE(tracker.error().line().contains("has no bodies")) << tracker.error().line();
 }
 
 TEST(Hidraw, IsFoundByItsNumbersAndItsDescriptorAndRead) {
