@@ -21,7 +21,10 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
     command.option("--wall", options.wall,
                    "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
-    command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
+    command.option("--tracker", options.tracker,
+                   "Where head and wands are heard, else as the wall file says (none: nowhere): FILE.toml, a tracker's "
+                   "description; " +
+                       devices::tracker_usage());
     command.option(
         "--device", [&options](const std::vector<std::string>& given) { return session::set_devices(options, given); },
         "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +

@@ -21,6 +21,14 @@ void TableReading::add(Error error) {
     if (errors.size() < kMaxErrors) errors.push_back(std::move(error));
 }
 
+Result<void> TableReading::outcome() const {
+    if (errors.empty()) return {};
+    if (errors.size() == 1) return std::unexpected(errors.front());
+    std::string lines = std::to_string(errors.size()) + " problems:";
+    for (const Error& error : errors) lines += "\n  " + error.line();
+    return fail(file, lines);
+}
+
 void TableReading::refuse(const toml::node& node, std::string what, std::string remedy) {
     add({std::move(what), file + ":" + std::to_string(node.source().begin.line), std::move(remedy)});
 }

@@ -25,6 +25,8 @@ struct TableReading {
     std::vector<Error> errors{};  // in the order in which they were found
 
     void add(Error error);
+    // Returns all errors as one, if there is any; further ones stand on lines of their own.
+    [[nodiscard]] Result<void> outcome() const;
     void refuse(const toml::node& node, std::string what, std::string remedy);
 };
 

@@ -2,32 +2,15 @@
 #include "wall/head_prediction.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "base/error.hpp"
+#include "base/pose_motion.hpp"
 #include "base/space.hpp"
 #include "base/text.hpp"
 
 namespace burin::wall {
 namespace {
-
-Vec3 rotation_vector(const Quat& q) {
-    const Quat p = q.w < 0.0 ? -q : q;  // the shorter way round
-    const Vec3 v{p.x, p.y, p.z};
-    const double sine = glm::length(v);
-    return sine < 1e-12 ? 2.0 * v : v * (2.0 * std::atan2(sine, p.w) / sine);
-}
-
-Quat rotation(const Vec3& vector_rad) {
-    const double angle = glm::length(vector_rad);
-    return angle < 1e-12 ? Quat{1.0, 0.0, 0.0, 0.0} : glm::angleAxis(angle, vector_rad / angle);
-}
-
-Vec3 turn_between(const Quat& from, const Quat& to) { return rotation_vector(to * glm::conjugate(from)); }
-
-Vec3 at_most(const Vec3& v, double length) {
-    const double l = glm::length(v);
-    return l <= length ? v : v * (length / l);
-}
 
 Vec3 shrunk(const Vec3& v, double by) {
     const double l = glm::length(v);
@@ -47,7 +30,7 @@ struct Speed {
 Speed speed_between(const TrackerSample& a, const TrackerSample& b) {
     const double dt_s = seconds(b.time_ns - a.time_ns);
     return {glm::length(b.sensor_tracker.position_m - a.sensor_tracker.position_m) / dt_s,
-            glm::length(turn_between(a.sensor_tracker.orientation, b.sensor_tracker.orientation)) / dt_s};
+            glm::length(rotation_vector_between(a.sensor_tracker.orientation, b.sensor_tracker.orientation)) / dt_s};
 }
 
 bool follows(const HeadSettings& s, const TrackerSample& a, const TrackerSample& b) {
@@ -87,31 +70,12 @@ void await_confirmation(const HeadSettings& s, HeadTrack& track, const TrackerSa
     accept(track, sample);
 }
 
-struct Velocity {
-    bool known = false;
-    Vec3 m_per_s{0.0}, rad_per_s{0.0};
-};
-
-// Slopes of the least-squares lines through the newest samples.
-Velocity velocity_of(const HeadSettings& s, const HeadTrack& track) {
-    const TrackerSample& newest = track.samples[static_cast<std::size_t>(track.count - 1)];
-    double n = 0.0, sum_t = 0.0, sum_tt = 0.0;
-    Vec3 sum_p(0.0), sum_tp(0.0), sum_r(0.0), sum_tr(0.0);
-    for (int i = track.count - 1; i >= 0; --i) {
-        const TrackerSample& sample = track.samples[static_cast<std::size_t>(i)];
-        const Nanoseconds age_ns = newest.time_ns - sample.time_ns;
-        // Uses two samples of a slow tracker even outside the window, unless older than the end of prediction.
-        if (age_ns > s.velocity_window_ns && (n >= 2.0 || age_ns > s.end_of_prediction_ns)) break;
-        const double t = -seconds(age_ns);
-        const Vec3 p = sample.sensor_tracker.position_m - newest.sensor_tracker.position_m;
-        const Vec3 r = turn_between(newest.sensor_tracker.orientation, sample.sensor_tracker.orientation);
-        n += 1.0, sum_t += t, sum_tt += t * t;
-        sum_p += p, sum_tp += t * p, sum_r += r, sum_tr += t * r;
-    }
-    const double spread = n * sum_tt - sum_t * sum_t;
-    if (n < 2.0 || !(spread > 0.0)) return {};
-    return {true, at_most((n * sum_tp - sum_t * sum_p) / spread, s.max_speed_m_per_s),
-            at_most((n * sum_tr - sum_t * sum_r) / spread, s.max_turn_rad_per_s)};
+PoseVelocity velocity_of(const HeadSettings& s, const HeadTrack& track) {
+    std::array<TimedPose, HeadTrack::kMostSamples> poses;
+    const auto count = static_cast<std::size_t>(track.count);
+    for (std::size_t i = 0; i < count; ++i) poses[i] = {track.samples[i].time_ns, track.samples[i].sensor_tracker};
+    return burin::velocity_of({s.velocity_window_ns, s.end_of_prediction_ns, s.max_speed_m_per_s, s.max_turn_rad_per_s},
+                              std::span(poses).first(count));
 }
 
 // The integral of the velocity's weight over the time since the newest sample.
@@ -136,27 +100,27 @@ DrawnFrom source_of(const HeadSettings& s, const HeadTrack& track, Nanoseconds t
 Pose with_offset(const HeadSettings& s, const HeadTrack& track, const Pose& target, Nanoseconds time_ns) {
     const double since_s = seconds(std::max<Nanoseconds>(time_ns - track.offset_ns, 0));
     return {target.position_m + shrunk(track.offset_m, s.glide_m_per_s * since_s),
-            glm::normalize(rotation(shrunk(track.offset_rad, s.glide_rad_per_s * since_s)) * target.orientation)};
+            glm::normalize(rotation_by(shrunk(track.offset_rad, s.glide_rad_per_s * since_s)) * target.orientation)};
 }
 
 // Starts a glide from one pose to the target.
 void start_glide(HeadTrack& track, const Pose& target, const Pose& from, Nanoseconds time_ns) {
     track.offset_ns = time_ns;
     track.offset_m = from.position_m - target.position_m;
-    track.offset_rad = turn_between(target.orientation, from.orientation);
+    track.offset_rad = rotation_vector_between(target.orientation, from.orientation);
 }
 
 void keep_continuous(const HeadSettings& s, HeadTrack& track, const Pose& target, bool changed, Nanoseconds time_ns) {
     const Pose candidate = with_offset(s, track, target, time_ns);
     const double dt_s = std::abs(seconds(time_ns - track.drawn_ns));
     const Vec3 step = candidate.position_m - track.drawn_tracker.position_m;
-    const Vec3 turn = turn_between(track.drawn_tracker.orientation, candidate.orientation);
+    const Vec3 turn = rotation_vector_between(track.drawn_tracker.orientation, candidate.orientation);
     const double reach_m = s.max_speed_m_per_s * dt_s, reach_rad = s.max_turn_rad_per_s * dt_s;
     if (!changed && glm::length(step) <= reach_m && glm::length(turn) <= reach_rad) return;
     const Vec3 allowed = changed ? Vec3(0.0) : at_most(step, reach_m);
     const Vec3 allowed_turn = changed ? Vec3(0.0) : at_most(turn, reach_rad);
     start_glide(track, target,
-                {track.drawn_tracker.position_m + allowed, rotation(allowed_turn) * track.drawn_tracker.orientation},
+                {track.drawn_tracker.position_m + allowed, rotation_by(allowed_turn) * track.drawn_tracker.orientation},
                 time_ns);
 }
 
@@ -213,10 +177,8 @@ Pose predicted(const HeadSettings& settings, const HeadTrack& track, Nanoseconds
     BURIN_CHECK(track.count > 0);
     if (track.count == 0) return settings.fallback_tracker;
     const TrackerSample& newest = track.samples[static_cast<std::size_t>(track.count - 1)];
-    const Velocity v = velocity_of(settings, track);
-    const double ahead_s = seconds_ahead(settings, time_ns - newest.time_ns);
-    return {newest.sensor_tracker.position_m + v.m_per_s * ahead_s,
-            glm::normalize(rotation(v.rad_per_s * ahead_s) * newest.sensor_tracker.orientation)};
+    return moved(newest.sensor_tracker, velocity_of(settings, track),
+                 seconds_ahead(settings, time_ns - newest.time_ns));
 }
 
 EyeTimes eye_times(const DisplayTiming& timing, Nanoseconds first_field_ns) {

@@ -6,12 +6,9 @@
 // heap but for the text of a report. Lengths in metres, tracker frame (wall/wall.hpp); times on the process's one clock
 // (base/clock.hpp), stamped when the head was measured.
 //
-// Prediction. Position: the newest sample, extrapolated with the slope of the least-squares line through the samples of
-// the last 25 ms. Orientation: likewise with the rotation vectors log(q_i q_newest^-1), whose slope is the angular
-// velocity in the tracker frame; q = exp(w t) q_newest. Uniform motion and uniform turning are exact. For a motion with
-// acceleration at most a, samples at even times over a window W and a time T ahead: the slope is the velocity W/2 ago
-// to within a W/2, so the error is at most a T (T + W) / 2. A line over several samples instead of the last two costs
-// that W/2 and lowers the noise of the slope, which T multiplies.
+// Prediction. The newest sample, extrapolated with the velocity of the samples of the last 25 ms
+// (base/pose_motion.hpp has the formulas and the bound on the error). A line over several samples instead of the last
+// two costs half of that window and lowers the noise of the slope, which the time ahead multiplies.
 // To avoid overshoot, the velocity is kept for 50 ms beyond the newest sample, falls linearly to zero at 100 ms, and
 // stays zero: a tracker that stops sending leaves the head at most 75 ms ahead.
 //

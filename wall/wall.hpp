@@ -86,6 +86,9 @@ struct WallSetup {
     Pose fallback_head_tracker{{0.0, 1.6, 2.0}, Quat{1.0, 0.0, 0.0, 0.0}};
     ParallaxBudget budget;
     DisplayTiming timing;
+    // The table [tracker] of the file, as TOML: who hears trackers reads it (devices/trackers/tracker_file.hpp). Kept
+    // so that a file that is written again has it. Empty: none.
+    std::string tracker_toml;
 };
 
 // A screen in the world frame, as the renderer takes it.

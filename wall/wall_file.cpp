@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/file_io.hpp"
 #include "base/toml_table.hpp"
@@ -133,6 +134,11 @@ WallSetup read_setup(TableReading& reading, const toml::table& root) {
     const double unit_m = metres_in(setup.unit);
     setup.world_from_tracker =
         read_pose(reading, t.table("world_from_tracker"), "[world_from_tracker]", setup.world_from_tracker, unit_m);
+    if (const toml::table* table = t.table("tracker")) {
+        std::ostringstream out;
+        out << toml::table{{"tracker", *table}};
+        setup.tracker_toml = out.str();
+    }
     t.require("screen", "add a [[screen]]");
     for (const toml::table* table : t.tables("screen")) {
         setup.screens.push_back(read_screen(reading, table, setup.screens.size(), unit_m));

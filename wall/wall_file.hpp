@@ -2,7 +2,8 @@
 // The wall file: a WallSetup (wall/wall.hpp) as TOML. docs/formats.md describes every key.
 //
 // Reading refuses what it does not understand: an unknown key is an error that names the nearest known one. Every error
-// says FILE:LINE and the remedy. The geometry is not checked here but by check(). Any thread; allocates.
+// says FILE:LINE and the remedy. The geometry is not checked here but by check(), and the table [tracker] is kept as it
+// stands. Any thread; allocates.
 #pragma once
 
 #include <filesystem>

@@ -43,6 +43,7 @@ public:
         line("units = " + quoted(name_of(setup_.unit)));
         heading("world_from_tracker");
         pose(setup_.world_from_tracker);
+        if (!setup_.tracker_toml.empty()) line("\n" + setup_.tracker_toml);
         for (const WallScreen& s : setup_.screens) screen(s);
         viewer();
         heading("comfort");

@@ -50,7 +50,7 @@ Result<std::unique_ptr<DTrackTracker>> DTrackTracker::open(const std::string& wh
     const auto at = network_address(items.empty() ? "" : items.front(), {"127.0.0.1", kDTrackPort});
     if (!at) return fail("tracker " + where, "has no such port or address", kDTrackRemedy);
     if (!items.empty()) items.erase(items.begin());
-    auto bodies = tracker_bodies(where, items, usual_dtrack_bodies());
+    auto bodies = tracker_bodies(where, items, usual_dtrack_bodies(), host);
     if (!bodies) return std::unexpected(bodies.error());
     auto bound = receive_at(*at);
     if (!bound && bound.error().starts_with(kNoSuchMachine))  // a word where the port belongs is taken for a machine

@@ -80,6 +80,8 @@ public:
     [[nodiscard]] virtual std::uint64_t refused() const = 0;             // samples dropped so far
 };
 
+struct TrackerBodies;  // tracker_bodies.hpp
+
 // What a tracker needs of the program. The clock must outlive the tracker.
 struct TrackerHost {
     Clock& clock;
@@ -87,6 +89,12 @@ struct TrackerHost {
     // Reads a line of text for trackers that send such; nothing for an empty line or a comment. Called on the tracker's
     // threads.
     std::function<Result<std::optional<TrackerInput>>(std::string_view line)> parse_line;
+    // What a description of the tracker says (tracker_file.hpp); open() copies it. Null: there is none, and bodies have
+    // their usual names.
+    const TrackerBodies* described = nullptr;
+    // Where the frame that the tracker reports in stands in the world, as the wall's file says; a description may know
+    // better. Lines of text are of the world where there is no description.
+    Pose world_from_tracker{};
 };
 
 struct TrackerKind {
@@ -95,8 +103,14 @@ struct TrackerKind {
     Result<std::unique_ptr<Tracker>> (*open)(const std::string& where, TrackerHost host);
     // Looks for what can be found without being named; null: it is sent to, and there is nothing to find.
     std::vector<DevicePresence> (*look)() = nullptr;
+    // What its bodies, buttons and sticks can be called, with a number behind; empty: as a server likes.
+    std::span<const std::string_view> names = {};
+    // Its protocol says what unit its lengths have.
+    bool has_unit = false;
 };
 [[nodiscard]] std::span<const TrackerKind> tracker_kinds();
+// Returns the kind of an address, "vrpn:localhost"; null where there is none.
+[[nodiscard]] const TrackerKind* tracker_kind_of(std::string_view where);
 
 // Opens the tracker that `where` names, "udp:5005". An Error names the kinds that there are.
 [[nodiscard]] Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host);

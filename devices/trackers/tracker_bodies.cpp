@@ -20,30 +20,18 @@ constexpr std::array<std::string_view, 8> kKeys{"head",     "wand0",  "wand1",  
 constexpr double kQuaternionRounded =
     0.01;  // how far a quaternion's length may be from 1, as of the lines of a UDP tracker
 
-std::optional<TrackedSource> source_named(const std::string& value) {
-    TrackedSource source;
-    const std::size_t slash = value.rfind('/');
-    source.name = value.substr(0, slash);
-    if (source.name.empty()) return std::nullopt;
-    if (slash == std::string::npos) return source;
-    const char* const end = value.data() + value.size();
-    const auto [at, error] = std::from_chars(value.data() + slash + 1, end, source.number);
-    if (error != std::errc{} || at != end || source.number < 0) return std::nullopt;
-    return source;
-}
-
 // "+x+z-y": the world's axes in the system's.
-std::optional<Quat> axes_named(std::string_view text) {
+std::optional<TrackerFrame> axes_named(std::string_view text) {
     if (text.size() != 6) return std::nullopt;
-    glm::dmat3 system_from_world(0.0);
+    glm::dmat3 system_from_tracker(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         const char sign = text[static_cast<std::size_t>(2 * axis)],
                    letter = text[static_cast<std::size_t>(2 * axis + 1)];
         if ((sign != '+' && sign != '-') || letter < 'x' || letter > 'z') return std::nullopt;
-        system_from_world[axis][letter - 'x'] = sign == '+' ? 1.0 : -1.0;
+        system_from_tracker[axis][letter - 'x'] = sign == '+' ? 1.0 : -1.0;
     }
-    if (std::abs(glm::determinant(system_from_world) - 1.0) > 1e-9) return std::nullopt;
-    return glm::normalize(glm::quat_cast(glm::transpose(system_from_world)));
+    const auto frame = frame_with_axes(glm::transpose(system_from_tracker), false);
+    return frame ? std::optional(*frame) : std::nullopt;
 }
 
 bool is_pose(const Pose& pose) {
@@ -64,10 +52,42 @@ std::optional<TrackedSource>& source_of(TrackerBodies& bodies, std::string_view 
 
 std::string_view tracker_bodies_usage() { return kBodiesUsage; }
 
+std::optional<TrackedSource> tracked_source(std::string_view text) {
+    TrackedSource source;
+    const std::size_t slash = text.rfind('/');
+    source.name = text.substr(0, slash);
+    if (source.name.empty()) return std::nullopt;
+    if (slash == std::string_view::npos) return source;
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data() + slash + 1, end, source.number);
+    if (error != std::errc{} || at != end || source.number < 0) return std::nullopt;
+    return source;
+}
+
+std::expected<TrackerFrame, std::string> frame_with_axes(const glm::dmat3& tracker_from_system, bool is_left_handed) {
+    constexpr double kRounded = 1e-4;  // of a matrix that is written with five digits
+    const glm::dmat3 square = tracker_from_system * glm::transpose(tracker_from_system);
+    double off = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            off = std::max(off, std::abs(square[column][row] - (column == row ? 1.0 : 0.0)));
+    if (!(off <= kRounded))
+        return std::unexpected(
+            formatted("is no rotation: its rows are off by %.3g from length 1 at right angles", off));
+    const double determinant = glm::determinant(tracker_from_system);
+    if ((determinant < 0.0) != is_left_handed)
+        return std::unexpected(is_left_handed ? "takes a left-handed system into another left-handed one"
+                                              : "is a mirror image");
+    TrackerFrame frame;
+    frame.tracker_from_system = glm::normalize(glm::quat_cast((is_left_handed ? -1.0 : 1.0) * tracker_from_system));
+    frame.is_left_handed = is_left_handed;
+    return frame;
+}
+
 Result<TrackerBodies> tracker_bodies(const std::string& where, std::span<const std::string> settings,
-                                     const TrackerBodies& usual) {
-    TrackerBodies bodies;
-    bool names_any = false;
+                                     const TrackerBodies& usual, const TrackerHost& host) {
+    TrackerBodies bodies = host.described != nullptr ? *host.described : TrackerBodies{};
+    bool names_any = host.described != nullptr;
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         const std::string key = setting.substr(0, equals);
@@ -81,10 +101,11 @@ Result<TrackerBodies> tracker_bodies(const std::string& where, std::span<const s
             if (!axes)
                 return fail("tracker " + where, "'" + setting + "' are no axes",
                             "write three different ones with their signs and no mirror image, such as axes=+x+z-y");
-            bodies.world_from_system = *axes;
+            bodies.frame.tracker_from_system = axes->tracker_from_system;
+            bodies.frame.is_left_handed = axes->is_left_handed;
             continue;
         }
-        const auto source = source_named(value);
+        const auto source = tracked_source(value);
         if (!source)
             return fail("tracker " + where, "'" + setting + "' names nothing",
                         "write " + key + "=NAME/NUMBER, such as " + key + "=Tracker0/0");
@@ -92,10 +113,12 @@ Result<TrackerBodies> tracker_bodies(const std::string& where, std::span<const s
         names_any = true;
     }
     if (!names_any) {
-        const Quat axes = bodies.world_from_system;
+        const TrackerFrame frame = bodies.frame;
         bodies = usual;
-        bodies.world_from_system = axes;
+        bodies.frame = frame;
     }
+    bodies.are_named = names_any;
+    if (!bodies.frame.world_from_tracker) bodies.frame.world_from_tracker = host.world_from_tracker;
     return bodies;
 }
 
@@ -106,10 +129,44 @@ bool TrackerTranslator::is_known(std::string_view name, std::int32_t number) con
     return is_it(bodies_.head) || std::ranges::any_of(bodies_.wands, is_it);
 }
 
-void TrackerTranslator::report(Body& body, const Pose& pose_world, bool is_tracked, std::optional<std::uint32_t> wand,
-                               Nanoseconds time_ns) {
+// Returns nothing where it is no pose.
+std::optional<Pose> TrackerTranslator::in_tracker(const Pose& pose_system) const {
+    const TrackerFrame& frame = bodies_.frame;
+    const Quat& axes = frame.tracker_from_system;
+    const Pose scaled{(frame.is_left_handed ? -frame.unit_m : frame.unit_m) * pose_system.position_m,
+                      pose_system.orientation};
+    if (!is_pose(scaled)) return std::nullopt;
+    return Pose{axes * scaled.position_m,
+                glm::normalize(axes * glm::normalize(scaled.orientation) * glm::conjugate(axes))};
+}
+
+Pose TrackerTranslator::point_world(Body& body, const TrackedMount& mount, const TimedPose& body_tracker) const {
+    Pose pose = body_tracker.pose;
+    if (mount.ahead_ns > 0) {
+        if (body.count > 0 && body_tracker.time_ns <= body.poses_tracker[body.count - 1].time_ns) --body.count;
+        if (body.count == Body::kMostPoses) {
+            std::shift_left(body.poses_tracker.begin(), body.poses_tracker.end(), 1);
+            --body.count;
+        }
+        body.poses_tracker[body.count++] = body_tracker;
+        constexpr VelocityWindow kWindow{.max_speed_m_per_s = kMostTracked_m_per_s,
+                                         .max_turn_rad_per_s = kMostTracked_rad_per_s};
+        pose =
+            moved(pose, velocity_of(kWindow, std::span(body.poses_tracker).first(body.count)), seconds(mount.ahead_ns));
+    }
+    const Pose world_from_tracker = bodies_.frame.world_from_tracker.value_or(Pose{});
+    return {world_from_tracker * (pose * mount.body_from_point.position_m),
+            glm::normalize(world_from_tracker.orientation * pose.orientation * mount.body_from_point.orientation)};
+}
+
+void TrackerTranslator::report(Body& body, const TrackedMount& mount, const std::optional<TimedPose>& body_tracker,
+                               std::optional<std::uint32_t> wand, Nanoseconds time_ns) {
+    const bool is_tracked = body_tracker.has_value();
     if (!is_tracked && !body.is_tracked) return;  // nothing new, and nothing known
-    if (is_tracked) body.last_world = pose_world;
+    if (is_tracked)
+        body.last_world = point_world(body, mount, *body_tracker);
+    else
+        body.count = 0;
     body.is_tracked = is_tracked;
     if (wand)
         to_.push({time_ns, WandInput{*wand, body.last_world, is_tracked}});
@@ -119,21 +176,43 @@ void TrackerTranslator::report(Body& body, const Pose& pose_world, bool is_track
 
 void TrackerTranslator::pose(std::string_view name, std::int32_t number, const Pose& pose_system, bool is_tracked,
                              Nanoseconds time_ns) {
+    note_seen(name, number, time_ns);
     if (!is_known(name, number)) return;
-    Pose pose_world;
+    std::optional<TimedPose> body_tracker;
     if (is_tracked) {
-        if (!is_pose(pose_system))
+        const std::optional<Pose> pose_tracker = in_tracker(pose_system);
+        if (!pose_tracker)
             return refuse("sends a pose of " + std::string(name) + formatted("/%d", number) +
                               " that is none: a place within 1 km in metres, and a quaternion of length 1",
                           time_ns);
-        const Quat& axes = bodies_.world_from_system;
-        pose_world.position_m = axes * pose_system.position_m;
-        pose_world.orientation = glm::normalize(axes * glm::normalize(pose_system.orientation) * glm::conjugate(axes));
+        body_tracker = {time_ns, *pose_tracker};
     }
     const TrackedSource said{std::string(name), number};
-    if (bodies_.head == said) report(head_, pose_world, is_tracked, std::nullopt, time_ns);
+    if (bodies_.head == said) report(head_, bodies_.head_mount, body_tracker, std::nullopt, time_ns);
     for (std::uint32_t wand = 0; wand < kTrackedWands; ++wand)
-        if (bodies_.wands[wand] == said) report(wands_[wand], pose_world, is_tracked, wand, time_ns);
+        if (bodies_.wands[wand] == said) report(wands_[wand], bodies_.wand_mounts[wand], body_tracker, wand, time_ns);
+}
+
+void TrackerTranslator::note_seen(std::string_view name, std::int32_t number, Nanoseconds time_ns) {
+    if (told_of_missing_ || !bodies_.are_named) return;
+    const auto is_it = [&](const TrackedSource& source) { return source.name == name && source.number == number; };
+    if (std::ranges::none_of(seen_, is_it) && seen_.size() < kMostSeen) seen_.push_back({std::string(name), number});
+    if (!first_seen_ns_) first_seen_ns_ = time_ns;
+    if (time_ns - *first_seen_ns_ >= kPatience_ns) tell_of_missing();
+}
+
+void TrackerTranslator::tell_of_missing() {
+    told_of_missing_ = true;
+    const auto text_of = [](const TrackedSource& source) { return source.name + formatted("/%d", source.number); };
+    std::string missing, seen;
+    const auto look = [&](const std::string& part, const std::optional<TrackedSource>& source) {
+        if (source && std::ranges::find(seen_, *source) == seen_.end())
+            missing += (missing.empty() ? "" : ", ") + part + " = " + text_of(*source);
+    };
+    look("head", bodies_.head);
+    for (std::size_t wand = 0; wand < kTrackedWands; ++wand) look(formatted("wand%zu", wand), bodies_.wands[wand]);
+    for (const TrackedSource& source : seen_) seen += (seen.empty() ? "" : ", ") + text_of(source);
+    if (!missing.empty()) to_.say("tracker " + where_ + ": nothing comes of " + missing + "; what comes is of " + seen);
 }
 
 void TrackerTranslator::click(std::size_t wand, std::uint32_t button, bool pressed, Nanoseconds time_ns) {
@@ -147,7 +226,12 @@ void TrackerTranslator::button(std::string_view name, std::int32_t number, bool 
     for (std::size_t wand = 0; wand < kTrackedWands; ++wand) {
         const auto& source = bodies_.buttons[wand];
         if (!source || source->name != name || number < source->number) continue;
-        const std::int64_t button = std::int64_t{number} - source->number;
+        std::int64_t button = std::int64_t{number} - source->number;
+        if (const auto& order = bodies_.button_orders[wand]; !order.empty()) {
+            const auto place = std::ranges::find(order, button);
+            if (place == order.end()) continue;
+            button = place - order.begin();
+        }
         if (button < kMostTrackedButtons) click(wand, static_cast<std::uint32_t>(button), pressed, time_ns);
     }
 }
@@ -175,9 +259,9 @@ void TrackerTranslator::channels(std::string_view name, std::span<const double> 
 }
 
 void TrackerTranslator::lose_all(Nanoseconds time_ns) {
-    report(head_, {}, false, std::nullopt, time_ns);
+    report(head_, {}, {}, std::nullopt, time_ns);
     for (std::uint32_t wand = 0; wand < kTrackedWands; ++wand) {
-        report(wands_[wand], {}, false, wand, time_ns);
+        report(wands_[wand], {}, {}, wand, time_ns);
         for (std::uint32_t button = 0; button < static_cast<std::uint32_t>(kMostTrackedButtons); ++button)
             click(wand, button, false, time_ns);
         if (std::exchange(sticks_[wand], Vec2(0.0)) != Vec2(0.0)) to_.push({time_ns, WandStick{wand, Vec2(0.0)}});

@@ -12,8 +12,11 @@
 namespace burin::devices {
 namespace {
 
+constexpr std::array<std::string_view, 4> kLineNames{"head", "wand", "wand0", "wand1"};
+constexpr std::array<std::string_view, 4> kDTrackNames{"body", "flystick", "flystick0", "flystick1"};
+
 constexpr std::array kKinds{
-    TrackerKind{"udp", "udp:PORT, or udp:ADDRESS:PORT for other machines", open_udp_tracker},
+    TrackerKind{"udp", "udp:PORT, or udp:ADDRESS:PORT for other machines", open_udp_tracker, nullptr, kLineNames},
     TrackerKind{
         "vrpn",
         "vrpn:HOST or vrpn:HOST:PORT, a VRPN server, and after a comma which of its devices are the head and the "
@@ -22,7 +25,7 @@ constexpr std::array kKinds{
     TrackerKind{"dtrack",
                 "dtrack:PORT, or dtrack:ADDRESS:PORT for other machines: ART's DTrack, and after a comma which of its "
                 "bodies are the head and the wands: dtrack:5000,head=body/0,wand0=flystick/0,axes=+x+z-y",
-                open_dtrack},
+                open_dtrack, nullptr, kDTrackNames, true},
 };
 
 bool is_pose_or_stick(const TrackerSample& sample) { return !std::holds_alternative<WandClick>(sample.input); }
@@ -54,10 +57,14 @@ std::string tracker_usage() {
     return text;
 }
 
-Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host) {
-    const std::string_view scheme = std::string_view(where).substr(0, where.find(':'));
+const TrackerKind* tracker_kind_of(std::string_view where) {
+    const std::string_view scheme = where.substr(0, where.find(':'));
     const auto kind = std::ranges::find(kKinds, scheme, &TrackerKind::scheme);
-    if (kind != kKinds.end() && scheme.size() < where.size()) return kind->open(where, std::move(host));
+    return kind != kKinds.end() && scheme.size() < where.size() ? &*kind : nullptr;
+}
+
+Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host) {
+    if (const TrackerKind* kind = tracker_kind_of(where)) return kind->open(where, std::move(host));
     return fail("tracker " + where, "is no tracker that Burin knows", "write " + tracker_usage());
 }
 

@@ -42,7 +42,12 @@ Result<sockaddr_in> address_of(const std::string& where) {
 }  // namespace
 
 Result<std::unique_ptr<UdpTracker>> UdpTracker::open(const std::string& where, TrackerHost host) {
-    auto tracker = std::unique_ptr<UdpTracker>(new UdpTracker(std::move(host)));
+    auto tracker = std::unique_ptr<UdpTracker>(new UdpTracker(host));
+    if (host.described != nullptr) {
+        auto bodies = tracker_bodies(where, {}, {}, host);
+        if (!bodies) return std::unexpected(bodies.error());
+        tracker->translator_.emplace(where, std::move(*bodies), tracker->inbox_);
+    }
     if (const auto bound = tracker->bind_to(where); !bound) return std::unexpected(bound.error());
     tracker->thread_ = std::thread([t = tracker.get()] { t->listen(); });
     return tracker;
@@ -107,8 +112,23 @@ void UdpTracker::receive(std::string_view datagram, bool cut_off, Nanoseconds no
         auto input = host_.parse_line(line);
         if (!input)
             inbox_.refuse(input.error().line(), now_ns);
+        else if (*input && translator_)
+            translate(**input, now_ns);
         else if (*input)
             inbox_.push({now_ns, std::move(**input)});
+    }
+}
+
+void UdpTracker::translate(const TrackerInput& input, Nanoseconds now_ns) {
+    const auto of_wand = [](std::uint32_t wand) { return "wand" + std::to_string(wand); };
+    if (const auto* head = std::get_if<HeadInput>(&input)) {
+        translator_->pose("head", 0, head->pose_world, head->tracked, now_ns);
+    } else if (const auto* wand = std::get_if<WandInput>(&input)) {
+        translator_->pose("wand", static_cast<std::int32_t>(wand->wand), wand->pose_world, wand->tracked, now_ns);
+    } else if (const auto* click = std::get_if<WandClick>(&input)) {
+        translator_->button(of_wand(click->wand), static_cast<std::int32_t>(click->button), click->pressed, now_ns);
+    } else if (const auto* stick = std::get_if<WandStick>(&input)) {
+        translator_->channels(of_wand(stick->wand), std::array{stick->position.x, stick->position.y}, now_ns);
     }
 }
 

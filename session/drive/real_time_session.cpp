@@ -12,6 +12,7 @@
 #include "session/input/input_line.hpp"
 #include "session/live/session_watch.hpp"
 #include "session/present/display_watch.hpp"
+#include "session/state/session_tracker.hpp"
 #include "session/timing/machine_pace.hpp"
 
 namespace burin::session {
@@ -229,14 +230,16 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         return std::unexpected(begun.error());
     const std::shared_ptr<SessionRecording> recording = input.recording();
     if (run.keep_frames) session.times().keep_frames();
+    const Result<SessionTracker> heard = session_tracker(options.live, wall.setup);
+    if (!heard) return std::unexpected(heard.error());
     std::unique_ptr<devices::Tracker> tracker;
-    if (!options.live.tracker.empty()) {
-        auto port = devices::open_tracker(options.live.tracker, {clock, wake, parse_tracker_line});
+    if (!heard->where.empty()) {
+        auto port = open_tracker(*heard, wall.setup, {clock, wake, parse_tracker_line});
         if (!port) return std::unexpected(port.error());
         tracker = std::move(*port);
     }
 
-    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get(), options.live.tracker);
+    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get(), heard->where);
     const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), session.has_activity());
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {

@@ -13,6 +13,7 @@
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 #include "session/state/session_settings.hpp"
+#include "session/state/session_tracker.hpp"
 
 namespace burin::session {
 namespace {
@@ -73,14 +74,15 @@ Result<void> check(const SculptOptions& options) {
 
 Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wall) {
     const bool has_window = std::ranges::any_of(wall.screens, [](const SessionScreen& s) { return !s.direct; });
-    if (has_window || !live.tracker.empty() || !live.input.empty()) return {};
+    const bool has_tracker = live.tracker.empty() ? !wall.setup.tracker_toml.empty() : live.tracker != kNoTracker;
+    if (has_window || has_tracker || !live.input.empty()) return {};
     return fail(live.wall, "has no screen in a window, and so neither keys nor a mouse",
                 "give a --tracker whose wand works the panel, or an --input; or try the wall with --windowed");
 }
 
 // A session in simulated time hears nothing from outside, since its result depends on its --input alone.
 void tell_of_unheard_tracker(const LiveOptions& live) {
-    if (live.tracker.empty()) return;
+    if (live.tracker.empty() || live.tracker == kNoTracker) return;
     std::fprintf(
         stderr,
         "burin: --tracker %s: is not opened, since an --input is done in simulated time; with --record as well "

@@ -14,6 +14,11 @@ bool asks_for_a_picture(const InputEvent& event) {
     return command != nullptr && command->name == "screenshot";
 }
 
+bool is_of_tracker(const Input& input) {
+    return std::holds_alternative<HeadInput>(input) || std::holds_alternative<WandInput>(input) ||
+           std::holds_alternative<WandClick>(input) || std::holds_alternative<WandStick>(input);
+}
+
 }  // namespace
 
 Nanoseconds head_sampled_ns(const FrameInput& frame) {
@@ -54,9 +59,13 @@ std::optional<Nanoseconds> InputSource::next_event_ns() const {
 }
 
 void InputSource::push(Nanoseconds now_ns, Input input) {
-    if (kind_ != Kind::live) return;
+    if (kind_ == Kind::replay || (kind_ == Kind::play && !is_of_tracker(input))) return;
     if (std::holds_alternative<FrameStart>(input) || !is_sensible(input)) {
         ++refused_;
+        return;
+    }
+    if (kind_ == Kind::play) {  // put among the log's events when its frame begins
+        waiting_.push_back({now_ns, std::move(input)});
         return;
     }
     last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
@@ -103,17 +112,18 @@ std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseco
     if (over_) return std::nullopt;
     const Nanoseconds before_ns = last_ns_;
     last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
-    const std::size_t first = next_;
+    taken_.clear();
+    std::swap(taken_, waiting_);
     while (next_ < log_.events.size() && log_.events[next_].time_ns <= last_ns_) {
-        InputEvent& event = log_.events[next_++];
-        // Events that the previous frame left over belong to this one.
-        event.time_ns = std::max(event.time_ns, before_ns);
-        record(event);
-        if (asks_for_a_picture(event)) break;
+        taken_.push_back(log_.events[next_++]);
+        if (asks_for_a_picture(taken_.back())) break;
     }
+    // Events that the previous frame left over belong to this one.
+    for (InputEvent& event : taken_) event.time_ns = std::clamp(event.time_ns, before_ns, last_ns_);
+    std::ranges::stable_sort(taken_, {}, &InputEvent::time_ns);
+    for (const InputEvent& event : taken_) record(event);
     over_ = next_ == log_.events.size();
-    const FrameInput frame{last_ns_, std::clamp(display_ns, last_ns_, kLongestSession_ns),
-                           std::span(log_.events).subspan(first, next_ - first)};
+    const FrameInput frame{last_ns_, std::clamp(display_ns, last_ns_, kLongestSession_ns), taken_};
     record({last_ns_, FrameStart{frame.display_ns}});
     return frame;
 }

@@ -38,7 +38,8 @@ public:
     // Plays a log in real time, as if its user were there: each event is seen by the first frame that begins at its
     // time or later, but what comes after the command for a screenshot is seen by the next frame, so that the picture
     // shows what was asked for on slow machines too. FrameStart events are left out, since a recording's frames are not
-    // those that are made now. Recorded if wanted, as live input is.
+    // those that are made now. What trackers report meanwhile is put among them by its time. Recorded if wanted, as
+    // live input is.
     [[nodiscard]] static InputSource play(InputLog log, std::optional<InputLogWriter> recorder = std::nullopt);
     // Records all input from now on; to be called before the first frame.
     void record_to(InputLogWriter recorder) { recorder_ = std::move(recorder); }
@@ -49,7 +50,8 @@ public:
     [[nodiscard]] std::optional<Nanoseconds> next_event_ns() const;
 
     // Adds a live input that arrived now; keeps times non-decreasing. Input that is not sensible is dropped and
-    // counted. With a log this does nothing, since the log is all the input there is.
+    // counted. Of these a log that is played takes what trackers report, and one that is replayed nothing: the log is
+    // all the input there is.
     void push(Nanoseconds now_ns, Input input);
 
     // Returns all input for the next frame; nothing when a log is over. Live and in real time the frame is now; a

@@ -40,8 +40,9 @@ struct LiveOptions {
     bool offscreen = false;                        // no window; needs an input
     std::string stereo;                            // a mode's name; empty: mono in a window
     bool swap_eyes = false;
-    std::string wall;     // wall file with screens, eyes and tracker; empty: one desktop window
-    std::string tracker;  // tracker address, "udp:PORT"; empty: keys fly the head
+    std::string wall;  // wall file with screens, eyes and tracker; empty: one desktop window
+    // A tracker's address, "udp:PORT", a file that describes one, or "none"; empty: the wall's, or keys fly the head.
+    std::string tracker;
     std::string device = devices::kDefaultHapticDevice;  // name of a force-feedback device; of the first of several
     std::vector<NamedDevice> hands;                      // of all, where there are several; else empty
     bool windowed = false;    // the wall's screens as desktop windows, fitted into width x height

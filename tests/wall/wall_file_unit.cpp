@@ -9,6 +9,7 @@
 
 #include "app/wall_commands.hpp"
 #include "base/json.hpp"
+#include "base/toml.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/wall_file.hpp"
@@ -84,6 +85,20 @@ TEST(WallFile, GivesThePowerWallInMetres) {
     EXPECT_NEAR(s.upper_left_world.y, 2.286, 1e-12);
     EXPECT_EQ(setup->timing.refresh_Hz, 120.0);
     EXPECT_EQ(setup->timing.eye_order, EyeOrder::left_first);
+}
+
+// A calibrated wall is written again; its tracker's description is no business of the wall's, and stays.
+TEST(WallFile, WritingAndReadingKeepsTheTrackersTable) {
+    const std::string tracker =
+        "[tracker]\naddress = \"vrpn:a\"\nunits = \"m\"\n[tracker.head]\nbody = \"Glasses\"\n[[tracker.wand]]\n"
+        "body = \"Stick/1\"\nposition = [0.1, -2, 1e-3]\n";
+    const auto setup = parse_wall(wall_text(*read_wall(kWalls / "desk.toml")) + tracker, "w");
+    ASSERT_TRUE(setup) << setup.error().line();
+    const auto again = parse_wall(wall_text(*setup), "w");
+    ASSERT_TRUE(again) << again.error().line();
+    EXPECT_EQ(again->tracker_toml, setup->tracker_toml);
+    EXPECT_EQ(toml::parse(again->tracker_toml), toml::parse(tracker));
+    EXPECT_FALSE(wall_text(*read_wall(kWalls / "desk.toml")).contains("[tracker]"));
 }
 
 TEST(WallFile, WritingAndReadingKeepsEverySetting) {
