@@ -11,6 +11,7 @@
 #include "devices/drivers/wand_device.hpp"
 #include "devices/falcon/falcon_device.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/haptic/mouse_arm.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_choice.hpp"
@@ -26,6 +27,14 @@ Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& fil
         return fail("haptic device " + std::string(kDefaultHapticDevice), "takes no description: " + file,
                     "write the name alone");
     return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock));
+}
+
+Result<OpenedDevice> open_mouse_arm(HapticHost host, const std::string& file) {
+    if (!file.empty())
+        return fail("haptic device " + std::string(kMouseArm), "takes no description: " + file, "write the name alone");
+    if (auto* const steered = std::get_if<SteeredHand>(&host.hand))
+        if (const auto held = steered->hold_by(mouse_grip()); !held) return std::unexpected(held.error());
+    return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), mouse_arm(), &host.clock));
 }
 
 Result<WandDescription> wand_described(const std::string& file) {
@@ -118,6 +127,15 @@ constexpr std::array kKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_simulated_omni},
+    HapticKind{.name = kMouseArm,
+               .usage = "an arm without friction that goes where the mouse points, and that nobody feels",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_mouse_arm},
     HapticKind{.name = kSimulatedWand,
                .usage = "a wand that is driven in three forces and two torques, in a simulated hand; "
                         "simulated-wand:FILE.toml as FILE describes it",
