@@ -17,6 +17,7 @@
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/spacemouse/spacemouse_device.hpp"
+#include "devices/trackers/tracker.hpp"
 
 namespace burin::devices {
 namespace {
@@ -258,9 +259,19 @@ Result<ChosenKind> chosen(std::string_view name) {
     const auto kind = std::ranges::find(kKinds, kind_name, &HapticKind::name);
     if (kind != kKinds.end())
         return ChosenKind{&*kind, std::string(name.substr(std::min(name.size(), kind_name.size() + 1)))};
+    const std::string where = "haptic device " + std::string(name);
+    if (tracker_kind_of(name) != nullptr)
+        return fail(where, "is a tracker, which has no force", "give it as --tracker " + std::string(name));
+    // wand@LIBRARY, where wand:@LIBRARY is meant.
+    const std::size_t end = name.find_first_of("@,=");
+    const auto meant = std::ranges::find(kKinds, name.substr(0, end), &HapticKind::name);
+    if (end != std::string_view::npos && meant != kKinds.end())
+        return fail(
+            where, "has no colon behind the device's name",
+            "write " + std::string(meant->name) + ":" + std::string(name.substr(name[end] == '@' ? end : end + 1)));
     std::array<std::string_view, kKinds.size()> names;
     std::ranges::transform(kKinds, names.begin(), &HapticKind::name);
-    return fail("haptic device " + std::string(name), "is no device that Burin knows",
+    return fail(where, "is no device that Burin knows",
                 "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
 }
 
