@@ -70,6 +70,9 @@ struct TickParameters {
     // A device whose controller can is offered the law of a contact that rests (haptics/local_law.hpp).
     bool local_rendering = false;
     bool enabled = true;  // false: no contact, zero force, the proxy stays with the HIP
+    // The tool touches while its first button is down, and else the proxy stays with the HIP: for a hand that is led
+    // from outside and may pass through the material, where its proxy would be caught on the other side.
+    bool touches_while_pressed = false;
     // A drill: a proxy in contact stays where it is, as if its work never sufficed. The watch lets the hand go.
     bool catch_drill = false;
     // In contact, a surface older than this is not trusted and gives zero force. 0: a surface of any age is trusted.

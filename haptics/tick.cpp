@@ -201,11 +201,12 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     if (workspace.paused) record.flags |= kTickPaused;
 
     // Contact; it starts afresh after a jump of the mapping.
-    if (workspace.jumped || workspace.paused || !parameters.enabled) end_contact(next.probe);
+    const bool lifted = parameters.touches_while_pressed && (sample.buttons & 1u) == 0;
+    if (workspace.jumped || workspace.paused || !parameters.enabled || lifted) end_contact(next.probe);
     if (!next.probe.proxies[0].placed) record.flags |= kTickProxyReset;
     const bool searchable = surface.sequence > 0;
     if (!searchable) record.flags |= kTickNoSurface;
-    const bool touches = searchable && parameters.enabled && !workspace.paused;
+    const bool touches = searchable && parameters.enabled && !workspace.paused && !lifted;
     const bool places = touches && parameters.placement.number != next.probe.placement;
     if (places) {
         place_proxies(next.probe, parameters.placement.position_object_m, surface.sequence);

@@ -35,6 +35,7 @@ struct Steps {
     Similarity change;
     std::vector<Action> actions;
     bool missed = false;
+    std::optional<Vec3> approach_device_m = std::nullopt;  // where the tool is to begin to work, above where it then is
 
     [[nodiscard]] MouseMode mode() const { return view.surface ? MouseMode::surface : MouseMode::free; }
     [[nodiscard]] std::optional<Gesture> gesture_of(MouseUse use, const Modifiers& held) const {
@@ -108,11 +109,19 @@ struct Steps {
         PointedAt pointed =
             pointed_at(std::move(state.on_surface), *ray, *on.seen, tool, object_from_screen, on.middle_object);
         state.on_surface = std::move(pointed.hand);
+        const bool begins = pointed.tool.works && !state.in_work;
+        state.in_work = pointed.tool.works;
         state.works = pointed.tool.works || !state.on_surface.pressed;
         const Similarity device_from_object = inverse(on.object_from_device);
         const Vec3 half = 0.5 * settings.workspace_m;
         state.target_device_m = glm::clamp(device_from_object * pointed.tool.object_from_tool.position_m, -half, half);
         state.led_device = glm::normalize(device_from_object.orientation * pointed.tool.object_from_tool.orientation);
+        // Its button goes down before it touches, so that it comes upon the surface from outside.
+        if (begins) {
+            const Vec3 up_device = state.led_device * Vec3(0.0, 1.0, 0.0);
+            approach_device_m = glm::clamp(
+                state.target_device_m + device_from_object.scale * pointed.tool.sunk_m * up_device, -half, half);
+        }
         return pointed.on_surface;
     }
 
@@ -325,6 +334,8 @@ DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double d
         std::visit(steps, event.input);
         const bool moved = std::holds_alternative<MouseMove>(event.input) || steps.state.target_device_m != before_m ||
                            steps.orientation_device() != before_turn || steps.state.buttons != before;
+        if (const auto above_m = std::exchange(steps.approach_device_m, std::nullopt))
+            step.way.push_back({event.time_ns, *above_m, steps.orientation_device(), steps.buttons()});
         if (moved)
             step.way.push_back(
                 {event.time_ns, steps.state.target_device_m, steps.orientation_device(), steps.buttons()});

@@ -101,6 +101,7 @@ struct DeskState {
     double strength = 0.3;
     double roll_rad = 0.0;                // of the tool about its axis, on a surface
     Quat led_device{1.0, 0.0, 0.0, 0.0};  // the tool's orientation there
+    bool in_work = false;                 // the tool was told to work where it is
     bool works = true;                    // false: what hides the stroke bears the tool, and its button does nothing
 };
 

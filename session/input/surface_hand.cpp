@@ -78,7 +78,8 @@ PointedAt pointed_at(SurfaceHand hand, const Ray& ray, const SeenSurface& now, c
         const SurfaceContact contact{hit->place_object_m,
                                      surface.facing_around(hit->place_object_m, tool.half_width_m, hit->normal_object)};
         const bool works = stays && hand.pressed;
-        pointed.tool = {standing_at(contact, works ? -tool.depth_m : clear_m, tool, object_from_screen), works};
+        pointed.tool = {standing_at(contact, works ? -tool.depth_m : clear_m, tool, object_from_screen), works,
+                        works ? tool.depth_m + clear_m : 0.0};
         if (stays) hand.last = contact;
     } else {
         SurfaceContact beside = hand.last.value_or(SurfaceContact{middle_object, -ray.direction});

@@ -375,6 +375,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.materials.fill(material_under_tool(state, hand));
     if (number == state.hand && state.mouse == MouseMode::surface)
         for (haptics::TouchMaterial& material : p.materials) material.stiffness_N_per_m = kMouseStiffness_N_per_m;
+    p.touches_while_pressed = number == state.hand && state.mouse == MouseMode::surface;
     if (state.world) state.world->materials.write(p.materials);
     if (hand.handle) hand.handle->write(p, radius_m);
     if (hand.handle && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it

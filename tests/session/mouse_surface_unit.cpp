@@ -197,6 +197,20 @@ TEST(MouseOnSurface, BothEyesSeeTheToolWhereTheCursorIsFromBetweenThem) {
     EXPECT_LT(glm::length(Vec2(desk.tool_mm()) - Vec2(60.0, 45.0)), 0.05);
 }
 
+TEST(MouseOnSurface, TheToolComesThroughThePartToItsOtherSideAndIsNotCaught) {
+    MouseDesk desk("");  // a ball of 40 mm
+    desk.point_at({0, 0, 40});
+    for (int turn = 0; turn < 12; ++turn) desk.run({{CommandInput{"turn-right", {}}, 8'000'000}}, 50'000'000);
+    desk.point_at({0, 0, -40});
+    desk.rest(0.5);
+    EXPECT_LT(glm::length(desk.tool_mm() - Vec3(0.0, 0.0, -40.0 - 1.1 * kRadius_mm)), 0.1);
+    desk.press();
+    desk.release();
+    double least = 1e9;
+    for (const Vec3& p : desk.vertices_mm()) least = std::min(least, glm::length(p));
+    EXPECT_NEAR(least, 40.0 - kDepth_mm, kBears_mm) << "and works there";
+}
+
 TEST(MouseOnSurface, KeysShowAllOfItFromTheFrontTheSideAndAbove) {
     MouseDesk desk(plate(kThick_mm));
     const auto out_object = [&] {  // what of the part faces the viewer
