@@ -358,11 +358,10 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
 TEST(SessionHands, ThePanelSaysWhoHoldsEachDevice) {
     SimulatedClock clock;
     SessionHands hands(16, 1.0);
-    ASSERT_TRUE(hands.open(std::vector<HandToOpen>{{"right", "simulated", {}},
-                                                   {"left", "glove:/dev/none", {}},
-                                                   {"third", "simulated", {}},
-                                                   {"cap", "spacemouse", {}}},
-                           clock, true));
+    ASSERT_TRUE(hands.open(
+        std::vector<HandToOpen>{
+            {"right", "simulated", {}}, {"left", "glove:/dev/none", {}}, {"third", "simulated", {}}},
+        clock, true));
     const auto source = [&](std::size_t part, haptics::GateCause cause = haptics::GateCause::none) {
         const PanelSource shown = hand_source(hands, part, cause, 0);
         return shown.name + ": " + shown.detail;
@@ -370,7 +369,6 @@ TEST(SessionHands, ThePanelSaysWhoHoldsEachDevice) {
     EXPECT_EQ(source(0), "Hand, right: simulated, steered by the mouse");
     const std::size_t third = hands.first_part(2);
     EXPECT_EQ(source(third), "Hand, third: simulated, rests");
-    EXPECT_EQ(source(hands.first_part(3)), "Hand, cap: simulated, led by a SpaceMouse");
     for (std::size_t part = 1; part < third; ++part)
         EXPECT_EQ(source(part), "Hand, " + hands.name_of(part) + ": " + hands.device(part).name) << "a person's";
     EXPECT_EQ(source(1, haptics::GateCause::device_fault),
