@@ -36,6 +36,7 @@ struct OpenedDevice {
     std::vector<DevicePart> parts;       // at least one; all of one rate
     DeviceMessages* messages = nullptr;  // of a part; null: it says nothing
     Amplifiers* amplifiers = nullptr;    // of all parts; null: none that can be switched from here
+    bool is_played = false;              // a recording leads it: neither a person nor a steered hand does
 };
 
 // Returns the opened device of the only part that a device has.

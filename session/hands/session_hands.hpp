@@ -89,6 +89,8 @@ public:
     }
     // Returns whether a person's hand feels any of the devices.
     [[nodiscard]] bool felt_by_person() const;
+    // Returns whether a recording leads the part's device.
+    [[nodiscard]] bool is_played(std::size_t part) const { return hands_[parts_[part]->of.hand]->device.is_played; }
 
 private:
     struct Hand {
