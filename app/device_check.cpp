@@ -207,6 +207,8 @@ private:
 
     void buttons() {
         if (ends_) return note("buttons", Verdict::skipped, "the check was ended");
+        const auto has_none = [](const CheckedPart& part) { return !part.device->description().has_buttons; };
+        if (std::ranges::all_of(parts_, has_none)) return note("buttons", Verdict::skipped, "it has none");
         if (!options_.by_itself) guide_.say("Press each of its buttons; Enter goes on, s skips, q ends.");
         std::uint32_t seen = 0;
         watch(
@@ -225,6 +227,9 @@ private:
     }
 
     void force(CheckedPart& part) {
+        if (const char* const led_by = part.device->description().led_by; *led_by != '\0')
+            return note("force" + part.of, Verdict::skipped,
+                        std::string("nobody would feel it: what feels is simulated, and led by ") + led_by);
         if (part.device->description().drives_one_way)
             return tap(part, part.sample.drive.along_device, "outwards", true);
         tap(part, Vec3(1.0, 0.0, 0.0), "to the right and left", false);
@@ -247,6 +252,7 @@ private:
         std::size_t at = 0;
         Nanoseconds tap_ns = clock_.now_ns();
         bool is_held = options_.by_itself;
+        DeviceFault interrupts = DeviceFault::none;
         const auto begin = [&](std::size_t where) {
             at = where;
             tap_ns = clock_.now_ns();
@@ -254,9 +260,10 @@ private:
             samples = 0;
         };
         const bool is_done = watch(
-            options_.by_itself ? 4.0 : 60.0,
+            options_.by_itself ? 8.0 : 60.0,  // the taps take 2 s, and begin anew after a fault
             [&] {
                 is_held = (options_.by_itself || said_.holds) && part.sample.fault == DeviceFault::none;
+                if (part.sample.fault != DeviceFault::none) interrupts = part.sample.fault;
                 part.wanted_N = Vec3(0.0);
                 if (!is_held) {
                     signal_m = 0.0;
@@ -279,7 +286,10 @@ private:
         part.wanted_N = Vec3(0.0);
         if (!is_done) {
             if (said_.skips || ends_) return note(check, Verdict::skipped, "skipped");
-            return note(check, Verdict::failed, std::string("was not finished: ") + words_for(part.sample.fault));
+            return note(check, Verdict::failed,
+                        interrupts != DeviceFault::none
+                            ? std::string("was not finished; in between ") + words_for(interrupts)
+                            : "was not finished: the space bar was not held for long enough");
         }
         constexpr double kLeast_m = 0.0003;
         const Json figures{{"force_N", most_N}, {"gives_way_m", signal_m}};

@@ -80,6 +80,7 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = static_cast<std::uint32_t>(type);
     VkDeviceMemory memory = VK_NULL_HANDLE;
+    ++core->allocations;
     if (const VkResult r = core->vk.vkAllocateMemory(core->device, &allocate, nullptr, &memory); r != VK_SUCCESS) {
         return vulkan_failure(where, mebibytes(size_bytes) + " could not be allocated", r);
     }
@@ -104,6 +105,14 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
         buffer.mapped_ = {static_cast<std::byte*>(address), static_cast<std::size_t>(size_bytes)};
     }
     return buffer;
+}
+
+StagingChunk Buffer::give_up() && {
+    StagingChunk chunk{buffer_.raw(), memory_.raw(), std::exchange(mapped_, {})};
+    static_cast<void>(buffer_.give_up());
+    static_cast<void>(memory_.give_up());
+    size_bytes_ = address_ = 0;
+    return chunk;
 }
 
 }  // namespace burin::gpu

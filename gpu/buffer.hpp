@@ -47,6 +47,10 @@ public:
     [[nodiscard]] std::uint64_t address() const { return address_; }
     [[nodiscard]] VkBuffer raw() const { return buffer_.raw(); }
 
+    // Gives the buffer and its memory up to the caller, who destroys them: for what Core keeps, which no Buffer can be,
+    // since it holds Core.
+    [[nodiscard]] StagingChunk give_up() &&;
+
 private:
     MemoryHandle memory_;  // declared before the buffer, hence destroyed after it
     BufferHandle buffer_;

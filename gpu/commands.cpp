@@ -36,7 +36,6 @@ Submission& Submission::operator=(Submission&& other) noexcept {
         release();
         core_ = std::move(other.core_);
         set_ = std::move(other.set_);
-        staging_ = std::move(other.staging_);
         serial_ = other.serial_;
     }
     return *this;
@@ -45,7 +44,6 @@ Submission& Submission::operator=(Submission&& other) noexcept {
 void Submission::release() {
     if (!core_) return;
     core_->retire(std::move(set_), serial_);
-    staging_.clear();
     core_.reset();
 }
 
@@ -202,24 +200,45 @@ void Commands::fill(const Buffer& buffer, std::uint64_t offset_bytes, std::uint6
     core_->vk.vkCmdFillBuffer(raw(), buffer.raw(), offset_bytes, size_bytes, word);
 }
 
+Commands::Staged Commands::stage(std::uint64_t size_bytes) {
+    Device device(core_);
+    const std::uint64_t chunk_bytes = std::min<std::uint64_t>(kStagingChunk_bytes, core_->max_allocation_bytes);
+    if (size_bytes > chunk_bytes) {
+        auto large = Buffer::create(device, BufferUse::upload, size_bytes, "staging");
+        if (!large) {
+            keep(large.error());
+            return {};
+        }
+        large_.push_back(std::move(*large));
+        return {large_.back().raw(), 0, large_.back().mapped().data()};
+    }
+    if (chunks_in_use_ == 0 || chunk_bytes - staging_used_ < size_bytes) {
+        if (chunks_in_use_ == set_.staging.size()) {
+            auto chunk = Buffer::create(device, BufferUse::upload, chunk_bytes, "staging");
+            if (!chunk) {
+                keep(chunk.error());
+                return {};
+            }
+            set_.staging.push_back(std::move(*chunk).give_up());
+        }
+        ++chunks_in_use_;
+        staging_used_ = 0;
+    }
+    const StagingChunk& chunk = set_.staging[chunks_in_use_ - 1];
+    constexpr std::uint64_t kAlignment = 16;
+    const std::uint64_t offset = staging_used_;
+    staging_used_ = std::min(chunk_bytes, (offset + size_bytes + kAlignment - 1) / kAlignment * kAlignment);
+    return {chunk.buffer, offset, chunk.mapped.data() + offset};
+}
+
 void Commands::upload(const Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes) {
     BURIN_CHECK(inside(to, offset_bytes, bytes.size()));
     if (bytes.empty() || first_error_) return;
-    if (staging_.empty() || staging_.back().size_bytes() - staging_used_ < bytes.size()) {
-        Device device(core_);
-        const std::uint64_t usual_bytes = std::min<std::uint64_t>(kStagingChunk_bytes, core_->max_allocation_bytes);
-        auto chunk =
-            Buffer::create(device, BufferUse::upload, std::max<std::uint64_t>(usual_bytes, bytes.size()), "staging");
-        if (!chunk) return keep(chunk.error());
-        staging_.push_back(std::move(*chunk));
-        staging_used_ = 0;
-    }
-    const Buffer& chunk = staging_.back();
-    std::memcpy(chunk.mapped().data() + staging_used_, bytes.data(), bytes.size());
-    copy(chunk, staging_used_, to, offset_bytes, bytes.size());
-    constexpr std::uint64_t kAlignment = 16;
-    staging_used_ =
-        std::min(chunk.size_bytes(), (staging_used_ + bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
+    const Staged staged = stage(bytes.size());
+    if (staged.at == nullptr) return;
+    std::memcpy(staged.at, bytes.data(), bytes.size());
+    const VkBufferCopy region{staged.offset_bytes, offset_bytes, bytes.size()};
+    core_->vk.vkCmdCopyBuffer(raw(), staged.buffer, to.raw(), 1, &region);
 }
 
 Stamp Commands::stamp() {
@@ -272,9 +291,10 @@ Result<Submission> Commands::submit(const QueueSync& sync) && {
         return vulkan_failure(c.info.name, "the work was refused", r);
     }
     c.submitted = serial;
-    kept_.clear();  // deferred until this submission is done
+    large_.clear();  // these three are deferred until this submission is done
+    kept_.clear();
     kept_objects_.clear();
-    return Submission(std::move(core_), std::move(set_), std::move(staging_), serial);
+    return Submission(std::move(core_), std::move(set_), serial);
 }
 
 // ---- Whole transfers

@@ -2,7 +2,7 @@
 // Recording and submitting GPU work.
 //
 //   auto commands = Commands::begin(device);            // Result<Commands>
-//   commands->upload(positions, 0, bytes);                   // through a staging buffer of its own
+//   commands->upload(positions, 0, bytes);                   // through staging memory that is used again
 //   commands->barrier();
 //   commands->dispatch(cut, {rays, strokes}, gpu::bytes_of(parameters), {groups, 1, 1});
 //   commands->barrier();
@@ -60,13 +60,12 @@ public:
 
 private:
     friend class Commands;
-    Submission(std::shared_ptr<Core> core, CommandSet set, std::vector<Buffer> staging, std::uint64_t serial)
-        : core_(std::move(core)), set_(std::move(set)), staging_(std::move(staging)), serial_(serial) {}
+    Submission(std::shared_ptr<Core> core, CommandSet set, std::uint64_t serial)
+        : core_(std::move(core)), set_(std::move(set)), serial_(serial) {}
     void release();
 
     std::shared_ptr<Core> core_;
     CommandSet set_;
-    std::vector<Buffer> staging_;
     std::uint64_t serial_ = 0;
 };
 
@@ -117,6 +116,13 @@ public:
 
 private:
     Commands(std::shared_ptr<Core> core, CommandSet set) : core_(std::move(core)), set_(std::move(set)) {}
+    // Room for bytes that the CPU writes and this work copies from; null where there is none (first_error_).
+    struct Staged {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        std::uint64_t offset_bytes = 0;
+        std::byte* at = nullptr;
+    };
+    [[nodiscard]] Staged stage(std::uint64_t size_bytes);
     [[nodiscard]] bool bind(const ComputePipeline& pipeline, std::span<const BufferRange> buffers,
                             std::span<const std::byte> push_constants);
     [[nodiscard]] VkDescriptorSet descriptor_set(const ComputePipeline& pipeline, std::span<const BufferRange> buffers);
@@ -127,10 +133,11 @@ private:
 
     std::shared_ptr<Core> core_;  // empty once moved from or submitted
     CommandSet set_;
-    std::vector<Buffer> staging_;
+    std::vector<Buffer> large_;  // staging of more than a chunk
     std::vector<Buffer> kept_;
     std::vector<std::shared_ptr<void>> kept_objects_;
-    std::uint64_t staging_used_ = 0;  // bytes of staging_.back() in use
+    std::size_t chunks_in_use_ = 0;   // of set_.staging
+    std::uint64_t staging_used_ = 0;  // bytes of the last of them
     std::size_t pool_in_use_ = 0;     // index into set_.descriptor_pools
     std::uint32_t stamps_ = 0;
     std::optional<Error> first_error_;

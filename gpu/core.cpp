@@ -8,6 +8,7 @@ namespace burin::gpu {
 namespace {
 // Long enough for the slowest dispatch of a software device; a longer wait means that the GPU hangs.
 constexpr std::uint64_t kWaitLimit_ns = 120'000'000'000;
+constexpr std::size_t kKeptChunks = 16;  // of staging, in a set of commands that is used again
 
 template <typename T>
 T handle_of(std::uint64_t bits) {
@@ -92,6 +93,11 @@ Result<CommandSet> Core::take_command_set() {
     if (!free_sets_.empty()) {
         CommandSet set = std::move(free_sets_.back());
         free_sets_.pop_back();
+        // What a large surface needed once is not held for ever.
+        while (set.staging.size() > kKeptChunks) {
+            destroy(set.staging.back());
+            set.staging.pop_back();
+        }
         vk.vkResetCommandPool(device, set.pool, 0);
         for (VkDescriptorPool pool : set.descriptor_pools) vk.vkResetDescriptorPool(device, pool, 0);
         return set;
@@ -131,8 +137,14 @@ int Core::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags required
 
 void Core::destroy(const CommandSet& set) {
     for (VkDescriptorPool pool : set.descriptor_pools) vk.vkDestroyDescriptorPool(device, pool, nullptr);
+    for (const StagingChunk& chunk : set.staging) destroy(chunk);
     vk.vkDestroyQueryPool(device, set.stamps, nullptr);
     vk.vkDestroyCommandPool(device, set.pool, nullptr);  // frees its command buffer too
+}
+
+void Core::destroy(const StagingChunk& chunk) {
+    vk.vkDestroyBuffer(device, chunk.buffer, nullptr);
+    vk.vkFreeMemory(device, chunk.memory, nullptr);
 }
 
 void Core::destroy(VkObjectType type, std::uint64_t bits) {

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "gpu/device.hpp"
@@ -14,12 +16,20 @@
 
 namespace burin::gpu {
 
+// Memory that the CPU writes and the GPU copies from; its creation costs a driver of a card 0.1 ms and more.
+struct StagingChunk {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::span<std::byte> mapped;
+};
+
 // The Vulkan objects one submission is recorded with; reused by a later submission.
 struct CommandSet {
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkQueryPool stamps = VK_NULL_HANDLE;  // created by the first stamp()
     std::vector<VkDescriptorPool> descriptor_pools;
+    std::vector<StagingChunk> staging;  // all of the usual size (Commands::upload)
 };
 
 // Functions of the instance extensions for windows; null where Device::create was not asked for them. They belong to
@@ -60,6 +70,8 @@ public:
     // For tests: how many waits of the host asked for a submission that no wait before them had covered, and the newest
     // submission waited for.
     std::uint64_t waits = 0, waited = 0;
+    // For tests: how many pieces of memory were asked of the driver.
+    std::uint64_t allocations = 0;
     // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
     bool lost = false;
     // For tests: makes the next submission fail as if the GPU were gone, or the next acquisition of an image as if the
@@ -93,6 +105,7 @@ private:
     void retire_handle(VkObjectType type, std::uint64_t handle);
     void destroy(VkObjectType type, std::uint64_t handle);
     void destroy(const CommandSet& set);
+    void destroy(const StagingChunk& chunk);
 
     std::vector<Retired> retired_;
     std::vector<std::pair<std::uint64_t, CommandSet>> retired_sets_;
@@ -122,6 +135,11 @@ public:
     [[nodiscard]] T raw() const { return object_; }
     [[nodiscard]] const T* pointer() const { return &object_; }
     explicit operator bool() const { return object_ != VK_NULL_HANDLE; }
+    // Gives the object up to the caller, who destroys it.
+    [[nodiscard]] T give_up() {
+        core_.reset();
+        return std::exchange(object_, VK_NULL_HANDLE);
+    }
 
 private:
     void release() {

@@ -53,16 +53,29 @@ Mat4 off_axis_projection(const Screen& screen, const Vec3& eye_world, double nea
     return clip_from_eye * eye_from_world * glm::translate(Mat4(1.0), -eye_world);
 }
 
-Vec2 point_on_screen(const Screen& screen, const Vec3& eye_world, const Vec3& point_world) {
+ScreenPlane::ScreenPlane(const Screen& screen) : origin_world_(screen.lower_left_world) {
     const Axes axes = axes_of(screen);
-    const double eye_m = glm::dot(eye_world - screen.lower_left_world, axes.normal);
-    const double point_m = glm::dot(point_world - screen.lower_left_world, axes.normal);
+    right_ = axes.right;
+    up_ = axes.up;
+    normal_ = axes.normal;
+}
+
+Vec2 ScreenPlane::point_seen(const Vec3& eye_world, const Vec3& point_world) const {
+    const double eye_m = distance_in_front(eye_world), point_m = distance_in_front(point_world);
     const Vec3 hit = eye_world + (point_world - eye_world) * (eye_m / (eye_m - point_m));
-    return {glm::dot(hit - screen.lower_left_world, axes.right), glm::dot(hit - screen.lower_left_world, axes.up)};
+    return {glm::dot(hit - origin_world_, right_), glm::dot(hit - origin_world_, up_)};
+}
+
+double ScreenPlane::distance_in_front(const Vec3& point_world) const {
+    return glm::dot(point_world - origin_world_, normal_);
+}
+
+Vec2 point_on_screen(const Screen& screen, const Vec3& eye_world, const Vec3& point_world) {
+    return ScreenPlane(screen).point_seen(eye_world, point_world);
 }
 
 double distance_in_front(const Screen& screen, const Vec3& point_world) {
-    return glm::dot(point_world - screen.lower_left_world, axes_of(screen).normal);
+    return ScreenPlane(screen).distance_in_front(point_world);
 }
 
 bool can_be_seen(const Screen& screen, const Eyes& eyes) {

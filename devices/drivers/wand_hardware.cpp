@@ -52,6 +52,7 @@ DeviceDescription device_of_hardware(const WandDescription& wand) {
     device.delay_s = kServedDelay_s + wand.arm.delay_s;  // its exchange with ticks, and the device's own
     device.watchdog_s = seconds(kServedSilent_ns);
     device.felt_by_person = true;
+    device.has_buttons = false;  // the card reads encoders alone
     return device;
 }
 

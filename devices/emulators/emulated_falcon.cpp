@@ -16,6 +16,7 @@
 #include "devices/falcon/falcon_port.hpp"
 #include "devices/falcon/falcon_socket.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "devices/presence/emulator_socket.hpp"
 
 namespace burin::devices {
 namespace {
@@ -152,17 +153,10 @@ private:
 };
 
 Result<EmulatedFalcon> EmulatedFalcon::create(const std::string& name, EmulatedFalconOptions options) {
-    const std::string where = "emulated falcon " + name;
-    if (!name.starts_with("emulated") || name.size() > 60 || name.find('/') != std::string::npos)
-        return fail(where, "has no such name", "begin it with emulated: emulated, emulated-2");
-    OwnedFile listener(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    const FalconSocketName at = falcon_socket_name(name);
-    if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&at.address), at.size) != 0 ||
-        ::listen(listener.get(), 4) != 0)
-        return fail(where, "cannot be made: another one may be running by this name",
-                    "end that one, or choose another name: --at emulated-2");
+    auto listener = listen_as_emulator("falcon", name);
+    if (!listener) return std::unexpected(listener.error());
     if (options.script.empty()) options.script = circling_hand();
-    EmulatedFalcon falcon(std::move(listener), std::move(options));
+    EmulatedFalcon falcon(std::move(*listener), std::move(options));
     falcon.drill_->is_homed = falcon.options_.is_homed;
     return falcon;
 }
@@ -189,8 +183,8 @@ void EmulatedFalcon::run(const std::function<bool()>& ends) {
             device.unplug();
         }
         // One host at a time: others find the connection closed.
-        if (OwnedFile came(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)); came) {
-            if (!host && !is_pulled && is_own_process(came.get())) {
+        if (OwnedFile came = accept_host(listener_); came) {
+            if (!host && !is_pulled) {
                 host = std::move(came);
                 constexpr std::array<std::byte, kFtdiOwn> kStatus{std::byte{0x01}, std::byte{0x60}};
                 static_cast<void>(::send(host.get(), kStatus.data(), kStatus.size(), MSG_NOSIGNAL));

@@ -20,7 +20,7 @@
 #include "devices/emulators/emulated_motion.hpp"
 #include "devices/falcon/falcon_kinematics.hpp"
 #include "devices/hand/simulated_hand.hpp"
-#include "devices/trackers/network.hpp"
+#include "devices/presence/owned_file.hpp"
 
 namespace burin::devices {
 

@@ -10,6 +10,7 @@
 #include "devices/emulators/emulated_falcon.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/emulators/emulated_omni.hpp"
+#include "devices/emulators/emulated_spacemouse.hpp"
 #include "devices/emulators/emulated_vrpn.hpp"
 #include "devices/emulators/emulated_wand.hpp"
 #include "devices/trackers/dtrack_protocol.hpp"
@@ -73,6 +74,19 @@ Result<void> run_wand(const EmulatorOptions& options) {
     return {};
 }
 
+Result<void> run_spacemouse(const EmulatorOptions& options) {
+    if (!options.layout.empty() && options.layout != "split" && options.layout != "joined")
+        return fail("emulated spacemouse", "has no layout " + options.layout,
+                    "write split, with the turn in a report of its own, or joined");
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto spacemouse =
+        EmulatedSpaceMouse::create(name, {.joined = options.layout != "split", .silence = options.silence});
+    if (!spacemouse) return std::unexpected(spacemouse.error());
+    options.is_there("--device spacemouse:" + name);
+    spacemouse->run(options.ends);
+    return {};
+}
+
 Result<void> run_dtrack(const EmulatorOptions& options) {
     const auto to = network_address(options.at, {"127.0.0.1", kDTrackPort});
     if (!to) return fail("emulated DTrack", "has no address " + options.at, "write HOST, PORT or HOST:PORT");
@@ -88,6 +102,11 @@ constexpr std::array kKinds{
                  run_falcon},
     EmulatorKind{"dhd", "a Force Dimension omega.3 in the same hand; --at as for the omni", run_dhd},
     EmulatorKind{"wand", "a Quanser wand that a hand takes out of its jig and circles; --at as for the omni", run_wand},
+    EmulatorKind{
+        "spacemouse",
+        "a 3Dconnexion SpaceMouse whose cap circles with its first button down, as --device or --tracker; --at "
+        "as for the omni, --layout split or joined",
+        run_spacemouse, true},
     EmulatorKind{"dtrack", "ART's DTrack with a head and a flystick that sway, which sends to 127.0.0.1:5000",
                  run_dtrack},
     EmulatorKind{"vrpn", "a VRPN server with a head and a wand that sway, at 127.0.0.1:3883", run_vrpn},
@@ -99,6 +118,8 @@ std::span<const EmulatorKind> emulator_kinds() { return kKinds; }
 
 Result<void> run_emulator(std::string_view name, const EmulatorOptions& options) {
     const auto kind = std::ranges::find(kKinds, name, &EmulatorKind::name);
+    if (kind != kKinds.end() && !kind->has_layouts && !options.layout.empty())
+        return fail("emulated " + std::string(name), "has no layouts: " + options.layout, "leave --layout out");
     if (kind != kKinds.end()) return kind->run(options);
     std::array<std::string_view, kKinds.size()> names;
     std::ranges::transform(kKinds, names.begin(), &EmulatorKind::name);

@@ -16,7 +16,8 @@
 namespace burin::devices {
 
 struct EmulatorOptions {
-    std::string at;  // address or port where it is found, as it spells it; empty: its usual one
+    std::string at;      // address or port where it is found, as it spells it; empty: its usual one
+    std::string layout;  // of its reports, where there are several; empty: its usual one
     SilenceDrill silence;
     std::function<bool()> ends;
     // Told once, when the emulator can be found: how a session is started with it, such as "--device glove:/dev/pts/3".
@@ -27,6 +28,7 @@ struct EmulatorKind {
     std::string_view name;   // as the command spells it
     std::string_view usage;  // what it is, for the help
     Result<void> (*run)(const EmulatorOptions& options);
+    bool has_layouts = false;
 };
 [[nodiscard]] std::span<const EmulatorKind> emulator_kinds();
 // Runs the emulator of that name until it is to end. An Error names those that there are, or says why it cannot run.

@@ -30,13 +30,15 @@ public:
     virtual ~DeviceMessages() = default;
     // Returns what has been said since the last call. The frame's thread.
     [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;
+    // Returns the commands of a session that its keys have given since the last call, in order: "undo". The frame's
+    // thread.
+    [[nodiscard]] virtual std::vector<std::string> take_commands() { return {}; }
 };
 
 struct OpenedDevice {
     std::vector<DevicePart> parts;       // at least one; all of one rate
     DeviceMessages* messages = nullptr;  // of a part; null: it says nothing
     Amplifiers* amplifiers = nullptr;    // of all parts; null: none that can be switched from here
-    bool is_played = false;              // a recording leads it: neither a person nor a steered hand does
 };
 
 // Returns the opened device of the only part that a device has.

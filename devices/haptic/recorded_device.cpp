@@ -39,7 +39,7 @@ RecordedPlayer::RecordedPlayer(RecordedHand hand, RecordedChoice choice, OpenedD
             length_ = std::max(length_, static_cast<std::uint64_t>(part.samples.back().due_ns / period_ns_) + 1);
 }
 
-// Counts the turn: each takes the next tick at least, and those that the clock has passed over.
+// Counts the turn: each takes the next tick, and passes over those that were missed.
 void RecordedPlayer::begin_turn() noexcept {
     now_ns_ = clock_.now_ns();
     if (!begun_) {
@@ -47,8 +47,10 @@ void RecordedPlayer::begin_turn() noexcept {
         base_ns_ = now_ns_;
         return;
     }
-    const Nanoseconds since_ns = std::max<Nanoseconds>(now_ns_ - base_ns_, 0);
-    tick_ = std::max(tick_ + 1, static_cast<std::uint64_t>(since_ns / period_ns_));
+    // A loop that is late for a moment makes up for it; only what it is behind by two periods it has left out.
+    ++tick_;
+    const Nanoseconds behind_ns = now_ns_ - base_ns_ - static_cast<Nanoseconds>(tick_) * period_ns_;
+    if (behind_ns >= kLeftOut * period_ns_) tick_ += static_cast<std::uint64_t>(behind_ns / period_ns_);
     // A first turn that came late would have all later ones count as early.
     base_ns_ = std::min(base_ns_, now_ns_ - static_cast<Nanoseconds>(tick_) * period_ns_);
     if (tick_ < length_) return;
@@ -107,10 +109,10 @@ OpenedDevice recorded_device(RecordedHand hand, const RecordedChoice& choice, Op
         DeviceDescription description = player->like().parts[part].device->description();
         description.name = player->name().c_str();
         description.felt_by_person = false;
+        description.led_by = "a recording";
         opened.parts.push_back({names[part], std::make_unique<PartOf<RecordedPlayer>>(player, part, description)});
     }
     opened.messages = player.get();
-    opened.is_played = true;
     return opened;
 }
 

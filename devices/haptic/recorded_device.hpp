@@ -4,7 +4,7 @@
 // are taken and dropped. Its description is that of the device that was recorded.
 //
 // Time: a sample belongs to a tick of the device's rate, counted from the first read(). A turn that comes late has the
-// sample of its own tick all the same; where deadlines were missed, so are their samples. Where the recording has no
+// sample of its own tick all the same; where two deadlines or more were missed, so are their samples. Where the recording has no
 // tick, since its loop idled or missed a deadline, the sample before stays. A sample is as old at its tick as it was
 // when it was recorded. At the end the hand rests at its last pose with no button down; with `loop` it rests for half a
 // second, glides to the beginning within one, and goes on.
@@ -64,6 +64,7 @@ struct RecordedChoice {
 class RecordedPlayer final : public DeviceMessages {
 public:
     static constexpr Nanoseconds kRest_ns = 500'000'000, kGlide_ns = 1'000'000'000;
+    static constexpr Nanoseconds kLeftOut = 2;  // periods behind at which samples are left out
 
     // `like`: the device that was recorded, opened to stand in for it; kept for its descriptions. As many parts as
     // samples of parts.

@@ -15,6 +15,7 @@
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
+#include "devices/spacemouse/spacemouse_device.hpp"
 
 namespace burin::devices {
 namespace {
@@ -92,6 +93,18 @@ Result<OpenedDevice> open_wand_by(HapticHost host, const std::string& text) {
     if (host.stands_in) return wand_that_rests(text, host.clock);
     if (auto may = in_real_time(host.clock, kHilWand); !may) return std::unexpected(may.error());
     return open_wand(text, std::move(host.hand), host.clock);
+}
+
+Result<OpenedDevice> open_spacemouse_by(HapticHost host, const std::string& text) {
+    if (host.stands_in) return spacemouse_that_rests(host.clock);
+    if (auto may = in_real_time(host.clock, kSpaceMouse); !may) return std::unexpected(may.error());
+    return open_spacemouse(text, std::move(host.hand), host.clock);
+}
+
+Result<OpenedDevice> open_spacemouse_wand_by(HapticHost host, const std::string& text) {
+    if (host.stands_in) return spacemouse_wand_that_rests(text, host.clock);
+    if (auto may = in_real_time(host.clock, kSpaceMouseWand); !may) return std::unexpected(may.error());
+    return open_spacemouse_wand(text, std::move(host.hand), host.clock);
 }
 
 // Opens what was recorded, to stand in for it, and has its samples played.
@@ -218,6 +231,30 @@ constexpr std::array kKinds{
                .handle = nullptr,
                .open = open_dhd_by,
                .look = look_for_dhds},
+    HapticKind{.name = kSpaceMouse,
+               .usage =
+                   "a simulated stylus whose hand a 3Dconnexion SpaceMouse leads; spacemouse:PLACE as burin devices "
+                   "lists it, settings after commas: speed=0.08 (m/s), turn=1.2 (rad/s), dead=0.1; "
+                   "spacemouse:emulated by burin devices emulate",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_spacemouse_by,
+               .look = look_for_spacemice},
+    HapticKind{.name = kSpaceMouseWand,
+               .usage = "a simulated wand whose hand a SpaceMouse leads, likewise; and FILE.toml as FILE describes it",
+               .parts = 1,
+               .is_upright = true,
+               .is_worn = false,
+               .felt_by_person = false,
+               .has_amplifiers = true,
+               .handle = spacemouse_wand_described,
+               .open = open_spacemouse_wand_by,
+               .look = look_for_spacemouse_wands,
+               .file_of = spacemouse_file_of},
     HapticKind{.name = kRecordedDevice,
                .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
                         "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",

@@ -7,9 +7,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -88,10 +86,6 @@ std::expected<BoundSocket, std::string> bound_at(const NetworkAddress& at, int k
 
 }  // namespace
 
-OwnedFile::~OwnedFile() {
-    if (file_ >= 0) ::close(file_);
-}
-
 std::optional<NetworkAddress> network_address(const std::string& text, const NetworkAddress& usual) {
     NetworkAddress address = usual;
     const std::size_t colon = text.rfind(':');
@@ -154,22 +148,6 @@ std::expected<OwnedFile, std::string> sender_to(const NetworkAddress& to) {
 
 void send_datagram(const OwnedFile& socket, std::string_view datagram) {
     static_cast<void>(::send(socket.get(), datagram.data(), datagram.size(), MSG_NOSIGNAL));
-}
-
-StopSign::StopSign() : file_(::eventfd(0, EFD_CLOEXEC)) {}
-
-void StopSign::give() const {
-    const std::uint64_t one = 1;
-    while (::write(file_.get(), &one, sizeof(one)) < 0 && errno == EINTR) {
-    }
-}
-
-StopSign::Woken StopSign::wait_for(int file, int most_ms) const {
-    std::array<pollfd, 2> ready{{{file_.get(), POLLIN, 0}, {file, POLLIN, 0}}};  // poll skips a negative file
-    const int came = ::poll(ready.data(), ready.size(), most_ms);
-    if (came > 0 && ready[0].revents != 0) return Woken::by_sign;
-    if (came > 0 && ready[1].revents != 0) return Woken::by_file;
-    return Woken::by_time;
 }
 
 }  // namespace burin::devices

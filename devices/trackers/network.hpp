@@ -12,28 +12,12 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "devices/presence/owned_file.hpp"
 
 namespace burin::devices {
 
 // How the error of an address begins whose host is not known.
 inline constexpr std::string_view kNoSuchMachine = "no such machine";
-
-// Owns a file descriptor; -1: none.
-class OwnedFile {
-public:
-    explicit OwnedFile(int file = -1) : file_(file) {}
-    ~OwnedFile();
-    OwnedFile(OwnedFile&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-    OwnedFile& operator=(OwnedFile&& other) noexcept {
-        std::swap(file_, other.file_);
-        return *this;
-    }
-    [[nodiscard]] int get() const { return file_; }
-    [[nodiscard]] explicit operator bool() const { return file_ >= 0; }
-
-private:
-    int file_;
-};
 
 struct NetworkAddress {
     std::string host = "127.0.0.1";
@@ -43,8 +27,6 @@ struct NetworkAddress {
 
 // Reads HOST, HOST:PORT or PORT alone; what is left out is as in `usual`. Nothing where it is none of these.
 [[nodiscard]] std::optional<NetworkAddress> network_address(const std::string& text, const NetworkAddress& usual);
-
-class StopSign;
 
 // Connects by TCP, within so long, the search for the machine's name included. Nothing that is sent waits for more to
 // send (TCP_NODELAY); reads do not block. `stop` ends it early; null: nothing does.
@@ -61,19 +43,5 @@ struct BoundSocket {
 // Opens a socket that sends datagrams to one address; a datagram that nobody takes is lost.
 [[nodiscard]] std::expected<OwnedFile, std::string> sender_to(const NetworkAddress& to);
 void send_datagram(const OwnedFile& socket, std::string_view datagram);
-
-// Lets a thread that waits for sockets be told to end.
-class StopSign {
-public:
-    StopSign();
-    void give() const;
-    [[nodiscard]] int file() const { return file_.get(); }
-    // Waits until the file can be read, the sign is given or the time is over; -1: for the sign alone.
-    enum class Woken { by_file, by_sign, by_time };
-    [[nodiscard]] Woken wait_for(int file, int most_ms) const;
-
-private:
-    OwnedFile file_;
-};
 
 }  // namespace burin::devices

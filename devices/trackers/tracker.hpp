@@ -107,6 +107,7 @@ struct TrackerKind {
     std::span<const std::string_view> names = {};
     // Its protocol says what unit its lengths have.
     bool has_unit = false;
+    bool may_be_bare = false;  // the scheme alone, without a colon, names one
 };
 [[nodiscard]] std::span<const TrackerKind> tracker_kinds();
 // Returns the kind of an address, "vrpn:localhost"; null where there is none.

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "devices/trackers/dtrack_tracker.hpp"
+#include "devices/trackers/spacemouse_tracker.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "devices/trackers/udp_tracker.hpp"
 #include "devices/trackers/vrpn_tracker.hpp"
@@ -26,6 +27,15 @@ constexpr std::array kKinds{
                 "dtrack:PORT, or dtrack:ADDRESS:PORT for other machines: ART's DTrack, and after a comma which of its "
                 "bodies are the head and the wands: dtrack:5000,head=body/0,wand0=flystick/0,axes=+x+z-y",
                 open_dtrack, nullptr, kDTrackNames, true},
+    TrackerKind{
+        "spacemouse",
+        "spacemouse:PLACE, or spacemouse for the first, a 3Dconnexion SpaceMouse that moves the scene, and settings "
+        "after commas: spacemouse:hidraw3,speed=0.3,turn=1.2,dead=0.1",
+        open_spacemouse_tracker,
+        look_for_spacemice,
+        {},
+        false,
+        true},
 };
 
 bool is_pose_or_stick(const TrackerSample& sample) { return !std::holds_alternative<WandClick>(sample.input); }
@@ -60,7 +70,7 @@ std::string tracker_usage() {
 const TrackerKind* tracker_kind_of(std::string_view where) {
     const std::string_view scheme = where.substr(0, where.find(':'));
     const auto kind = std::ranges::find(kKinds, scheme, &TrackerKind::scheme);
-    return kind != kKinds.end() && scheme.size() < where.size() ? &*kind : nullptr;
+    return kind != kKinds.end() && (scheme.size() < where.size() || kind->may_be_bare) ? &*kind : nullptr;
 }
 
 Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host) {

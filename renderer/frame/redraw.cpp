@@ -231,16 +231,17 @@ PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> box
     const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
     const double height_m = glm::length(screen.upper_left_world - screen.lower_left_world);
     const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+    const wall::ScreenPlane plane(screen);
     Vec2 lo(HUGE_VAL), hi(-HUGE_VAL);
     // With the fade a point is drawn between its positions as seen
     // by the eye and from the middle, which lies between the eyes.
     for (const Vec3& eye :
          {eyes.left_world, eyes.right_world, scene.edge_fade > 0.0 ? middle_of(eyes) : eyes.left_world}) {
-        const double eye_m = wall::distance_in_front(screen, eye);
+        const double eye_m = plane.distance_in_front(eye);
         for (std::size_t i = 0; i < 8 * boxes_world.size(); ++i) {
             const Vec3 p = corner_of(boxes_world[i / 8], static_cast<int>(i % 8));
-            if (eye_m - wall::distance_in_front(screen, p) < kNearest_m) return all_of(size);
-            const Vec2 at = point_on_screen(screen, eye, p);
+            if (eye_m - plane.distance_in_front(p) < kNearest_m) return all_of(size);
+            const Vec2 at = plane.point_seen(eye, p);
             const Vec2 px{at.x / width_m * size.width, (1.0 - at.y / height_m) * size.height};
             lo = glm::min(lo, px);
             hi = glm::max(hi, px);

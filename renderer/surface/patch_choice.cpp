@@ -105,14 +105,29 @@ ShadingRate rate_of(const PatchStore::Patch& patch, const PatchPixel& pixel, con
     return edge_px <= kSmoothEdge_px ? ShadingRate::by_triangle : ShadingRate::pixel;
 }
 
-// Returns the occluders, or none if a patch is bent: bent patches may uncover what is behind them.
-std::span<const Box> hiding(std::span<const Box> occluders, const EyePair& eyes,
-                            std::span<PatchStore::Patch* const> patches) {
-    const bool bends = eyes.fade && std::ranges::any_of(patches, [&](const PatchStore::Patch* patch) {
-                           return bent(eyes, patch->shape.bounds);
-                       });
-    return bends ? std::span<const Box>{} : occluders;
-}
+// What both eyes see of the patches through a part of the picture. Whether the fade bends a patch is asked once of
+// each.
+class Sight {
+public:
+    Sight(const EyePair& eyes, std::span<const Box> occluders, std::span<PatchStore::Patch* const> patches)
+        : eyes_(eyes), occluders_(occluders) {
+        if (!eyes_.fade) return;
+        bent_.reserve(patches.size());
+        for (const PatchStore::Patch* patch : patches) bent_.push_back(bent(eyes_, patch->shape.bounds));
+        // Bent patches may uncover what is behind them.
+        if (std::ranges::find(bent_, true) != bent_.end()) occluders_ = {};
+    }
+    // Of the patch at this place among the patches.
+    [[nodiscard]] bool is_bent(std::size_t place) const { return !bent_.empty() && bent_[place]; }
+    [[nodiscard]] Hidden why_hidden(std::size_t place, const PatchShape& patch) const {
+        return hidden(eyes_, patch, occluders_, is_bent(place));
+    }
+
+private:
+    EyePair eyes_;
+    std::span<const Box> occluders_;
+    std::vector<bool> bent_;  // empty: none
+};
 
 std::uint8_t level_of(const PatchStore::Patch& patch, const PatchPixel& pixel) {
     const double most_m = kMostError_px * pixel.at(patch.shape);
@@ -158,14 +173,15 @@ void choose_levels(DrawnPatches& drawn, const Scene& scene, ImageSize size, cons
                    std::span<const Box> occluders) {
     const PatchPixel pixel(scene, size);
     const ToolZone zone(scene);
-    const EyePair eyes = eye_frusta(scene, size, all_of(size));
-    occluders = hiding(occluders, eyes, drawn.patches());
-    for (const PatchStore::Patch* patch : drawn.patches()) {
+    const std::span<PatchStore::Patch* const> patches = drawn.patches();
+    const Sight sight(eye_frusta(scene, size, all_of(size)), occluders, patches);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        const PatchStore::Patch& patch = *patches[i];
         // The fade is computed at vertices, so where it bends the picture all of them are needed.
-        const bool coarser = savings.coarser_levels && !bent(eyes, patch->shape.bounds);
-        drawn.of(*patch) = {.level = coarser ? level_of(*patch, pixel) : std::uint8_t{0},
-                            .rate = rate_of(*patch, pixel, zone, savings),
-                            .wanted = savings.coarser_levels && hidden(eyes, patch->shape, occluders) == Hidden::no};
+        const bool coarser = savings.coarser_levels && !sight.is_bent(i);
+        drawn.of(patch) = {.level = coarser ? level_of(patch, pixel) : std::uint8_t{0},
+                           .rate = rate_of(patch, pixel, zone, savings),
+                           .wanted = savings.coarser_levels && sight.why_hidden(i, patch.shape) == Hidden::no};
     }
     drawn.levels_chosen();
 }
@@ -187,24 +203,25 @@ std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, 
     std::vector<Box> changed;
     if (before.tool == now.tool) return changed;
     const ToolZone was(before), is(now);
-    const EyePair eyes = eye_frusta(now, size, all_of(size));
-    occluders = hiding(occluders, eyes, patches);
-    for (const PatchStore::Patch* patch : patches)
-        if ((was.changes(patch->shape) || is.changes(patch->shape)) &&
-            hidden(eyes, patch->shape, occluders) == Hidden::no)
-            changed.push_back(patch->shape.bounds);
+    const Sight sight(eye_frusta(now, size, all_of(size)), occluders, patches);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        const PatchShape& shape = patches[i]->shape;
+        if ((was.changes(shape) || is.changes(shape)) && sight.why_hidden(i, shape) == Hidden::no)
+            changed.push_back(shape.bounds);
+    }
     return changed;
 }
 
 PatchDraws choose_draws(const DrawnPatches& drawn, const Scene& scene, ImageSize size, const PixelRect& part,
                         const Savings& savings, std::span<const Box> occluders) {
     PatchDraws draws;
-    const EyePair eyes = eye_frusta(scene, size, part);
-    occluders = hiding(occluders, eyes, drawn.patches());
-    for (const PatchStore::Patch* patch : drawn.patches()) {
-        if (spared(hidden(eyes, patch->shape, occluders), savings, draws.counts)) continue;
-        const DrawnPatches::State& state = drawn.of(*patch);
-        const PatchStore::Level& level = patch->levels[state.level];
+    const std::span<PatchStore::Patch* const> patches = drawn.patches();
+    const Sight sight(eye_frusta(scene, size, part), occluders, patches);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        const PatchStore::Patch& patch = *patches[i];
+        if (spared(sight.why_hidden(i, patch.shape), savings, draws.counts)) continue;
+        const DrawnPatches::State& state = drawn.of(patch);
+        const PatchStore::Level& level = patch.levels[state.level];
         const std::uint32_t fine = lit_at_vertices(level, state.rate);
         append(draws.fine, level.first_index, fine);
         append(draws.solid, level.first_index + fine, level.index_count - fine);

@@ -14,6 +14,8 @@ namespace {
 constexpr double kPad_px = 1.0;
 // Share of the screen's distance: a box nearer than this to the plane of an eye counts as bent without further tests.
 constexpr double kNearest = 0.02;
+// Of the band in which parallax fades, for what is computed in single precision on the device.
+constexpr double kRounding = 1e-4;
 
 Vec3 position_of(const shared::SurfaceVertex& v) { return {v.x, v.y, v.z}; }
 
@@ -56,11 +58,15 @@ FadedEdges faded_edges(const Scene& scene, const EyeFrustum& middle) {
     const Vec3 middle_world = middle_of(eyes);
     const Mat4 world_from_patch =
         matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
-    FadedEdges fade{middle, {}, wall::distance_in_front(scene.screen, middle_world), scene.edge_fade_band};
+    FadedEdges fade{middle, {}, {}, wall::distance_in_front(scene.screen, middle_world), scene.edge_fade_band};
     const std::array from{eyes.left_world, eyes.right_world, middle_world};
     // The near and far planes do not matter.
-    for (std::size_t i = 0; i < 3; ++i)
-        fade.clip_from_patch[i] = off_axis_projection(scene.screen, from[i], 0.01, 100.0) * world_from_patch;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Mat4& clip = fade.clip_from_patch[i] =
+            off_axis_projection(scene.screen, from[i], 0.01, 100.0) * world_from_patch;
+        for (const auto& [row, of] : {std::pair{0, 0}, {1, 1}, {2, 3}})
+            fade.rows[i][row] = {clip[0][of], clip[1][of], clip[2][of], clip[3][of]};
+    }
     return fade;
 }
 
@@ -122,9 +128,52 @@ EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
     return pair;
 }
 
+namespace {
+
+struct Range {
+    double lo = 0.0, hi = 0.0;
+};
+
+// Returns the range of a linear function over a box, by the box's centre and half extent.
+Range range_of(const glm::dvec4& row, const Vec3& center, const Vec3& half) {
+    const double middle = glm::dot(Vec3(row), center) + row.w, reach = glm::dot(glm::abs(Vec3(row)), half);
+    return {middle - reach, middle + reach};
+}
+
+// Returns whether the box is certain not to be bent, by bounds of each coordinate apart: a fifth of the work of
+// projecting its corners, and the answer for nearly all boxes.
+bool surely_straight(const FadedEdges& fade, const Box& box) {
+    const Vec3 center = box.center(), half = 0.5 * box.extent();
+    double w_lo = HUGE_VAL;
+    std::array<std::array<Range, 3>, 3> clip;  // of each of the three: x, y and w
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (int row = 0; row < 3; ++row) clip[i][row] = range_of(fade.rows[i][row], center, half);
+        w_lo = std::min(w_lo, clip[i][2].lo);
+    }
+    if (fade.middle_to_screen_m - clip[2][2].lo <= 0.0) return true;
+    if (w_lo < kNearest * fade.middle_to_screen_m) return false;
+    for (int axis = 0; axis < 2; ++axis) {
+        std::array<Range, 3> seen;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Range& at = clip[i][axis];
+            const Range& w = clip[i][2];
+            seen[i] = {at.lo / (at.lo < 0.0 ? w.lo : w.hi), at.hi / (at.hi < 0.0 ? w.hi : w.lo)};
+        }
+        const double lo = seen[2].lo, hi = seen[2].hi;
+        double half_parallax = 0.0;
+        for (std::size_t i = 0; i < 2; ++i) half_parallax = std::max({half_parallax, seen[i].hi - lo, hi - seen[i].lo});
+        const double band = std::max(fade.band, 1.125 * half_parallax) + kRounding;
+        if (std::max(hi, -lo) > 1.0 - band) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
 bool bent(const EyePair& eyes, const Box& box) {
     if (!eyes.fade) return false;
     const FadedEdges& fade = *eyes.fade;
+    if (surely_straight(fade, box)) return false;
     std::array<Box, 3> seen;  // as seen by each of the three, on the screen; without depth
     double farthest_m = 0.0, nearest_m = HUGE_VAL;
     for (int corner = 0; corner < 8; ++corner) {
@@ -137,7 +186,6 @@ bool bent(const EyePair& eyes, const Box& box) {
     }
     if (farthest_m <= 0.0) return false;                              // at or behind the screen
     if (nearest_m < kNearest * fade.middle_to_screen_m) return true;  // cannot be projected
-    constexpr double kRounding = 1e-4;
     for (int axis = 0; axis < 2; ++axis) {
         const double lo = seen[2].lo[axis], hi = seen[2].hi[axis];
         double half_parallax = 0.0;
@@ -173,7 +221,11 @@ bool behind(const Vec3& eye, const Box& box, const Box& occluder) {
 }
 
 Hidden hidden(const EyePair& eyes, const PatchShape& patch, std::span<const Box> occluders) {
-    if (bent(eyes, patch.bounds)) {
+    return hidden(eyes, patch, occluders, bent(eyes, patch.bounds));
+}
+
+Hidden hidden(const EyePair& eyes, const PatchShape& patch, std::span<const Box> occluders, bool is_bent) {
+    if (is_bent) {
         const bool none_sees = std::ranges::all_of(
             eyes.eyes, [&](const EyeFrustum& eye) { return beside(eye, eyes.fade->middle, patch.bounds); });
         return none_sees ? Hidden::beside : Hidden::no;

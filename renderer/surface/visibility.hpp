@@ -44,6 +44,8 @@ struct EyeFrustum {
 struct FadedEdges {
     EyeFrustum middle;
     std::array<Mat4, 3> clip_from_patch;  // of the left eye, the right eye and the middle; -1 to 1 over the screen
+    // Of these the rows of x, y and w.
+    std::array<std::array<glm::dvec4, 3>, 3> rows;
     double middle_to_screen_m = 0.0, band = 0.0;
 };
 struct EyePair {
@@ -72,5 +74,7 @@ enum class Hidden : std::uint8_t { no, beside, turned_away, behind };
 // no single eye sees it: only `beside` can hide it. Occluders count as long as no patch of the workpiece is bent: bent
 // patches may uncover what lies behind them.
 [[nodiscard]] Hidden hidden(const EyePair& eyes, const PatchShape& patch, std::span<const Box> occluders);
+// The same for a caller that has asked already whether the patch is bent().
+[[nodiscard]] Hidden hidden(const EyePair& eyes, const PatchShape& patch, std::span<const Box> occluders, bool is_bent);
 
 }  // namespace burin::renderer

@@ -88,6 +88,8 @@ std::optional<FrameInput> LiveFrames::next_input() {
     times.reached(FrameStage::wait);
     for (InputEvent& event : in_order_of_time(std::move(happened), take_tracker_input()))
         input_.push(event.time_ns, std::move(event.input));
+    for (std::string& command : session_.hands().take_commands())
+        input_.push(clock_.now_ns() - session_.start_ns(), CommandInput{std::move(command), {}});
     recorder_.outside();
     const auto frame =
         input_.begin_frame(clock_.now_ns() - session_.start_ns(), plan_.display_ns - session_.start_ns());

@@ -103,6 +103,15 @@ std::vector<std::string> SessionHands::take_messages() {
     return all;
 }
 
+std::vector<std::string> SessionHands::take_commands() {
+    std::vector<std::string> all;
+    for (const auto& hand : hands_) {
+        if (hand->device.messages == nullptr) continue;
+        for (std::string& command : hand->device.messages->take_commands()) all.push_back(std::move(command));
+    }
+    return all;
+}
+
 std::vector<haptics::HapticChannels*> SessionHands::channels_of_parts() {
     std::vector<haptics::HapticChannels*> channels;
     for (const auto& part : parts_) channels.push_back(&part->channels);

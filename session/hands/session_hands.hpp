@@ -75,6 +75,8 @@ public:
     [[nodiscard]] std::optional<devices::AmplifierAnswer> switch_amplifiers(std::size_t hand, bool on);
     // Returns what the devices have said since the last call, each with its hand's name.
     [[nodiscard]] std::vector<std::string> take_messages();
+    // Returns the commands that the devices' keys have given since the last call: "undo".
+    [[nodiscard]] std::vector<std::string> take_commands();
     // Returns the newest tool state that the loop has published for a part.
     [[nodiscard]] const haptics::ToolState& newest_tool(std::size_t part) { return channels(part).tool.newest(); }
 
@@ -89,8 +91,6 @@ public:
     }
     // Returns whether a person's hand feels any of the devices.
     [[nodiscard]] bool felt_by_person() const;
-    // Returns whether a recording leads the part's device.
-    [[nodiscard]] bool is_played(std::size_t part) const { return hands_[parts_[part]->of.hand]->device.is_played; }
 
 private:
     struct Hand {

@@ -62,7 +62,8 @@ PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::Ga
     const std::string name = hands.parts() > 1 ? "Hand, " + hands.name_of(part) : "Hand";
     if (cause != haptics::GateCause::none) return {name, haptics::text(cause), Condition::fault};
     const devices::DeviceDescription& device = hands.device(part);
-    if (device.felt_by_person || hands.is_played(part)) return {name, device.name, Condition::good};
+    if (device.felt_by_person) return {name, device.name, Condition::good};
+    if (*device.led_by != '\0') return {name, std::string("simulated, led by ") + device.led_by, Condition::good};
     const bool led = hands.part_of_hand(part).hand == led_hand;
     return {name, led ? "simulated, steered by the mouse" : "simulated, rests", Condition::good};
 }

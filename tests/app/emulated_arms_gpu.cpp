@@ -89,6 +89,34 @@ TEST(EmulatedArms, TwoOfTwoMakersAreTwoHandsOfOneScene) {
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
+TEST(EmulatedArms, ASpaceMouseLeadsAStylusThatCarvesAndIsDoneAgainWithoutIt) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 cap\n0.1 mouse 160 90\n7 close\n");
+    for (const char* layout : {"joined", "split"}) {
+        const auto recorded = at.run(emulators(burin, "a", std::string("spacemouse --layout ") + layout) + burin +
+                                     " sculpt --workpiece ball:0.08 --resolution 64 --device spacemouse:emulated-$$-a "
+                                     "--input s.txt --offscreen --width 320 --height 180 --record " +
+                                     layout + ".session");
+        ASSERT_EQ(recorded.status, 0) << recorded.output;
+        const auto ticks =
+            at.run(burin + " convert " + layout + ".session --to csv --columns 'buttons,commanded_force_device_z_N' -");
+        ASSERT_EQ(ticks.status, 0) << ticks.output;
+        std::istringstream lines(ticks.output);
+        int pressed = 0, felt = 0;
+        for (std::string line; std::getline(lines, line);) {
+            pressed += line.starts_with("1,") ? 1 : 0;
+            felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
+        }
+        EXPECT_GT(pressed, 500) << layout;
+        EXPECT_GT(felt, 100) << "what it cuts pushes the stylus back: " << layout;
+        const auto replayed = at.run(burin + " replay " + layout + ".session");
+        EXPECT_EQ(replayed.status, 0) << replayed.output;
+        EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    }
+}
+
 TEST(EmulatedArms, SaysThatThereIsNone) {
     const Workplace at;
     at.write("s.txt", "burin-input 1 omni\n0.1 close\n");

@@ -82,6 +82,9 @@ TEST(RecordedDevice, GivesEachTurnTheSampleOfItsTick) {
     EXPECT_EQ(played("recorded:s.session", six, {5 * kMs + 900'000, 6 * kMs, 7 * kMs + 999'999, 8 * kMs}),
               (std::vector<long>{0, 1, 2, 3}))
         << "late turns repeat nothing and leave nothing out";
+    EXPECT_EQ(played("recorded:s.session", six, {5 * kMs, 7 * kMs + 200'000, 7 * kMs + 300'000, 8 * kMs}),
+              (std::vector<long>{0, 1, 2, 3}))
+        << "a turn that is late by more than a period, and the next ones, which make up for it";
     EXPECT_EQ(played("recorded:s.session", six, {5 * kMs, 6 * kMs, 9 * kMs, 10 * kMs}), (std::vector<long>{0, 1, 4, 5}))
         << "missed deadlines";
     EXPECT_EQ(played("recorded:s.session:right", MadeUp({0, 1, 4, 5}), {0, kMs, 2 * kMs, 3 * kMs, 4 * kMs, 5 * kMs}),

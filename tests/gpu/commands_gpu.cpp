@@ -232,4 +232,51 @@ TEST_F(CommandsGpu, RefusesWhatIsNotSpirv) {
         {.spirv = rubbish, .storage_buffers = 1, .push_constant_bytes = 0, .constants = {}, .name = "rubbish"}));
 }
 
+// A frame that brings over as much as the one before asks the driver for no memory: a card's takes 0.1 ms and more.
+TEST_F(CommandsGpu, UploadsUseTheirStagingMemoryAgainAsSoonAsTheDeviceHasReadIt) {
+    constexpr std::uint32_t kWords = 300'000;  // more than one chunk of staging
+    const Buffer to = make(device(), BufferUse::device_storage, kWords);
+    std::vector<std::uint32_t> values(kWords);
+    std::uint64_t after_first = 0;
+    for (std::uint32_t frame = 0; frame < 20; ++frame) {
+        std::iota(values.begin(), values.end(), 1000 * frame);
+        auto commands = Commands::begin(device());
+        ASSERT_TRUE(commands);
+        constexpr std::uint32_t kPiece = 7001;
+        for (std::uint32_t first = 0; first < kWords; first += kPiece)
+            commands->upload(to, std::uint64_t{4} * first,
+                             std::as_bytes(std::span(values).subspan(first, std::min(kPiece, kWords - first))));
+        auto submission = std::move(*commands).submit();
+        ASSERT_TRUE(submission);
+        ASSERT_TRUE(submission->wait());
+        if (frame == 0) after_first = device().core()->allocations;
+    }
+    EXPECT_EQ(device().core()->allocations, after_first);
+    const auto bytes = read(device(), to, 0, to.size_bytes());
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(words_of(*bytes), values);
+}
+
+// What the device has not read yet is not written over.
+TEST_F(CommandsGpu, UploadsOfWorkThatIsUnderWayKeepTheirStagingMemory) {
+    constexpr std::uint32_t kWords = 50'000, kFrames = 8;
+    std::vector<Buffer> to;
+    std::vector<Submission> under_way;
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+        to.push_back(make(device(), BufferUse::device_storage, kWords));
+        auto commands = Commands::begin(device());
+        ASSERT_TRUE(commands);
+        const std::vector<std::uint32_t> values(kWords, frame + 1);
+        commands->upload(to.back(), 0, std::as_bytes(std::span(values)));
+        auto submission = std::move(*commands).submit();
+        ASSERT_TRUE(submission);
+        under_way.push_back(std::move(*submission));
+    }
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+        const auto bytes = read(device(), to[frame], 0, to[frame].size_bytes());
+        ASSERT_TRUE(bytes);
+        EXPECT_EQ(words_of(*bytes), std::vector<std::uint32_t>(kWords, frame + 1));
+    }
+}
+
 }  // namespace burin::gpu
