@@ -118,7 +118,7 @@ TEST(RecordedHand, IsRecordedAndReplayedItself) {
     static_cast<void>(recorded_in_steps(short_options(first), kCarves));
     SculptOptions again = short_options((at / "again.session").string());
     again.live.device = "recorded:" + first;
-    static_cast<void>(recorded_in_steps(again, kNobody));
+    EXPECT_GT(record_live(again, kNobody), 0u);
     auto reader = record::RecordReader::open(again.live.record);
     ASSERT_TRUE(reader) << reader.error().line();
     auto log = read_session_log(*reader);
@@ -126,7 +126,7 @@ TEST(RecordedHand, IsRecordedAndReplayedItself) {
     const Judged found = judged(std::move(*log), again.live.record, again);
     EXPECT_TRUE(found.done) << found.done.error().line();
     EXPECT_FALSE(found.found.difference);
-    EXPECT_GE(found.found.ticks, 480u);
+    EXPECT_GE(found.found.ticks, 100u);
 }
 
 TEST(RecordedHand, IsChosenByNameOfSeveral) {
