@@ -230,6 +230,10 @@ private:
         if (const char* const led_by = part.device->description().led_by; *led_by != '\0')
             return note("force" + part.of, Verdict::skipped,
                         std::string("nobody would feel it: what feels is simulated, and led by ") + led_by);
+        if (!part.device->description().gives_way)
+            return note(
+                "force" + part.of, Verdict::skipped,
+                "its simulated fingers hold against a gentle force: it shows on a glove's line, real or emulated");
         if (part.device->description().drives_one_way)
             return tap(part, part.sample.drive.along_device, "outwards", true);
         tap(part, Vec3(1.0, 0.0, 0.0), "to the right and left", false);

@@ -69,7 +69,9 @@ DevicesCommand::DevicesCommand(Command app)
     emulate_ = command_.subcommand(
         "emulate", "A device that is not there: prints how a session finds it, and runs until it is ended");
     emulate_.option("NAME", options_->emulated, devices::emulator_usage()).required();
-    emulate_.option("--at", options_->emulator.at, "Where it is found, HOST, PORT or HOST:PORT; else its usual place");
+    emulate_.option(
+        "--at", options_->emulator.at,
+        "Where it is found, HOST, PORT or HOST:PORT, or a name that begins with emulated; else its usual place");
     emulate_.option("--layout", options_->emulator.layout,
                     "Of a spacemouse's reports: split or joined, which is usual");
     emulate_.option("--seconds", options_->for_s, "End after so many; 0: when it is ended by a signal")

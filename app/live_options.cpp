@@ -30,6 +30,18 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
         "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +
             "; several hands have one each: --device right=simulated --device left=simulated-wand. There are " +
             devices::haptic_usage() + device_help);
+    command.option(
+        "--mouse",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (given.empty()) return {};
+            const auto mode = session::parse_mouse_mode(given.back(), "--mouse " + given.back());
+            if (!mode) return std::unexpected(mode.error());
+            options.mouse = *mode;
+            return {};
+        },
+        "surface: the tool is where the cursor points, as usual for a person who carves; free: the mouse moves it "
+        "along "
+        "the screen and the wheel in depth, as usual for an --input");
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");
     command.flag("--panel-window", options.panel_window,

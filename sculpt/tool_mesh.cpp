@@ -175,6 +175,8 @@ Spine spine_of(const compute::ToolShape& shape) {
     return {box.center() - half, box.center() + half, radius_m};
 }
 
+double tip_m(const compute::ToolShape& shape) { return -bounds_of(shape).lo.y; }
+
 double shaft_height_m(const compute::ToolShape& shape) {
     return std::holds_alternative<compute::BallTool>(shape) ? 0.0 : bounds_of(shape).hi.y;
 }

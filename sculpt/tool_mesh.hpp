@@ -34,6 +34,9 @@ struct Spine {
 // The height, along the tool's +Y, at which its shaft begins: a ball's middle, the top of others.
 [[nodiscard]] double shaft_height_m(const compute::ToolShape& shape);
 
+// How far the tool's tip, the end of it along its own -Y, is from its origin.
+[[nodiscard]] double tip_m(const compute::ToolShape& shape);
+
 // Triangles to be drawn: few, and turned outlines in 48 parts around. Of a mesh, its own.
 [[nodiscard]] geometry::TriangleMesh drawing_of(const compute::ToolShape& shape);
 

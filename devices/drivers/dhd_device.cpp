@@ -54,9 +54,11 @@ Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand
         return fail("haptic device " + name, "no emulator runs by this name",
                     "start it in another terminal: burin devices emulate dhd" +
                         (first == "emulated" ? std::string() : " --at " + first));
-    auto api = at != std::string::npos ? load_dhd_api(choice_at_library.substr(at + 1))
-               : is_emulated           ? load_dhd_api(library_beside(kEmulatedDhdLibrary))
-                                       : load_usual_dhd_api();
+    const auto library = library_chosen("haptic device " + name, at != std::string::npos,
+                                        at != std::string::npos ? choice_at_library.substr(at + 1) : std::string(),
+                                        first, kEmulatedDhdLibrary, {});
+    if (!library) return std::unexpected(library.error());
+    auto api = library->empty() ? load_usual_dhd_api() : load_dhd_api(*library);
     if (!api) return std::unexpected(api.error());
     auto servo = LineServo::open(std::make_unique<DhdLine>(name, *api, *choice));
     if (!servo) return std::unexpected(servo.error());

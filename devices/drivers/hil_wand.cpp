@@ -102,6 +102,7 @@ HilError HilWand::set_to_zero() noexcept {
 }
 
 void HilWand::serve() {
+    static_cast<void>(ask_for_servo_priority());
     const Nanoseconds period_ns = nanoseconds(1.0 / wand_.rate_Hz);
     Nanoseconds due_ns = clock_.now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {
@@ -127,7 +128,7 @@ void HilWand::turn(Nanoseconds now_ns) noexcept {
         is_sound && is_on_ && !needs_jig_ && (error_ns_ == 0 || now_ns - error_ns_ >= kServedErrorHolds_ns);
     state.fault = is_well ? DeviceFault::none : DeviceFault::other;
     exchange_.publish();
-    const WandJoints volts = is_well ? volts_for(exchange_.wanted(now_ns)) : kZeroVolts;
+    const WandJoints volts = is_well ? volts_for(exchange_.wanted(now_ns), now_ns) : kZeroVolts;
     error = api_.write_analog(card_, kChannel.data(), kChannels, volts.data());
     if (error < 0) fail_with(error, now_ns);
 }
@@ -153,12 +154,17 @@ bool HilWand::read_pose(ServedState& state, Nanoseconds now_ns) noexcept {
     return is_sound;
 }
 
-WandJoints HilWand::volts_for(const DeviceWrench& wrench) noexcept {
+// Zero where a motor would get what is no number; the next samples have a fault then.
+WandJoints HilWand::volts_for(const DeviceWrench& wrench, Nanoseconds now_ns) noexcept {
     const Quat back = glm::conjugate(device_from_maker_.orientation);
     const WandForce force{back * kept_within(wrench.force_device_N, description_.axis_max_force_N, at_force_),
                           back * kept_within(wrench.torque_device_Nm, description_.max_torque_Nm, at_torque_)};
     const WandVolts volts =
         volts_of_torques(wand_.mechanism, motor_torques_Nm(wand_.mechanism.arm, axis_, jacobian_, force));
+    if (!volts.is_sound) {
+        error_ns_ = now_ns;
+        if (!std::exchange(told_number_, true)) tell(Notice::no_number);
+    }
     for (std::size_t i = 0; i < kWandJoints; ++i)
         if ((volts.limited >> i & 1u) != 0) at_motor_[i].fetch_add(1, std::memory_order_relaxed);
     if (volts.limited != 0 && !std::exchange(told_motor_, true)) tell(Notice::motor_limit);
@@ -270,6 +276,9 @@ std::vector<std::string> HilWand::take_messages() {
             case Notice::sound: messages.push_back(who + ": its encoders agree again"); break;
             case Notice::no_watchdog:
                 messages.push_back(who + " has no watchdog: if this program dies, switch the amplifiers off by hand");
+                break;
+            case Notice::no_number:
+                messages.push_back(who + ": a motor's current comes out as no number: no force");
                 break;
             case Notice::motor_limit:
                 messages.push_back(who + ": a motor is at the current that it bears for long, and the force is less");

@@ -54,7 +54,16 @@ public:
     [[nodiscard]] WandLimits limits() const noexcept;
 
 private:
-    enum class Notice : std::uint8_t { failed, back, needs_jig, contradicts, no_watchdog, motor_limit, sound };
+    enum class Notice : std::uint8_t {
+        failed,
+        back,
+        needs_jig,
+        contradicts,
+        no_watchdog,
+        motor_limit,
+        sound,
+        no_number
+    };
     struct Told {
         Notice what = Notice::failed;
         HilError error = 0;
@@ -70,7 +79,7 @@ private:
     [[nodiscard]] HilError mind_amplifiers(Nanoseconds now_ns) noexcept;
     [[nodiscard]] HilError mind_watchdog(Nanoseconds now_ns) noexcept;
     [[nodiscard]] bool read_pose(ServedState& state, Nanoseconds now_ns) noexcept;
-    [[nodiscard]] WandJoints volts_for(const DeviceWrench& wrench) noexcept;
+    [[nodiscard]] WandJoints volts_for(const DeviceWrench& wrench, Nanoseconds now_ns) noexcept;
     void tell(Notice what, HilError error = 0) noexcept { told_.push({what, error}); }
 
     HilApi api_;
@@ -87,7 +96,8 @@ private:
     std::array<std::atomic<std::uint64_t>, kWandJoints> at_motor_{};
     // Of the serving thread:
     HilCard card_ = nullptr;
-    bool is_on_ = false, has_watchdog_ = false, needs_jig_ = false, contradicts_ = false, told_motor_ = false;
+    bool is_on_ = false, has_watchdog_ = false, needs_jig_ = false, contradicts_ = false, told_motor_ = false,
+         told_number_ = false;
     Nanoseconds error_ns_ = 0, tried_ns_ = 0;
     WandJoints joints_{};
     WandAxis axis_;

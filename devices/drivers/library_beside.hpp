@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "base/error.hpp"
+
 namespace burin::devices {
 
 // Returns the path of a library there; its name alone where it is in neither place.
@@ -14,6 +16,23 @@ namespace burin::devices {
     for (const std::filesystem::path& at : {folder, folder.parent_path()})
         if (std::filesystem::exists(at / name, ignored)) return (at / name).string();
     return name;
+}
+
+// Returns which library a device is opened by: the one that is named behind an @, an emulated device's, which has to be
+// beside the program, or the maker's usual one. `address` is what stands before the @ and `library` what stands behind
+// it. `where` names the device in an Error.
+[[nodiscard]] inline Result<std::string> library_chosen(const std::string& where, bool is_named,
+                                                        const std::string& library, const std::string& address,
+                                                        const char* emulated, const std::string& usual) {
+    if (is_named && library.empty())
+        return fail(where, "names no library behind @", "write the library's file there, or leave the @ out");
+    if (is_named) return library;
+    if (!address.starts_with("emulated")) return usual;
+    std::string beside = library_beside(emulated);
+    if (beside == emulated)
+        return fail(where, "the emulated library " + beside + " is not beside the program",
+                    "build it too, and keep it in the program's folder or the one above: no maker's library is needed");
+    return beside;
 }
 
 }  // namespace burin::devices

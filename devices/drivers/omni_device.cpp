@@ -22,10 +22,11 @@ DeviceDescription omni_description() {
 Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock) {
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
-    std::string library = kHdLibrary;
-    if (name.starts_with("emulated")) library = library_beside(kEmulatedHdLibrary);
-    if (at != std::string::npos) library = name_at_library.substr(at + 1);
-    auto servo = HdServo::of_library(library);
+    const auto library = library_chosen("haptic device omni " + name, at != std::string::npos,
+                                        at != std::string::npos ? name_at_library.substr(at + 1) : std::string(), name,
+                                        kEmulatedHdLibrary, kHdLibrary);
+    if (!library) return std::unexpected(library.error());
+    auto servo = HdServo::of_library(*library);
     if (!servo) return std::unexpected(servo.error());
     auto device = (*servo)->open(name);
     if (!device) {

@@ -40,6 +40,7 @@ WandAddress wand_address(const std::string& text) {
     // A card on another machine has its address behind a sign of the same kind.
     if (const std::size_t at = rest.rfind('@'); at != std::string::npos && !rest.substr(at).contains("://")) {
         address.library = rest.substr(at + 1);
+        address.names_library = true;
         rest.resize(at);
     }
     if (rest.ends_with(".toml")) {
@@ -48,9 +49,6 @@ WandAddress wand_address(const std::string& text) {
         rest.resize(comma == std::string::npos ? 0 : comma);
     }
     if (!rest.empty()) address.card = rest;
-    if (address.library.empty())
-        address.library =
-            address.card.starts_with("emulated") ? library_beside(kEmulatedHilLibrary) : std::string(kHilLibrary);
     return address;
 }
 
@@ -64,7 +62,10 @@ Result<OpenedDevice> open_wand(const std::string& text, AnyHand hand, Clock& clo
     const WandAddress address = wand_address(text);
     auto wand = wand_at(text);
     if (!wand) return std::unexpected(wand.error());
-    auto served = HilWand::open(address.library, address.card, *wand);
+    const auto library = library_chosen("haptic device wand:" + text, address.names_library, address.library,
+                                        address.card, kEmulatedHilLibrary, kHilLibrary);
+    if (!library) return std::unexpected(library.error());
+    auto served = HilWand::open(*library, address.card, *wand);
     if (!served) return std::unexpected(served.error());
     Amplifiers* const amplifiers = served->get();
     const DeviceDescription description = (*served)->description();

@@ -23,7 +23,8 @@ inline constexpr const char* kHilWand = "wand";
 inline constexpr const char* kEmulatedHilLibrary = "libburin_emulated_hil.so";
 
 struct WandAddress {
-    std::string card = "0", file, library;  // the file may be empty
+    std::string card = "0", file, library;  // file and library may be empty
+    bool names_library = false;             // by an @
 };
 [[nodiscard]] WandAddress wand_address(const std::string& text);
 

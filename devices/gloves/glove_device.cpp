@@ -32,6 +32,7 @@ DeviceDescription glove_description(bool on_a_line) {
     d.joints.count = kFingerJoints;
     d.drives_one_way = true;
     d.felt_by_person = on_a_line;
+    d.gives_way = on_a_line;  // a simulated finger goes where the grip leads it, until it is pushed by 2 N
     return d;
 }
 

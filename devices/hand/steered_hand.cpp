@@ -116,6 +116,13 @@ Result<SteeredHand> SteeredHand::create(HandSteering* channel, const HandTarget&
     return hand;
 }
 
+Result<void> SteeredHand::hold_by(const HandGrip& grip) {
+    if (!is_sensible(grip))
+        return fail("hand grip", "mass, stiffness and damping must be finite and not negative", "correct them");
+    grip_ = grip;
+    return {};
+}
+
 HandTarget SteeredHand::target(double time_s) noexcept {
     const Nanoseconds asked_ns = nanoseconds(time_s);
     look_at_arrivals();

@@ -108,6 +108,8 @@ public:
     // The hand's desired state at a time; for a time before the last call, the last state.
     [[nodiscard]] HandTarget target(double time_s) noexcept;
     [[nodiscard]] const HandGrip& grip() const noexcept { return grip_; }
+    // Holds more or less firmly, before the first call of target(). Fails on a grip with negative numbers.
+    [[nodiscard]] Result<void> hold_by(const HandGrip& grip);
 
 private:
     static constexpr Nanoseconds kNoNeed_ns = -(Nanoseconds{1} << 60);

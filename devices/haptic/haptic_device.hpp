@@ -48,6 +48,8 @@ struct DeviceDescription {
     // What leads the hand of a simulated device where that is neither script nor mouse, for people: "a SpaceMouse".
     const char* led_by = "";
     bool has_buttons = true;  // false: its samples never have one
+    // Whether a small force moves what holds it. A hand that is simulated may hold against it.
+    bool gives_way = true;
     // The driver that knows them and their Jacobian fills resolution_m and orientation_step_rad by step_at_handle().
     Joints joints{};
 };

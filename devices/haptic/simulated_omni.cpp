@@ -32,7 +32,7 @@ Vec3 clamped(const Vec3& force_N, double max_N) {
 
 SimulatedOmni::SimulatedOmni(AnyHand hand, const OmniModel& model, Clock* clock)
     : hand_(std::move(hand)), model_(model), clock_(clock) {
-    description_.name = "simulated PHANTOM Omni";
+    description_.name = model_.name;
     description_.workspace_m = model_.workspace_m;
     description_.resolution_m = model_.resolution_m;
     description_.max_force_N = model_.max_force_N;

@@ -22,6 +22,7 @@
 namespace burin::devices {
 
 struct OmniModel {
+    const char* name = "simulated PHANTOM Omni";
     Vec3 workspace_m{0.1626, 0.1219, 0.0711};
     double resolution_m = 0.000055;
     double apparent_mass_kg = 0.045;

@@ -269,6 +269,8 @@ private:
         WandMechanism& m = wand_.mechanism;
         constexpr double kMostLink_m = 2.0;
         m.card = t.text("card").value_or(m.card);
+        if (m.card.empty())
+            t.refuse("card", "is empty", "write the card's type as the maker's library calls it, such as \"q8\"");
         m.arm.shoulders_m = bounded(t, "shoulders", 0.0, kMostLink_m, m.arm.shoulders_m);
         m.arm.upper_m = bounded(t, "upper", 1e-3, kMostLink_m, m.arm.upper_m);
         m.arm.fore_m = bounded(t, "fore", 1e-3, kMostLink_m, m.arm.fore_m);
@@ -287,6 +289,14 @@ private:
         read_joints(t, "enable_lines", 0.0, 63.0, 1.0, lines);
         std::ranges::transform(lines, m.enable_lines.begin(),
                                [](double line) { return static_cast<std::uint32_t>(line); });
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (lines[i] != std::floor(lines[i]))
+                t.refuse("enable_lines", formatted("has %g", lines[i]), "write the whole number of a digital output");
+            if (std::find(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(i), lines[i]) !=
+                lines.begin() + static_cast<std::ptrdiff_t>(i))
+                t.refuse("enable_lines", formatted("has %g twice", lines[i]),
+                         "write six different ones: each amplifier is switched by its own");
+        }
         if (t.has("jig") && !wand_tips(m.arm, m.jig_rad))
             t.refuse("jig", "is a pose that its linkages do not reach",
                      "see the order of the joints in docs/devices.md");

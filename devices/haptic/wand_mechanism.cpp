@@ -32,6 +32,7 @@ WandVolts volts_of_torques(const WandMechanism& wand, const WandJoints& torques_
     double share = 1.0;
     for (std::size_t i = 0; i < kWandJoints; ++i) {
         current_A[i] = torques_Nm[i] / wand.torque_Nm_per_A[i];
+        if (!std::isfinite(current_A[i])) return {.volts = {}, .limited = 0, .is_sound = false};
         if (!(std::abs(current_A[i]) > wand.most_A[i])) continue;
         share = std::min(share, wand.most_A[i] / std::abs(current_A[i]));
         given.limited |= 1u << i;

@@ -37,10 +37,12 @@ struct WandMechanism {
 [[nodiscard]] WandJoints counts_of_joints(const WandMechanism& wand, const WandJoints& joints_rad);
 
 // What the amplifiers are told for torques at the joints. Where a motor would get more than it bears, all get less, so
-// that the direction of the force stays; `limited` has such a motor's bit.
+// that the direction of the force stays; `limited` has such a motor's bit. Where a torque or a current is no number,
+// all get zero, and it is not sound: a fault.
 struct WandVolts {
     WandJoints volts{};
     std::uint32_t limited = 0;
+    bool is_sound = true;
 };
 [[nodiscard]] WandVolts volts_of_torques(const WandMechanism& wand, const WandJoints& torques_Nm);
 [[nodiscard]] WandJoints torques_of_volts(const WandMechanism& wand, const WandJoints& volts);

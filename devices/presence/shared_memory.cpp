@@ -2,11 +2,13 @@
 #include "devices/presence/shared_memory.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <string_view>
 
@@ -59,6 +61,15 @@ void close_shared(const SharedBytes& bytes, std::size_t size) {
     if (bytes.at == nullptr) return;
     ::munmap(bytes.at, size);
     if (!bytes.owned.empty()) ::shm_unlink(bytes.owned.c_str());
+}
+
+bool take_ownership(std::atomic<std::uint32_t>& owner) noexcept {
+    const auto own = static_cast<std::uint32_t>(::getpid());
+    // acquire and release: what the last owner wrote is seen before the new one writes.
+    std::uint32_t found = owner.load(std::memory_order_acquire);
+    while (found == 0 || (::kill(static_cast<pid_t>(found), 0) != 0 && errno == ESRCH))
+        if (owner.compare_exchange_weak(found, own, std::memory_order_acq_rel)) return true;
+    return false;
 }
 
 std::vector<std::string> shared_names(const char* prefix) {

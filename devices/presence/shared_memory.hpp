@@ -64,15 +64,25 @@ struct SharedBytes {
 void close_shared(const SharedBytes& bytes, std::size_t size);
 [[nodiscard]] std::vector<std::string> shared_names(const char* prefix);
 
+// Makes this process the owner of an emulated device, of which there is one at a time: false where another that lives,
+// or this one, has it already. One that has died is no owner. Of several that ask at once one gets it. Any thread.
+[[nodiscard]] bool take_ownership(std::atomic<std::uint32_t>& owner) noexcept;
+
 // Memory of one Layout, mapped while the object lives. A Layout has kPrefix, and is_alive(now_ns) for its emulator.
 template <typename Layout>
 class SharedMemory {
 public:
     // Makes it, as an emulator does: nothing where another lives by that name, or the system refuses. It is gone when
-    // the object ends.
+    // the object ends. What one that was killed just now has left looks alive until it has been silent for
+    // kSharedSilent_ns: that is waited for.
     [[nodiscard]] static std::optional<SharedMemory> create(const std::string& name) {
         MonotonicClock clock;
-        if (const auto other = open(name); other && (*other)->is_alive(clock.now_ns())) return std::nullopt;
+        const auto other = open(name);
+        const Nanoseconds until_ns = clock.now_ns() + 2 * kSharedSilent_ns;
+        while (other && (*other)->is_alive(clock.now_ns())) {
+            if (clock.now_ns() >= until_ns) return std::nullopt;
+            clock.sleep_until(clock.now_ns() + kSharedSilent_ns / 10);
+        }
         SharedBytes bytes = create_shared(Layout::kPrefix, name, sizeof(Layout));
         if (bytes.at == nullptr) return std::nullopt;
         new (bytes.at) Layout();

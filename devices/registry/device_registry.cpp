@@ -11,11 +11,13 @@
 #include "devices/drivers/wand_device.hpp"
 #include "devices/falcon/falcon_device.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/haptic/mouse_arm.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/spacemouse/spacemouse_device.hpp"
+#include "devices/trackers/tracker.hpp"
 
 namespace burin::devices {
 namespace {
@@ -25,6 +27,14 @@ Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& fil
         return fail("haptic device " + std::string(kDefaultHapticDevice), "takes no description: " + file,
                     "write the name alone");
     return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock));
+}
+
+Result<OpenedDevice> open_mouse_arm(HapticHost host, const std::string& file) {
+    if (!file.empty())
+        return fail("haptic device " + std::string(kMouseArm), "takes no description: " + file, "write the name alone");
+    if (auto* const steered = std::get_if<SteeredHand>(&host.hand))
+        if (const auto held = steered->hold_by(mouse_grip()); !held) return std::unexpected(held.error());
+    return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), mouse_arm(), &host.clock));
 }
 
 Result<WandDescription> wand_described(const std::string& file) {
@@ -145,6 +155,15 @@ constexpr std::array kKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_simulated_omni},
+    HapticKind{.name = kMouseArm,
+               .usage = "an arm without friction that goes where the mouse points, and that nobody feels",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_mouse_arm},
     HapticKind{.name = kSimulatedWand,
                .usage = "a wand that is driven in three forces and two torques, in a simulated hand; "
                         "simulated-wand:FILE.toml as FILE describes it",
@@ -279,9 +298,19 @@ Result<ChosenKind> chosen(std::string_view name) {
     const auto kind = std::ranges::find(kKinds, kind_name, &HapticKind::name);
     if (kind != kKinds.end())
         return ChosenKind{&*kind, std::string(name.substr(std::min(name.size(), kind_name.size() + 1)))};
+    const std::string where = "haptic device " + std::string(name);
+    if (tracker_kind_of(name) != nullptr)
+        return fail(where, "is a tracker, which has no force", "give it as --tracker " + std::string(name));
+    // wand@LIBRARY, where wand:@LIBRARY is meant.
+    const std::size_t end = name.find_first_of("@,=");
+    const auto meant = std::ranges::find(kKinds, name.substr(0, end), &HapticKind::name);
+    if (end != std::string_view::npos && meant != kKinds.end())
+        return fail(
+            where, "has no colon behind the device's name",
+            "write " + std::string(meant->name) + ":" + std::string(name.substr(name[end] == '@' ? end : end + 1)));
     std::array<std::string_view, kKinds.size()> names;
     std::ranges::transform(kKinds, names.begin(), &HapticKind::name);
-    return fail("haptic device " + std::string(name), "is no device that Burin knows",
+    return fail(where, "is no device that Burin knows",
                 "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
 }
 

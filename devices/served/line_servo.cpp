@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "devices/served/line_servo.hpp"
 
-#include <pthread.h>
-#include <sched.h>
-
 #include <algorithm>
 
 namespace burin::devices {
@@ -32,10 +29,7 @@ std::vector<std::string> LineServo::take_messages() {
 }
 
 void LineServo::run() {
-    // Asked for as the haptic loop asks, and done without where it is refused.
-    sched_param priority{};
-    priority.sched_priority = ::sched_get_priority_min(SCHED_FIFO) + 10;
-    static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &priority));
+    static_cast<void>(ask_for_servo_priority());
     constexpr Nanoseconds kPeriod_ns = nanoseconds(kServedTurn_s);
     Nanoseconds due_ns = clock_.now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {

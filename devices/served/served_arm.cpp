@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "devices/served/served_arm.hpp"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
 
 namespace burin::devices {
@@ -71,6 +74,12 @@ private:
 };
 
 }  // namespace
+
+bool ask_for_servo_priority() noexcept {
+    sched_param priority{};
+    priority.sched_priority = ::sched_get_priority_min(SCHED_FIFO) + 10;
+    return ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &priority) == 0;
+}
 
 Pose served_pose_at(const ServedState& before, const ServedState& newest, Nanoseconds time_ns) noexcept {
     const Nanoseconds between_ns = newest.time_ns - before.time_ns;

@@ -62,6 +62,10 @@ private:
     NewestSlot<Wanted> wanted_;
 };
 
+// Asks for a real-time priority for the calling thread, as the haptic loop asks for its own; false: it is refused, and
+// the thread does without.
+[[nodiscard]] bool ask_for_servo_priority() noexcept;
+
 // What keeps the servo of a device going. Destroying it leaves zero force and gives the device back.
 class ServedLink {
 public:

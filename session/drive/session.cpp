@@ -165,6 +165,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
         options.live.tools_of_input = tools_in(*read);
         log = std::move(*read);
     }
+    if (const auto settled = settle_mouse(options); !settled) return settled;
     if (const auto ok = check(options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());

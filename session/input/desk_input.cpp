@@ -15,8 +15,13 @@ namespace {
 
 constexpr std::uint32_t kCarve = 1u << 0, kMoveWorkspace = 1u << 1;
 
-std::optional<Gesture> gesture_of(MouseUse use, const Modifiers& held) {
-    for (const MouseGesture& g : mouse_gestures())
+// A click that moves no farther is no drag.
+constexpr double kClick_px = 4.0;
+// By so much a step of the wheel makes a stroke deeper.
+constexpr double kStrengthPerWheelStep = 1.1;
+
+std::optional<Gesture> gesture_of(MouseMode mode, MouseUse use, const Modifiers& held) {
+    for (const MouseGesture& g : mouse_gestures(mode))
         if (g.use == use && g.modifiers.shift == held.shift && g.modifiers.ctrl == held.ctrl) return g.gesture;
     return std::nullopt;
 }
@@ -29,6 +34,11 @@ struct Steps {
     std::uint32_t clicked = 0;  // buttons pressed in this step, even if released again
     Similarity change;
     std::vector<Action> actions;
+    bool missed = false;
+
+    [[nodiscard]] std::optional<Gesture> gesture_of(MouseUse use, const Modifiers& held) const {
+        return session::gesture_of(view.surface ? MouseMode::surface : MouseMode::free, use, held);
+    }
 
     void operator()(const KeyInput& in) {
         const auto key = static_cast<std::size_t>(in.key);
@@ -64,8 +74,44 @@ struct Steps {
             view.picture_px_per_px * Vec2(in.position_px.x - before->x, before->y - in.position_px.y);  // y up
         if (state.drag)
             drag(moved);
+        else if (view.surface)
+            follow_surface();
         else if (!view.mouse_captured || state.buttons != 0)
             move_stylus(moved);
+    }
+
+    // Returns where the workpiece is after what this step has changed.
+    [[nodiscard]] Similarity object_from_world() const {
+        return view.surface->cursor.object_from_world * inverse(change);
+    }
+    [[nodiscard]] std::optional<Ray> ray_object() const {
+        if (!state.mouse_px) return std::nullopt;
+        CursorView cursor = view.surface->cursor;
+        cursor.object_from_world = object_from_world();
+        return cursor.ray_object(*state.mouse_px);
+    }
+
+    // Brings the tool to where the cursor points. Returns whether that is on the surface.
+    bool follow_surface() {
+        if (!view.surface || state.drag || (view.mouse_captured && !state.on_surface.pressed)) return false;
+        const std::optional<Ray> ray = ray_object();
+        if (!ray) return false;
+        const DeskSurface& on = *view.surface;
+        ToolOnSurface tool = on.tool;
+        tool.depth_m *= state.strength;
+        tool.roll_rad += state.roll_rad;
+        const Quat object_from_screen =
+            glm::normalize(object_from_world().orientation * inverse(on.cursor.object_from_world).orientation) *
+            on.object_from_screen;
+        PointedAt pointed =
+            pointed_at(std::move(state.on_surface), *ray, *on.seen, tool, object_from_screen, on.middle_object);
+        state.on_surface = std::move(pointed.hand);
+        state.works = pointed.tool.works || !state.on_surface.pressed;
+        const Similarity device_from_object = inverse(on.object_from_device);
+        const Vec3 half = 0.5 * settings.workspace_m;
+        state.target_device_m = glm::clamp(device_from_object * pointed.tool.object_from_tool.position_m, -half, half);
+        state.led_device = glm::normalize(device_from_object.orientation * pointed.tool.object_from_tool.orientation);
+        return pointed.on_surface;
     }
 
     void move_stylus(const Vec2& moved_px) {
@@ -81,6 +127,7 @@ struct Steps {
     }
 
     void drag(const Vec2& moved_px) {
+        state.dragged_px += glm::length(moved_px);
         const Quat& q = view.world_from_screen;
         if (state.drag == Gesture::turn_stylus || state.drag == Gesture::roll_stylus) {
             turn_stylus(settings.turn_rad_per_px * moved_px);
@@ -104,7 +151,13 @@ struct Steps {
                                     glm::angleAxis(-by_rad.y, screen * Vec3(1.0, 0.0, 0.0));
         state.target_turn_device = glm::normalize(turn * state.target_turn_device);
     }
-    [[nodiscard]] Quat orientation_device() const { return state.target_turn_device * settings.rest_device; }
+    [[nodiscard]] Quat orientation_device() const {
+        return view.surface ? state.led_device : state.target_turn_device * settings.rest_device;
+    }
+    [[nodiscard]] std::uint32_t buttons() const {
+        const std::uint32_t pressed = state.buttons | clicked;
+        return view.surface && !state.works ? pressed & ~kCarve : pressed;
+    }
 
     // Modifiers come with the event or as keys of their own.
     [[nodiscard]] Modifiers held_with(const Modifiers& told) const {
@@ -112,11 +165,49 @@ struct Steps {
     }
 
     void operator()(const MouseClick& in) {
+        if (view.surface) return click_on_surface(in);
         if (in.button == MouseButton::middle)
             state.drag = in.pressed && !view.mouse_captured ? gesture_of(MouseUse::middle_drag, held_with(in.modifiers))
                                                             : std::nullopt;
         press_stylus(in, MouseButton::left, MouseUse::left_button);
         press_stylus(in, MouseButton::right, MouseUse::right_button);
+    }
+
+    // Has a button turn or move the scene while it is down.
+    void begin_drag(MouseButton button, std::optional<Gesture> gesture) {
+        if (!gesture || state.drag || state.on_surface.pressed) return;
+        state.drag = gesture;
+        state.dragged_by = button;
+        state.dragged_px = 0.0;
+    }
+
+    void click_on_surface(const MouseClick& in) {
+        const bool is_left = in.button == MouseButton::left;
+        if (!in.pressed) {
+            if (state.drag && state.dragged_by == in.button) {
+                state.drag.reset();
+                missed = missed || (is_left && state.dragged_px <= kClick_px);
+                follow_surface();
+            } else if (is_left && state.on_surface.pressed) {
+                state.on_surface.pressed = false;
+                state.on_surface.as_it_was = {};
+                state.buttons &= ~kCarve;
+                follow_surface();
+            }
+            return;
+        }
+        if (view.mouse_captured) return;
+        if (in.button == MouseButton::right)
+            begin_drag(in.button, gesture_of(MouseUse::right_button, held_with(in.modifiers)));
+        if (in.button == MouseButton::middle)
+            begin_drag(in.button, gesture_of(MouseUse::middle_drag, held_with(in.modifiers)));
+        if (!is_left || state.drag || !gesture_of(MouseUse::left_button, held_with(in.modifiers))) return;
+        if (!follow_surface()) return begin_drag(in.button, Gesture::turn_scene);
+        state.on_surface.pressed = true;
+        state.on_surface.as_it_was = *view.surface->seen;
+        state.buttons |= kCarve;
+        clicked |= kCarve;
+        follow_surface();
     }
 
     void press_stylus(const MouseClick& in, MouseButton button, MouseUse use) {
@@ -135,16 +226,34 @@ struct Steps {
         const auto gesture = gesture_of(MouseUse::wheel, held_with(in.modifiers));
         // With Shift some window systems swap the wheel's axes.
         const double steps = in.steps.y != 0.0 ? in.steps.y : held_with(in.modifiers).shift ? in.steps.x : 0.0;
+        if (gesture == Gesture::zoom_to_cursor && state.on_surface.pressed) {
+            state.strength =
+                std::clamp(state.strength * std::pow(kStrengthPerWheelStep, std::clamp(steps, -50.0, 50.0)),
+                           kLeastStrength, kMostStrength);
+            follow_surface();
+        } else if (gesture == Gesture::zoom_to_cursor) {
+            zoom(std::pow(settings.scale_per_wheel_step, std::clamp(steps, -50.0, 50.0)));
+        }
         if (gesture == Gesture::stylus_depth)
             reach(view.device_from_screen * Vec3(0.0, 0.0, -settings.depth_per_wheel_step_m * steps));
         if (gesture == Gesture::scale_scene)
             scale(std::pow(settings.scale_per_wheel_step, std::clamp(steps, -50.0, 50.0)));
     }
 
-    void scale(double factor) {
+    void scale(double factor) { scale_about(view.pivot_world, factor); }
+    void scale_about(const Vec3& place_world, double factor) {
         const double now = view.scene_scale * change.scale;
         const double allowed = std::clamp(now * factor, settings.least_scale, settings.most_scale) / now;
-        change = scaled_about(change, view.pivot_world, allowed);
+        change = scaled_about(change, place_world, allowed);
+    }
+    // Keeps what is under the cursor there; beside the workpiece, what is as far as the tool.
+    void zoom(double factor) {
+        const std::optional<Ray> ray = ray_object();
+        if (!ray) return scale(factor);
+        Vec3 place_object = state.on_surface.last ? state.on_surface.last->place_object_m : view.surface->middle_object;
+        place_object = ray->origin + glm::dot(place_object - ray->origin, ray->direction) * ray->direction;
+        if (const auto hit = view.surface->seen->first_hit(*ray)) place_object = hit->place_object_m;
+        scale_about(inverse(object_from_world()) * place_object, factor);
     }
 
     void operator()(const WindowFocus& in) {
@@ -153,6 +262,8 @@ struct Steps {
         state.modifiers = {};
         state.buttons = 0;
         state.drag.reset();
+        state.on_surface.pressed = false;
+        state.on_surface.as_it_was = {};
         state.mouse_px.reset();  // its return elsewhere is not a motion
     }
 
@@ -173,8 +284,9 @@ Vec3 direction_of(const std::bitset<kKeyCount>& keys) {
     return l > 0.0 ? sum / l : sum;
 }
 
-void fly(DeskState& state, double dt_s, const DeskSettings& settings) {
-    const Vec3 wanted = settings.flight_speed_m_per_s * (state.head_world.orientation * direction_of(state.keys));
+void fly(DeskState& state, double dt_s, bool keys_fly, const DeskSettings& settings) {
+    const Vec3 asked = keys_fly ? direction_of(state.keys) : Vec3(0.0);
+    const Vec3 wanted = settings.flight_speed_m_per_s * (state.head_world.orientation * asked);
     // v' = (wanted - v) / lag, one implicit Euler step: stable for any dt.
     state.flight_m_per_s =
         (settings.flight_lag_s * state.flight_m_per_s + dt_s * wanted) / (settings.flight_lag_s + dt_s);
@@ -195,6 +307,7 @@ Quat pen_at_rest() {
 DeskState desk_at_home(const DeskSettings& settings) {
     DeskState state;
     state.head_world = settings.home_head_world;
+    state.led_device = settings.rest_device;
     return state;
 }
 
@@ -205,22 +318,24 @@ DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double d
     DeskStep step;
     for (const InputEvent& event : events) {
         const Vec3 before_m = steps.state.target_device_m;
-        const Quat before_turn = steps.state.target_turn_device;
+        const Quat before_turn = steps.orientation_device();
         const std::uint32_t before = steps.state.buttons;
         std::visit(steps, event.input);
         const bool moved = std::holds_alternative<MouseMove>(event.input) || steps.state.target_device_m != before_m ||
-                           steps.state.target_turn_device != before_turn || steps.state.buttons != before;
+                           steps.orientation_device() != before_turn || steps.state.buttons != before;
         if (moved)
-            step.way.push_back({event.time_ns, steps.state.target_device_m, steps.orientation_device(),
-                                steps.state.buttons | steps.clicked});
+            step.way.push_back(
+                {event.time_ns, steps.state.target_device_m, steps.orientation_device(), steps.buttons()});
     }
-    fly(steps.state, dt_s, settings);
+    steps.follow_surface();  // what is under a resting cursor may have changed
+    fly(steps.state, dt_s, !view.surface, settings);
     step.target.position_device_m = steps.state.target_device_m;
     step.target.orientation_device = steps.orientation_device();
-    step.target.buttons = steps.state.buttons | steps.clicked;
+    step.target.buttons = steps.buttons();
     step.head_world = steps.state.head_world;
     step.scene_change = steps.change;
     step.actions = std::move(steps.actions);
+    step.missed = steps.missed;
     step.state = std::move(steps.state);
     return step;
 }

@@ -9,6 +9,11 @@
 // middle button and Ctrl, the stylus turns about its tip instead.
 // Head: flies with bounded speed, with soft start and stop, within a box before the screen.
 // Scene: is turned, moved and scaled about a pivot; the caller applies scene_change from the left to world_from_scene.
+//
+// On a surface (DeskView::surface) the tool is where the cursor is instead (surface_hand.hpp): the left button works
+// there, and beside the workpiece it turns the scene, as the right one does; keys do not fly the head. The scene is not
+// turned while the tool works, and the tool stays where it is while the scene is turned.
+//
 // What the panel has captured (its fields have the keyboard, or the mouse is over it) cannot be pressed here, but
 // releases count.
 // Frames and units: device frame in metres for the target, world frame for head and scene, pixels with y down for the
@@ -24,6 +29,7 @@
 #include "devices/hand/steered_hand.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
+#include "session/input/surface_hand.hpp"
 
 namespace burin::session {
 
@@ -50,6 +56,17 @@ struct DeskSettings {
     double flight_lag_s = 0.1;  // time constant of the speed behind the keys
 };
 
+// What a step must know where the tool follows a surface. seen must outlive the step.
+struct DeskSurface {
+    const SeenSurface* seen = nullptr;
+    CursorView cursor;
+    ToolOnSurface tool;  // with the whole half width as depth
+    Similarity object_from_device;
+    Quat object_from_screen{1.0, 0.0, 0.0, 0.0};
+    Vec3 middle_object{0.0};  // of the workpiece
+    Similarity world_from_object;
+};
+
 // What a step must know of the rest of the session.
 struct DeskView {
     double device_m_per_px = 0.00025;  // how far a pixel of mouse motion moves the stylus
@@ -62,7 +79,11 @@ struct DeskView {
     Vec3 pivot_world{0.0};     // fixed point of turning and scaling
     double scene_scale = 1.0;  // of world_from_scene now; for the limits
     bool keyboard_captured = false, mouse_captured = false;
+    std::optional<DeskSurface> surface;  // none: free flight
 };
+
+// Depth of a stroke as a share of the tool's half width.
+inline constexpr double kLeastStrength = 0.02, kMostStrength = 2.0;
 
 struct DeskState {
     Vec3 target_device_m{0.0};
@@ -73,7 +94,14 @@ struct DeskState {
     std::bitset<kKeyCount> keys;   // held keys, without those pressed into the panel
     Modifiers modifiers;
     std::uint32_t buttons = 0;    // of the stylus, one bit each
-    std::optional<Gesture> drag;  // of the middle button, chosen when it went down
+    std::optional<Gesture> drag;  // of the middle button, or another that turns the scene; chosen when it went down
+    MouseButton dragged_by = MouseButton::middle;
+    double dragged_px = 0.0;  // how far, since then
+    SurfaceHand on_surface;
+    double strength = 0.3;
+    double roll_rad = 0.0;                // of the tool about its axis, on a surface
+    Quat led_device{1.0, 0.0, 0.0, 0.0};  // the tool's orientation there
+    bool works = true;                    // false: what hides the stroke bears the tool, and its button does nothing
 };
 
 [[nodiscard]] DeskState desk_at_home(const DeskSettings& settings);
@@ -86,6 +114,7 @@ struct DeskStep {
     Pose head_world;
     Similarity scene_change;      // world_from_scene becomes scene_change * world_from_scene
     std::vector<Action> actions;  // in order; reset_view is among them and also resets head and stylus' turn here
+    bool missed = false;          // a click beside the workpiece
 };
 
 // Applies one step's events. dt_s: time since the step before, not negative.

@@ -53,7 +53,7 @@ constexpr std::array kFlightKeys = {
     FlightKey{Key::page_down, Flight::backwards, "Move away"},
 };
 
-constexpr std::array kMouseGestures = {
+constexpr std::array kFreeGestures = {
     MouseGesture{MouseUse::move, kNone, Gesture::move_stylus, "Move the stylus along the screen"},
     MouseGesture{MouseUse::move, kShift, Gesture::move_stylus_in_depth, "Move the stylus sideways and in depth"},
     MouseGesture{MouseUse::wheel, kNone, Gesture::stylus_depth, "Move the stylus in depth"},
@@ -70,6 +70,26 @@ constexpr std::array kMouseGestures = {
     MouseGesture{MouseUse::middle_drag, kCtrl, Gesture::turn_stylus, "Turn the stylus about its tip"},
     MouseGesture{MouseUse::middle_drag, kCtrlShift, Gesture::roll_stylus, "Turn the stylus about its shaft"},
 };
+
+constexpr std::array kSurfaceGestures = {
+    MouseGesture{MouseUse::move, kNone, Gesture::follow_surface, "The tool follows the surface under the cursor"},
+    MouseGesture{MouseUse::left_button, kNone, Gesture::work_on_surface,
+                 "Work on the surface; beside the workpiece: turn the scene"},
+    MouseGesture{MouseUse::left_button, kShift, Gesture::work_on_surface,
+                 "Work on the surface; beside the workpiece: turn the scene"},
+    MouseGesture{MouseUse::right_button, kNone, Gesture::turn_scene, "Drag: turn the scene"},
+    MouseGesture{MouseUse::right_button, kShift, Gesture::pan_scene, "Drag: move the scene along the screen"},
+    MouseGesture{MouseUse::middle_drag, kNone, Gesture::pan_scene, "Move the scene along the screen"},
+    MouseGesture{MouseUse::middle_drag, kShift, Gesture::turn_scene, "Turn the scene"},
+    MouseGesture{MouseUse::wheel, kNone, Gesture::zoom_to_cursor,
+                 "Zoom to the cursor; with the left button down: deeper or less deep"},
+    MouseGesture{MouseUse::wheel, kShift, Gesture::zoom_to_cursor,
+                 "Zoom to the cursor; with the left button down: deeper or less deep"},
+    MouseGesture{MouseUse::wheel, kCtrl, Gesture::zoom_to_cursor,
+                 "Zoom to the cursor; with the left button down: deeper or less deep"},
+};
+
+constexpr std::array<std::string_view, 2> kMouseModeNames = {"free", "surface"};
 
 constexpr std::array<std::string_view, 23> kActionNames = {"undo",
                                                            "redo",
@@ -127,7 +147,10 @@ std::string with_modifiers(const Modifiers& modifiers, const std::string& label)
 
 std::span<const ShortCut> short_cuts() { return kShortCuts; }
 std::span<const FlightKey> flight_keys() { return kFlightKeys; }
-std::span<const MouseGesture> mouse_gestures() { return kMouseGestures; }
+std::span<const MouseGesture> mouse_gestures(MouseMode mode) {
+    if (mode == MouseMode::surface) return kSurfaceGestures;
+    return kFreeGestures;
+}
 
 std::string label_of(const ShortCut& s) { return with_modifiers(s.modifiers, key_label(s.key)); }
 std::string label_of(const FlightKey& key) { return key_label(key.key); }
@@ -137,5 +160,7 @@ std::string label_of(const MouseGesture& g) {
 
 std::string_view name_of(Action action) { return kActionNames.at(static_cast<std::size_t>(action)); }
 std::span<const std::string_view> action_names() { return kActionNames; }
+std::span<const std::string_view> mouse_mode_names() { return kMouseModeNames; }
+std::string_view name_of(MouseMode mode) { return kMouseModeNames.at(static_cast<std::size_t>(mode)); }
 
 }  // namespace burin::session

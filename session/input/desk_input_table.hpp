@@ -22,11 +22,13 @@ enum class Action : std::uint8_t {
 };
 // Flight of the head while a key is held, in the head's own directions.
 enum class Flight : std::uint8_t { forwards, backwards, left, right, up, down };
+// How the mouse leads the hand's tool: along the surface that the cursor points at, or in free flight along the screen.
+enum class MouseMode : std::uint8_t { free, surface };
 // What a mouse gesture does.
 enum class Gesture : std::uint8_t {
     // clang-format off
     move_stylus, move_stylus_in_depth, carve, move_workspace, turn_scene, pan_scene, stylus_depth, scale_scene,
-    turn_stylus, roll_stylus,
+    turn_stylus, roll_stylus, follow_surface, work_on_surface, zoom_to_cursor,
     // clang-format on
 };
 
@@ -53,7 +55,7 @@ struct MouseGesture {
 
 [[nodiscard]] std::span<const ShortCut> short_cuts();
 [[nodiscard]] std::span<const FlightKey> flight_keys();
-[[nodiscard]] std::span<const MouseGesture> mouse_gestures();
+[[nodiscard]] std::span<const MouseGesture> mouse_gestures(MouseMode mode);
 
 // Labels for people: "Ctrl+Shift+Z", "[", "Middle drag".
 [[nodiscard]] std::string label_of(const ShortCut& short_cut);
@@ -63,5 +65,8 @@ struct MouseGesture {
 // Returns an action's name, such as "undo"; the command of that name, in a log or from the panel, does the same.
 [[nodiscard]] std::string_view name_of(Action action);
 [[nodiscard]] std::span<const std::string_view> action_names();  // in the order of Action
+// "free", "surface": as the option --mouse and the command have it.
+[[nodiscard]] std::span<const std::string_view> mouse_mode_names();  // in the order of MouseMode
+[[nodiscard]] std::string_view name_of(MouseMode mode);
 
 }  // namespace burin::session

@@ -62,6 +62,8 @@ Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const 
     const Vec3 first_device_m =
         handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room.of(hand).desk.rest_device})
                        : rest_device_m;
+    if (hand == state.hand && state.mouse == MouseMode::surface)
+        return parameters_of(state, room, hand).workspace.object_from_device * first_device_m;
     return inverse(state.world_from_object) * (hand_of(state, hand).world_from_device * first_device_m);
 }
 

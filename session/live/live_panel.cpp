@@ -90,6 +90,10 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.stiffness_N_per_m = value(Quantity::stiffness);
     m.velocity_filter = value(Quantity::velocity_filter);
     m.force_filter = value(Quantity::force_filter);
+    m.mouse = state.mouse;
+    m.offers_mouse = context.room.offers_mouse;
+    m.strength = value(Quantity::strength);
+    m.half_width_m = state.held ? state.held->half_width_m() : 0.0;
     m.technique = state.technique;
     m.phase = tool_state.workspace.phase;
     m.scale = value(Quantity::scale);

@@ -29,7 +29,8 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     const SceneInput left = feed_panel(input);
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     SessionStep step =
-        step_session(state_, room_, left.events, {dt_s, input.display_ns, main_eye(), tool, left.captured, of_hands});
+        step_session(state_, room_, left.events,
+                     {dt_s, input.display_ns, main_eye(), tool, left.captured, of_hands, output_, &seen_});
     state_ = std::move(step.state);
     step.orders.line = input.events.empty() ? 0 : input.events.back().line;
     for (const CommandInput& action : panel_.actions()) {
@@ -189,6 +190,7 @@ void LiveSession::take(sculpt::SurfaceUpdate news) {
     redoable_ = news.redoable;
     exporting_ = news.exporting;
     times_.cut(news.cut_ns);
+    seen_.take(news);
     updates_.push_back(std::move(news));
 }
 

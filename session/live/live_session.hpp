@@ -165,6 +165,7 @@ private:
     Room room_;
     SessionState state_;
     std::vector<haptics::ToolState> tools_;  // of each part, as the frame draws them
+    SeenSurface seen_;                       // that the mouse points at
     Nanoseconds last_step_ns_ = 0;
     wall::OutputPlace output_;                    // of the main screen
     ImageSize panel_output_;                      // of the panel's window; empty: there is none

@@ -71,6 +71,7 @@ Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
     scene_.take(std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_));
+    seen_ = SeenSurface(scene_.workpiece()->surface().lattice());
     workpiece_ = {
         .name = std::filesystem::path(options.workpiece.source).filename().string(),
         .size = in_millimetres(workpiece->size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "devices/haptic/mouse_arm.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
@@ -46,6 +47,9 @@ void use_glove(HandRoom& room) {
 
 Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wall) {
     OpenedRoom opened{room_of(wall), {}};
+    opened.room.mouse = options.live.mouse.value_or(MouseMode::free);
+    if (const auto cannot = no_surface(options)) opened.room.no_surface = cannot->what;
+    opened.room.offers_mouse = options.live.mouse.has_value() && opened.room.no_surface.empty();
     const std::vector<NamedDevice> hands = devices_of(options.live);
     opened.room.others.assign(hands.size() - 1, opened.room);
     opened.handles.assign(hands.size(), nullptr);
@@ -57,6 +61,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
             room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
             room.desk.leans_sideways = true;
         }
+        if (hands[i].device == devices::kMouseArm) steer_over(room, devices::mouse_arm().workspace_m);
         if (nature->is_worn) use_glove(room);
         if (nature->is_worn && i == 0 && options.activity != nullptr)
             if (const std::optional<LedHand> led = options.activity->led_hand()) {

@@ -238,7 +238,7 @@ private:
 
     void show_inside(const PanelModel& model) {
         if (model.show_help) {
-            panel::show_help(kit_);
+            panel::show_help(kit_, model.mouse);
             return;
         }
         if (model.show_devices) {
@@ -251,6 +251,7 @@ private:
         if (!governed) {
             panel::show_hands(kit_, model);
             panel::show_tool(kit_, model);
+            panel::show_mouse(kit_, model);
             panel::show_material(kit_, model);
             panel::show_objects(kit_, model);
             panel::show_touch(kit_, model);

@@ -44,24 +44,29 @@ void show_lines(Kit& kit, const std::vector<HelpLine>& lines, float keys_width) 
     }
 }
 
-}  // namespace
-
-void show_help(Kit& kit) {
-    if (kit.begin_card("Keys")) {
-        std::vector<HelpLine> lines;
-        for (const ShortCut& cut : short_cuts()) add_line(lines, label_of(cut), cut.description);
-        show_lines(kit, lines, 104.0f);
-    }
-    kit.end_card();
+void show_flight(Kit& kit) {
     if (kit.begin_card("Moving the head")) {
         std::vector<HelpLine> lines;
         for (const FlightKey& key : flight_keys()) add_line(lines, label_of(key), key.description);
         show_lines(kit, lines, 104.0f);
     }
     kit.end_card();
+}
+
+}  // namespace
+
+void show_help(Kit& kit, MouseMode mouse) {
+    if (kit.begin_card("Keys")) {
+        std::vector<HelpLine> lines;
+        for (const ShortCut& cut : short_cuts()) add_line(lines, label_of(cut), cut.description);
+        show_lines(kit, lines, 104.0f);
+    }
+    kit.end_card();
+    if (mouse == MouseMode::free) show_flight(kit);
     if (kit.begin_card("Mouse")) {
         std::vector<HelpLine> lines;
-        for (const MouseGesture& gesture : mouse_gestures()) add_line(lines, label_of(gesture), gesture.description);
+        for (const MouseGesture& gesture : mouse_gestures(mouse))
+            add_line(lines, label_of(gesture), gesture.description);
         show_lines(kit, lines, 104.0f);
     }
     kit.end_card();

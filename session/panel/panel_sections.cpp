@@ -275,7 +275,22 @@ void show_touch_of_others(Kit& kit, const PanelModel& model) {
     }
 }
 
+void show_mouse(Kit& kit, const PanelModel& model) {
+    if (!model.offers_mouse) return;
+    if (kit.begin_card("Mouse")) {
+        const std::vector<Item> items{item_of("mouse", "free", "Flies freely"),
+                                      item_of("mouse", "surface", "On the surface")};
+        const auto chosen = kit.segments(items, static_cast<std::size_t>(model.mouse));
+        if (chosen && *chosen != static_cast<std::size_t>(model.mouse))
+            kit.give(SetMouse{static_cast<MouseMode>(*chosen)});
+        if (model.mouse == MouseMode::surface)
+            kit.quantity(Quantity::strength, "Depth", model.strength, millimetres(model.strength * model.half_width_m));
+    }
+    kit.end_card();
+}
+
 void show_workspace(Kit& kit, const PanelModel& model) {
+    if (model.mouse == MouseMode::surface) return;
     // The text before the colon says what the phase is; the rest says what to do.
     const std::string phase = haptics::text(model.phase);
     const bool fits = phase.size() < 30;

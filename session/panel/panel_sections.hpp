@@ -21,13 +21,14 @@ void show_touch(Kit& kit, const PanelModel& model);
 void show_touch_of_others(Kit& kit, const PanelModel& model);
 // Says what a hand touches, and what its ticks tell of themselves: "in contact, sticking"; or why it gets no force.
 [[nodiscard]] std::string touch_text(const PanelTouch& touch);
+void show_mouse(Kit& kit, const PanelModel& model);
 void show_workspace(Kit& kit, const PanelModel& model);
 void show_view(Kit& kit, const PanelModel& model);
 void show_history(Kit& kit, const PanelModel& model);
 void show_state(Kit& kit, const PanelModel& model);
 void show_figures(Kit& kit, const PanelModel& model);
 void show_plots(Kit& kit, const PanelModel& model);  // side by side, always visible
-void show_help(Kit& kit);
+void show_help(Kit& kit, MouseMode mouse);
 void show_devices(Kit& kit, const PanelModel& model);
 void show_footer(Kit& kit, const PanelModel& model);
 

@@ -226,6 +226,12 @@ Parsed parse_calibrate(Arguments words) {
     return no_argument("calibrate", words[0], "write calibrate, or calibrate reset");
 }
 
+Parsed parse_mouse(Arguments words) {
+    const auto at = choice("mouse", words[0], mouse_mode_names());
+    if (!at) return std::unexpected(at.error());
+    return SetMouse{static_cast<MouseMode>(*at)};
+}
+
 template <Quantity quantity>
 Parsed parse_number_of(Arguments words) {
     return parse_quantity(descriptor_of(quantity), words[0]);
@@ -270,6 +276,10 @@ const std::vector<Entry>& entries() {
           "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
          parse_object},
         {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
+        {{"mouse", "surface|free",
+          "Whether the tool is where the cursor points, or the mouse moves it along the screen"},
+         parse_mouse},
+        entry_of<Quantity::strength>(),
         {{"hand", "NAME", "Lead the hand of this name with mouse and keys, of several"}, parse_hand},
         {{"do", "ACT...", "Tell the activity something, as the buttons of its section do"}, parse_act},
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},

@@ -67,6 +67,7 @@ enum class Quantity : std::uint8_t {
     force_filter,     // factor a of the moving average; 0: off
     scale,            // position gain of the workspace
     eye_distance,     // m
+    strength,         // of the mouse on a surface: a stroke's depth, as a share of the tool's half width
 };
 struct SetQuantity {
     Quantity quantity = Quantity::radius;
@@ -142,10 +143,16 @@ struct CalibrateHandle {
     bool operator==(const CalibrateHandle&) const = default;
 };
 
+// Has the mouse lead the hand along the surface, or freely.
+struct SetMouse {
+    MouseMode mode = MouseMode::free;
+    bool operator==(const SetMouse&) const = default;
+};
+
 using SessionCommand =
     std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
                  SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
-                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand>;
+                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse>;
 
 struct SessionState;
 

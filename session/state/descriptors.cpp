@@ -100,6 +100,13 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
                 quantity, {"eye-distance", "m", "D", "Distance between the eyes in metres"}, {0.0, 0.1, 0.0, 0.08},
                 QuantityConcern::picture, [](const State& s) { return s.interpupillary_m; },
                 [](State& s, double value) { s.interpupillary_m = value; });
+        case Quantity::strength:
+            return row(
+                quantity,
+                {"strength", "", "S", "How deep a stroke of the mouse on a surface is, in half widths of the tool"},
+                {kLeastStrength, kMostStrength, 0.05, 1.0, true}, QuantityConcern::picture,
+                [](const State& s) { return s.desk.strength; },
+                [](State& s, double value) { s.desk.strength = value; });
     }
     return {};
 }

@@ -76,6 +76,16 @@ public:
     }
     Result<void> operator()(const CalibrateHandle& wanted);
     Result<void> operator()(const LeadHand& wanted) { return lead_hand(state_, wanted.hand); }
+    Result<void> operator()(const SetMouse& set) {
+        if (set.mode == MouseMode::surface && !state_.no_surface.empty())
+            return fail("mouse surface", state_.no_surface, "fly freely");
+        if (state_.mouse == set.mode) return {};
+        state_.mouse = set.mode;
+        state_.desk.on_surface = {};
+        state_.desk.buttons = 0;
+        state_.desk.drag.reset();
+        return update_touch();
+    }
     Result<void> operator()(const EditObject& wanted) {
         const WorldObjects none;
         Result<EditedWorld> edited = session::edited(state_.world ? *state_.world : none, wanted);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+#include "devices/haptic/mouse_arm.hpp"
+
 namespace burin::session {
 namespace {
 
@@ -31,8 +34,42 @@ std::vector<NamedDevice> devices_of(const LiveOptions& live) {
     return live.hands.empty() ? std::vector<NamedDevice>{{"", live.device}} : live.hands;
 }
 
+Result<MouseMode> parse_mouse_mode(const std::string& text, const std::string& where) {
+    const auto names = mouse_mode_names();
+    const auto at = std::ranges::find(names, text);
+    if (at == names.end())
+        return fail(where, "is no way to lead a hand",
+                    "did you mean " + std::string(nearest_name(text, names)) + "? There are free and surface");
+    return static_cast<MouseMode>(at - names.begin());
+}
+
+std::optional<Error> no_surface(const SculptOptions& options) {
+    const std::string where = "--mouse surface";
+    if (options.activity != nullptr || options.no_workpiece || !options.world.empty() || options.scene != nullptr)
+        return Error{"follows the surface of a workpiece alone, and the session has other things to touch", where,
+                     "leave it out, and the mouse flies freely"};
+    if (!options.live.hands.empty())
+        return Error{"leads one hand, and the session has several", where, "leave it out, and the mouse flies freely"};
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(options.live.device);
+    if (!nature) return nature.error();
+    if (nature->handle || nature->is_worn || nature->felt_by_person || nature->parts != 1)
+        return Error{"leads a tool that nobody holds, and the device is " + options.live.device, where,
+                     "leave --device out, or --mouse"};
+    return std::nullopt;
+}
+
+Result<void> settle_mouse(SculptOptions& options) {
+    const std::optional<Error> cannot = no_surface(options);
+    if (!options.live.mouse && options.live.input.empty() && !cannot) options.live.mouse = MouseMode::surface;
+    if (options.live.mouse != MouseMode::surface) return {};
+    if (cannot) return std::unexpected(*cannot);
+    if (!options.live.device_given) options.live.device = devices::kMouseArm;
+    return {};
+}
+
 Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& given) {
     if (given.empty()) return {};
+    live.device_given = true;
     // A device alone may have a = in the name of its file, behind the colon.
     const auto is_named = [](const std::string& text) { return text.find('=') < text.find(':'); };
     if (given.size() == 1 && !is_named(given.front())) {

@@ -13,6 +13,7 @@
 #include "sculpt/feel_options.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/input/desk_input_table.hpp"
 
 namespace burin::scene {
 struct World;  // scene/world_file.hpp
@@ -45,6 +46,11 @@ struct LiveOptions {
     std::string tracker;
     std::string device = devices::kDefaultHapticDevice;  // name of a force-feedback device; of the first of several
     std::vector<NamedDevice> hands;                      // of all, where there are several; else empty
+    bool device_given = false;                           // false: the device is the usual one
+    // How the mouse leads the hand. None: along the surface where a person carves with it, once settle_mouse() has seen
+    // to it; else freely, as logs and recordings from before there was a choice have it, and nothing on the panel tells
+    // of it.
+    std::optional<MouseMode> mouse = std::nullopt;
     bool windowed = false;    // the wall's screens as desktop windows, fitted into width x height
     std::string full_screen;  // a monitor's name or index; empty: a window
     // The panel has a window of its own and is on no picture; these show the activity's page alone.
@@ -58,6 +64,14 @@ struct LiveOptions {
     bool refuses_exports = false;
     bool stands_in = false;  // a recording is done again: no device is looked for
 };
+
+// Reads "free" or "surface".
+[[nodiscard]] Result<MouseMode> parse_mouse_mode(const std::string& text, const std::string& where);
+// Says why the mouse of a session cannot lead its hand along the surface; nothing where it can.
+[[nodiscard]] std::optional<Error> no_surface(const struct SculptOptions& options);
+// Decides what the options leave open: how the mouse leads the hand, and where that is along the surface and no device
+// was given, by which arm. Fails where it is to be led along the surface and cannot.
+[[nodiscard]] Result<void> settle_mouse(struct SculptOptions& options);
 
 // Returns the devices of all hands: one without a name where there is one hand.
 [[nodiscard]] std::vector<NamedDevice> devices_of(const LiveOptions& live);

@@ -43,6 +43,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--undo-memory", o.undo_memory_MiB, kUndoMemoryBounds);
     visit("--device", o.live.device);
     visit("--hands", o.live.hands);
+    visit("--mouse", o.live.mouse);
     visit("--wall", o.live.wall);
     visit("--stereo", o.live.stereo);
     visit("--swap-eyes", o.live.swap_eyes);
@@ -62,6 +63,7 @@ std::optional<std::string> text(compute::Operation operation) {
     return std::string(sculpt::descriptor_of(operation).name);
 }
 std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
+std::optional<std::string> text(MouseMode mode) { return std::string(name_of(mode)); }
 std::optional<std::string> text(const std::vector<NamedDevice>& hands) {
     if (hands.empty()) return std::nullopt;
     std::string all;
@@ -100,6 +102,11 @@ bool read(const std::string& text, compute::Operation& value) {
         if (known.name == text) return true;
     }
     return false;
+}
+bool read(const std::string& text, MouseMode& value) {
+    const Result<MouseMode> mode = parse_mouse_mode(text, "--mouse " + text);
+    value = mode.value_or(MouseMode::free);
+    return mode.has_value();
 }
 bool read(const std::string& text, LengthUnit& value) {
     const auto unit = length_unit(text);

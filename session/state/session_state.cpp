@@ -70,6 +70,15 @@ Similarity place_workspace(const Room& room, const HandRoom& hand, const Similar
     return {world_from_object * place, world_from_object.orientation, std::max(needed.x, needed.y)};
 }
 
+// Where the hand's workspace is in the workpiece's own frame while the mouse leads the hand along its surface: around
+// all of it, with room for the tool on each side, however it is turned before the viewer.
+Similarity object_from_device_on_surface(const Room& room) {
+    constexpr double kRoomForTool = 0.3;  // of the longest side
+    const Box& all = room.workpiece_object;
+    const Vec3 needed = all.extent() + 2.0 * kRoomForTool * longest(all.extent());
+    return {all.center(), Quat(1.0, 0.0, 0.0, 0.0), longest(needed / room.workspace_device_m)};
+}
+
 // Returns where the hand rests: this far before the workspace's front.
 Vec3 resting_hand_device(const HandRoom& hand, const HeldHandle* held, double before_front_m) {
     const Vec3 front = held != nullptr ? held->front_device() : Vec3(0.0, 0.0, 1.0);
@@ -108,6 +117,20 @@ double head_distance_m(const SessionState& state, const wall::Screen& screen, co
     return std::max(wall::distance_in_front(screen, head_world(setup, state.head).position_m), 0.05);
 }
 
+DeskSurface surface_of(const SessionState& state, const Room& room, const SessionView& seen) {
+    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+    const Similarity object_from_world = inverse(state.world_from_object);
+    DeskSurface on;
+    on.seen = seen.surface;
+    on.cursor = {output_on(room.wall, room.wall.main, state.output), seen.output, sight.screen,
+                 wall::middle_of(wall::eyes_of(sight.viewer)), object_from_world};
+    on.tool = {sculpt::tip_m(state.held->shape), tool_radius_m(state), tool_radius_m(state), 0.0};
+    on.object_from_device = object_from_device_on_surface(room);
+    on.object_from_screen = glm::normalize(object_from_world.orientation * world_from_screen(sight.screen));
+    on.middle_object = room.workpiece_object.center();
+    return on;
+}
+
 DeskView view_of(const SessionState& state, const Room& room, const SessionView& seen) {
     const wall::Screen screen = room.screen();
     const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
@@ -126,6 +149,7 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
     view.scene_scale = state.world_from_object.scale / state.home_world_from_object.scale;
     view.mouse_captured = seen.captured.mouse;
     view.keyboard_captured = seen.captured.keyboard;
+    if (state.mouse == MouseMode::surface && seen.surface != nullptr) view.surface = surface_of(state, room, seen);
     return view;
 }
 
@@ -175,6 +199,10 @@ bool hold_scene(SessionState& state, std::span<const haptics::ToolState> tools) 
 
 // Keeps a large box around the whole workpiece from dimming it.
 constexpr double kBoxOpacity = 0.04;
+
+// The stiffness of the surface for a mouse, which nobody feels and the arm limits to what it renders: a stroke is as
+// deep as it is set.
+constexpr double kMouseStiffness_N_per_m = 1e5;
 
 // Returns the colour of what the tool leaves behind; a cutting tool has its own.
 Vec3 tool_colour(const HandState& hand) {
@@ -233,6 +261,8 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     static_cast<void>(take_up(state));  // tool_of() says why it has none
     state.feel = feel;
     state.output = output;
+    state.mouse = room.mouse;
+    state.no_surface = room.no_surface;
     begin_hands(state, room, handles, hands);
     return state;
 }
@@ -289,6 +319,11 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     state.wands = wands.state;
     state.world_from_object = wands.world_from_scene;
     if (hold_scene(state, view.tools)) step.orders.parameters = true;
+    if (desk.missed)
+        step.orders.messages.push_back(
+            {"the cursor was beside the workpiece, and nothing was touched: press where the tool stands on it; a drag "
+             "beside it turns the scene",
+             step.orders.line});
     if (state.world_from_object != before) {
         state.world_from_object.orientation = glm::normalize(state.world_from_object.orientation);
         step.orders.parameters = true;  // the workpiece has moved under the hand
@@ -318,6 +353,10 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     Similarity world_from_device = hand.world_from_device;
     world_from_device.scale *= hand.workspace_gain;
     p.workspace.object_from_device = inverse(state.world_from_object) * world_from_device;
+    if (number == state.hand && state.mouse == MouseMode::surface) {
+        p.workspace.technique = haptics::WorkspaceTechnique::fixed;
+        p.workspace.object_from_device = object_from_device_on_surface(room);
+    }
     if (hand.handle) {
         const Pose& read = hand.device_from_read;
         p.workspace.object_from_device = p.workspace.object_from_device * Similarity{read.position_m, read.orientation};
@@ -333,6 +372,8 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.tool = felt.surface;
     p.action = state.carves ? sculpt::action_of(hand.tool.operation) : haptics::ToolAction::touch;
     p.materials.fill(material_under_tool(state, hand));
+    if (number == state.hand && state.mouse == MouseMode::surface)
+        for (haptics::TouchMaterial& material : p.materials) material.stiffness_N_per_m = kMouseStiffness_N_per_m;
     if (state.world) state.world->materials.write(p.materials);
     if (hand.handle) hand.handle->write(p, radius_m);
     if (hand.handle && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it
@@ -384,6 +425,8 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     staging.held = state.held;
     staging.contact_shown = state.force_shown;
     staging.tool_visible = staging.tool_visible && !state.handle;
+    // It is around all that is there.
+    staging.box_visible = staging.box_visible && state.mouse != MouseMode::surface;
     stage(scene, staging, state.world_from_object);
     if (state.handle) add_handle(scene, *state.handle, tool, tool_radius_m(state), state.world_from_object);
     scene.tool.colour = tool_colour(state);

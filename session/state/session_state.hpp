@@ -41,6 +41,8 @@ struct SessionState : HandState {
     sculpt::FeelSettings feel;
     bool force_shown = false;                   // as an arrow
     bool carves = true;                         // there is a workpiece
+    MouseMode mouse = MouseMode::free;          // how it leads the hand in use
+    std::string no_surface;                     // why it cannot lead it along a surface; empty: it can
     std::shared_ptr<const WorldObjects> world;  // null: none
     scene::ObjectId selected = 0;               // on the panel; 0: the first
     wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
@@ -106,7 +108,11 @@ struct Room : HandRoom {
     bool covers_depth = false;        // the workspace reaches all of it, not its front alone
     std::optional<Box> reach_object;  // what the workspace reaches, if not that
     SessionWall wall;
-    std::vector<HandRoom> others;  // of the hands after the first
+    std::vector<HandRoom> others;       // of the hands after the first
+    MouseMode mouse = MouseMode::free;  // at the start
+    bool offers_mouse = false;          // the panel has the choice
+    // Why the mouse cannot lead the hand along a surface; empty: it can.
+    std::string no_surface;
 
     [[nodiscard]] const HandRoom& of(std::size_t hand) const { return hand == 0 ? *this : others[hand - 1]; }
     [[nodiscard]] wall::Screen screen() const { return wall::screen_world(wall.setup, wall.setup.screens[wall.main]); }
@@ -133,6 +139,8 @@ struct SessionView {
     haptics::ToolState tool;     // of the hand in use
     Captured captured;
     std::span<const haptics::ToolState> tools = {};  // of each hand; empty: of the only one
+    wall::OutputPlace output = {};                   // of the main screen
+    const SeenSurface* surface = nullptr;            // null: none is known, and the mouse flies freely
 };
 struct SessionStep {
     SessionState state;

@@ -113,14 +113,15 @@ TEST(PuttySettings, TellEachMistakeWithItsLine) {
     const ExerciseKind* const kind = exercise_named("putty");
     ASSERT_NE(kind, nullptr);
     const ReadSettings read = read_settings(
-        "[putty]\nshap = \"ball\"\nshape = \"cube\"\nhardness = \"stone\"\nlevel = 0\nkneads = 0\ntime_limit_s = 0\n",
+        "[putty]\nshap = \"ball\"\nshape = \"cube\"\nhardness = \"stone\"\nlevel = 0\nkneads = 0\n"
+        "time_limit_s = 1e-300\n",
         "s.toml", *kind);
     std::string text;
     for (const Error& error : read.errors) text += error.line() + "\n";
     for (const char* line : {"s.toml:2: [putty] has no key named shap; did you mean shape?",
                              "s.toml:3: shape is cube; there are ball, ellipsoid",
                              "s.toml:4: hardness is stone; there are soft, medium, firm", "s.toml:5: level is 0",
-                             "s.toml:6: kneads is 0", "s.toml:7: time_limit_s is 0"})
+                             "s.toml:6: kneads is 0", "s.toml:7: time_limit_s is 1e-300"})
         EXPECT_TRUE(text.contains(line)) << line << " is missing in\n" << text;
     EXPECT_EQ(read.errors.size(), 6u) << text;
 }

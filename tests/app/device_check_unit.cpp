@@ -25,16 +25,18 @@ public:
     struct Ways {
         std::function<void(devices::DeviceSample&)> spoil_sample;
         std::function<Vec3(const Vec3&)> spoil_force;
+        std::function<void(devices::DeviceDescription&)> spoil_description;
         Vec3 given_N{0.0};
         double most_N = 0.0;
     };
     SpoiltOmni(Clock& clock, Ways& ways)
         : omni_(devices::SimulatedHand::create(devices::circling_hand(), devices::HandPath::monotone_cubic).value(), {},
                 &clock),
-          ways_(ways) {}
-    [[nodiscard]] const devices::DeviceDescription& description() const noexcept override {
-        return omni_.description();
+          ways_(ways),
+          description_(omni_.description()) {
+        if (ways.spoil_description) ways.spoil_description(description_);
     }
+    [[nodiscard]] const devices::DeviceDescription& description() const noexcept override { return description_; }
     [[nodiscard]] devices::DeviceSample read() noexcept override {
         devices::DeviceSample sample = omni_.read();
         if (ways_.spoil_sample) ways_.spoil_sample(sample);
@@ -49,6 +51,7 @@ public:
 private:
     devices::SimulatedOmni omni_;
     Ways& ways_;
+    devices::DeviceDescription description_;
 };
 
 class QuietGuide final : public CheckGuide {
@@ -164,6 +167,46 @@ TEST(DeviceCheck, EndsWhenItIsToldToAndTriesNoForceWhereNoneIsWanted) {
     const auto without = checked(ways, {.by_itself = true, .pushes = false});
     EXPECT_EQ(verdict_of(without, "force"), "none");
     EXPECT_EQ(ways.most_N, 0.0);
+}
+
+TEST(DeviceCheck, SkipsWithItsReasonWhatADeviceDoesNotHave) {
+    SpoiltOmni::Ways ways;
+    ways.spoil_sample = [](devices::DeviceSample& sample) { sample.buttons = 0; };
+    ways.spoil_description = [](devices::DeviceDescription& d) { d.has_buttons = false; };
+    EXPECT_EQ(verdict_of(checked(ways), "buttons"), "skipped: it has none");
+    ways.spoil_description = nullptr;
+    EXPECT_EQ(verdict_of(checked(ways), "buttons"), "failed: none was seen") << "one that has some is to show it";
+    ways.spoil_description = [](devices::DeviceDescription& d) { d.led_by = "a SpaceMouse"; };
+    EXPECT_TRUE(verdict_of(checked(ways), "force").starts_with("skipped: nobody would feel it"));
+    ways.spoil_description = [](devices::DeviceDescription& d) { d.gives_way = false; };
+    EXPECT_TRUE(verdict_of(checked(ways), "force").starts_with("skipped: its simulated fingers hold"));
+}
+
+TEST(DeviceCheck, SaysWhichFaultInterruptedTheTaps) {
+    SpoiltOmni::Ways ways;
+    // Each tenth of a second it is gone for a tick, and the taps begin anew.
+    ways.spoil_sample = [](devices::DeviceSample& sample) {
+        if (sample.time_ns / 1'000'000 % 100 == 0) sample.fault = devices::DeviceFault::disconnected;
+    };
+    const std::string said = verdict_of(checked(ways), "force to");
+    EXPECT_TRUE(said.contains("in between it does not answer")) << said;
+    EXPECT_FALSE(said.contains("no fault")) << said;
+}
+
+TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    const auto glove = at.run(burin + " devices test simulated-glove --yes");
+    EXPECT_EQ(glove.status, 0) << glove.output;
+    EXPECT_TRUE(glove.output.contains("skipped  force of thumb: its simulated fingers")) << glove.output;
+    for (const std::string kind : {"wand", "spacemouse"}) {
+        const auto tested = at.run("(" + burin + " devices emulate " + kind + " --seconds 60 --at emulated-one-$$ > " +
+                                   kind + ".txt &) ; while ! test -s " + kind + ".txt; do sleep 0.05; done; " + burin +
+                                   " devices test " + kind + ":emulated-one-$$ --yes");
+        EXPECT_EQ(tested.status, 0) << tested.output;
+        EXPECT_TRUE(tested.output.contains(kind == "wand" ? "skipped  buttons: it has none" : "passed   buttons: seen"))
+            << tested.output;
+    }
 }
 
 TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {

@@ -74,7 +74,7 @@ TEST(HapticRegistry, KnowsAHandleByTheFileThatDescribesIt) {
     EXPECT_EQ(handle_file_of("simulated-wand"), "");
     EXPECT_EQ(handle_file_of("glove:/dev/ttyUSB0"), "") << "a port describes nothing";
     EXPECT_FALSE(has_handle("glove:/dev/ttyUSB0"));
-    EXPECT_EQ(devices_with_handles(), "simulated-wand, wand");
+    EXPECT_EQ(devices_with_handles(), "simulated-wand, wand, spacemouse-wand");
     EXPECT_EQ(handle_file_of("wand:emulated," + file), file);
     EXPECT_EQ(handle_file_of("wand:" + file + "@/opt/libhil.so"), file);
     EXPECT_EQ(handle_file_of("wand:emulated"), "");
@@ -92,6 +92,24 @@ TEST(HapticRegistry, RefusesWhatItDoesNotKnowAndSuggestsTheNearest) {
     const auto opened = open_haptic_device("simulatd", host_of(clock));
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("did you mean simulated?")) << opened.error().line();
+}
+
+TEST(HapticRegistry, SaysTheRightFormOfATrackersNameAnEmptyLibraryAndAMissingColon) {
+    MonotonicClock clock;
+    const auto said = [&](const std::string& name) {
+        const auto opened = open_haptic_device(name, host_of(clock));
+        return opened ? "nothing" : opened.error().line();
+    };
+    EXPECT_TRUE(said("vrpn:").contains("is a tracker, which has no force; give it as --tracker vrpn:"))
+        << said("vrpn:");
+    EXPECT_TRUE(said("dtrack:5000").contains("give it as --tracker dtrack:5000"));
+    EXPECT_TRUE(said("wand@/x/libhil.so").contains("write wand:@/x/libhil.so")) << said("wand@/x/libhil.so");
+    EXPECT_TRUE(said("dhd@/x/libdhd.so").contains("write dhd:@/x/libdhd.so"));
+    EXPECT_TRUE(said("spacemouse,speed=0.1").contains("write spacemouse:speed=0.1"));
+    for (const std::string name : {"dhd:@", "wand:@", "omni:@", "wand:emulated@", "dhd:emulated@", "omni:emulated@"})
+        EXPECT_FALSE(said(name).contains("cannot be loaded")) << said(name);
+    for (const std::string name : {"dhd:@", "wand:@", "omni:@"})
+        EXPECT_TRUE(said(name).contains("names no library behind @")) << said(name);
 }
 
 }  // namespace burin::devices

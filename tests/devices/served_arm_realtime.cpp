@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ticks of an Omni by its maker's library, here the emulated one, of a Force Dimension device and of a Falcon: the
-// driver's work on the haptic thread allocates, locks, throws and opens nothing, also while the device comes and goes.
+// Ticks of an Omni by its maker's library, here the emulated one, of a Force Dimension device, of a Falcon and of a
+// SpaceMouse: the driver's work on the haptic thread allocates, locks, throws and opens nothing, also while the device
+// comes and goes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_falcon.hpp"
 #include "devices/emulators/emulated_omni.hpp"
+#include "devices/emulators/emulated_spacemouse.hpp"
 #include "devices/emulators/emulated_wand.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "tests/support/realtime_counters.hpp"
@@ -21,8 +23,11 @@ namespace burin::devices {
 
 namespace {
 
-template <typename Emulated>
-void ticks_without_cost(Emulated emulated, const std::string& device) {
+constexpr auto kFallsSilent = [](auto& emulated, bool is_silent) { emulated.fall_silent(is_silent); };
+
+// goes: the drill by which it is gone, and comes back.
+template <typename Emulated, typename Goes = decltype(kFallsSilent)>
+void ticks_without_cost(Emulated emulated, const std::string& device, const Goes& goes = kFallsSilent) {
     std::atomic<bool> ends = false;
     std::thread runs([&] { emulated.run([&] { return ends.load(); }); });
     MonotonicClock clock;
@@ -40,8 +45,8 @@ void ticks_without_cost(Emulated emulated, const std::string& device) {
     int faults = 0;
     for (std::size_t tick = 0; opened && tick < kTicks; ++tick) {
         clock.sleep_until(clock.now_ns() + 1'000'000);
-        if (tick == 800) emulated.fall_silent(true);
-        if (tick == 1000) emulated.fall_silent(false);
+        if (tick == 800) goes(emulated, true);
+        if (tick == 1000) goes(emulated, false);
         HapticDevice& part = *opened->parts[0].device;
         const test::RealtimeScope scope;
         const Nanoseconds begun_ns = clock.now_ns();
@@ -83,6 +88,12 @@ TEST(Wand, AllocatesLocksThrowsAndOpensNothingInATick) {
 
 TEST(Falcon, AllocatesLocksThrowsAndOpensNothingInATick) {
     ticks_without_cost(EmulatedFalcon::create(realtime_name()).value(), "falcon:" + realtime_name());
+}
+
+TEST(SpaceMouse, AllocatesLocksThrowsAndOpensNothingInATick) {
+    const auto is_pulled = [](EmulatedSpaceMouse& emulated, bool pulled) { emulated.pull_cable(pulled); };
+    for (const std::string kind : {"spacemouse:", "spacemouse-wand:"})
+        ticks_without_cost(EmulatedSpaceMouse::create(realtime_name()).value(), kind + realtime_name(), is_pulled);
 }
 
 }  // namespace burin::devices

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <thread>
 
 #include "devices/drivers/hil_wand.hpp"
@@ -185,6 +186,8 @@ TEST(Wand, W2KeepsEveryLimitAndCountsWhatIsAtIt) {
     // Turn and write are a step of the hand apart, by which the pose that the motors' share is computed of has moved.
     for (int axis = 0; axis < 3; ++axis)
         EXPECT_LE(worst.force_device_N[axis], Vec3(2.3, 3.0, 2.1)[axis] * 1.02) << axis;
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_LE(worst.torque_device_Nm[axis], Vec3(0.230, 0.0, 0.250)[axis] * 1.02 + 0.001) << axis;
     EXPECT_GT(worst.force_device_N.z, 0.5) << "and it does push";
     const WandLimits limits = (*served)->limits();
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_GT(limits.force[axis], 200u) << axis;
@@ -193,6 +196,41 @@ TEST(Wand, W2KeepsEveryLimitAndCountsWhatIsAtIt) {
     (*served)->exchange().command({Vec3(std::nan(""), 0.0, 0.0), Vec3(0.0)}, clock.now_ns());
     clock.sleep_until(clock.now_ns() + 10'000'000);
     EXPECT_TRUE(running.is_without_force()) << "no number, no force";
+}
+
+TEST(Wand, ACurrentThatIsNoNumberIsZeroAndAFault) {
+    WandMechanism mechanism;
+    const WandJoints torques{0.1, 0.2, 0.3, 0.1, 0.2, 0.3};
+    EXPECT_TRUE(volts_of_torques(mechanism, torques).is_sound);
+    for (std::size_t joint = 0; joint < kWandJoints; ++joint)
+        for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+            WandJoints spoilt = torques;
+            spoilt[joint] = wrong;
+            const WandVolts volts = volts_of_torques(mechanism, spoilt);
+            EXPECT_FALSE(volts.is_sound);
+            EXPECT_EQ(volts.volts, WandJoints{}) << joint;
+        }
+    // A motor without a torque constant: the file's bounds refuse it, the driver does not rely on that.
+    WandDescription wand = quanser_wand_of_maker();
+    wand.mechanism.torque_Nm_per_A[2] = 0.0;
+    RunningWand running(own_wand());
+    auto served = HilWand::open(library_of_tests(kEmulatedHilLibrary), own_wand(), wand);
+    for (int i = 0; i < 100 && !served; ++i)
+        served = HilWand::open(library_of_tests(kEmulatedHilLibrary), own_wand(), wand);
+    ASSERT_TRUE(served) << served.error().line();
+    MonotonicClock clock;
+    std::string said;
+    bool had_fault = false;
+    for (int i = 0; i < 3000 && !(had_fault && !said.empty()); ++i) {
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        (*served)->exchange().command(kPresses, clock.now_ns());
+        EXPECT_TRUE(running.is_without_force());
+        for (const std::string& message : (*served)->take_messages())
+            if (message.contains("no number")) said = message;
+        had_fault = had_fault || (!said.empty() && (*served)->exchange().newest().fault == DeviceFault::other);
+    }
+    EXPECT_TRUE(said.contains("comes out as no number: no force")) << said;
+    EXPECT_TRUE(had_fault);
 }
 
 TEST(Wand, UnpluggedWhilePressingIsLeftWithoutForceEveryTime) {
@@ -366,11 +404,13 @@ TEST(Wand, ItsAddressNamesCardDescriptionAndLibrary) {
         const WandAddress address = wand_address(text);
         return address.card == card && address.file == file && address.library == library;
     };
-    EXPECT_TRUE(is("", "0", "", kHilLibrary));
-    EXPECT_TRUE(is("1", "1", "", kHilLibrary));
-    EXPECT_TRUE(is("a/w.toml", "0", "a/w.toml", kHilLibrary));
+    EXPECT_TRUE(is("", "0", "", ""));
+    EXPECT_TRUE(is("1", "1", "", ""));
+    EXPECT_TRUE(is("a/w.toml", "0", "a/w.toml", ""));
     EXPECT_TRUE(is("1,a/w.toml@/x/libhil.so", "1", "a/w.toml", "/x/libhil.so"));
-    EXPECT_TRUE(is("0@tcpip://lab:17000", "0@tcpip://lab:17000", "", kHilLibrary));
+    EXPECT_TRUE(is("0@tcpip://lab:17000", "0@tcpip://lab:17000", "", ""));
+    EXPECT_TRUE(wand_address("1@").names_library);
+    EXPECT_FALSE(wand_address("0@tcpip://lab:17000").names_library);
 }
 
 TEST(Wand, TheDescriptionThatComesWithBurinIsTheMakers) {

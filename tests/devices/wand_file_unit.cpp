@@ -232,4 +232,12 @@ TEST(WandFile, DamagedFilesAreRefusedOrGiveAWandThatCanBe) {
     EXPECT_GT(accepted, 500) << "damage in a comment does no harm";
 }
 
+TEST(WandFile, ACardHasAName) { EXPECT_TRUE(reports("[mechanism]\ncard = \"\"\n", "card is empty")); }
+
+TEST(WandFile, EachAmplifierHasAnOutputOfItsOwn) {
+    EXPECT_TRUE(reports("[mechanism]\nenable_lines = [0, 1, 2, 3, 16, 16]\n", "has 16 twice"));
+    EXPECT_TRUE(reports("[mechanism]\nenable_lines = [0, 1, 2, 3, 16, 17.5]\n", "has 17.5"));
+    EXPECT_EQ(problems_of("[mechanism]\nenable_lines = [5, 4, 3, 2, 1, 0]\n"), "");
+}
+
 }  // namespace burin::devices

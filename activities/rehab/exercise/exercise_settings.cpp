@@ -10,12 +10,12 @@
 namespace burin::activities {
 namespace {
 
-constexpr double kMostTime_s = 3600.0;
+// A shorter one would end an exercise before its first turns.
+constexpr double kLeastTime_s = 0.1, kMostTime_s = 3600.0;
 
 // Returns what is wrong with a value; empty: nothing.
 std::string fault_of(const SettingKind& kind, double value) {
-    const bool above = kind.above_least ? value > kind.least : value >= kind.least;
-    if (above && value <= kind.most && (!kind.whole || value == std::floor(value))) return "";
+    if (value >= kind.least && value <= kind.most && (!kind.whole || value == std::floor(value))) return "";
     return formatted("is %g", value);
 }
 
@@ -42,10 +42,10 @@ SettingKind time_limit_setting(double usual_s) {
     return {.key = "time_limit_s",
             .option = "--time-limit",
             .help = "When the exercise ends, in seconds",
-            .remedy = "give more than 0 and at most 3600 seconds",
+            .remedy = "give 0.1 to 3600 seconds",
             .usual = usual_s,
-            .most = kMostTime_s,
-            .above_least = true};
+            .least = kLeastTime_s,
+            .most = kMostTime_s};
 }
 
 SettingValues::SettingValues(std::span<const SettingKind> kinds) : kinds_(kinds) {

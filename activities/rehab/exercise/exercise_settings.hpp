@@ -27,7 +27,6 @@ struct SettingKind {
     const char* help = "";
     const char* remedy = "";  // "ask for 0 to 60 seconds"
     double usual = 0.0, least = 0.0, most = 0.0;
-    bool above_least = false;                 // the least itself is none
     bool whole = false;                       // of numbers
     std::span<const char* const> words = {};  // empty: it is a number
 };

@@ -6,7 +6,6 @@
 //
 // State is static, as the interface is of C. What a test changes is told when it is compiled:
 // BURIN_EMULATED_DHD_MAJOR, and BURIN_EMULATED_DHD_LACKS, which leaves a function out.
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -59,13 +58,11 @@ struct DhdLibrary {
             return -1;
         }
         // It is another's as long as that process lives.
-        const std::uint32_t owner = (*memory)->owner;
         const auto free = std::ranges::find_if(opened, [](const auto& one) { return !one; });
-        if ((owner != 0 && ::kill(static_cast<pid_t>(owner), 0) == 0) || free == opened.end()) {
+        if (free == opened.end() || !take_ownership((*memory)->owner)) {
             error = kDhdInUse;
             return -1;
         }
-        (*memory)->owner = static_cast<std::uint32_t>(::getpid());
         free->emplace(OpenedDhd{std::move(*memory)});
         return static_cast<int>(free - opened.begin());
     }

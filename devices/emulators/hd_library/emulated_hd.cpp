@@ -7,7 +7,6 @@
 //
 // State is static, as the interface is of C. What a test changes is told when it is compiled:
 // BURIN_EMULATED_HD_VERSION, and BURIN_EMULATED_HD_LACKS, which leaves a function out.
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -92,15 +91,13 @@ HdHandle hdInitDevice(const char* name) {
         library().raise(kHdCommunication, kHdNoDevice);
         return kHdNoDevice;
     }
-    // It is another's as long as that process lives.
-    const std::uint32_t owner = (*memory)->owner;
-    if (owner != 0 && ::kill(static_cast<pid_t>(owner), 0) == 0) {
-        library().raise(kHdAlreadyOpened, kHdNoDevice);
-        return kHdNoDevice;
-    }
-    (*memory)->owner = static_cast<std::uint32_t>(::getpid());
     for (HdHandle handle = 0; handle < kMostOpened; ++handle) {
         if (library().opened[handle]) continue;
+        // It is another's as long as that process lives.
+        if (!take_ownership((*memory)->owner)) {
+            library().raise(kHdAlreadyOpened, kHdNoDevice);
+            return kHdNoDevice;
+        }
         library().opened[handle].emplace(Opened{std::move(*memory)});
         library().current = handle;
         return handle;

@@ -6,7 +6,6 @@
 //
 // State is static, as the interface is of C. What a test changes is told when it is compiled: BURIN_EMULATED_HIL_MAJOR,
 // and BURIN_EMULATED_HIL_LACKS, which leaves a function out.
-#include <signal.h>
 #include <unistd.h>
 
 #include <array>
@@ -83,12 +82,10 @@ HilError hil_open(const char* /*type*/, const char* identifier, HilCard* card) {
     auto memory = HilSharedMemory::open(identifier != nullptr ? identifier : "");
     if (!memory || !(*memory)->is_alive(library().clock.now_ns())) return kNoCard;
     if (const std::int32_t error = (*memory)->error) return error;
-    // It is another's as long as that process lives.
-    const std::uint32_t owner = (*memory)->owner;
-    if (owner != 0 && ::kill(static_cast<pid_t>(owner), 0) == 0) return kInUse;
     for (std::size_t i = 0; i < kMostCards; ++i) {
         if (library().cards[i]) continue;
-        (*memory)->owner = static_cast<std::uint32_t>(::getpid());
+        // It is another's as long as that process lives.
+        if (!take_ownership((*memory)->owner)) return kInUse;
         (*memory)->watchdog_ns = 0;
         (*memory)->opener = static_cast<std::uint32_t>(::getpid());
         library().cards[i].emplace(Card{std::move(*memory)});
