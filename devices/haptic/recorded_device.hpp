@@ -3,11 +3,11 @@
 // recording read is read again, part by part and tick by tick: position, orientation, buttons, joints, faults. Forces
 // are taken and dropped. Its description is that of the device that was recorded.
 //
-// Time: a sample belongs to a tick of the device's rate, counted from the first read(). A turn that comes late has the
-// sample of its own tick all the same; where two deadlines or more were missed, so are their samples. Where the recording has no
-// tick, since its loop idled or missed a deadline, the sample before stays. A sample is as old at its tick as it was
-// when it was recorded. At the end the hand rests at its last pose with no button down; with `loop` it rests for half a
-// second, glides to the beginning within one, and goes on.
+// Time: a sample belongs to a tick of the device's rate, counted from the first read(). A turn that comes late has
+// the sample of its own tick all the same; where two deadlines or more were missed, so are their samples. Where
+// the recording has no tick, since its loop idled or missed a deadline, the sample before stays. A sample is as
+// old at its tick as it was when it was recorded. At the end the hand rests at its last pose with no button down;
+// with `loop` it rests for half a second, glides to the beginning within one, and goes on.
 // Who reads files is above this folder: Recordings is what it is asked by.
 // Thread: read() and write() as HapticDevice has it, wait-free; take_messages() the frame's thread's.
 #pragma once
@@ -26,8 +26,8 @@ namespace burin::devices {
 
 inline constexpr const char* kRecordedDevice = "recorded";
 
-// A sample of one part. due_ns: the deadline of its tick, from 0 at the first, rising; the sample's own time is relative
-// to when its tick began.
+// A sample of one part. due_ns: the deadline of its tick, from 0 at the first, rising; the sample's own time is
+// relative to when its tick began.
 struct RecordedSample {
     Nanoseconds due_ns = 0;
     DeviceSample sample;

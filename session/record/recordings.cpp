@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/registry/device_registry.hpp"
+#include "record/export/table_export.hpp"
 #include "record/motion.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/state/session_settings.hpp"
