@@ -36,8 +36,9 @@ struct Steps {
     std::vector<Action> actions;
     bool missed = false;
 
+    [[nodiscard]] MouseMode mode() const { return view.surface ? MouseMode::surface : MouseMode::free; }
     [[nodiscard]] std::optional<Gesture> gesture_of(MouseUse use, const Modifiers& held) const {
-        return session::gesture_of(view.surface ? MouseMode::surface : MouseMode::free, use, held);
+        return session::gesture_of(mode(), use, held);
     }
 
     void operator()(const KeyInput& in) {
@@ -55,7 +56,8 @@ struct Steps {
         // With Ctrl, Alt or Super a key is only a short cut: Ctrl+S must not fly backwards.
         if (!in.modifiers.ctrl && !in.modifiers.alt && !in.modifiers.super) state.keys.set(key);
         for (const ShortCut& s : short_cuts())
-            if (s.key == in.key && s.modifiers == in.modifiers && (s.repeats || in.motion == KeyMotion::press))
+            if (s.key == in.key && s.modifiers == in.modifiers && (s.repeats || in.motion == KeyMotion::press) &&
+                (!s.only || *s.only == mode()))
                 act(s.action);
     }
 

@@ -16,9 +16,14 @@ constexpr double kClear = 0.1;
 constexpr double kSlope = 0.5;
 // The least cosine between a ray and a plane's normal for which the plane says where the ray should meet it.
 constexpr double kFaces = 0.15;
+// A surface that turns from the last contact's by more than 45 degrees and is seen at less than 15 is what lies behind
+// an edge, such as a hole's wall.
+constexpr double kTurns = 0.7, kGrazes = 0.26;
 
 // Whether a hit goes on with the surface of the last contact.
 bool goes_on(const SurfaceHit& hit, const SurfaceContact& last, const Ray& ray, double half_width_m) {
+    const bool turns = glm::dot(hit.normal_object, last.normal_object) < kTurns;
+    if (turns && -glm::dot(hit.normal_object, ray.direction) < kGrazes) return false;
     const Vec3 to_last = last.place_object_m - ray.origin;
     const double along_m = glm::dot(to_last, ray.direction);
     const double across_m = glm::length(to_last - along_m * ray.direction);

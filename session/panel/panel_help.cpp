@@ -58,7 +58,8 @@ void show_flight(Kit& kit) {
 void show_help(Kit& kit, MouseMode mouse) {
     if (kit.begin_card("Keys")) {
         std::vector<HelpLine> lines;
-        for (const ShortCut& cut : short_cuts()) add_line(lines, label_of(cut), cut.description);
+        for (const ShortCut& cut : short_cuts())
+            if (!cut.only || *cut.only == mouse) add_line(lines, label_of(cut), cut.description);
         show_lines(kit, lines, 104.0f);
     }
     kit.end_card();

@@ -306,8 +306,27 @@ void show_workspace(Kit& kit, const PanelModel& model) {
     kit.end_card();
 }
 
+namespace {
+
+// Where the scene is seen from; beside free flight keys fly the head instead.
+void show_sides(Kit& kit, const PanelModel& model) {
+    if (model.mouse != MouseMode::surface) return;
+    constexpr std::array<std::pair<Action, const char*>, 4> kSides{{{Action::fit_view, "Fit"},
+                                                                    {Action::view_front, "Front"},
+                                                                    {Action::view_side, "Side"},
+                                                                    {Action::view_top, "Top"}}};
+    const float gap = kit.px(6.0f), each = 0.25f * (kit.width() - 3.0f * gap);
+    for (const auto& [action, text] : kSides) {
+        if (action != kSides.front().first) ImGui::SameLine(0.0f, gap);
+        if (kit.button(std::string(name_of(action)), text, each, true)) kit.give(RunAction{action});
+    }
+}
+
+}  // namespace
+
 void show_view(Kit& kit, const PanelModel& model) {
     if (kit.begin_card("View")) {
+        show_sides(kit, model);
         std::vector<Item> modes;
         for (const wall::StereoMode mode : wall::stereo_modes())
             modes.push_back(item_of("stereo-mode", file_name_of(mode), capitalised(wall::title_of(mode))));

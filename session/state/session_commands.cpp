@@ -2,13 +2,16 @@
 // Applies the commands of keys, panel and scripts to a session.
 #include <cmath>
 #include <functional>
+#include <numbers>
 
+#include "session/input/input_wand.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
 namespace {
 
 constexpr double kRadiusStep = 1.122462;  // six steps double it
+constexpr double kTurnStep_rad = std::numbers::pi / 12.0;
 constexpr const char* kScreenshotName = "burin.png";
 
 // Applies one command to a session.
@@ -141,6 +144,36 @@ private:
         return {};
     }
 
+    // Shows all of the workpiece, as large as at first, turned so.
+    Result<void> show(const Quat& world_from_object) {
+        if (const auto may = may_turn(); !may) return may;
+        const Similarity& home = state_.home_world_from_object;
+        Similarity& now = state_.world_from_object;
+        now.orientation = glm::normalize(world_from_object);
+        now.scale = home.scale;
+        now.position_m = home * state_.middle_object - now.scale * (now.orientation * state_.middle_object);
+        return update_touch();
+    }
+    // Turned from how it stood at first, about an axis of the screen.
+    Result<void> show_from(double angle_rad, const Vec3& axis_screen) {
+        const Quat home = state_.home_world_from_object.orientation;
+        return show(home * glm::angleAxis(angle_rad, axis_screen));
+    }
+    // Turns the scene about its middle, about an axis of the screen as the workpiece stood along it at first.
+    Result<void> turn(double angle_rad, const Vec3& axis_screen) {
+        if (const auto may = may_turn(); !may) return may;
+        Similarity& now = state_.world_from_object;
+        const Vec3 axis_world = state_.home_world_from_object.orientation * axis_screen;
+        now = turned_about({}, now * state_.middle_object, glm::angleAxis(angle_rad, axis_world)) * now;
+        now.orientation = glm::normalize(now.orientation);
+        return update_touch();
+    }
+    // What the tool works on stays.
+    [[nodiscard]] Result<void> may_turn() const {
+        if (!state_.desk.on_surface.pressed) return {};
+        return fail("the scene", "stays while the tool works on it", "let go of the left button first");
+    }
+
     SessionState& state_;
     SessionOrders& orders_;
 };
@@ -209,7 +242,20 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::export_mesh: return export_to(state_.export_path);
         case Action::save_session:
             return fail("save-session", "sessions cannot be saved yet", "export the mesh (export FILE, Ctrl+E)");
-        case Action::reset_view: state_.world_from_object = state_.home_world_from_object; return update_touch();
+        case Action::reset_view:
+            if (const auto may = may_turn(); !may) return may;
+            state_.world_from_object = state_.home_world_from_object;
+            return update_touch();
+        case Action::fit_view: return show(state_.world_from_object.orientation);
+        case Action::view_front: return show_from(0.0, Vec3(0.0, 1.0, 0.0));
+        case Action::view_side: return show_from(-0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
+        case Action::view_top: return show_from(0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
+        case Action::turn_left: return turn(-kTurnStep_rad, Vec3(0.0, 1.0, 0.0));
+        case Action::turn_right: return turn(kTurnStep_rad, Vec3(0.0, 1.0, 0.0));
+        case Action::turn_up: return turn(-kTurnStep_rad, Vec3(1.0, 0.0, 0.0));
+        case Action::turn_down: return turn(kTurnStep_rad, Vec3(1.0, 0.0, 0.0));
+        case Action::roll_left: state_.desk.roll_rad += kTurnStep_rad; return {};
+        case Action::roll_right: state_.desk.roll_rad -= kTurnStep_rad; return {};
         case Action::next_hand:
             return lead_hand(state_, state_.hands.empty()
                                          ? "next"

@@ -254,6 +254,7 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     state.world_from_object = place_workpiece(room, state.handle.get());
     move_into_comfort(state, room);
     state.home_world_from_object = state.world_from_object;
+    state.middle_object = room.workpiece_object.center();
     state.world_from_device = place_workspace(room, room, state.world_from_object, state.handle.get());
     // Let the hand rest in front of the workpiece.
     state.desk.target_device_m = resting_hand_device(room, state.handle.get(), kClearsBorder_m);

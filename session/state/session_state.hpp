@@ -36,6 +36,7 @@ struct SessionState : HandState {
     SessionHead head;
     WandState wands;
     Similarity world_from_object, home_world_from_object;
+    Vec3 middle_object{0.0};  // of all that stands before the viewer
     double interpupillary_m = 0.063;
     std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none
     sculpt::FeelSettings feel;

@@ -147,6 +147,85 @@ TEST(MouseOnSurface, AStrokeThatLeavesTheSilhouetteAndComesBackCutsNoDeeperAtThe
     EXPECT_GT(at_the_rim, 40.0 - kDepth_mm - 0.1);
 }
 
+namespace {
+
+// A plate of 80 x 60 x 12 mm with a square hole through it, from 30 to 50 and from 20 to 40 mm.
+std::string pierced_plate() {
+    Corners all;
+    const auto outer = [](int k, double z) { return Vec3(k == 1 || k == 2 ? 80.0 : 0.0, k >= 2 ? 60.0 : 0.0, z); };
+    const auto inner = [](int k, double z) { return Vec3(k == 1 || k == 2 ? 50.0 : 30.0, k >= 2 ? 40.0 : 20.0, z); };
+    for (int k = 0; k < 4; ++k) {
+        const int n = (k + 1) % 4;
+        add_quad(all, outer(k, kThick_mm), outer(n, kThick_mm), inner(n, kThick_mm), inner(k, kThick_mm));
+        add_quad(all, outer(n, 0), outer(k, 0), inner(k, 0), inner(n, 0));
+        add_quad(all, outer(k, 0), outer(n, 0), outer(n, kThick_mm), outer(k, kThick_mm));
+        add_quad(all, inner(n, 0), inner(k, 0), inner(k, kThick_mm), inner(n, kThick_mm));
+    }
+    return stl_of(all);
+}
+
+}  // namespace
+
+TEST(MouseOnSurface, AStrokeGoesOverAHoleAndOnBehindItAndCutsNothingWithin) {
+    MouseDesk desk(pierced_plate());
+    desk.point_at({12, 30, 12});
+    desk.press();
+    const Vec2 from = desk.px_of({12, 30, 12}), over = desk.px_of({40, 30, 12}), to = desk.px_of({68, 30, 12});
+    desk.drag(from, over);
+    desk.rest(0.5);
+    EXPECT_GT(desk.tool_mm().z, kThick_mm + kRadius_mm) << "it hovers, and is not in the hole";
+    desk.drag(over, to);
+    desk.release();
+    EXPECT_EQ(desk.strokes(), 1u) << "for one undo";
+    double left = kThick_mm, right = kThick_mm, within = 0.0;
+    for (const Vec3& p : desk.vertices_mm()) {
+        if (std::abs(p.y - 30.0) > 2.0 || p.z < 1.0) continue;
+        if (p.x > 14.0 && p.x < 26.0) left = std::min(left, p.z);
+        if (p.x > 54.0 && p.x < 66.0) right = std::min(right, p.z);
+        const bool is_wall = p.x > 29.0 && p.x < 51.0 && p.z < kThick_mm - kDepth_mm - 0.1;
+        if (is_wall) within = std::max(within, std::min(std::abs(p.x - 30.0), std::abs(p.x - 50.0)));
+    }
+    EXPECT_NEAR(left, kThick_mm - kDepth_mm, kBears_mm);
+    EXPECT_NEAR(right, kThick_mm - kDepth_mm, kBears_mm);
+    EXPECT_LT(within, 0.02) << "the hole's walls";
+}
+
+TEST(MouseOnSurface, BothEyesSeeTheToolWhereTheCursorIsFromBetweenThem) {
+    MouseDesk desk(plate(kThick_mm));
+    desk.run({{CommandInput{"stereo-mode", {"anaglyph_red_cyan"}}, 8'000'000}}, 100'000'000);
+    desk.point_at({60, 45, 12});
+    EXPECT_LT(glm::length(Vec2(desk.tool_mm()) - Vec2(60.0, 45.0)), 0.05);
+}
+
+TEST(MouseOnSurface, KeysShowAllOfItFromTheFrontTheSideAndAbove) {
+    MouseDesk desk(plate(kThick_mm));
+    const auto out_object = [&] {  // what of the part faces the viewer
+        return glm::conjugate(desk.session->state().world_from_object.orientation) * Vec3(0.0, 0.0, 1.0);
+    };
+    const Similarity home = desk.session->state().world_from_object;
+    const auto press = [&](Key key, const Modifiers& with = {}) {
+        desk.run({{KeyInput{key, KeyMotion::press, with}, 8'000'000}, {KeyInput{key, KeyMotion::release, with}, 1}},
+                 100'000'000);
+    };
+    const Vec3 head_before = desk.session->state().desk.head_world.position_m;
+    press(Key::digit_3, {.ctrl = true});
+    EXPECT_LT(glm::length(out_object() - Vec3(0.0, 1.0, 0.0)), 1e-9) << "its top";
+    press(Key::digit_2, {.ctrl = true});
+    EXPECT_LT(glm::length(out_object() - Vec3(1.0, 0.0, 0.0)), 1e-9) << "its right side";
+    press(Key::right);
+    press(Key::up);
+    EXPECT_GT(glm::length(out_object() - Vec3(1.0, 0.0, 0.0)), 0.3);
+    desk.move_to({300, 300});
+    desk.run({{Scroll{{0.0, 8.0}, {}}, 8'000'000}}, 100'000'000);
+    press(Key::f);
+    const SessionState& state = desk.session->state();
+    EXPECT_NEAR(state.world_from_object.scale, home.scale, 1e-12);
+    EXPECT_LT(glm::length(state.world_from_object * state.middle_object - home * state.middle_object), 1e-9);
+    press(Key::digit_1, {.ctrl = true});
+    EXPECT_LT(glm::length(out_object() - Vec3(0.0, 0.0, 1.0)), 1e-9);
+    EXPECT_EQ(desk.session->state().desk.head_world.position_m, head_before) << "arrow keys shear nothing";
+}
+
 TEST(MouseOnSurface, AThinWallIsNeverEnteredFromBehind) {
     MouseDesk desk(plate(2.0));
     const double front = 2.0;

@@ -150,6 +150,11 @@ TEST(DeskInput, EveryShortCutOfTheTableDoesWhatItSaysAndNothingElse) {
     for (const ShortCut& s : short_cuts()) {
         EXPECT_TRUE(taken.insert({s.key, name_of(s.modifiers)}).second) << label_of(s) << " twice";
         UsedDesk desk;
+        if (s.only) {
+            UsedDesk other;
+            (s.only == MouseMode::surface ? desk : other).follow_surface();
+            EXPECT_TRUE(other.step({press(s.key, s.modifiers)}).actions.empty()) << label_of(s);
+        }
         EXPECT_EQ(desk.step({press(s.key, s.modifiers)}).actions, std::vector{s.action}) << label_of(s);
         const DeskStep again = desk.step({KeyInput{s.key, KeyMotion::repeat, s.modifiers}});
         EXPECT_EQ(again.actions.size(), s.repeats ? 1u : 0u) << label_of(s);
@@ -158,8 +163,8 @@ TEST(DeskInput, EveryShortCutOfTheTableDoesWhatItSaysAndNothingElse) {
         more.alt = true;
         EXPECT_TRUE(desk.step({press(s.key, more)}).actions.empty()) << label_of(s);
         EXPECT_FALSE(s.description.empty());
-        for (const FlightKey& f : flight_keys())  // a key that flies is no short cut unless with Ctrl
-            EXPECT_TRUE(f.key != s.key || s.modifiers.ctrl) << label_of(s);
+        for (const FlightKey& f : flight_keys())  // a key that flies is no short cut then unless with Ctrl
+            EXPECT_TRUE(f.key != s.key || s.modifiers.ctrl || s.only == MouseMode::surface) << label_of(s);
     }
     std::set<std::string_view> names(action_names().begin(), action_names().end());
     EXPECT_EQ(names.size(), action_names().size());

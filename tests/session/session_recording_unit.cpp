@@ -39,6 +39,32 @@ std::string told_by(Recorded& of) {
 
 }  // namespace
 
+TEST(SessionRecording, OfAMouseOnTheSurfaceIsDoneAgainToTheBit) {
+    const Workplace place;
+    const std::string path = (place / "a.session").string();
+    SculptOptions options = short_options(path);
+    options.live.mouse = MouseMode::surface;
+    ASSERT_TRUE(settle_mouse(options));
+    const std::uint64_t ticks = record_live(options,
+                                            "burin-input 1 test\n0.02 mouse 320 180\n0.2 button press left\n"
+                                            "0.3 mouse 330 184\n0.4 mouse 350 190\n0.5 button release left\n"
+                                            "0.55 button press right\n0.6 mouse 380 190\n0.62 button release right\n"
+                                            "0.8 close\n");
+    auto log = log_in(path);
+    ASSERT_TRUE(log) << log.error().line();
+    EXPECT_NE(log->settings.find("--mouse surface"), std::string::npos) << log->settings;
+    const auto recorded = options_as_recorded(log->settings, short_options(""));
+    ASSERT_TRUE(recorded) << recorded.error().line();
+    EXPECT_EQ(recorded->options.live.mouse, MouseMode::surface);
+    EXPECT_EQ(recorded->options.live.device, "mouse");
+    SculptOptions again = recorded->options;
+    again.engine = sculpt::EngineChoice::cpu;
+    const Judged is = judged(std::move(*log), path, again);
+    ASSERT_TRUE(is.done) << is.done.error().line();
+    EXPECT_EQ(is.found.ticks, ticks);
+    EXPECT_EQ(is.departed, 0u);
+}
+
 TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
     const Workplace place;
     const std::string path = (place / "a.session").string();

@@ -17,6 +17,13 @@ public:
     DeskState state = desk_at_home(settings);
     Similarity world_from_scene;
 
+    // Has the mouse lead the tool along a surface, of which nothing is known.
+    void follow_surface() {
+        static const SeenSurface kNone;
+        view.surface.emplace();
+        view.surface->seen = &kNone;
+    }
+
     DeskStep step(const std::vector<Input>& inputs = {}, double dt_s = kFrame_s) {
         std::vector<InputEvent> events;
         for (const Input& input : inputs) events.push_back({0, input});
