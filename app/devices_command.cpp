@@ -15,6 +15,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/present_devices.hpp"
 #include "session/drive/end_signals.hpp"
+#include "session/record/recordings.hpp"
 
 namespace burin::app {
 namespace {
@@ -135,6 +136,11 @@ Result<void> DevicesCommand::test() const {
     const std::string where = "burin devices test " + options_->tested;
     CheckOptions check = options_->check;
     check.watch_s = options_->watch_s.value_or(check.by_itself ? 15.0 : 60.0);
+    const auto nature = devices::nature_of_device(options_->tested, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    if (nature->is_played)
+        return fail(where, "is a recording, which moves whatever is asked of it and takes no force",
+                    "play it in a session: burin sculpt --device " + options_->tested);
     if (!check.by_itself && !TerminalGuide::is_there())
         return fail(where, "asks a person at a terminal, and there is none",
                     "run it in a terminal, or with --yes for a device that is emulated or held");

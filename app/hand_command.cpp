@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "session/record/recordings.hpp"
 
 namespace burin::app {
 namespace {
@@ -86,7 +87,7 @@ Result<void> hand(const HandSession& options) {
         live.input = kScripts + options.grasp + ".txt";
         live.offscreen = true;
     }
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device);
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     if (!nature->is_worn)
         return fail("--device " + live.device, "is no glove",

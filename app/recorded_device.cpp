@@ -12,6 +12,7 @@
 #include "devices/haptic/wand_file.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
+#include "session/record/recordings.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/state/session_settings.hpp"
 
@@ -45,7 +46,7 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
 
 // Returns the description of a device that has a handle.
 Result<devices::WandDescription> described_now(const std::string& device) {
-    Result<devices::DeviceNature> nature = devices::nature_of_device(device);
+    Result<devices::DeviceNature> nature = devices::nature_of_device(device, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     return nature->handle.value_or(devices::WandDescription{});
 }
@@ -108,7 +109,7 @@ Result<activities::RecordedDevice> recorded_device(const record::RecordReader& r
     const Result<DeviceWords> words = device_words_of(reader);
     if (!words) return std::unexpected(words.error());
     activities::RecordedDevice recorded;
-    if (!devices::has_handle(words->device)) return recorded;
+    if (!devices::has_handle(words->device, &session::session_recordings())) return recorded;
     Result<devices::WandDescription> wand = recorded_wand(reader, words->device);
     if (!wand) return std::unexpected(wand.error());
     recorded.wand = std::move(*wand);

@@ -17,6 +17,7 @@
 #include "devices/gloves/glove_device.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/input_files.hpp"
+#include "session/record/recordings.hpp"
 
 namespace burin::app {
 namespace {
@@ -38,7 +39,7 @@ Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& k
 
 Result<void> check_glove(const session::LiveOptions& live) {
     if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device);
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     if (nature->is_worn) return {};
     return fail("--device " + live.device, "is no glove",

@@ -16,6 +16,7 @@
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/drive/session.hpp"
+#include "session/record/recordings.hpp"
 #include "session/record/session_recording.hpp"
 #include "study/folder/interruption.hpp"
 
@@ -40,7 +41,7 @@ Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& 
 
 // The wand that the device is, where it is one; its points must be where the protocol has them.
 Result<std::optional<devices::WandDescription>> wand_of(const std::string& device, const study::Protocol& protocol) {
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(device);
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(device, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     const std::optional<devices::WandDescription>& wand = nature->handle;
     if (!wand) return std::nullopt;

@@ -28,6 +28,7 @@
 #include "scene/world_settings.hpp"
 #include "session/drive/session.hpp"
 #include "session/record/input_files.hpp"
+#include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"
 
 namespace burin::app {
@@ -371,14 +372,15 @@ std::string WorldCommand::misuse() const {
     if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
     if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
-    const bool has_points = std::ranges::any_of(session::devices_of(live),
-                                                [](const auto& hand) { return devices::has_handle(hand.device); });
+    const bool has_points = std::ranges::any_of(session::devices_of(live), [](const auto& hand) {
+        return devices::has_handle(hand.device, &session::session_recordings());
+    });
     if (!options_->exploration.points.empty() && !has_points)
         return "--points belongs to a wand: give --device " + devices::devices_with_handles();
     if (!options_->exploration.stroke.empty() && !live.hands.empty())
         return "world explores with one hand: name one --device";
     if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice &&
-        !devices::has_handle(live.device))
+        !devices::has_handle(live.device, &session::session_recordings()))
         return "world explores with --device " + std::string(devices::kDefaultHapticDevice) + " or " +
                devices::devices_with_handles() + ", not " + live.device;
     return "";
@@ -390,15 +392,17 @@ Result<void> WorldCommand::run() const {
         WorldExploration exploration = options_->exploration;
         exploration.record = options_->session.live.record;
         exploration.device = options_->session.live.device;
-        if (devices::has_handle(exploration.device)) return explore_world_with_wand(exploration);
+        if (devices::has_handle(exploration.device, &session::session_recordings()))
+            return explore_world_with_wand(exploration);
         return explore_world(exploration);
     }
     session::SculptOptions session = options_->session;
     session.world = options_->exploration.world;
-    if (devices::has_handle(session.live.device)) {
+    if (devices::has_handle(session.live.device, &session::session_recordings())) {
         session.points = options_->exploration.points;
         if (session.points.empty()) {
-            const Result<devices::DeviceNature> nature = devices::nature_of_device(session.live.device);
+            const Result<devices::DeviceNature> nature =
+                devices::nature_of_device(session.live.device, &session::session_recordings());
             if (!nature) return std::unexpected(nature.error());
             session.points = devices::usual_points(*nature->handle);
         }

@@ -24,6 +24,7 @@
 #include "scene/vrml_world.hpp"
 #include "session/felt/felt_figures.hpp"
 #include "session/record/input_files.hpp"
+#include "session/record/recordings.hpp"
 
 namespace burin::app {
 namespace {
@@ -176,7 +177,7 @@ struct WandWorld {
 
 Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options) {
     auto opened = std::make_unique<WandWorld>();
-    Result<devices::DeviceNature> nature = devices::nature_of_device(options.device);
+    Result<devices::DeviceNature> nature = devices::nature_of_device(options.device, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     if (!nature->handle) return fail("--device " + options.device, "has no handle with points", "name a wand");
     opened->feel.wand = std::move(*nature->handle);
@@ -248,7 +249,7 @@ Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader
     const bool sound = text("world", options.world) && text("stroke", options.stroke) &&
                        text("device", options.device) && text("points", options.points) && json.contains("radius_m") &&
                        json["radius_m"].is_number();
-    if (!sound || !devices::has_handle(options.device))
+    if (!sound || !devices::has_handle(options.device, &session::session_recordings()))
         return fail(reader.path(), "has no sound settings of a stroke with a wand",
                     "replay what burin world --stroke --device simulated-wand --record has written");
     options.radius_m = json["radius_m"].get<double>();

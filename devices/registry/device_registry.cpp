@@ -117,6 +117,34 @@ Result<OpenedDevice> open_spacemouse_wand_by(HapticHost host, const std::string&
     return open_spacemouse_wand(text, std::move(host.hand), host.clock);
 }
 
+// Opens what was recorded, to stand in for it, and has its samples played.
+Result<OpenedDevice> open_recorded(HapticHost host, const std::string& text) {
+    const Result<RecordedChoice> choice = recorded_choice(text);
+    if (!choice) return std::unexpected(choice.error());
+    if (host.recordings == nullptr)
+        return fail("haptic device " + std::string(kRecordedDevice) + ":" + text, "cannot be played here",
+                    "play it in a session: burin sculpt --device");
+    Clock& clock = host.clock;
+    Result<RecordedHand> hand = host.recordings->hand_of(choice->file, choice->hand);
+    if (!hand) return std::unexpected(hand.error());
+    host.stands_in = true;
+    auto like = open_haptic_device(hand->device, std::move(host));
+    if (!like) return like;
+    if (like->parts.size() != hand->parts.size())
+        return fail(choice->file,
+                    "has " + std::to_string(hand->parts.size()) + " parts of " + hand->device + ", which has " +
+                        std::to_string(like->parts.size()),
+                    "play it with the program that recorded it");
+    return recorded_device(std::move(*hand), *choice, std::move(*like), clock);
+}
+
+std::vector<DevicePresence> look_for_recordings() {
+    return {{Presence::perhaps,
+             std::string(kRecordedDevice) + ":FILE.session",
+             "plays the hand of a session that was recorded with --record FILE.session",
+             {}}};
+}
+
 constexpr std::array kKinds{
     HapticKind{.name = kDefaultHapticDevice,
                .usage = "a PHANTOM Omni in a simulated hand",
@@ -246,6 +274,17 @@ constexpr std::array kKinds{
                .open = open_spacemouse_wand_by,
                .look = look_for_spacemouse_wands,
                .file_of = spacemouse_file_of},
+    HapticKind{.name = kRecordedDevice,
+               .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
+                        "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = false,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_recorded,
+               .look = look_for_recordings},
 };
 
 struct ChosenKind {
@@ -275,6 +314,22 @@ Result<ChosenKind> chosen(std::string_view name) {
                 "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
 }
 
+// Returns the device that a recorded one plays; any other name as it is.
+Result<std::string> played_by(std::string_view name, const Recordings* recordings) {
+    constexpr std::size_t kMostDepth = 8;  // a recording of a recording of ...
+    std::string of(name);
+    for (std::size_t depth = 0; depth < kMostDepth; ++depth) {
+        const Result<ChosenKind> wanted = chosen(of);
+        if (!wanted || wanted->kind->name != kRecordedDevice || recordings == nullptr) return of;
+        const Result<RecordedChoice> choice = recorded_choice(wanted->file);
+        if (!choice) return std::unexpected(choice.error());
+        Result<std::string> inner = recordings->device_of(choice->file, choice->hand);
+        if (!inner) return inner;
+        of = std::move(*inner);
+    }
+    return fail("haptic device " + std::string(name), "plays a recording that plays itself", "name another recording");
+}
+
 }  // namespace
 
 std::span<const HapticKind> haptic_kinds() { return kKinds; }
@@ -285,11 +340,15 @@ Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) 
     return wanted->kind->open(std::move(host), wanted->file);
 }
 
-Result<DeviceNature> nature_of_device(std::string_view name) {
-    const Result<ChosenKind> wanted = chosen(name);
+Result<DeviceNature> nature_of_device(std::string_view name, const Recordings* recordings) {
+    const Result<std::string> of = played_by(name, recordings);
+    if (!of) return std::unexpected(of.error());
+    const Result<ChosenKind> wanted = chosen(*of);
     if (!wanted) return std::unexpected(wanted.error());
     const HapticKind& kind = *wanted->kind;
-    DeviceNature nature{kind.parts, kind.is_upright, kind.is_worn, kind.felt_by_person, kind.has_amplifiers, {}};
+    DeviceNature nature{kind.parts, kind.is_upright, kind.is_worn, kind.felt_by_person, kind.has_amplifiers, false, {}};
+    nature.is_played = name.starts_with(std::string(kRecordedDevice) + ":") || kind.name == kRecordedDevice;
+    if (nature.is_played) nature.felt_by_person = nature.has_amplifiers = false;
     if (kind.handle == nullptr) return nature;
     Result<WandDescription> handle = kind.handle(wanted->file);
     if (!handle) return std::unexpected(handle.error());
@@ -297,8 +356,10 @@ Result<DeviceNature> nature_of_device(std::string_view name) {
     return nature;
 }
 
-bool has_handle(std::string_view name) {
-    const Result<ChosenKind> wanted = chosen(name);
+bool has_handle(std::string_view name, const Recordings* recordings) {
+    const Result<std::string> of = played_by(name, recordings);
+    if (!of) return false;
+    const Result<ChosenKind> wanted = chosen(*of);
     return wanted && wanted->kind->handle != nullptr;
 }
 

@@ -14,6 +14,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "devices/haptic/opened_device.hpp"
+#include "devices/haptic/recorded_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "devices/presence/device_presence.hpp"
@@ -27,6 +28,7 @@ struct HapticHost {
     // A recording is done again, and no device is looked for: whatever there is stands in for one, with the same
     // description. Its samples are the recording's.
     bool stands_in = false;
+    const Recordings* recordings = nullptr;  // reads those that are played as a device; null: none can be
 };
 
 // What a device is, as far as it can be known before it is opened. Who wants a device asks for what it needs of this,
@@ -37,6 +39,7 @@ struct DeviceNature {
     bool is_worn = false;         // on a hand, whose bending fingers are its parts
     bool felt_by_person = true;   // false: by a simulated hand alone
     bool has_amplifiers = false;  // that the program can switch
+    bool is_played = false;       // by a recording: it asks nobody, and takes no force
     // A handle with points of its own that touch, in place of one tip, and with a jig to calibrate it in: its
     // description, from the device's file or from the program. None: the device has none.
     std::optional<WandDescription> handle;
@@ -60,11 +63,12 @@ struct HapticKind {
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 
 // Returns the nature of the device of that name, or of NAME:FILE. Fails where there is none of that name, and says
-// which there are, and where its description cannot be read.
-[[nodiscard]] Result<DeviceNature> nature_of_device(std::string_view name);
+// which there are, and where its description cannot be read. A recorded device is of the nature of the one that was
+// recorded.
+[[nodiscard]] Result<DeviceNature> nature_of_device(std::string_view name, const Recordings* recordings = nullptr);
 // Returns whether the device of that name has a handle, whatever its description says of it; false where there is no
 // such device.
-[[nodiscard]] bool has_handle(std::string_view name);
+[[nodiscard]] bool has_handle(std::string_view name, const Recordings* recordings = nullptr);
 // Returns the names of all devices that have one, for people: "simulated-wand".
 [[nodiscard]] std::string devices_with_handles();
 // Returns the file that describes a device's handle: FILE of NAME:FILE; empty: none is named, or it has no handle.

@@ -89,7 +89,7 @@ std::optional<FrameInput> LiveFrames::next_input() {
     for (InputEvent& event : in_order_of_time(std::move(happened), take_tracker_input()))
         input_.push(event.time_ns, std::move(event.input));
     for (std::string& command : session_.hands().take_commands())
-        input_.push(clock_.now_ns() - session_.start_ns(), CommandInput{std::move(command), {}});
+        input_.push(clock_.now_ns() - session_.start_ns(), CommandInput{std::move(command), {}}, true);
     recorder_.outside();
     const auto frame =
         input_.begin_frame(clock_.now_ns() - session_.start_ns(), plan_.display_ns - session_.start_ns());

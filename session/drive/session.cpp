@@ -11,6 +11,7 @@
 #include "session/picture/pictures.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/log_outputs.hpp"
+#include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"
 #include "session/state/session_settings.hpp"
 #include "session/state/session_tracker.hpp"
@@ -65,7 +66,9 @@ Result<void> check(const SculptOptions& options) {
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
         return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
-    const auto has_points = [](const NamedDevice& hand) { return devices::has_handle(hand.device); };
+    const auto has_points = [](const NamedDevice& hand) {
+        return devices::has_handle(hand.device, &session_recordings());
+    };
     if (!options.points.empty() && std::ranges::none_of(devices_of(options.live), has_points))
         return fail("--points", "belongs to a handle with points, and the device is " + options.live.device,
                     "give --device " + devices::devices_with_handles() + ", or leave --points out");

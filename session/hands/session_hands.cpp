@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "session/record/recordings.hpp"
 
 namespace burin::session {
 
@@ -43,7 +44,8 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
     if (!steered) return std::unexpected(steered.error());
     hand->told.position_device_m = rest.position_device_m;
     hand->told.orientation_device = rest.orientation_device;
-    auto opened = devices::open_haptic_device(wanted.device, {clock, std::move(*steered), stands_in});
+    auto opened =
+        devices::open_haptic_device(wanted.device, {clock, std::move(*steered), stands_in, &session_recordings()});
     if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
     hand->device = std::move(*opened);
     for (std::size_t i = 0; i < hand->device.parts.size(); ++i)

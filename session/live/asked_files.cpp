@@ -25,8 +25,8 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 AskedFiles::AskedFiles(const SculptOptions& options, MessageLog& log)
     : log_(log), outputs_(options.live, inputs_of(options).list()), log_name_(options.live.input) {}
 
-void AskedFiles::place(sculpt::ExportSurface& wanted) const {
-    const auto placed = outputs_.place_of(wanted.path, OutputKind::mesh);
+void AskedFiles::place(sculpt::ExportSurface& wanted) {
+    const auto placed = outputs_.new_place_of(wanted.path, OutputKind::mesh);
     if (!placed) {
         wanted.refused = placed.error();
         return;
@@ -46,7 +46,7 @@ void AskedFiles::tell(const sculpt::ExportOutcome& ended) {
 }
 
 void AskedFiles::keep_picture(const Asked& wanted, const Result<Image>& image) {
-    const auto place = image ? outputs_.place_of(wanted.text, OutputKind::picture) : std::unexpected(image.error());
+    const auto place = image ? outputs_.new_place_of(wanted.text, OutputKind::picture) : std::unexpected(image.error());
     std::error_code ignored;
     const bool was_there = place && std::filesystem::exists(*place, ignored);
     const auto written = place ? renderer::write_png(*place, *image) : std::unexpected(place.error());

@@ -34,7 +34,7 @@ public:
     // Returns whether files are written at all.
     [[nodiscard]] bool write() const { return outputs_.write(); }
     // Says where a mesh goes; one that is refused is ordered as well, since a recording counts the orders.
-    void place(sculpt::ExportSurface& wanted) const;
+    void place(sculpt::ExportSurface& wanted);
     void tell(const sculpt::ExportOutcome& ended);
 
     // Pictures of the next frame, by their names.

@@ -9,6 +9,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/record/recordings.hpp"
 #include "session/state/activity.hpp"
 
 namespace burin::session {
@@ -54,7 +55,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
     opened.handles.assign(hands.size(), nullptr);
     for (std::size_t i = 0; i < hands.size(); ++i) {
         HandRoom& room = i == 0 ? opened.room : opened.room.others[i - 1];
-        Result<devices::DeviceNature> nature = devices::nature_of_device(hands[i].device);
+        Result<devices::DeviceNature> nature = devices::nature_of_device(hands[i].device, &session_recordings());
         if (!nature) return std::unexpected(of_hand(hands[i].hand, nature.error()));
         if (nature->is_upright) {
             room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};

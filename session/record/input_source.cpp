@@ -58,8 +58,8 @@ std::optional<Nanoseconds> InputSource::next_event_ns() const {
     return log_.events[next_].time_ns;
 }
 
-void InputSource::push(Nanoseconds now_ns, Input input) {
-    if (kind_ == Kind::replay || (kind_ == Kind::play && !is_of_tracker(input))) return;
+void InputSource::push(Nanoseconds now_ns, Input input, bool is_of_device) {
+    if (kind_ == Kind::replay || (kind_ == Kind::play && !is_of_device && !is_of_tracker(input))) return;
     if (std::holds_alternative<FrameStart>(input) || !is_sensible(input)) {
         ++refused_;
         return;

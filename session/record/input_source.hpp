@@ -50,9 +50,9 @@ public:
     [[nodiscard]] std::optional<Nanoseconds> next_event_ns() const;
 
     // Adds a live input that arrived now; keeps times non-decreasing. Input that is not sensible is dropped and
-    // counted. Of these a log that is played takes what trackers report, and one that is replayed nothing: the log is
-    // all the input there is.
-    void push(Nanoseconds now_ns, Input input);
+    // counted. Of these a log that is played takes what trackers report and what a device's keys ask for
+    // (is_of_device), and one that is replayed nothing: the log is all the input there is.
+    void push(Nanoseconds now_ns, Input input, bool is_of_device = false);
 
     // Returns all input for the next frame; nothing when a log is over. Live and in real time the frame is now; a
     // replay ignores now_ns and display_ns. The events are borrowed until the next call.

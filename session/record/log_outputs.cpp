@@ -208,6 +208,20 @@ Result<fs::path> SessionOutputs::place_of(const std::string& name, OutputKind ki
     return place;
 }
 
+Result<fs::path> SessionOutputs::new_place_of(const std::string& name, OutputKind kind) {
+    Result<fs::path> place = place_of(name, kind);
+    if (!place || rule_ != Rule::anywhere) return place;
+    std::error_code ignored;
+    const fs::path asked = *place;
+    const auto taken = [&](const fs::path& p) { return fs::exists(p, ignored) || promised_.contains(p); };
+    for (int number = 2; taken(*place); ++number) {
+        *place = asked;
+        place->replace_filename(asked.stem().string() + "-" + std::to_string(number) + asked.extension().string());
+    }
+    promised_.insert(*place);
+    return place;
+}
+
 Result<fs::path> SessionOutputs::place_in_folder(const std::string& name, OutputKind kind) const {
     const Folder& folder = kind == OutputKind::picture ? pictures_ : meshes_;
     if (rule_ != Rule::in_folder) return folder.path / name;

@@ -7,11 +7,13 @@
 //   places    no symbolic link leads out of the folder; looked at right before a file is written: SessionOutputs
 //   inputs    nobody's file takes the place of one that the session reads: SessionOutputs
 //
-// Else a user at keys and panel writes wherever the system lets them: names are taken as they are. Failure: an Error
+// Else a user at keys and panel writes wherever the system lets them: names are taken as they are, with a number where a
+// file has the name already, since a key asks nobody whether that file may go. Failure: an Error
 // that names the file and the remedy; check_commands() names the log's line as well. One thread.
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,9 @@ public:
     [[nodiscard]] Result<void> prepare(const InputLog& log, const std::string& name) const;
     // Returns where a file of this name goes. Makes the folders on its way. Fails where an input is there.
     [[nodiscard]] Result<std::filesystem::path> place_of(const std::string& name, OutputKind kind) const;
+    // The same for a file that is about to be written: a user's gets a place that neither a file has nor one that was
+    // placed before, such as part-2.stl; a log's is as it was in the run before.
+    [[nodiscard]] Result<std::filesystem::path> new_place_of(const std::string& name, OutputKind kind);
     // Returns what a message calls the file: a log's by its name, so that pictures of the panel do not depend on the
     // folder.
     [[nodiscard]] std::string shown(const std::string& name, const std::filesystem::path& place) const {
@@ -70,6 +75,7 @@ private:
     Folder pictures_, meshes_;
     bool refuses_meshes_ = false;
     std::vector<std::string> inputs_;
+    std::set<std::filesystem::path> promised_;  // to files of this session, which may not be written yet
 };
 
 }  // namespace burin::session

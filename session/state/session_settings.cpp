@@ -250,6 +250,17 @@ Result<std::string> option_on(const std::string& line, const std::string& option
     return found == words->end() ? "" : found->second;
 }
 
+Result<std::vector<NamedDevice>> hands_on(const std::string& line) {
+    const Result<std::string> several = option_on(line, "--hands"), one = option_on(line, "--device");
+    if (!several) return std::unexpected(several.error());
+    if (!one) return std::unexpected(one.error());
+    std::vector<NamedDevice> hands;
+    if (!read(*several, hands))
+        return fail("the recording's first line", "--hands " + *several + " is no value of that option");
+    if (hands.empty()) hands.push_back({"", one->empty() ? devices::kDefaultHapticDevice : *one});
+    return hands;
+}
+
 Result<std::string> activity_on(const std::string& line) { return option_on(line, kActivity); }
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {

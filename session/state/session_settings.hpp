@@ -17,6 +17,8 @@ namespace burin::session {
 [[nodiscard]] std::string settings_line(const SculptOptions& options);
 // Returns what stands behind an option ("--device") of a recording's line; empty where it is not there, or is a flag.
 [[nodiscard]] Result<std::string> option_on(const std::string& line, const std::string& option);
+// Returns the devices of all hands of a recording's line, the only hand's without a name.
+[[nodiscard]] Result<std::vector<NamedDevice>> hands_on(const std::string& line);
 // Returns the settings of the activity of a recording's line (Activity::settings()); empty where it had none.
 [[nodiscard]] Result<std::string> activity_on(const std::string& line);
 

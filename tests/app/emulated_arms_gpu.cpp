@@ -2,10 +2,15 @@
 // Emulated arms in sessions by the command line: they carve, two at once, also of two makers, and are done again
 // without them.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <sstream>
 #include <string>
+#include <thread>
 
+#include "devices/emulators/emulated_spacemouse.hpp"
 #include "gpu/device.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
@@ -115,6 +120,52 @@ TEST(EmulatedArms, ASpaceMouseLeadsAStylusThatCarvesAndIsDoneAgainWithoutIt) {
         EXPECT_EQ(replayed.status, 0) << replayed.output;
         EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
     }
+}
+
+TEST(EmulatedArms, ASpaceMouseMovesTheSceneAsATracker) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 cap\n0.1 mouse 160 90\n5 close\n");
+    const auto recorded = at.run(emulators(burin, "a", "spacemouse --layout split") + burin +
+                                 " sculpt --workpiece ball:0.08 --resolution 64 --tracker spacemouse:emulated-$$-a "
+                                 "--input s.txt --offscreen --width 320 --height 180 --record o.session");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    ASSERT_EQ(at.run(burin + " convert o.session --to log o.log").status, 0);
+    const std::string log = at.read("o.log");
+    EXPECT_TRUE(log.contains(" wand-button 1 press 0")) << "it takes hold of the scene";
+    EXPECT_GT(std::count(log.begin(), log.end(), '\n'), 100);
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
+TEST(EmulatedArms, TheSecondKeyOfASpaceMouseUndoesAStroke) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const std::string name = "emulated-undo-" + std::to_string(::getpid());
+    // Presses away and carves as usual, lets go, and presses the second key.
+    const auto script = [](double time_s) {
+        devices::CapStand cap = devices::circling_cap(std::min(time_s, 5.0));
+        if (time_s >= 5.0) cap = {};
+        if (time_s >= 5.5 && time_s < 5.8) cap.buttons = 2;
+        return cap;
+    };
+    auto spacemouse = devices::EmulatedSpaceMouse::create(name, {.joined = true, .script = script, .silence = {}});
+    ASSERT_TRUE(spacemouse) << spacemouse.error().line();
+    std::atomic<bool> ends = false;
+    std::thread runs([&] { spacemouse->run([&] { return ends.load(); }); });
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 cap\n0.1 mouse 160 90\n8 close\n");
+    const auto recorded = at.run(burin + " sculpt --workpiece ball:0.08 --resolution 64 --device spacemouse:" + name +
+                                 " --input s.txt --offscreen --width 320 --height 180 --record o.session");
+    ends = true;
+    runs.join();
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    ASSERT_EQ(at.run(burin + " convert o.session --to log o.log").status, 0);
+    EXPECT_TRUE(at.read("o.log").contains(" command undo")) << at.read("o.log").substr(0, 2000);
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
 TEST(EmulatedArms, SaysThatThereIsNone) {

@@ -188,4 +188,28 @@ TEST(RunSession, RefusesAFolderOfOutputsWithoutALog) {
     EXPECT_TRUE(outcome.error().line().contains("--input")) << outcome.error().line();
 }
 
+// A key asks nobody whether the file that has its name may go; nor may the next press take the place of one that is
+// still being written.
+TEST(SessionOutputs, OfAUserTakeNoFilesPlaceButANumber) {
+    const Workplace place;
+    LiveOptions live;
+    live.screenshots = (place / "").string();
+    SessionOutputs outputs(live);
+    const auto name = [&] {
+        const auto at = outputs.new_place_of("wall.png", OutputKind::picture);
+        return at ? at->filename().string() : at.error().line();
+    };
+    EXPECT_EQ(name(), "wall.png");
+    EXPECT_EQ(name(), "wall-2.png");
+    place.write("wall-3.png", "a picture");
+    EXPECT_EQ(name(), "wall-4.png");
+
+    SessionOutputs of_log(led_by("script.txt", (place / "out").string()));
+    for (int run = 0; run < 2; ++run) {
+        const auto at = of_log.new_place_of("wall.png", OutputKind::picture);
+        ASSERT_TRUE(at);
+        EXPECT_EQ(at->filename(), "wall.png");
+    }
+}
+
 }  // namespace burin::session
