@@ -7,9 +7,9 @@
 //   places    no symbolic link leads out of the folder; looked at right before a file is written: SessionOutputs
 //   inputs    nobody's file takes the place of one that the session reads: SessionOutputs
 //
-// Else a user at keys and panel writes wherever the system lets them: names are taken as they are, with a number where a
-// file has the name already, since a key asks nobody whether that file may go. Failure: an Error
-// that names the file and the remedy; check_commands() names the log's line as well. One thread.
+// Else a user at keys and panel writes wherever the system lets them: names are taken as they are, with a number where
+// a file has the name already, since a key asks nobody whether that file may go. Failure: an Error that names the file
+// and the remedy; check_commands() names the log's line as well. One thread.
 #pragma once
 
 #include <filesystem>
