@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -133,7 +134,10 @@ void EmulatedVrpn::run(const EmulatedVrpnOptions& options, const std::function<b
         if (now_ns < report_ns) continue;
         report_ns = std::max(report_ns + period_ns, now_ns - 50 * period_ns);
         VrpnBytes report;
-        const std::int64_t time_us = now_ns / 1000;
+        // Of the wall clock, as VRPN's servers stamp.
+        const std::int64_t time_us =
+            std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+                .count();
         const auto send_pose = [&](std::int32_t sensor, const Pose& pose) {
             report.message(kTrackerSender, kPoseType, vrpn_payload(VrpnPose{sensor, pose.position_m, pose.orientation}),
                            time_us);

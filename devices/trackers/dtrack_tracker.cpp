@@ -87,6 +87,7 @@ void DTrackTracker::run() {
             if (count >= 0)
                 receive({datagram.data(), static_cast<std::size_t>(count)}, ntohl(from.sin_addr.s_addr), now_ns);
         }
+        if (translator_.lose_stopped(now_ns) && host_.on_sample) host_.on_sample();
         if (sender_ != 0 && now_ns - heard_ns_ > kSilent_ns) {
             translator_.lose_all(now_ns);
             inbox_.say("DTrack is silent: it is waited for");

@@ -174,10 +174,30 @@ void TrackerTranslator::report(Body& body, const TrackedMount& mount, const std:
         to_.push({time_ns, HeadInput{body.last_world, is_tracked}});
 }
 
+bool TrackerTranslator::is_repeated(std::string_view name, std::int32_t number, Nanoseconds stamp_ns) const {
+    const auto is_it = [&](const std::optional<TrackedSource>& source, const Body& body) {
+        return source && source->name == name && source->number == number && body.stamp_ns == stamp_ns;
+    };
+    bool repeated = is_it(bodies_.head, head_);
+    for (std::size_t wand = 0; wand < kTrackedWands; ++wand)
+        repeated = repeated || is_it(bodies_.wands[wand], wands_[wand]);
+    return repeated;
+}
+
 void TrackerTranslator::pose(std::string_view name, std::int32_t number, const Pose& pose_system, bool is_tracked,
-                             Nanoseconds time_ns) {
+                             Nanoseconds time_ns, std::optional<Nanoseconds> stamp_ns) {
     note_seen(name, number, time_ns);
     if (!is_known(name, number)) return;
+    if (stamp_ns) {
+        if (is_repeated(name, number, *stamp_ns)) return;
+        const Nanoseconds late_ns = delay_.note(*stamp_ns, time_ns);
+        if (late_ns > kStale_ns) {
+            refuse(formatted("sends poses of %.*s/%d that are %.1f s late: they are lost until they are newer",
+                             static_cast<int>(name.size()), name.data(), number, seconds(late_ns)),
+                   time_ns);
+            is_tracked = false;
+        }
+    }
     std::optional<TimedPose> body_tracker;
     if (is_tracked) {
         const std::optional<Pose> pose_tracker = in_tracker(pose_system);
@@ -188,9 +208,28 @@ void TrackerTranslator::pose(std::string_view name, std::int32_t number, const P
         body_tracker = {time_ns, *pose_tracker};
     }
     const TrackedSource said{std::string(name), number};
-    if (bodies_.head == said) report(head_, bodies_.head_mount, body_tracker, std::nullopt, time_ns);
+    const auto tell = [&](Body& body, const TrackedMount& mount, std::optional<std::uint32_t> wand) {
+        body.heard_ns = time_ns;
+        body.stamp_ns = stamp_ns;
+        report(body, mount, body_tracker, wand, time_ns);
+    };
+    if (bodies_.head == said) tell(head_, bodies_.head_mount, std::nullopt);
     for (std::uint32_t wand = 0; wand < kTrackedWands; ++wand)
-        if (bodies_.wands[wand] == said) report(wands_[wand], bodies_.wand_mounts[wand], body_tracker, wand, time_ns);
+        if (bodies_.wands[wand] == said) tell(wands_[wand], bodies_.wand_mounts[wand], wand);
+}
+
+bool TrackerTranslator::lose_stopped(Nanoseconds time_ns) {
+    bool any = false;
+    const auto look = [&](Body& body, const std::optional<TrackedSource>& source, std::optional<std::uint32_t> wand) {
+        if (!source || !body.is_tracked || time_ns - body.heard_ns <= kStopped_ns) return;
+        any = true;
+        report(body, {}, {}, wand, time_ns);
+        to_.say("tracker " + where_ + ": no new pose of " + source->name +
+                formatted("/%d has come for %.0f s: it is lost where it was", source->number, seconds(kStopped_ns)));
+    };
+    look(head_, bodies_.head, std::nullopt);
+    for (std::uint32_t wand = 0; wand < kTrackedWands; ++wand) look(wands_[wand], bodies_.wands[wand], wand);
+    return any;
 }
 
 void TrackerTranslator::note_seen(std::string_view name, std::int32_t number, Nanoseconds time_ns) {

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "base/pose_motion.hpp"
+#include "devices/trackers/server_delay.hpp"
 #include "devices/trackers/tracker_inbox.hpp"
 
 namespace burin::devices {
@@ -87,17 +88,26 @@ struct TrackerBodies {
 // Turns a system's reports into samples of heads and wands, and puts those into an inbox. What is not finite, turned by
 // no rotation, or of a body that has no part in this is left out; nonsense is counted and told. A named body that does
 // not show within kPatience_ns of the first one is told of, once, with those that do.
+//
+// Age. Where a server stamps its poses, one that comes later than kStale_ns (server_delay.hpp) is of no account: its body
+// is lost, and that is told. One with the stamp of the pose before says nothing new. A body of which nothing new has
+// come for kStopped_ns is lost where it was, with a message, although the server itself may go on.
 class TrackerTranslator {
 public:
     static constexpr Nanoseconds kPatience_ns = 5'000'000'000;
     static constexpr std::size_t kMostSeen = 100;
+    // A head is drawn from its fallback after the first (wall/head_prediction.hpp).
+    static constexpr Nanoseconds kStale_ns = 200'000'000, kStopped_ns = 1'000'000'000;
 
     TrackerTranslator(std::string where, TrackerBodies bodies, TrackerInbox& to)
         : where_(std::move(where)), bodies_(std::move(bodies)), to_(to) {}
 
-    // is_tracked false: the system has lost the body, and the pose is of no account.
-    void pose(std::string_view name, std::int32_t number, const Pose& pose_system, bool is_tracked,
-              Nanoseconds time_ns);
+    // is_tracked false: the system has lost the body, and the pose is of no account. stamp_ns: when it was measured, by
+    // the server's clock; none: the server does not say.
+    void pose(std::string_view name, std::int32_t number, const Pose& pose_system, bool is_tracked, Nanoseconds time_ns,
+              std::optional<Nanoseconds> stamp_ns = std::nullopt);
+    // Loses the bodies that have stopped; returns whether there were any. To be called now and then.
+    bool lose_stopped(Nanoseconds time_ns);
     void button(std::string_view name, std::int32_t number, bool pressed, Nanoseconds time_ns);
     void channels(std::string_view name, std::span<const double> values, Nanoseconds time_ns);
     // The system is silent: what was tracked is lost where it was, sticks rest, and what was pressed is released.
@@ -113,12 +123,15 @@ private:
         std::size_t count = 0;
         Pose last_world;
         bool is_tracked = false;
+        Nanoseconds heard_ns = 0;             // when the last new pose came
+        std::optional<Nanoseconds> stamp_ns;  // of that pose
     };
     [[nodiscard]] bool is_known(std::string_view name, std::int32_t number) const;
     [[nodiscard]] std::optional<Pose> in_tracker(const Pose& pose_system) const;
     [[nodiscard]] Pose point_world(Body& body, const TrackedMount& mount, const TimedPose& body_tracker) const;
     void report(Body& body, const TrackedMount& mount, const std::optional<TimedPose>& body_tracker,
                 std::optional<std::uint32_t> wand, Nanoseconds time_ns);
+    [[nodiscard]] bool is_repeated(std::string_view name, std::int32_t number, Nanoseconds stamp_ns) const;
     void note_seen(std::string_view name, std::int32_t number, Nanoseconds time_ns);
     void tell_of_missing();
     void click(std::size_t wand, std::uint32_t button, bool pressed, Nanoseconds time_ns);
@@ -132,6 +145,7 @@ private:
     std::array<Vec2, kTrackedWands> sticks_{};
     // Bodies that have been reported, tracked or not, and since when there are any.
     std::vector<TrackedSource> seen_;
+    ServerDelay delay_;
     std::optional<Nanoseconds> first_seen_ns_;
     bool told_of_missing_ = false;
 };

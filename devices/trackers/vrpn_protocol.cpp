@@ -183,7 +183,10 @@ std::optional<VrpnMessage> VrpnReader::next() {
     const std::size_t payload = static_cast<std::size_t>(length) - kVrpnHeaderBytes;
     if (came.size() < kVrpnHeaderBytes + padded(payload)) return std::nullopt;
     begin_ += kVrpnHeaderBytes + padded(payload);
-    return VrpnMessage{int_at(came, 12), int_at(came, 16), came.subspan(kVrpnHeaderBytes, payload)};
+    const std::int64_t seconds = int_at(came, 4), microseconds = int_at(came, 8);
+    const bool is_time = seconds >= 0 && microseconds >= 0 && microseconds < 1'000'000;
+    return VrpnMessage{int_at(came, 12), int_at(came, 16), came.subspan(kVrpnHeaderBytes, payload),
+                       is_time ? seconds * 1'000'000 + microseconds : 0};
 }
 
 bool VrpnNames::take(const VrpnMessage& message) {

@@ -76,6 +76,7 @@ struct VrpnButton {
 struct VrpnMessage {
     std::int32_t sender = 0, type = 0;
     std::span<const std::byte> payload;  // borrowed until the reader takes more
+    std::int64_t time_us = 0;            // of the sender's clock, since 1970 as a rule; 0: it has set none
 };
 
 // Takes the bytes of one connection as they come, and gives its messages. Holds at most one message, of the largest

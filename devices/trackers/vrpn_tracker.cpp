@@ -3,9 +3,14 @@
 
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <sstream>
 #include <utility>
+
+#include "base/text.hpp"
 
 namespace burin::devices {
 namespace {
@@ -35,6 +40,19 @@ bool read_some(VrpnConnection& connection) {
     return count > 0;
 }
 
+// Says how old the newest pose of a server on this machine is, in steps that a person tells apart. -1: none has come; 0:
+// it has no time.
+std::string age_text(std::int64_t newest_us) {
+    constexpr double kFresh_s = 0.1;
+    if (newest_us < 0) return "; no pose comes";
+    if (newest_us == 0) return "; its poses have no time";
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const double age_s =
+        1e-6 * static_cast<double>(std::chrono::duration_cast<std::chrono::microseconds>(now).count() - newest_us);
+    if (std::abs(age_s) < kFresh_s) return "; its poses are less than 0.1 s old";
+    return formatted("; its newest pose is %.1f s old: stale, or of another clock", age_s);
+}
+
 }  // namespace
 
 std::expected<VrpnConnection, std::string> connect_to_vrpn(const NetworkAddress& to, const StopSign& stop) {
@@ -59,20 +77,24 @@ std::expected<VrpnConnection, std::string> connect_to_vrpn(const NetworkAddress&
     return std::unexpected(std::string("takes the connection and says nothing, as no VRPN server does"));
 }
 
-std::vector<DevicePresence> look_for_vrpn() {
-    const NetworkAddress here{"127.0.0.1", kVrpnPort};
+std::vector<DevicePresence> look_for_vrpn() { return look_for_vrpn_at({"127.0.0.1", kVrpnPort}); }
+
+std::vector<DevicePresence> look_for_vrpn_at(const NetworkAddress& here) {
     const std::string name = "vrpn:" + here.text();
     const StopSign stop;
     auto connection = connect_to_vrpn(here, stop);
     if (!connection)
         return {{Presence::absent, name, "a VRPN server " + connection.error(),
                  "start one, or burin devices emulate vrpn; name one on another machine: --tracker vrpn:HOST"}};
-    // A server names its devices at once.
+    // A server names its devices at once, and one that tracks reports many times a second.
     constexpr int kNames_ms = 200;
+    std::int64_t newest_us = -1;
     MonotonicClock clock;
     const Nanoseconds until_ns = clock.now_ns() + Nanoseconds{kNames_ms} * 1'000'000;
     do {
-        while (const auto message = connection->reader->next()) static_cast<void>(connection->names.take(*message));
+        while (const auto message = connection->reader->next())
+            if (!connection->names.take(*message) && connection->names.type(message->type) == kVrpnPose)
+                newest_us = std::max(newest_us, message->time_us);
     } while (clock.now_ns() < until_ns &&
              stop.wait_for(connection->socket.get(), kNames_ms) == StopSign::Woken::by_file && read_some(*connection));
     std::string devices;
@@ -81,7 +103,7 @@ std::vector<DevicePresence> look_for_vrpn() {
     return {{Presence::there,
              name,
              "a VRPN server, version " + connection->reader->version() +
-                 (devices.empty() ? ", which names no device" : ", with " + devices),
+                 (devices.empty() ? ", which names no device" : ", with " + devices) + age_text(newest_us),
              {}}};
 }
 
@@ -152,6 +174,7 @@ std::string VrpnTracker::follow(VrpnConnection& connection) {
         const auto woken = stop_.wait_for(connection.socket.get(), 200);
         if (woken == StopSign::Woken::by_sign) return {};
         const Nanoseconds now_ns = host_.clock.now_ns();
+        if (translator_.lose_stopped(now_ns) && host_.on_sample) host_.on_sample();
         if (woken == StopSign::Woken::by_file) {
             if (!read_some(connection)) return "has closed the connection";
             heard_ns = now_ns;
@@ -187,7 +210,8 @@ void VrpnTracker::take_message(VrpnConnection& connection, const VrpnMessage& me
     if (type == kVrpnPose) {
         const auto pose = vrpn_pose(message.payload);
         if (!pose) return is_short();
-        translator_.pose(sender, pose->sensor, {pose->position_m, pose->orientation}, true, now_ns);
+        translator_.pose(sender, pose->sensor, {pose->position_m, pose->orientation}, true, now_ns,
+                         message.time_us > 0 ? std::optional(message.time_us * 1000) : std::nullopt);
     } else if (type == kVrpnButton) {
         const auto button = vrpn_button(message.payload);
         if (!button) return is_short();

@@ -5,6 +5,8 @@
 // stays on the one TCP connection, since the server is told of no UDP port. A server that has sent nothing for a second
 // is sent pings, which it answers; one that is silent for kSilent_ns, that closes the connection or sends what is no
 // VRPN is left, its bodies are lost and its buttons released, and it is looked for again once a second.
+// A pose that comes late by the server's own time stamps is stale, and a body that stops is lost, as TrackerTranslator
+// has it.
 // Failures: a machine or server that is not there, and another version, are errors of open(); later ones are messages.
 // Threads: as Tracker has it; the host's functions are called on the tracker's own thread.
 #pragma once
@@ -29,8 +31,9 @@ inline constexpr Nanoseconds kVrpnAnswer_ns = 2'000'000'000;
 [[nodiscard]] std::expected<VrpnConnection, std::string> connect_to_vrpn(const NetworkAddress& to,
                                                                          const StopSign& stop);
 
-// Looks for a server on this machine at VRPN's own port, and which devices it names.
+// Looks for a server on this machine at VRPN's own port, which devices it names, and how old its newest pose is.
 [[nodiscard]] std::vector<DevicePresence> look_for_vrpn();
+[[nodiscard]] std::vector<DevicePresence> look_for_vrpn_at(const NetworkAddress& here);
 
 class VrpnTracker final : public Tracker {
 public:

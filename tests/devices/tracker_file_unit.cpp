@@ -296,6 +296,29 @@ TEST(TrackerPrediction, IsBoundedAndForgetsWhatWasLost) {
     EXPECT_EQ(said_at(0.6, 500'000'000), 0.6) << "twice at once neither";
 }
 
+// A server that goes on, with its bodies or its buttons, although one body has stopped.
+TEST(TrackerTranslator, LosesABodyThatHasStoppedAndSaysSo) {
+    TrackerBodies bodies{.head = {{"H", 0}}, .wands = {{{{"W", 1}}, std::nullopt}}};
+    TrackerInbox inbox;
+    TrackerTranslator translator("vrpn:x", bodies, inbox);
+    translator.pose("H", 0, {{0.1, 1.6, 2.0}, Quat{1, 0, 0, 0}}, true, 0);
+    translator.pose("W", 1, {}, true, 0);
+    EXPECT_FALSE(translator.lose_stopped(TrackerTranslator::kStopped_ns));
+    translator.pose("W", 1, {}, true, TrackerTranslator::kStopped_ns);
+    EXPECT_EQ(heard(inbox).size(), 3u);
+    EXPECT_TRUE(translator.lose_stopped(TrackerTranslator::kStopped_ns + 1));
+    EXPECT_FALSE(translator.lose_stopped(TrackerTranslator::kStopped_ns + 2)) << "once";
+    const auto inputs = heard(inbox);
+    ASSERT_EQ(inputs.size(), 1u);
+    EXPECT_FALSE(std::get<HeadInput>(inputs[0]).tracked);
+    EXPECT_EQ(std::get<HeadInput>(inputs[0]).pose_world.position_m.x, 0.1);
+    const auto said = inbox.take_messages();
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_EQ(said[0], "tracker vrpn:x: no new pose of H/0 has come for 1 s: it is lost where it was");
+    translator.pose("H", 0, {}, true, 5 * kNanosecondsPerSecond);
+    EXPECT_TRUE(std::get<HeadInput>(heard(inbox).at(0)).tracked) << "until it comes again";
+}
+
 TEST(TrackerTranslator, TellsOnceOfANamedBodyThatNeverShows) {
     TrackerBodies bodies{.head = {{"Glasses", 0}}, .wands = {{{{"Stick", 1}}, std::nullopt}}};
     bodies.are_named = true;

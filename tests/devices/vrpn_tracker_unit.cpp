@@ -75,8 +75,9 @@ public:
         accept();
         send(VrpnBytes().cookie().name(kVrpnSender, 9, "Tracker0").name(kVrpnType, 7, kVrpnPose).bytes());
     }
-    void send_pose(const Vec3& position_m, const Quat& orientation = {1, 0, 0, 0}, std::int32_t sensor = 0) const {
-        send(VrpnBytes().message(9, 7, vrpn_payload(VrpnPose{sensor, position_m, orientation})).bytes());
+    void send_pose(const Vec3& position_m, const Quat& orientation = {1, 0, 0, 0}, std::int32_t sensor = 0,
+                   std::int64_t time_us = 0) const {
+        send(VrpnBytes().message(9, 7, vrpn_payload(VrpnPose{sensor, position_m, orientation}), time_us).bytes());
     }
 
 private:
@@ -245,10 +246,65 @@ TEST(VrpnTracker, PingsAServerThatIsQuietAndLeavesOneThatIsSilent) {
     const auto lost = heard_until(*leaves, [](const auto& all) { return all.size() >= 2; });
     ASSERT_EQ(lost.size(), 2u);
     EXPECT_FALSE(std::get<HeadInput>(lost[1].input).tracked);
-    EXPECT_GE(lost[1].time_ns - lost[0].time_ns, VrpnTracker::kSilent_ns);
-    EXPECT_TRUE(all_messages(*leaves).contains("is silent"));
+    EXPECT_GE(lost[1].time_ns - lost[0].time_ns, TrackerTranslator::kStopped_ns);
+    EXPECT_LT(lost[1].time_ns - lost[0].time_ns, VrpnTracker::kSilent_ns) << "before the server is given up";
+    std::string said;
+    for (int i = 0; i < 10'000 && !said.contains("is silent"); ++i) {
+        said += all_messages(*leaves);
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_TRUE(said.contains("no new pose of Tracker0/0 has come for 1 s: it is lost where it was")) << said;
+    EXPECT_TRUE(said.contains("is silent")) << said;
     EXPECT_GE(quiet.pings(), 1u);
     EXPECT_FALSE(all_messages(*keeps).contains("silent"));
+}
+
+// What was on its way for too long is no place of now, and the pose before says nothing twice. The server's clock is its
+// own: ten years behind.
+TEST(VrpnTracker, TakesNoPoseThatIsStaleByTheServersOwnTime) {
+    RawServer server;
+    MonotonicClock clock;
+    const auto tracker = server.opened(clock);
+    constexpr std::int64_t kThen_us = 1'480'000'000'000'000;
+    const auto began = std::chrono::steady_clock::now();
+    const auto now_us = [&] {
+        return kThen_us +
+               std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began).count();
+    };
+    server.send_pose({0.1, 1.6, 2.0}, {1, 0, 0, 0}, 0, now_us());
+    const std::int64_t repeated_us = now_us();
+    server.send_pose({0.2, 1.6, 2.0}, {1, 0, 0, 0}, 0, repeated_us);
+    for (int i = 0; i < 3; ++i) server.send_pose({0.2, 1.6, 2.0}, {1, 0, 0, 0}, 0, repeated_us);
+    server.send_pose({0.3, 1.6, 2.0}, {1, 0, 0, 0}, 0, now_us() - 700'000);  // late by 0.7 s
+    server.send_pose({0.4, 1.6, 2.0}, {1, 0, 0, 0}, 0, now_us() + 1);
+    const auto heads = of_kind<HeadInput>(heard_until(*tracker, [](const auto& all) { return all.size() >= 4; }));
+    ASSERT_EQ(heads.size(), 4u);
+    EXPECT_EQ(heads[0].pose_world.position_m.x, 0.1);
+    EXPECT_EQ(heads[1].pose_world.position_m.x, 0.2);
+    EXPECT_FALSE(heads[2].tracked);
+    EXPECT_EQ(heads[2].pose_world.position_m.x, 0.2) << "where it was last";
+    EXPECT_TRUE(heads[3].tracked);
+    const std::string said = all_messages(*tracker);
+    EXPECT_TRUE(said.contains("sends poses of Tracker0/0 that are 0.7 s late")) << said;
+}
+
+TEST(VrpnTracker, TheListSaysHowOldTheNewestPoseIs) {
+    const RunningServer fresh({.rate_Hz = 100.0});
+    const auto found = look_for_vrpn_at({"127.0.0.1", fresh.port()});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_TRUE(found[0].cause.contains("; its poses are less than 0.1 s old")) << found[0].cause;
+    RawServer old;
+    std::thread greets([&] {
+        old.greet();
+        const auto now = std::chrono::system_clock::now().time_since_epoch();
+        old.send_pose({0.1, 1.6, 2.0}, {1, 0, 0, 0}, 0,
+                      std::chrono::duration_cast<std::chrono::microseconds>(now).count() - 5'000'000);
+    });
+    const auto stale = look_for_vrpn_at(*network_address(old.where().substr(5), {}));
+    greets.join();
+    ASSERT_EQ(stale.size(), 1u);
+    EXPECT_TRUE(stale[0].cause.contains("its newest pose is 5.")) << stale[0].cause;
+    EXPECT_TRUE(stale[0].cause.contains("stale")) << stale[0].cause;
 }
 
 TEST(VrpnTracker, LeavesAStreamThatItCannotFollow) {
