@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // How late the reports of a server come, from the time stamps of its own clock, which need not be ours.
 //
-// The least difference between arrival and stamp of the last 15 to 30 s is taken for both clocks' difference and the way
-// that a report takes at best; what a report takes longer is its delay. Clocks that drift apart by less than a second a
-// day add microseconds. A clock that is set makes reports seem late for as long at most; one that is set by more than
-// kSet_ns is seen at once. A delay that never changes cannot be told from a clock. Pure but for its state; no heap.
+// The least difference between arrival and stamp of the last 15 to 30 s is taken for both clocks' difference and the
+// way that a report takes at best; what a report takes longer is its delay. Clocks that drift apart by less than a
+// second a day add microseconds. A clock that is set makes reports seem late for as long at most; one that is set by
+// more than kSet_ns is seen at once. A delay that never changes cannot be told from a clock. Pure but for its state; no
+// heap.
 #pragma once
 
 #include <algorithm>

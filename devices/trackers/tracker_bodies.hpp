@@ -89,9 +89,9 @@ struct TrackerBodies {
 // no rotation, or of a body that has no part in this is left out; nonsense is counted and told. A named body that does
 // not show within kPatience_ns of the first one is told of, once, with those that do.
 //
-// Age. Where a server stamps its poses, one that comes later than kStale_ns (server_delay.hpp) is of no account: its body
-// is lost, and that is told. One with the stamp of the pose before says nothing new. A body of which nothing new has
-// come for kStopped_ns is lost where it was, with a message, although the server itself may go on.
+// Age. Where a server stamps its poses, one that comes later than kStale_ns (server_delay.hpp) is of no account: its
+// body is lost, and that is told. One with the stamp of the pose before says nothing new. A body of which nothing new
+// has come for kStopped_ns is lost where it was, with a message, although the server itself may go on.
 class TrackerTranslator {
 public:
     static constexpr Nanoseconds kPatience_ns = 5'000'000'000;

@@ -40,8 +40,8 @@ bool read_some(VrpnConnection& connection) {
     return count > 0;
 }
 
-// Says how old the newest pose of a server on this machine is, in steps that a person tells apart. -1: none has come; 0:
-// it has no time.
+// Says how old the newest pose of a server on this machine is, in steps that a person tells apart. -1: none has come;
+// 0: it has no time.
 std::string age_text(std::int64_t newest_us) {
     constexpr double kFresh_s = 0.1;
     if (newest_us < 0) return "; no pose comes";

@@ -259,8 +259,8 @@ TEST(VrpnTracker, PingsAServerThatIsQuietAndLeavesOneThatIsSilent) {
     EXPECT_FALSE(all_messages(*keeps).contains("silent"));
 }
 
-// What was on its way for too long is no place of now, and the pose before says nothing twice. The server's clock is its
-// own: ten years behind.
+// What was on its way for too long is no place of now, and the pose before says nothing twice. The server's clock is
+// its own: ten years behind.
 TEST(VrpnTracker, TakesNoPoseThatIsStaleByTheServersOwnTime) {
     RawServer server;
     MonotonicClock clock;
