@@ -233,7 +233,10 @@ void SteeredHand::play_on() noexcept {
 bool SteeredHand::arrive() noexcept {
     const std::uint32_t buttons = next().target.buttons;
     if (buttons != hand_.buttons) {
-        if (time_ns_ - pressed_ns_ < kLeastPress_ns) {
+        // A hand that comes nearer to a goal that rests gets there within 40 ms and a way of 0.6 m/s.
+        const bool is_far = limits_.pressed_within_m > 0.0 && (buttons & ~hand_.buttons) != 0 &&
+                            length(to_.position_m - hand_.position_device_m) > limits_.pressed_within_m;
+        if (is_far || time_ns_ - pressed_ns_ < kLeastPress_ns) {
             played_ns_ = to_.time_ns;
             return false;
         }

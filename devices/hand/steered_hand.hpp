@@ -87,6 +87,8 @@ struct SteeringLimits {
     double speed_m_per_s = 0.6;
     double acceleration_m_per_s2 = 40.0;
     double lag_s = 0.004;
+    // How near the hand must be to the place where a button goes down, which waits for it; 0: as the goal is there.
+    double pressed_within_m = 0.0;
 };
 
 class SteeredHand {
@@ -110,6 +112,8 @@ public:
     [[nodiscard]] const HandGrip& grip() const noexcept { return grip_; }
     // Holds more or less firmly, before the first call of target(). Fails on a grip with negative numbers.
     [[nodiscard]] Result<void> hold_by(const HandGrip& grip);
+    // Has buttons that go down wait for the hand (SteeringLimits::pressed_within_m), before the first call of target().
+    void press_within(double distance_m) { limits_.pressed_within_m = distance_m; }
 
 private:
     static constexpr Nanoseconds kNoNeed_ns = -(Nanoseconds{1} << 60);

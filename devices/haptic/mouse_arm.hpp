@@ -13,6 +13,8 @@
 namespace burin::devices {
 
 inline constexpr const char* kMouseArm = "mouse";
+// A stroke begins where the button went down, and not where the hand is still under way from.
+inline constexpr double kMousePressesWithin_m = 2e-4;
 
 [[nodiscard]] inline OmniModel mouse_arm() {
     OmniModel model;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "devices/presence/emulator_socket.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -66,18 +66,22 @@ Result<EmulatorConnection> connect_to_emulator(const std::string& where, const s
                                                const std::string& name) {
     const std::string remedy = "start it in another terminal: burin devices emulate " + kind +
                                (name == kEmulatedName ? std::string() : " --at " + name);
-    OwnedFile socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+    // Of an emulator that accepts nobody, since it is stopped, the queue is full some day: connect would wait for ever.
+    OwnedFile socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const SocketName at = socket_name(kind, name);
-    if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at.address), at.size) != 0)
+    if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at.address), at.size) != 0) {
+        if (errno == EAGAIN)
+            return fail(where, "the emulator does not answer, and others wait for it", "let it go on, or end it");
         return fail(where, "no emulator runs by this name", remedy);
+    }
     if (!is_own_process(socket.get())) return fail(where, "the emulator of this name is another user's", remedy);
     std::array<char, 64> greeting{};
     pollfd waits{socket.get(), POLLIN, 0};
     const ssize_t came =
         ::poll(&waits, 1, 1000) > 0 ? ::recv(socket.get(), greeting.data(), greeting.size(), 0) : ssize_t{0};
     if (came <= 0)
-        return fail(where, "is in use by another program", "end that one, or start another emulator: --at emulated-2");
-    ::fcntl(socket.get(), F_SETFL, O_NONBLOCK);
+        return fail(where, "is in use by another program, or does not answer",
+                    "end that program, or let the emulator go on if it is stopped, or start another: --at emulated-2");
     return EmulatorConnection{std::move(socket), std::string(greeting.data(), static_cast<std::size_t>(came))};
 }
 

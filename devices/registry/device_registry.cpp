@@ -32,8 +32,10 @@ Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& fil
 Result<OpenedDevice> open_mouse_arm(HapticHost host, const std::string& file) {
     if (!file.empty())
         return fail("haptic device " + std::string(kMouseArm), "takes no description: " + file, "write the name alone");
-    if (auto* const steered = std::get_if<SteeredHand>(&host.hand))
+    if (auto* const steered = std::get_if<SteeredHand>(&host.hand)) {
         if (const auto held = steered->hold_by(mouse_grip()); !held) return std::unexpected(held.error());
+        steered->press_within(kMousePressesWithin_m);
+    }
     return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), mouse_arm(), &host.clock));
 }
 
@@ -262,7 +264,8 @@ constexpr std::array kKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_spacemouse_by,
-               .look = look_for_spacemice},
+               .look = look_for_spacemice,
+               .leads_itself = true},
     HapticKind{.name = kSpaceMouseWand,
                .usage = "a simulated wand whose hand a SpaceMouse leads, likewise; and FILE.toml as FILE describes it",
                .parts = 1,
@@ -273,7 +276,8 @@ constexpr std::array kKinds{
                .handle = spacemouse_wand_described,
                .open = open_spacemouse_wand_by,
                .look = look_for_spacemouse_wands,
-               .file_of = spacemouse_file_of},
+               .file_of = spacemouse_file_of,
+               .leads_itself = true},
     HapticKind{.name = kRecordedDevice,
                .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
                         "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",
@@ -346,9 +350,18 @@ Result<DeviceNature> nature_of_device(std::string_view name, const Recordings* r
     const Result<ChosenKind> wanted = chosen(*of);
     if (!wanted) return std::unexpected(wanted.error());
     const HapticKind& kind = *wanted->kind;
-    DeviceNature nature{kind.parts, kind.is_upright, kind.is_worn, kind.felt_by_person, kind.has_amplifiers, false, {}};
+    DeviceNature nature{.parts = kind.parts,
+                        .is_upright = kind.is_upright,
+                        .is_worn = kind.is_worn,
+                        .felt_by_person = kind.felt_by_person,
+                        .has_amplifiers = kind.has_amplifiers,
+                        .leads_itself = kind.leads_itself,
+                        .handle = {}};
     nature.is_played = name.starts_with(std::string(kRecordedDevice) + ":") || kind.name == kRecordedDevice;
-    if (nature.is_played) nature.felt_by_person = nature.has_amplifiers = false;
+    if (nature.is_played) {
+        nature.felt_by_person = nature.has_amplifiers = false;
+        nature.leads_itself = true;
+    }
     if (kind.handle == nullptr) return nature;
     Result<WandDescription> handle = kind.handle(wanted->file);
     if (!handle) return std::unexpected(handle.error());

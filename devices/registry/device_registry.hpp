@@ -40,6 +40,7 @@ struct DeviceNature {
     bool felt_by_person = true;   // false: by a simulated hand alone
     bool has_amplifiers = false;  // that the program can switch
     bool is_played = false;       // by a recording: it asks nobody, and takes no force
+    bool leads_itself = false;    // simulated, and led by neither a script nor the mouse
     // A handle with points of its own that touch, in place of one tip, and with a jig to calibrate it in: its
     // description, from the device's file or from the program. None: the device has none.
     std::optional<WandDescription> handle;
@@ -59,6 +60,8 @@ struct HapticKind {
     std::vector<DevicePresence> (*look)() = nullptr;
     // Returns the file in what follows the name, where more than a file can; null: all of it is the file.
     std::string (*file_of)(const std::string& text) = nullptr;
+    // As in DeviceNature.
+    bool leads_itself = false;
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/haptic/mouse_arm.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"
@@ -24,6 +25,10 @@ Result<std::vector<NamedDevice>> hands_in(const record::RecordReader& reader) {
     if (fact(kActivityFact) != kLiveActivity || reader.hands().empty())
         return fail(reader.path(), "is no recording of a live session", kSession);
     auto hands = hands_on(settings_on(fact(record::kLogHeaderFact)));
+    // Where its workspace lies and when it touches is the way of the mouse, which no device tells.
+    if (hands && std::ranges::find(*hands, devices::kMouseArm, &NamedDevice::device) != hands->end())
+        return fail(reader.path(), "has the hand of a mouse on a surface, which is more than a device",
+                    "do its session again with burin replay, or burin sculpt --input " + reader.path());
     if (!hands) return fail(reader.path(), hands.error().where + " " + hands.error().what, kSession);
     return hands;
 }

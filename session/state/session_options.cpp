@@ -52,6 +52,9 @@ std::optional<Error> no_surface(const SculptOptions& options) {
         return Error{"leads one hand, and the session has several", where, "leave it out, and the mouse flies freely"};
     const Result<devices::DeviceNature> nature = devices::nature_of_device(options.live.device);
     if (!nature) return nature.error();
+    if (nature->leads_itself)
+        return Error{"leads the hand, and that of " + options.live.device + " leads itself", where,
+                     "leave --mouse out, or --device"};
     if (nature->handle || nature->is_worn || nature->felt_by_person || nature->parts != 1)
         return Error{"leads a tool that nobody holds, and the device is " + options.live.device, where,
                      "leave --device out, or --mouse"};

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "devices/emulators/emulated_spacemouse.hpp"
+#include "devices/presence/emulator_socket.hpp"
 #include "devices/spacemouse/spacemouse_line.hpp"
 #include "devices/trackers/spacemouse_tracker.hpp"
 #include "devices/trackers/tracker_bodies.hpp"
@@ -396,6 +397,20 @@ TEST(Hidraw, SaysThatThereIsNone) {
     EXPECT_TRUE(found[0].remedy.contains("burin devices emulate spacemouse"));
     EXPECT_TRUE(open_spacemouse_port("device", "hidraw9", folder.places()).error().line().contains("none at hidraw9"));
     EXPECT_TRUE(look_for_spacemice({"/nowhere", "/nowhere"})[0].presence == Presence::absent);
+}
+
+// An emulator that was stopped accepts nobody: whoever asks is told so, also when the queue of those who ask is full.
+TEST(EmulatorSocket, OfAnEmulatorThatDoesNotAnswerKeepsNobodyWaiting) {
+    const auto listener = listen_as_emulator("spacemouse", "emulated-that-is-stopped");
+    ASSERT_TRUE(listener) << listener.error().line();
+    std::string told;
+    for (int i = 0; i < 8 && !told.contains("others wait"); ++i) {
+        const auto connection = connect_to_emulator("it", "spacemouse", "emulated-that-is-stopped");
+        ASSERT_FALSE(connection);
+        told = connection.error().line();
+        EXPECT_TRUE(told.contains("does not answer")) << told;
+    }
+    EXPECT_TRUE(told.contains("others wait")) << told;
 }
 
 }  // namespace burin::devices

@@ -106,6 +106,24 @@ TEST(MouseOnSurface, EveryToolCutsAStraightGroove) {
     }
 }
 
+// The hand needs a while to where the cursor has jumped; the stroke begins there all the same, and not on the way.
+TEST(MouseOnSurface, AStrokeBeginsWhereTheButtonWentDownHoweverSoonAfterAJump) {
+    for (const Nanoseconds after_ns : {0LL, 8'000'000LL, 20'000'000LL, 60'000'000LL}) {
+        MouseDesk desk(plate(kThick_mm));
+        desk.point_at({65, 15, 12});
+        desk.run({{MouseMove{desk.px_of({20, 40, 12})}, 8'000'000}, {MouseClick{}, after_ns}}, 400'000'000);
+        desk.release();
+        double deepest = kThick_mm;
+        for (const Vec3& p : desk.vertices_mm()) {
+            if (p.x < 1.0 || p.x > 79.0 || p.y < 1.0 || p.y > 59.0 || p.z < 1.0) continue;
+            deepest = std::min(deepest, p.z);
+            if (glm::length(Vec2(p) - Vec2(20.0, 40.0)) <= 4.0 + desk.cell_mm()) continue;
+            ASSERT_NEAR(p.z, kThick_mm, 1e-3) << after_ns << " ns: " << p.x << ", " << p.y;
+        }
+        EXPECT_NEAR(kThick_mm - deepest, kDepth_mm, 0.1) << after_ns << " ns";
+    }
+}
+
 TEST(MouseOnSurface, APressThatRestsDoesNotDrill) {
     MouseDesk desk(plate(kThick_mm));
     desk.point_at({40, 30, 12});
@@ -344,6 +362,19 @@ TEST(MouseOnSurface, IsForWhoHasAMouseAndLogsOfBeforeFlyFreely) {
     const auto refused = settle_mouse(felt);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("omni:emulated"), std::string::npos);
+    // A hand that a SpaceMouse or a recording leads is none for the mouse, and what it touches does not wait for a
+    // button.
+    for (const char* device : {"spacemouse", "spacemouse:emulated"}) {
+        SculptOptions led;
+        led.live.device = device;
+        led.live.device_given = true;
+        ASSERT_TRUE(settle_mouse(led));
+        EXPECT_EQ(led.live.mouse.value_or(MouseMode::free), MouseMode::free) << device;
+        led.live.mouse = MouseMode::surface;
+        const auto no = settle_mouse(led);
+        ASSERT_FALSE(no);
+        EXPECT_TRUE(no.error().what.contains("leads itself")) << no.error().line();
+    }
 }
 
 }  // namespace burin::session
