@@ -34,7 +34,7 @@ constexpr const char* kWeldHelp =
 
 void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
-        .option("--workpiece", options.workpiece.source,
+        .option("WORKPIECE,--workpiece", options.workpiece.source,
                 "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z from the origin on, or ball:R about it, in metres")
         .show_default();
     command.option(

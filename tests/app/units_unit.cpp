@@ -50,9 +50,11 @@ TEST(Units, APartInMillimetresIsCarvedAndExportedInMillimetresWithoutAnOption) {
     place.write("part.stl", cube_stl(50.0));
     place.write("s.csv", groove());
     const auto carved = place.run(kUnitsBurin +
-                                  " sculpt --workpiece part.stl --stroke s.csv --resolution 64 --export out.stl"
+                                  " sculpt part.stl --stroke s.csv --resolution 64 --export out.stl"
                                   " --export out.ply --export out.obj --report r.json");
     ASSERT_EQ(carved.status, 0) << carved.output;
+    EXPECT_EQ(place.run(kUnitsBurin + " sculpt part.stl --workpiece part.stl --stroke s.csv").status, 2)
+        << "two workpieces";
     EXPECT_TRUE(
         says(carved,
              "part.stl: 50 x 50 x 50 mm (no unit that Burin knows is given in the file; read as millimetres, since its "
