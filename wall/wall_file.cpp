@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "base/file_io.hpp"
 #include "base/toml_table.hpp"
@@ -12,6 +13,31 @@ namespace burin::wall {
 namespace {
 
 constexpr std::uint64_t kMostBytes = 1 << 20;
+
+// Writes a value, tables and arrays within braces and brackets. (toml++ writes a table too, but works out how wide its
+// numbers are by a logarithm that is below zero for numbers below one, and then undefined.)
+void write_on_a_line(std::ostream& out, const toml::node& node) {
+    const char* separator = "";
+    if (const toml::array* array = node.as_array()) {
+        out << "[";
+        for (const toml::node& one : *array) {
+            out << std::exchange(separator, ", ");
+            write_on_a_line(out, one);
+        }
+        out << "]";
+    } else if (const toml::table* table = node.as_table()) {
+        out << "{";
+        for (const auto& [key, value] : *table) {
+            out << std::exchange(separator, ", ") << toml::value<std::string>(std::string(key)) << " = ";
+            write_on_a_line(out, value);
+        }
+        out << "}";
+    } else {
+        node.visit([&out](const auto& value) {
+            if constexpr (toml::is_value<decltype(value)>) out << value;
+        });
+    }
+}
 
 void read_blend(TableReading& reading, const toml::table* table, EdgeBlend& blend) {
     TableReader t(reading, table, "[screen.blend]");
@@ -136,7 +162,12 @@ WallSetup read_setup(TableReading& reading, const toml::table& root) {
         read_pose(reading, t.table("world_from_tracker"), "[world_from_tracker]", setup.world_from_tracker, unit_m);
     if (const toml::table* table = t.table("tracker")) {
         std::ostringstream out;
-        out << toml::table{{"tracker", *table}};
+        out << "[tracker]\n";
+        for (const auto& [key, value] : *table) {
+            out << toml::value<std::string>(std::string(key)) << " = ";
+            write_on_a_line(out, value);
+            out << "\n";
+        }
         setup.tracker_toml = out.str();
     }
     t.require("screen", "add a [[screen]]");

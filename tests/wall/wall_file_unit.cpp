@@ -91,7 +91,7 @@ TEST(WallFile, GivesThePowerWallInMetres) {
 TEST(WallFile, WritingAndReadingKeepsTheTrackersTable) {
     const std::string tracker =
         "[tracker]\naddress = \"vrpn:a\"\nunits = \"m\"\n[tracker.head]\nbody = \"Glasses\"\n[[tracker.wand]]\n"
-        "body = \"Stick/1\"\nposition = [0.1, -2, 1e-3]\n";
+        "body = \"Stick/1\"\nposition = [0.1, -2, 1e-3]\n'odd \"key' = {mm = 0.25, on = true, day = 2026-01-02}\n";
     const auto setup = parse_wall(wall_text(*read_wall(kWalls / "desk.toml")) + tracker, "w");
     ASSERT_TRUE(setup) << setup.error().line();
     const auto again = parse_wall(wall_text(*setup), "w");
