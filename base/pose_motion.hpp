@@ -22,7 +22,7 @@ struct TimedPose {
     Pose pose;  // orientation of length 1
 };
 
-// What the velocity is computed from, and its bounds.
+// Says which samples a velocity is computed from, and bounds it.
 struct VelocityWindow {
     Nanoseconds window_ns = 25'000'000;
     // Two samples of a slow tracker are used even outside the window, unless older than this.

@@ -19,7 +19,7 @@
 
 namespace burin::devices {
 
-// How the cap stands: -1 to 1 along and about each axis, device frame; buttons: bit 0 is the first.
+// Deflection of the cap, -1 to 1 along and about each axis of the device frame, and buttons: bit 0 is the first.
 struct CapStand {
     Vec3 push{0.0}, turn{0.0};
     std::uint32_t buttons = 0;

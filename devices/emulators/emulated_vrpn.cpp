@@ -134,7 +134,7 @@ void EmulatedVrpn::run(const EmulatedVrpnOptions& options, const std::function<b
         if (now_ns < report_ns) continue;
         report_ns = std::max(report_ns + period_ns, now_ns - 50 * period_ns);
         VrpnBytes report;
-        // Of the wall clock, as VRPN's servers stamp.
+        // Stamps by the wall clock, as VRPN's servers do.
         const std::int64_t time_us =
             std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
                 .count();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What goes over the socket between the driver of a Falcon and an emulated one (devices/presence/emulator_socket.hpp),
-// a message for each transfer that USB would carry:
+// Messages on the socket between the driver of a Falcon and an emulated one (devices/presence/emulator_socket.hpp), one
+// for each transfer that USB would carry:
 //   host to device   'c', request, value low, value high   a request of the chip
 //                    'w', bytes                            bytes out
 //   device to host   a piece that comes in (falcon_port.hpp); the first one is the greeting

@@ -87,7 +87,7 @@ struct SteeringLimits {
     double speed_m_per_s = 0.6;
     double acceleration_m_per_s2 = 40.0;
     double lag_s = 0.004;
-    // How near the hand must be to the place where a button goes down, which waits for it; 0: as the goal is there.
+    // A button goes down once the hand is this near to the place where it was pressed; 0: once the goal is there.
     double pressed_within_m = 0.0;
 };
 

@@ -45,10 +45,10 @@ struct DeviceDescription {
     Vec3 lowest_turn_rad{0.0}, highest_turn_rad{0.0};
     // Whether a person's hand holds it. Simulated devices say no: their hand is simulated too, and feels nothing.
     bool felt_by_person = true;
-    // What leads the hand of a simulated device where that is neither script nor mouse, for people: "a SpaceMouse".
+    // Names, for people, what leads a simulated device's hand if neither script nor mouse does: "a SpaceMouse".
     const char* led_by = "";
     bool has_buttons = true;  // false: its samples never have one
-    // Whether a small force moves what holds it. A hand that is simulated may hold against it.
+    // True if a small force moves the hand that holds the device; a simulated hand may hold against it.
     bool gives_way = true;
     // The driver that knows them and their Jacobian fills resolution_m and orientation_step_rad by step_at_handle().
     Joints joints{};

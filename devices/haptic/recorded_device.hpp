@@ -60,7 +60,7 @@ struct RecordedChoice {
 };
 [[nodiscard]] Result<RecordedChoice> recorded_choice(const std::string& text);
 
-// What all parts share: the samples, and which tick it is.
+// Plays the samples to all parts of a device, which share it, and counts the ticks.
 class RecordedPlayer final : public DeviceMessages {
 public:
     static constexpr Nanoseconds kRest_ns = 500'000'000, kGlide_ns = 1'000'000'000;
@@ -88,7 +88,7 @@ private:
     std::string name_;
     Nanoseconds period_ns_ = 0;
     std::uint64_t length_ = 0;  // ticks until the end of the longest part
-    // Of the haptic thread:
+    // Used by the haptic thread alone:
     bool begun_ = false;
     std::uint64_t tick_ = 0;
     Nanoseconds base_ns_ = 0;  // the clock's reading at tick 0, as the earliest turn shows it

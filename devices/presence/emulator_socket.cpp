@@ -66,7 +66,7 @@ Result<EmulatorConnection> connect_to_emulator(const std::string& where, const s
                                                const std::string& name) {
     const std::string remedy = "start it in another terminal: burin devices emulate " + kind +
                                (name == kEmulatedName ? std::string() : " --at " + name);
-    // Of an emulator that accepts nobody, since it is stopped, the queue is full some day: connect would wait for ever.
+    // Does not block: the queue of an emulator that is stopped fills up, and connect would then wait for ever.
     OwnedFile socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const SocketName at = socket_name(kind, name);
     if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at.address), at.size) != 0) {

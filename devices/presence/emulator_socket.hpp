@@ -17,7 +17,7 @@
 
 namespace burin::devices {
 
-// How the name of every emulated device begins.
+// Begins the name of every emulated device.
 inline constexpr std::string_view kEmulatedName = "emulated";
 
 // Listens for hosts, without waiting for one. `kind` is the device's, as --device spells it: "falcon". Fails where the

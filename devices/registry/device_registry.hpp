@@ -60,7 +60,7 @@ struct HapticKind {
     std::vector<DevicePresence> (*look)() = nullptr;
     // Returns the file in what follows the name, where more than a file can; null: all of it is the file.
     std::string (*file_of)(const std::string& text) = nullptr;
-    // As in DeviceNature.
+    // Means what it means in DeviceNature.
     bool leads_itself = false;
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();

@@ -25,6 +25,21 @@ std::string emulators(const std::string& burin, const std::string& suffixes, con
            "while ! test -s $n.txt; do sleep 0.05; done; done; ";
 }
 
+// Ticks with the first button down, and those of them with a force, in a table whose first column is the buttons, and the last one a force.
+struct WorkingTicks {
+    int pressed = 0, felt = 0;
+};
+
+WorkingTicks working_in(const std::string& table) {
+    WorkingTicks count;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+        count.pressed += line.starts_with("1,") ? 1 : 0;
+        count.felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
+    }
+    return count;
+}
+
 }  // namespace
 
 TEST(EmulatedArms, P3CarvesIsRecordedAndDoneAgainToTheBitWithoutTheDevice) {
@@ -39,12 +54,7 @@ TEST(EmulatedArms, P3CarvesIsRecordedAndDoneAgainToTheBitWithoutTheDevice) {
     EXPECT_TRUE(recorded.output.contains("0 lost")) << recorded.output;
     const auto ticks = at.run(burin + " convert o.session --to csv --columns 'buttons,commanded_force_device_z_N' -");
     ASSERT_EQ(ticks.status, 0) << ticks.output;
-    std::istringstream lines(ticks.output);
-    int pressed = 0, felt = 0;
-    for (std::string line; std::getline(lines, line);) {
-        pressed += line.starts_with("1,") ? 1 : 0;
-        felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
-    }
+    const auto [pressed, felt] = working_in(ticks.output);
     EXPECT_GT(pressed, 500) << "its button is down";
     EXPECT_GT(felt, 100) << "and it feels what it cuts";
     const auto replayed = at.run(burin + " replay o.session");
@@ -83,11 +93,7 @@ TEST(EmulatedArms, TwoOfTwoMakersAreTwoHandsOfOneScene) {
         const auto ticks = at.run(burin + " convert o.session --to csv --part " + hand +
                                   " --columns 'buttons,fault,commanded_force_device_z_N' -");
         ASSERT_EQ(ticks.status, 0) << ticks.output;
-        int felt = 0;
-        std::istringstream lines(ticks.output);
-        for (std::string line; std::getline(lines, line);)
-            felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
-        EXPECT_GT(felt, 100) << hand << " feels what it cuts";
+        EXPECT_GT(working_in(ticks.output).felt, 100) << hand << " feels what it cuts";
     }
     const auto replayed = at.run(burin + " replay o.session");
     EXPECT_EQ(replayed.status, 0) << replayed.output;
@@ -108,12 +114,7 @@ TEST(EmulatedArms, ASpaceMouseLeadsAStylusThatCarvesAndIsDoneAgainWithoutIt) {
         const auto ticks =
             at.run(burin + " convert " + layout + ".session --to csv --columns 'buttons,commanded_force_device_z_N' -");
         ASSERT_EQ(ticks.status, 0) << ticks.output;
-        std::istringstream lines(ticks.output);
-        int pressed = 0, felt = 0;
-        for (std::string line; std::getline(lines, line);) {
-            pressed += line.starts_with("1,") ? 1 : 0;
-            felt += line.starts_with("1,") && !line.ends_with(",0") ? 1 : 0;
-        }
+        const auto [pressed, felt] = working_in(ticks.output);
         EXPECT_GT(pressed, 500) << layout;
         EXPECT_GT(felt, 100) << "what it cuts pushes the stylus back: " << layout;
         const auto replayed = at.run(burin + " replay " + layout + ".session");
