@@ -56,9 +56,13 @@ Result<EmulatedSpaceMouse> EmulatedSpaceMouse::create(const std::string& name, E
 void EmulatedSpaceMouse::report(const OwnedFile& host, const CapStand& cap) {
     const SpaceMouseKeys keys = emulated_product(options_.joined).keys;
     if (cap.buttons != told_.buttons) send_bytes(host, button_bytes(cap.buttons, keys));
-    if (const auto instead = drill_->instead.load(); instead && !instead->empty())
-        send_bytes(host, *instead);
-    else if (!is_resting(cap) || !is_resting(told_)) {
+    const HidBytes instead = [&] {
+        const std::lock_guard held(drill_->lock);
+        return drill_->instead;
+    }();
+    if (!instead.empty()) {
+        send_bytes(host, instead);
+    } else if (!is_resting(cap) || !is_resting(told_)) {
         if (options_.joined) {
             send_bytes(host, joined_bytes(cap.push, cap.turn));
         } else {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,13 +48,17 @@ public:
     void fall_silent(bool is_silent) { drill_->is_silent = is_silent; }
     void pull_cable(bool is_pulled) { drill_->is_pulled = is_pulled; }
     // Sends so many bytes as a report each time, whatever they are; empty: those of the script.
-    void send_instead(HidBytes bytes) { drill_->instead.store(std::make_shared<const HidBytes>(std::move(bytes))); }
+    void send_instead(HidBytes bytes) {
+        const std::lock_guard held(drill_->lock);
+        drill_->instead = std::move(bytes);
+    }
     [[nodiscard]] bool has_host() const { return drill_->has_host; }
 
 private:
     struct Drill {
         std::atomic<bool> is_silent = false, is_pulled = false, has_host = false;
-        std::atomic<std::shared_ptr<const HidBytes>> instead;
+        std::mutex lock;
+        HidBytes instead;  // under the lock
     };
     EmulatedSpaceMouse(OwnedFile listener, EmulatedSpaceMouseOptions options)
         : listener_(std::move(listener)), options_(std::move(options)) {}

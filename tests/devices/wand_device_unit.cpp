@@ -342,8 +342,8 @@ TEST(Wand, ItsAmplifiersAreSwitchedAndTheForceComesBackAfterASampleThatSaysSo) {
 TEST(Wand, TwoOfThemEachHaveTheirOwnForceAndFault) {
     RunningWand right(own_wand("-r")), left(own_wand("-l"));
     TickedWand first(own_wand("-r")), second(own_wand("-l"));
-    ASSERT_TRUE(first.is_well());
-    ASSERT_TRUE(second.is_well());
+    ASSERT_TRUE(first.is_well()) << first.messages();
+    ASSERT_TRUE(second.is_well()) << second.messages();
     const DeviceWrench up{Vec3(0.0, 1.0, 0.0), Vec3(0.0)}, down{Vec3(0.0, -1.0, 0.0), Vec3(0.0)};
     const auto both_until = [&](auto holds) {
         for (int i = 0; i < 5000; ++i) {
