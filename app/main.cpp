@@ -63,8 +63,7 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
         .within(session::kSweepToleranceBounds)
         .show_default();
     command
-        .option("--smooth-strength", options.tool.smooth_strength,
-                "With --operation smooth: 0 does nothing, 1 all at once")
+        .option("--smooth-strength", options.tool.smooth_strength, "With --operation smooth: 0 does nothing, 1 is most")
         .within(session::kSmoothStrengthBounds)
         .show_default();
     command.flag("!--no-merge", options.merge_rows,

@@ -81,15 +81,15 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
     return changed;
 }
 
-// Smooths along the sweep in steps of at most one radius, one after the other; with a tool that is no ball, in each of
-// its balls (smooth_cover.hpp).
+// Smooths along the sweep in stretches of at most kSmoothStretch radii, one after the other; with a tool that is no
+// ball, in each of its balls (smooth_cover.hpp).
 Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
     const SmoothCover cover = smooth_cover(sweep.shape);
     const bool turns = sweep.start.orientation != sweep.end.orientation;
     double farthest_m = 0.0;
     for (const Vec3& middle : cover.middles_m)
         farthest_m = std::max(farthest_m, glm::length(sweep.end * middle - sweep.start * middle));
-    const double stretches = std::max(1.0, std::ceil(farthest_m / cover.radius_m));
+    const double stretches = std::max(1.0, std::ceil(farthest_m / (kSmoothStretch * cover.radius_m)));
     const auto pose_at = [&](double part) {
         const Quat orientation =
             turns ? glm::slerp(sweep.start.orientation, sweep.end.orientation, part) : sweep.start.orientation;

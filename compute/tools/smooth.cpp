@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "compute/rays/normal_code.hpp"
 #include "compute/rays/set_algebra.hpp"
+#include "compute/tools/smooth_field.hpp"
 
 namespace burin::compute {
 namespace {
@@ -15,65 +17,72 @@ using shared::DexelEnd;
 using shared::kUnitsPerCell;
 using Node = std::array<int, 3>;
 
-constexpr int kBand = 4;    // nodes; an end farther away than this is not considered for a node
-constexpr int kKernel = 2;  // nodes to each side that the filter reads
+// The variance of the kernel, in squares of the ball's radius, for a path of one radius past a place at strength 1.
+constexpr double kVarianceAPath = 0.18;
+constexpr double kStampPath = 0.25;        // the path, in radii, for which a stamp counts
+constexpr double kKernelVariances = 10.0;  // width^2 of a kernel over its variance
+// The least width in cells. A kernel that ought to be narrower moves the surface by a share of what this one does.
+constexpr double kLeastWidth = 2.5;
+constexpr int kMostWaves = 8;  // cells by which the surface may move into a node's neighbours
+
+// What is known of a lattice node.
+struct NodeState {
+    bool was_inside = false, is_inside = false;
+    bool weighs = false;    // the tool reaches it
+    bool is_known = false;  // `field` has been computed
+    double field = 0.0;
+};
 
 // Values at the lattice nodes of a box.
-template <typename T>
 class NodeGrid {
 public:
-    NodeGrid(const Node& lo, const Node& hi, const T& value) : lo_(lo) {
-        for (std::size_t a = 0; a < 3; ++a) size_[a] = hi[a] - lo[a] + 1;
-        values_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                           static_cast<std::size_t>(size_[2]),
-                       value);
+    NodeGrid(const Node& lo, const Node& hi) : lo_(lo), hi_(hi) {
+        for (std::size_t a = 0; a < 3; ++a) size_[a] = static_cast<std::size_t>(hi[a] - lo[a] + 1);
+        values_.resize(size_[0] * size_[1] * size_[2]);
     }
     [[nodiscard]] bool holds(const Node& n) const {
         for (std::size_t a = 0; a < 3; ++a)
-            if (n[a] < lo_[a] || n[a] >= lo_[a] + size_[a]) return false;
+            if (n[a] < lo_[a] || n[a] > hi_[a]) return false;
         return true;
     }
-    [[nodiscard]] T& operator[](const Node& n) { return values_[index(n)]; }
-    [[nodiscard]] const T& operator[](const Node& n) const { return values_[index(n)]; }
+    [[nodiscard]] NodeState& operator[](const Node& n) { return values_[index(n)]; }
+    [[nodiscard]] const NodeState& operator[](const Node& n) const { return values_[index(n)]; }
     [[nodiscard]] const Node& lo() const { return lo_; }
-    [[nodiscard]] Node hi() const { return {lo_[0] + size_[0] - 1, lo_[1] + size_[1] - 1, lo_[2] + size_[2] - 1}; }
+    [[nodiscard]] const Node& hi() const { return hi_; }
 
 private:
     [[nodiscard]] std::size_t index(const Node& n) const {
-        return (static_cast<std::size_t>(n[2] - lo_[2]) * static_cast<std::size_t>(size_[1]) +
-                static_cast<std::size_t>(n[1] - lo_[1])) *
-                   static_cast<std::size_t>(size_[0]) +
+        return (static_cast<std::size_t>(n[2] - lo_[2]) * size_[1] + static_cast<std::size_t>(n[1] - lo_[1])) *
+                   size_[0] +
                static_cast<std::size_t>(n[0] - lo_[0]);
     }
-    Node lo_, size_{};
-    std::vector<T> values_;
+    Node lo_, hi_;
+    std::array<std::size_t, 3> size_{};
+    std::vector<NodeState> values_;
 };
 
-// Calls f(node) for the nodes of a box; layers of z are distributed over the pool.
-template <typename F>
-void for_nodes(const Node& lo, const Node& hi, WorkerPool& pool, F f) {
-    pool.run(static_cast<std::size_t>(std::max(0, hi[2] - lo[2] + 1)), [&](std::size_t layer) {
-        const int z = lo[2] + static_cast<int>(layer);
-        for (int y = lo[1]; y <= hi[1]; ++y)
-            for (int x = lo[0]; x <= hi[0]; ++x) f(Node{x, y, z});
-    });
+[[nodiscard]] Node beside(Node n, std::size_t axis, int by) {
+    n[axis] += by;
+    return n;
 }
+[[nodiscard]] Vec3 place_of(const Node& n) { return {n[0], n[1], n[2]}; }
 
 Vec3 decoded(std::uint32_t code) {
     const shared::Direction d = shared::decode_normal(code);
     return {d.x, d.y, d.z};
 }
 
-// A point of the surface, in cells from the lattice origin.
-struct SurfacePoint {
-    Vec3 place, normal;
-    std::uint8_t material;
-};
+// The share of an area to which the ends along one axis stand for it, the normal given. The shares of the three axes
+// add up to one, and that of an axis falls off smoothly to where its rays graze the surface.
+double share_of_axis(const Vec3& normal, int axis) {
+    const Vec3 n2 = normal * normal;
+    return n2[axis] * n2[axis] / glm::dot(n2, n2);
+}
 
-struct Nearest {
-    double distance2 = 1e300;
-    double plane = 0.0;  // signed distance from the plane of the nearest point
-    std::uint8_t material = 0;
+// How strongly the tool smooths at a place.
+struct Smoothing {
+    double share = 0.0;        // of the way to the smoothed surface
+    SmoothField::Width width;  // of the kernel, in cells
 };
 
 class Smoother {
@@ -83,6 +92,8 @@ public:
         start_ = lattice_.units_from_object(ball.start_object_m) / double(kUnitsPerCell);
         along_ = lattice_.units_from_object(ball.end_object_m) / double(kUnitsPerCell) - start_;
         radius_ = ball.radius_m / lattice_.spacing_m;
+        const double path = glm::length(along_) > 0.0 ? glm::length(along_) / radius_ : kStampPath;
+        most_width2_ = kKernelVariances * kVarianceAPath * ball.strength * path * radius_ * radius_;
         const Vec3 lo = glm::min(start_, start_ + along_) - radius_, hi = glm::max(start_, start_ + along_) + radius_;
         for (int a = 0; a < 3; ++a) {
             const auto s = static_cast<std::size_t>(a);
@@ -93,28 +104,45 @@ public:
     }
 
     RayBatch run() {
-        if (ball_.strength <= 0.0 || lo_[0] > hi_[0] || lo_[1] > hi_[1] || lo_[2] > hi_[2]) return {};
-        const Node lo = grown(lo_, -1 - kKernel), hi = grown(hi_, 1 + kKernel);
-        NodeGrid<Nearest> nearest(lo, hi, {});
-        find_nearest(nearest);
-        NodeGrid<double> before(lo, hi, 0.0), after(lo, hi, 0.0);
-        set_distances(nearest, before);
-        filter(before, after);
-        return rebuilt(nearest, before, after);
+        if (!(most_width2_ > 0.0) || lo_[0] > hi_[0] || lo_[1] > hi_[1] || lo_[2] > hi_[2]) return {};
+        const double most_width = std::max(std::sqrt(most_width2_), kLeastWidth);
+        const SmoothField field(points_within(radius_ + most_width + 1.0), most_width);
+        NodeGrid nodes(grown(lo_, -1), grown(hi_, 1));
+        set_signs(nodes);
+        move_nodes(field, nodes);
+        return rebuilt(field, nodes);
     }
 
 private:
     [[nodiscard]] static Node grown(const Node& n, int by) { return {n[0] + by, n[1] + by, n[2] + by}; }
 
-    [[nodiscard]] double weight(const Node& n) const {
-        for (std::size_t a = 0; a < 3; ++a)
-            if (n[a] < lo_[a] || n[a] > hi_[a]) return 0.0;
-        const Vec3 p = Vec3(n[0], n[1], n[2]) - start_;
+    // Returns the vector from the path of the ball's centre to a place.
+    [[nodiscard]] Vec3 off_path(const Vec3& place) const {
+        const Vec3 p = place - start_;
         const double length2 = glm::dot(along_, along_);
         const double t = length2 > 0.0 ? std::clamp(glm::dot(p, along_) / length2, 0.0, 1.0) : 0.0;
-        const Vec3 off = p - t * along_;
-        const double inside = 1.0 - glm::dot(off, off) / (radius_ * radius_);
-        return inside > 0.0 ? ball_.strength * inside * inside : 0.0;
+        return p - t * along_;
+    }
+
+    // Returns the smoothing at a place: the mean over the path of (1 - (distance / radius)^2)^3.
+    [[nodiscard]] Smoothing smoothing_at(const Vec3& place) const {
+        constexpr std::array<double, 4> kAt{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                            0.9305681557970263};  // Gauss-Legendre
+        constexpr std::array<double, 4> kWeight{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                                0.1739274225687269};
+        double sum = 0.0;
+        Vec3 by_place(0.0);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Vec3 off = (place - start_ - kAt.at(i) * along_) / radius_;
+            const double inside = 1.0 - glm::dot(off, off);
+            if (inside <= 0.0) continue;
+            sum += kWeight.at(i) * inside * inside * inside;
+            by_place -= kWeight.at(i) * 6.0 * inside * inside / radius_ * off;
+        }
+        const double width2 = most_width2_ * sum;
+        if (width2 < kLeastWidth * kLeastWidth) return {width2 / (kLeastWidth * kLeastWidth), {kLeastWidth, Vec3(0.0)}};
+        const double width = std::sqrt(width2);
+        return {1.0, {width, most_width2_ / (2.0 * width) * by_place}};
     }
 
     [[nodiscard]] RayEnds ends(int axis, int u, int v) const {
@@ -122,95 +150,148 @@ private:
         return solid_.sets[static_cast<std::size_t>(axis)].ends(u, v);
     }
 
-    // Returns whether a node is inside, which it is when the number of ends at or below it is odd.
-    [[nodiscard]] static bool inside(RayEnds ends, int node) {
-        bool in = false;
-        for (std::size_t i = 0; i < ends.size() && depth_of(ends[i]) <= node * kUnitsPerCell; ++i) in = !in;
-        return in;
+    // Returns the ends on the lattice edge from `low` one cell along the axis: above its lower node, not above its
+    // upper one.
+    [[nodiscard]] RayEnds ends_on_edge(int axis, const Node& low) const {
+        const auto s = static_cast<std::size_t>(axis);
+        const RayEnds all = ends(axis, low[(s + 1) % 3], low[(s + 2) % 3]);
+        std::size_t from = 0;
+        while (from < all.size() && depth_of(all[from]) <= low[s] * kUnitsPerCell) ++from;
+        std::size_t to = from;
+        while (to < all.size() && depth_of(all[to]) <= (low[s] + 1) * kUnitsPerCell) ++to;
+        return all.subspan(from, to - from);
     }
 
-    // Finds the nearest end of each node. Every layer of nodes visits the ends near it in a fixed order, so that the
-    // result does not depend on threads.
-    void find_nearest(NodeGrid<Nearest>& nearest) const {
-        const Node lo = nearest.lo(), hi = nearest.hi();
-        std::vector<std::vector<SurfacePoint>> points(static_cast<std::size_t>(hi[2] - lo[2] + 1 + 2 * kBand));
+    [[nodiscard]] static Vec3 place_of_end(int axis, int u, int v, const DexelEnd& end) {
+        Vec3 place(0.0);
+        place[axis] = depth_of(end) / double(kUnitsPerCell);
+        place[(axis + 1) % 3] = u;
+        place[(axis + 2) % 3] = v;
+        return place;
+    }
+
+    // Returns the ends no farther from the ball's path than `reach`, in the order of their rays.
+    [[nodiscard]] std::vector<SurfacePoint> points_within(double reach) const {
+        std::vector<SurfacePoint> points;
+        const Vec3 lo = glm::min(start_, start_ + along_) - reach, hi = glm::max(start_, start_ + along_) + reach;
         for (int axis = 0; axis < 3; ++axis) {
-            const auto s = static_cast<std::size_t>(axis), u = (s + 1) % 3, v = (s + 2) % 3;
-            for (int rv = lo[v] - kBand; rv <= hi[v] + kBand; ++rv) {
-                for (int ru = lo[u] - kBand; ru <= hi[u] + kBand; ++ru) {
+            const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+            for (int rv = static_cast<int>(std::ceil(lo[v])); rv <= static_cast<int>(std::floor(hi[v])); ++rv) {
+                for (int ru = static_cast<int>(std::ceil(lo[u])); ru <= static_cast<int>(std::floor(hi[u])); ++ru) {
                     for (const DexelEnd& end : ends(axis, ru, rv)) {
-                        Vec3 place(0.0);
-                        place[axis] = depth_of(end) / double(kUnitsPerCell);
-                        place[(axis + 1) % 3] = ru;
-                        place[(axis + 2) % 3] = rv;
-                        const int layer = static_cast<int>(std::floor(place.z)) - lo[2] + kBand;
-                        if (place[axis] < lo[s] - kBand || place[axis] > hi[s] + kBand) continue;
-                        if (layer < 0 || layer >= static_cast<int>(points.size())) continue;
-                        points[static_cast<std::size_t>(layer)].push_back(
-                            {place, decoded(end.normal), static_cast<std::uint8_t>(material_of(end))});
+                        const Vec3 place = place_of_end(axis, ru, rv, end), off = off_path(place);
+                        if (glm::dot(off, off) > reach * reach) continue;
+                        const Vec3 normal = decoded(end.normal);
+                        const double area = share_of_axis(normal, axis) / std::max(std::abs(normal[axis]), 1e-6);
+                        points.push_back({place, normal, area, 0.0, static_cast<std::uint8_t>(material_of(end))});
                     }
                 }
             }
         }
-        pool_.run(static_cast<std::size_t>(hi[2] - lo[2] + 1), [&](std::size_t layer) {
-            for (std::size_t l = layer; l <= layer + 2 * kBand; ++l) {
-                for (const SurfacePoint& point : points[l]) offer(point, lo[2] + static_cast<int>(layer), nearest);
+        return points;
+    }
+
+    // Sets which nodes were inside, by the rays along z, and which ones the tool reaches.
+    void set_signs(NodeGrid& nodes) const {
+        const Node &lo = nodes.lo(), &hi = nodes.hi();
+        pool_.run(static_cast<std::size_t>(hi[1] - lo[1] + 1), [&](std::size_t row) {
+            const int y = lo[1] + static_cast<int>(row);
+            for (int x = lo[0]; x <= hi[0]; ++x) {
+                const RayEnds ray = ends(2, x, y);
+                std::size_t below = 0;
+                for (int z = lo[2]; z <= hi[2]; ++z) {
+                    while (below < ray.size() && depth_of(ray[below]) <= z * kUnitsPerCell) ++below;
+                    NodeState& node = nodes[{x, y, z}];
+                    node.was_inside = node.is_inside = below % 2 != 0;
+                    bool within = true;
+                    for (std::size_t a = 0; a < 3; ++a) {
+                        const int n = Node{x, y, z}[a];
+                        within = within && n >= lo_[a] && n <= hi_[a];
+                    }
+                    const Vec3 off = off_path(Vec3(x, y, z));
+                    node.weighs = within && glm::dot(off, off) < radius_ * radius_;
+                }
             }
         });
     }
 
-    static void offer(const SurfacePoint& point, int z, NodeGrid<Nearest>& nearest) {
-        const Node lo = nearest.lo(), hi = nearest.hi();
-        const int near_x = static_cast<int>(std::floor(point.place.x)),
-                  near_y = static_cast<int>(std::floor(point.place.y));
-        for (int y = std::max(lo[1], near_y - kBand + 1); y <= std::min(hi[1], near_y + kBand); ++y) {
-            for (int x = std::max(lo[0], near_x - kBand + 1); x <= std::min(hi[0], near_x + kBand); ++x) {
-                const Vec3 off = Vec3(x, y, z) - point.place;
-                const double distance2 = glm::dot(off, off);
-                Nearest& best = nearest[Node{x, y, z}];
-                if (distance2 < best.distance2) best = {distance2, glm::dot(off, point.normal), point.material};
+    // Moves nodes to the other side of the surface where the field says so: first those next to the surface, then the
+    // neighbours of those that have moved, and so on.
+    void move_nodes(const SmoothField& field, NodeGrid& nodes) const {
+        std::vector<Node> wave = nodes_at_surface(nodes);
+        for (int i = 0; i < kMostWaves && !wave.empty(); ++i) {
+            constexpr std::size_t kNodesATask = 64;
+            pool_.run((wave.size() + kNodesATask - 1) / kNodesATask, [&](std::size_t task) {
+                const std::size_t end = std::min(wave.size(), (task + 1) * kNodesATask);
+                for (std::size_t n = task * kNodesATask; n < end; ++n) set_side(field, wave[n], nodes[wave[n]]);
+            });
+            std::vector<Node> next;
+            for (const Node& n : wave) {
+                if (nodes[n].is_inside == nodes[n].was_inside) continue;
+                for_neighbours(n, [&](const Node& m) {
+                    NodeState& state = nodes[m];
+                    if (!state.weighs || state.is_known || state.was_inside != nodes[n].was_inside) return;
+                    state.is_known = true;
+                    next.push_back(m);
+                });
             }
+            wave = std::move(next);
         }
     }
 
-    void set_distances(const NodeGrid<Nearest>& nearest, NodeGrid<double>& field) const {
-        for_nodes(field.lo(), field.hi(), pool_, [&](const Node& n) {
-            const bool in_lattice = n[2] >= 0 && n[2] <= lattice_.cells[2];
-            const double sign = in_lattice && inside(ends(2, n[0], n[1]), n[2]) ? -1.0 : 1.0;
-            const double size =
-                nearest[n].distance2 < 1e200 ? std::min(std::abs(nearest[n].plane), double(kBand)) : kBand;
-            field[n] = sign * size;
-        });
+    template <typename F>
+    static void for_neighbours(const Node& n, F f) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            f(beside(n, a, -1));
+            f(beside(n, a, 1));
+        }
     }
 
-    // Filters the nodes that have weight; all others keep their values.
-    void filter(const NodeGrid<double>& before, NodeGrid<double>& after) const {
-        constexpr std::array<double, 5> kWeights{-1.0 / 16, 4.0 / 16, 10.0 / 16, 4.0 / 16, -1.0 / 16};
-        NodeGrid<double> along_x = before, along_y = before;
-        const auto filtered = [&](const NodeGrid<double>& from, const Node& n, std::size_t axis) {
-            double sum = 0.0;
-            for (int k = -kKernel; k <= kKernel; ++k) {
-                Node m = n;
-                m[axis] += k;
-                sum += kWeights[static_cast<std::size_t>(k + kKernel)] * from[m];
+    [[nodiscard]] std::vector<Node> nodes_at_surface(NodeGrid& nodes) const {
+        std::vector<Node> found;
+        for (int z = lo_[2]; z <= hi_[2]; ++z) {
+            for (int y = lo_[1]; y <= hi_[1]; ++y) {
+                for (int x = lo_[0]; x <= hi_[0]; ++x) {
+                    const Node n{x, y, z};
+                    NodeState& node = nodes[n];
+                    if (!node.weighs) continue;
+                    bool crossed = false;
+                    for_neighbours(n, [&](const Node& m) { crossed |= nodes[m].was_inside != node.was_inside; });
+                    if (!crossed) continue;
+                    node.is_known = true;
+                    found.push_back(n);
+                }
             }
-            return sum;
-        };
-        const Node& a = lo_;
-        const Node& b = hi_;
-        for_nodes({a[0], a[1] - kKernel, a[2] - kKernel}, {b[0], b[1] + kKernel, b[2] + kKernel}, pool_,
-                  [&](const Node& n) { along_x[n] = filtered(before, n, 0); });
-        for_nodes({a[0], a[1], a[2] - kKernel}, {b[0], b[1], b[2] + kKernel}, pool_,
-                  [&](const Node& n) { along_y[n] = filtered(along_x, n, 1); });
-        after = before;
-        for_nodes(a, b, pool_, [&](const Node& n) {
-            const double w = weight(n);
-            if (w > 0.0) after[n] = before[n] + w * (filtered(along_y, n, 2) - before[n]);
-        });
+        }
+        return found;
     }
 
-    RayBatch rebuilt(const NodeGrid<Nearest>& nearest, const NodeGrid<double>& before,
-                     const NodeGrid<double>& after) const {
+    void set_side(const SmoothField& field, const Node& n, NodeState& node) const {
+        const Smoothing smoothing = smoothing_at(place_of(n));
+        const SmoothField::Value value = field.at(place_of(n), smoothing.width, false);
+        node.field = before(n, node.was_inside);
+        if (!value.known) return;
+        node.field += smoothing.share * (value.distance - node.field);
+        node.is_inside = node.field < 0.0;
+    }
+
+    // Returns a node's signed distance from the surface as it was: from the nearest plane of an end on its edges, or a
+    // cell where there is none.
+    [[nodiscard]] double before(const Node& n, bool inside) const {
+        double distance = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto s = static_cast<std::size_t>(axis);
+            for (const int by : {-1, 0}) {
+                for (const DexelEnd& end : ends_on_edge(axis, beside(n, s, by))) {
+                    const double along = std::abs(depth_of(end) / double(kUnitsPerCell) - n[s]);
+                    distance = std::min(distance, along * std::abs(decoded(end.normal)[axis]));
+                }
+            }
+        }
+        return inside ? -distance : distance;
+    }
+
+    RayBatch rebuilt(const SmoothField& field, const NodeGrid& nodes) const {
         RayBatch batch;
         for (int axis = 0; axis < 3; ++axis) {
             const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
@@ -221,7 +302,7 @@ private:
                 for (int ru = lo_[u]; ru <= hi_[u]; ++ru) {
                     const RayEnds held = ends(axis, ru, rv);
                     fresh.clear();
-                    append_ray(axis, ru, rv, held, nearest, before, after, fresh);
+                    append_ray(axis, ru, rv, held, field, nodes, fresh);
                     if (!same_ends(held, fresh)) rows[row].add(shared::ray_code(axis, ru, rv), fresh);
                 }
             });
@@ -231,30 +312,29 @@ private:
         return batch;
     }
 
-    void append_ray(int axis, int ru, int rv, RayEnds held, const NodeGrid<Nearest>& nearest,
-                    const NodeGrid<double>& before, const NodeGrid<double>& after, std::vector<DexelEnd>& to) const {
+    void append_ray(int axis, int ru, int rv, RayEnds held, const SmoothField& field, const NodeGrid& nodes,
+                    std::vector<DexelEnd>& to) const {
         const auto s = static_cast<std::size_t>(axis);
         Node low{};
         low[(s + 1) % 3] = ru;
         low[(s + 2) % 3] = rv;
         std::size_t next = 0;
-        // Whether the lower node is inside: by this ray's own ends where the node has no weight, by the new values
-        // where it has.
+        // Whether the lower node is inside: by this ray's own ends where the tool does not reach the node, by the new
+        // side where it does.
         bool low_inside = false;
         for (int k = lo_[s] - 1; k <= hi_[s]; ++k) {
             low[s] = k;
-            Node high = low;
-            high[s] = k + 1;
-            const bool low_weighs = weight(low) > 0.0, high_weighs = weight(high) > 0.0;
-            if (!low_weighs && !high_weighs) continue;
+            const Node high = beside(low, s, 1);
+            const NodeState &below = nodes[low], &above = nodes[high];
+            if (!below.weighs && !above.weighs) continue;
             // The ends of this edge lie above its lower node and not above its upper one. Earlier ends are kept.
             while (next < held.size() && depth_of(held[next]) <= k * kUnitsPerCell) to.push_back(held[next++]);
             std::size_t last = next;
             while (last < held.size() && depth_of(held[last]) <= (k + 1) * kUnitsPerCell) ++last;
-            if (!low_weighs) low_inside = next % 2 != 0;
-            const bool high_inside = high_weighs ? after[high] < 0.0 : last % 2 != 0;
-            append_edge({axis, low, high, low_inside, high_inside}, held.subspan(next, last - next), next % 2 != 0,
-                        nearest, before, after, to);
+            if (!below.weighs) low_inside = next % 2 != 0;
+            const bool high_inside = above.weighs ? above.is_inside : last % 2 != 0;
+            append_edge({axis, low, low_inside, high_inside, below, above}, held.subspan(next, last - next),
+                        next % 2 != 0, field, to);
             next = last;
             low_inside = high_inside;
         }
@@ -263,61 +343,104 @@ private:
 
     struct Edge {
         int axis;
-        Node low, high;
+        Node low;
         bool low_inside, high_inside;
+        const NodeState &below, &above;
+
+        [[nodiscard]] Vec3 at(double share) const {
+            Vec3 place = place_of(low);
+            place[axis] += share;
+            return place;
+        }
     };
 
-    [[nodiscard]] static bool has_signs_of(const NodeGrid<double>& field, const Edge& e) {
-        return (field[e.low] < 0.0) == e.low_inside && (field[e.high] < 0.0) == e.high_inside;
-    }
-    // Returns where a field crosses zero on an edge, from 0 to 1; 0.5 where the field's signs are not those of the
-    // edge.
-    [[nodiscard]] static double crossing(const NodeGrid<double>& field, const Edge& e) {
-        return has_signs_of(field, e) ? field[e.low] / (field[e.low] - field[e.high]) : 0.5;
-    }
-
-    [[nodiscard]] static Vec3 gradient(const NodeGrid<double>& field, const Edge& e, double share) {
-        Vec3 sum(0.0);
-        for (std::size_t a = 0; a < 3; ++a) {
-            const auto slope = [&](const Node& n) {
-                Node below = n, above = n;
-                --below[a];
-                ++above[a];
-                return 0.5 * (field[above] - field[below]);
-            };
-            sum[static_cast<int>(a)] = (1.0 - share) * slope(e.low) + share * slope(e.high);
-        }
-        return sum;
-    }
-
-    void append_edge(const Edge& e, RayEnds held, bool held_low_inside, const NodeGrid<Nearest>& nearest,
-                     const NodeGrid<double>& before, const NodeGrid<double>& after, std::vector<DexelEnd>& to) const {
+    void append_edge(const Edge& e, RayEnds held, bool held_low_inside, const SmoothField& field,
+                     std::vector<DexelEnd>& to) const {
         const bool crossed = e.low_inside != e.high_inside;
         const bool same_way = held_low_inside == e.low_inside;
-        if (same_way && (held.size() % 2 != 0) == crossed && held.size() != 1) {  // no ends, or slivers
+        if (held.empty() && same_way && !crossed) return;
+        if (same_way && (held.size() % 2 != 0) == crossed && held.size() != 1 && keeps_sliver(e, held, field)) {
             to.insert(to.end(), held.begin(), held.end());
-            return;
+        } else if (crossed) {
+            to.push_back(held.size() == 1 && same_way ? moved(e, held.front(), field) : made(e, field));
         }
-        if (!crossed) return;
+    }
+
+    // Tells whether a span between two ends on one edge is still there: by the field in its middle.
+    [[nodiscard]] bool keeps_sliver(const Edge& e, RayEnds held, const SmoothField& field) const {
+        const double bottom = e.low[static_cast<std::size_t>(e.axis)];
+        const double from = depth_of(held[0]) / double(kUnitsPerCell) - bottom,
+                     to = depth_of(held[1]) / double(kUnitsPerCell) - bottom;
+        const double sign = e.low_inside ? 1.0 : -1.0;  // of the distance in the span
+        const Vec3 middle = e.at(0.5 * (from + to));
+        const Smoothing smoothing = smoothing_at(middle);
+        if (!(smoothing.share > 0.0)) return true;
+        const SmoothField::Value value = field.at(middle, smoothing.width, false);
+        const double was = sign * 0.5 * (to - from) * std::abs(decoded(held[0].normal)[e.axis]);
+        return !value.known || sign * (was + smoothing.share * (value.distance - was)) > 0.0;
+    }
+
+    [[nodiscard]] static DexelEnd end_at(const Edge& e, double share, std::uint32_t material, std::uint32_t normal) {
         const int bottom = e.low[static_cast<std::size_t>(e.axis)] * kUnitsPerCell;
-        const double share = crossing(after, e);
-        const auto clamped = [&](double units) {
-            return bottom + static_cast<int>(std::clamp(std::floor(units + 0.5), 1.0, double(kUnitsPerCell)));
-        };
-        if (held.size() != 1 || !same_way || !has_signs_of(before, e)) {
-            const Nearest& near = nearest[nearest[e.low].distance2 <= nearest[e.high].distance2 ? e.low : e.high];
-            const Vec3 normal = gradient(after, e, share);
-            to.push_back(shared::make_end(clamped(share * kUnitsPerCell),
-                                          near.distance2 < 1e200 ? near.material : ball_.material,
-                                          normal_code(normal)));
-            return;
+        const double units = std::clamp(std::floor(share * kUnitsPerCell + 0.5), 1.0, double(kUnitsPerCell));
+        return shared::make_end(bottom + static_cast<int>(units), material, normal);
+    }
+
+    struct Root {
+        double share;
+        Vec3 normal;
+        bool found;
+    };
+    // Follows the field from a place on the edge to its zero on the edge's ray, in Newton steps of at most half a cell.
+    [[nodiscard]] Root root_from(const Edge& e, double share, const SmoothField& field) const {
+        Root root{share, Vec3(0.0), false};
+        for (int step = 0; step < 3; ++step) {
+            const Vec3 place = e.at(root.share);
+            const SmoothField::Value value = field.at(place, smoothing_at(place).width, true);
+            if (!value.known) return root;
+            root.normal = value.gradient;
+            root.found = true;
+            const double slope = value.gradient[e.axis];
+            const double by =
+                std::clamp(-value.distance / (std::abs(slope) > 1e-3 ? slope : std::copysign(1e-3, slope)), -0.5, 0.5);
+            if (step == 2 || std::abs(by) < 0.1 / kUnitsPerCell) break;
+            root.share += by;
         }
-        const DexelEnd& old = held.front();
-        const double old_share = crossing(before, e);
-        const Vec3 turn = gradient(after, e, share) - gradient(before, e, old_share);
-        const bool turns = glm::dot(turn, turn) > 1e-12;
-        to.push_back(shared::make_end(clamped(depth_of(old) - bottom + (share - old_share) * kUnitsPerCell),
-                                      material_of(old), turns ? normal_code(decoded(old.normal) + turn) : old.normal));
+        return root;
+    }
+
+    // Moves an end by a share of its way to the zero of the field.
+    [[nodiscard]] DexelEnd moved(const Edge& e, const DexelEnd& old, const SmoothField& field) const {
+        const double was = depth_of(old) / double(kUnitsPerCell) - e.low[static_cast<std::size_t>(e.axis)];
+        const double by_share = smoothing_at(e.at(was)).share;
+        if (by_share * 0.5 * kUnitsPerCell < 0.01) return old;
+        const Root root = root_from(e, was, field);
+        if (!root.found) return old;
+        const Vec3 before = decoded(old.normal);
+        const double length = glm::length(root.normal);
+        const Vec3 turn = length > 0.0 ? by_share * (root.normal / length - before) : Vec3(0.0);
+        const bool turns = glm::dot(turn, turn) > 1e-9;
+        return end_at(e, was + by_share * (root.share - was), material_of(old),
+                      turns ? normal_code(before + turn) : old.normal);
+    }
+
+    // Makes an end on an edge that had none, or several.
+    [[nodiscard]] DexelEnd made(const Edge& e, const SmoothField& field) const {
+        double share = 0.5;
+        if (e.below.is_known && e.above.is_known && (e.below.field < 0.0) == e.low_inside &&
+            (e.above.field < 0.0) == e.high_inside) {
+            share = e.below.field / (e.below.field - e.above.field);
+            const Root root = smoothing_at(e.at(share)).share < 1.0 ? Root{} : root_from(e, share, field);
+            if (root.found) share = root.share;
+        }
+        const Vec3 place = e.at(std::clamp(share, 0.0, 1.0));
+        const Smoothing smoothing = smoothing_at(place);
+        const SmoothField::Value value = field.at(place, smoothing.width, true);
+        const bool facing = value.known && value.gradient[e.axis] * (e.low_inside ? 1.0 : -1.0) > 0.0;
+        Vec3 normal(0.0);
+        normal[e.axis] = e.low_inside ? 1.0 : -1.0;
+        return end_at(e, share, field.material_near(place, 2.0 * smoothing.width.value, ball_.material),
+                      normal_code(facing ? value.gradient : normal));
     }
 
     const Solid& solid_;
@@ -325,8 +448,8 @@ private:
     const SmoothBall& ball_;
     WorkerPool& pool_;
     Vec3 start_{0.0}, along_{0.0};  // in cells
-    double radius_ = 0.0;
-    Node lo_{}, hi_{};  // range of the nodes that may have weight
+    double radius_ = 0.0, most_width2_ = 0.0;
+    Node lo_{}, hi_{};  // range of the nodes that the tool may reach
 };
 
 }  // namespace

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Smoothing of the surface within a ball that moves along a segment.
 //
-// The rays' ends are points of the surface with normals. Each lattice node near the surface gets its distance from the
-// plane through the nearest end, with the sign that the z rays give it. This field is filtered along each axis with the
-// kernel (-1 4 10 4 -1) / 16, which removes noise of a cell or two but reproduces cubics: planes are kept to the bit,
-// and a ball does not shrink as it would under (1 2 1) / 4. The filtered value is blended in with the node's weight,
-// strength (1 - (d / R)^2)^2 at distance d from the path of the tool's centre.
+// The rays' ends are points of the surface with normals; an end stands for the area that its ray's share of the cells'
+// faces has there. The smoothed surface is the zero level of a mean over them (smooth_field.hpp), whose width is a
+// length that follows from the ball's radius, the strength and how much of the path lies near; it falls off to the
+// ball's border. No sum runs over lattice nodes, so the same edge is rounded alike wherever it lies on the lattice and
+// however fine that is. A path counts by its length, so it does not matter into how many pieces it is cut.
+// Kernels narrower than 2.5 cells would see too few ends. There the surface moves a share of the way that a kernel of
+// that width moves it.
 //
-// Then, on all three axes, every lattice edge with a node of weight above zero gets an end where the new signs differ:
-// an existing end is moved and turned by what the filter changed, a missing one is made from the new values. So all
-// three directions agree about every node within the tool, and ends farther out are unchanged, as are slivers, which
-// are two ends on one edge.
-// Nodes on the border of the lattice have no weight.
+// Nodes next to the surface change sides where the field says so, then the neighbours of those that did. On all three
+// axes every lattice edge with a node within the tool gets an end where the sides differ, at the field's zero on it,
+// with the field's gradient as the normal: so all three directions agree about every node within the tool. Two ends on
+// one edge stay where the field says that there is something between them. What is farther out is unchanged, bit for
+// bit. Nodes on the border of the lattice are never changed.
+// This runs on the host for every engine, which is then given the rays (CarvingEngine::assign).
 #pragma once
 
 #include "base/worker_pool.hpp"
@@ -29,9 +32,12 @@ struct SmoothBall {
 };
 
 inline constexpr double kLargestSmoothCells = 100.0;
+// The longest path that is smoothed at once, in radii.
+inline constexpr double kSmoothStretch = 0.25;
 
-// Returns the rays that change, with their new ends. The path from start to end should be no longer than the radius,
-// since time and memory grow with its bounding box. The result does not depend on the number of threads.
+// Returns the rays that change, with their new ends. A start that equals the end is a stamp and counts as a path of a
+// quarter of the radius. The path should be no longer than kSmoothStretch radii: what a longer one has smoothed does
+// not count until its end. The result does not depend on the number of threads.
 [[nodiscard]] RayBatch smoothed_rays(const Solid& solid, const SmoothBall& ball, WorkerPool& pool);
 
 }  // namespace burin::compute

@@ -251,15 +251,15 @@ TEST(Smooth, ThreadsDoNotMatterAndStrengthZeroDoesNothing) {
     EXPECT_TRUE(smoothed_rays(rough, {Vec3(9), Vec3(9), 0.2, 1.0, 0}, one).rays.empty());
 }
 
-// A way of four radii is four stretches of a radius, one after the other; these numbers have no rounding.
-TEST(Smooth, ALongWayIsTheStretchesOfARadiusThatItConsistsOf) {
+// A way of four radii is sixteen stretches of a quarter, one after the other; these numbers have no rounding.
+TEST(Smooth, ALongWayIsTheStretchesThatItConsistsOf) {
     Random random(8);
     const Solid start = rough_block(48, random);
     const auto at_once = make_cpu_engine(start, smoothing_pool()),
                by_stretches = make_cpu_engine(start, smoothing_pool());
     apply_to(*at_once, smoothing(Vec3(0.25, 0.5, 1.0), Vec3(0.75, 0.5, 1.0), 0.125));
-    for (double x = 0.25; x < 0.75; x += 0.125) {
-        const SmoothBall stretch{Vec3(x, 0.5, 1.0), Vec3(x + 0.125, 0.5, 1.0), 0.125, 1.0, 0};
+    for (double x = 0.25; x < 0.75; x += 0.03125) {
+        const SmoothBall stretch{Vec3(x, 0.5, 1.0), Vec3(x + 0.03125, 0.5, 1.0), 0.125, 1.0, 0};
         const auto done = by_stretches->assign(smoothed_rays(by_stretches->solid(), stretch, smoothing_pool()));
         ASSERT_TRUE(done);
         EXPECT_GT(done->rays_changed, 0u) << x;
