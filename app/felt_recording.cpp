@@ -54,6 +54,9 @@ public:
         number(part, key, *to, -1e300, 1e300);
     }
     // Reads likewise a key that recordings of before do not have.
+    void text_later(const char* part, const char* key, std::string& to) {
+        if (at(part, key) != nullptr) text(part, key, to);
+    }
     void maybe_later(const char* part, const char* key, std::optional<double>& to) {
         if (at(part, key) != nullptr) maybe(part, key, to);
     }
@@ -102,7 +105,8 @@ std::string felt_settings(const session::SculptOptions& options, const sculpt::T
                       {"operation", std::string(sculpt::descriptor_of(tool.operation).name)},
                       {"material", tool.material},
                       {"sweep_tolerance_cells", tool.sweep_tolerance_cells},
-                      {"smooth_strength", tool.smooth_strength}}},
+                      {"smooth_strength", tool.smooth_strength},
+                      {"mirror", sculpt::name_of(options.mirror)}}},
                     {"feel",
                      {{"hardness", feel.hardness},
                       {"yield_kPa", optional_json(feel.yield_kPa)},
@@ -123,7 +127,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     const Json json = Json::parse(text, nullptr, false);
     FeltReader reader(json);
     session::SculptOptions o;
-    std::string units, operation, engine;
+    std::string units, operation, engine, mirror = "none";
     bool undo = false;
     reader.text("workpiece", "source", o.workpiece.source);
     reader.number("workpiece", "resolution", o.workpiece.resolution, session::kResolutionBounds);
@@ -135,6 +139,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     reader.text("tool", "material", o.tool.material);
     reader.number("tool", "sweep_tolerance_cells", o.tool.sweep_tolerance_cells, session::kSweepToleranceBounds);
     reader.number("tool", "smooth_strength", o.tool.smooth_strength, session::kSmoothStrengthBounds);
+    reader.text_later("tool", "mirror", mirror);
     reader.text("feel", "hardness", o.feel.hardness);
     reader.maybe("feel", "yield_kPa", o.feel.yield_kPa);
     reader.maybe("feel", "grain_mm", o.feel.grain_mm);
@@ -146,6 +151,9 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     reader.text("session", "engine", engine);
     reader.flag("session", "undo", undo);
     reader.flag("session", "real_time", o.real_time);
+    const Result<sculpt::Mirror> planes = sculpt::parse_mirror(mirror, where);
+    if (!planes) return std::unexpected(planes.error());
+    o.mirror = *planes;
     if (!reader.missing().empty())
         return fail(where, "its settings have no sound value for " + reader.missing(),
                     "replay a recording that burin sculpt --hand simulated --record has written");

@@ -66,6 +66,16 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
         .option("--smooth-strength", options.tool.smooth_strength, "With --operation smooth: 0 does nothing, 1 is most")
         .within(session::kSmoothStrengthBounds)
         .show_default();
+    command.option(
+        "--mirror",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (given.empty()) return {};
+            const auto mirror = sculpt::parse_mirror(given.back(), "--mirror " + given.back());
+            if (!mirror) return std::unexpected(mirror.error());
+            options.mirror = *mirror;
+            return {};
+        },
+        "Carve the other side as well, across planes through the workpiece's middle: x, y, z, or several such as xz");
     command.flag("!--no-merge", options.merge_rows,
                  "One update for each row of the stroke, instead of one for a straight run of rows");
     command.option("--stroke", options.stroke, "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button");

@@ -243,6 +243,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     Result<Json> tool_report = introduce(*chosen_tool, *material, carving, !stroke.empty());
     if (!tool_report) return std::unexpected(tool_report.error());
     std::printf("%s\n", workpiece->size.c_str());
+    carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
     if (const auto ready = mesh_where_it_is_carved(carving, tool); !ready) return ready;
     std::optional<session::FeltFigures> felt;
@@ -328,6 +329,7 @@ Result<void> record_again(const session::SculptOptions& options) {
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
     if (!chosen) return std::unexpected(chosen.error());
     sculpt::Sculpture carving(std::move(chosen->engine), pool);
+    carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
     if (const auto ready = mesh_where_it_is_carved(carving, chosen_tool->tool); !ready) return ready;
     const session::FeltOptions felt{*feel, false, options.live.record};

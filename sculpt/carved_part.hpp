@@ -30,6 +30,9 @@ struct UseTool {
     geometry::Material material;  // added to the solid's table if it is new
     double hardness_Ns_per_m3 = 0.0;
 };
+struct MirrorStrokes {
+    Mirror mirror;  // of all hands, from the next update on
+};
 struct UndoStroke {};
 struct RedoStroke {};
 struct ExportSurface {
@@ -42,7 +45,7 @@ struct ExportSurface {
 struct LightFrom {
     compute::Lamp lamp_object;
 };
-using SculptOrder = std::variant<UseTool, UndoStroke, RedoStroke, ExportSurface, LightFrom>;
+using SculptOrder = std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ExportSurface, LightFrom>;
 
 struct TileUpdate {
     std::uint32_t tile = 0;
@@ -125,6 +128,7 @@ private:
         bool said_why = false;  // this stroke's user has been told why nothing is carved
     };
     void carry_out(const UseTool& use) { use_tool(carvers_.front(), use); }
+    void carry_out(const MirrorStrokes& with) { sculpture_.mirror(with.mirror); }
     void carry_out(const UndoStroke&);
     void carry_out(const RedoStroke&);
     void carry_out(const ExportSurface& wanted);

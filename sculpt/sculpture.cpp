@@ -14,6 +14,11 @@ bool is_for_device(const compute::ToolSweep& sweep) {
     return std::holds_alternative<compute::BallTool>(sweep.shape) && sweep.operation != compute::Operation::smooth;
 }
 
+Vec3 middle_of(const compute::Lattice& lattice) {
+    const Vec3 cells(lattice.cells[0], lattice.cells[1], lattice.cells[2]);
+    return lattice.origin_object + 0.5 * lattice.spacing_m * cells;
+}
+
 double milliseconds(Nanoseconds from_ns, Nanoseconds to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
 
 }  // namespace
@@ -22,6 +27,7 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
     : engine_(std::move(engine)),
       pool_(pool),
       surface_(engine_->solid().lattice),
+      mirror_(middle_of(engine_->solid().lattice)),
       tile_changed_(surface_.tile_count(), true) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
@@ -31,6 +37,12 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
 }
 
 Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps) {
+    if (!mirror_.mirror().any()) return carve(sweeps);
+    const auto all = mirror_.with_images(sweeps);
+    return all ? carve(*all) : std::unexpected(all.error());
+}
+
+Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
     if (on_device_ && std::ranges::all_of(sweeps, is_for_device)) return update_on_device(sweeps);
     if (on_device_) {
         if (const auto read = read_back(); !read) return read;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The solid that is carved, with its surface and, where asked for, its light and its undo history.
 //
-// Data flow of an update: sweeps of the tool -> the engine changes rays -> the surface's cells around the changed rays
-// are meshed anew -> the history keeps what the rays held -> the light follows. With mesh_on_device() the device of a
-// Vulkan engine carves and meshes instead, in one submission that nobody waits for before the next update.
+// Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays -> the surface's cells
+// around the changed rays are meshed anew -> the history keeps what the rays held -> the light follows. With
+// mesh_on_device() the device of a Vulkan engine carves and meshes instead, in one submission that nobody waits for
+// before the next update.
 // Frame: object, metres. Thread: one; the pool's threads work only within a call.
 #pragma once
 
@@ -18,6 +19,7 @@
 #include "compute/rays/history.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/vulkan/device_surface.hpp"
+#include "sculpt/mirror.hpp"
 
 namespace burin::sculpt {
 
@@ -45,6 +47,9 @@ public:
     // Carries out the sweeps in order and brings the surface, the history and the light's bookkeeping up to date. Fails
     // on an invalid sweep, and then changes nothing, or when the engine does (compute/tools/apply.hpp).
     [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps);
+    // Has the sweeps of later updates carved on the other sides of these planes as well; they go through the middle of
+    // the workpiece as it was made. An update with its images is undone as one.
+    void mirror(const Mirror& mirror) { mirror_.set(mirror); }
     // Sets `out` to the surface within a ball, ready for contact; leaves its sequence and time as they are.
     [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
 
@@ -95,12 +100,14 @@ private:
     [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, HistoryStep step);
     void follow_engine();
     void note_changed_tiles();
+    [[nodiscard]] Result<void> carve(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> update_on_device(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> finish_on_device();
 
     std::unique_ptr<compute::CarvingEngine> engine_;
     WorkerPool& pool_;
     compute::Surface surface_;
+    StrokeMirror mirror_;
     std::optional<compute::History> history_;
     std::optional<compute::SurfaceLight> light_;
     std::vector<bool> tile_changed_;

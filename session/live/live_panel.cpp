@@ -90,6 +90,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.stiffness_N_per_m = value(Quantity::stiffness);
     m.velocity_filter = value(Quantity::velocity_filter);
     m.force_filter = value(Quantity::force_filter);
+    m.mirror = state.mirror;
     m.mouse = state.mouse;
     m.offers_mouse = context.room.offers_mouse;
     m.strength = value(Quantity::strength);

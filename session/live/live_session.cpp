@@ -163,6 +163,7 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands().parts(); ++part)
         if (part != hands().first_part(state_.hand))
             add_tool(*scene, state_, hands().part_of_hand(part).hand, tools_[part]);
+    if (scene) add_mirror(*scene, state_, tool_in_use());
     if (scene && scene_.world() != nullptr)
         std::ranges::move(scene_.world()->drawn().in_world(state_.world_from_object),
                           std::back_inserter(scene->objects));

@@ -68,6 +68,7 @@ Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
     std::fprintf(stderr, "burin: %s\n", workpiece->size.c_str());
     unit_ = workpiece->unit;
     room_.workpiece_object = sculpt::workpiece_bounds(workpiece->solid.lattice);
+    room_.carved_object = room_.workpiece_object;
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
     scene_.take(std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_));
@@ -122,6 +123,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), hands_.handles(), names);
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = scene_.workpiece() != nullptr;
+    state_.mirror = options.mirror;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
@@ -131,8 +133,11 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (const auto opened = hands_.open(options.live, state_, room_, clock_); !opened) return opened;
     tools_.resize(hands().parts());
     publish_parameters();
-    return scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
-                        activity_.scene_part(), activity_.tap(), start_ns_);
+    const auto begun =
+        scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
+                     activity_.scene_part(), activity_.tap(), start_ns_);
+    if (begun && scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
+    return begun;
 }
 
 SculptOptions LiveSession::settled(SculptOptions options) const {

@@ -136,6 +136,7 @@ struct PanelModel {
     double stiffness_N_per_m = 600.0;
     double velocity_filter = 0.0, force_filter = 0.0;  // factor a of the moving average; 0: off
 
+    sculpt::Mirror mirror;
     MouseMode mouse = MouseMode::free;
     bool offers_mouse = false;  // the choice of how the mouse leads the hand is shown
     double strength = 0.3;      // of a stroke on the surface

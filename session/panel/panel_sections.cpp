@@ -200,6 +200,21 @@ void show_operations(Kit& kit, const PanelModel& model) {
     if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
 }
 
+// Each plane is switched by a button of its own; one that is on is lit.
+void show_mirror(Kit& kit, const PanelModel& model) {
+    constexpr std::array<const char*, 3> kTitles{"Mirror X", "Y", "Z"};
+    const float gap = kit.px(6.0f), narrow = 0.22f * kit.width(), wide = kit.width() - 2.0f * (narrow + gap);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (axis > 0) ImGui::SameLine(0.0f, gap);
+        const std::string label = std::string("mirror ") + "xyz"[axis];
+        if (!kit.button(label, kTitles.at(axis), axis == 0 ? wide : narrow, true, model.mirror.across.at(axis)))
+            continue;
+        sculpt::Mirror mirror = model.mirror;
+        mirror.across.at(axis) = !mirror.across.at(axis);
+        kit.give(SetMirror{mirror});
+    }
+}
+
 }  // namespace
 
 void show_hands(Kit& kit, const PanelModel& model) {
@@ -221,6 +236,7 @@ void show_tool(Kit& kit, const PanelModel& model) {
         kit.gap(4.0f);
         if (model.carves) show_operations(kit, model);
         show_sizes(kit, model);
+        if (model.carves) show_mirror(kit, model);
     }
     kit.end_card();
 }

@@ -232,6 +232,12 @@ Parsed parse_mouse(Arguments words) {
     return SetMouse{static_cast<MouseMode>(*at)};
 }
 
+Parsed parse_mirror(Arguments words) {
+    const auto mirror = sculpt::parse_mirror(words[0], "command mirror " + words[0]);
+    if (!mirror) return std::unexpected(mirror.error());
+    return SetMirror{*mirror};
+}
+
 template <Quantity quantity>
 Parsed parse_number_of(Arguments words) {
     return parse_quantity(descriptor_of(quantity), words[0]);
@@ -272,6 +278,10 @@ const std::vector<Entry>& entries() {
         {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
         {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
         entry_of<Quantity::eye_distance>(),
+        {{"mirror", "AXES",
+          "Carve the other side as well, across planes through the workpiece's middle: x, y, z, several such as xz, or "
+          "none"},
+         parse_mirror},
         {{"object", "NAME WHAT VALUE",
           "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
          parse_object},

@@ -16,6 +16,7 @@
 #include "base/error.hpp"
 #include "haptics/workspace/technique.hpp"
 #include "sculpt/feel_options.hpp"
+#include "sculpt/mirror.hpp"
 #include "sculpt/tool_kinds.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
@@ -143,6 +144,12 @@ struct CalibrateHandle {
     bool operator==(const CalibrateHandle&) const = default;
 };
 
+// Carves the other sides of these planes as well.
+struct SetMirror {
+    sculpt::Mirror mirror;
+    bool operator==(const SetMirror&) const = default;
+};
+
 // Has the mouse lead the hand along the surface, or freely.
 struct SetMouse {
     MouseMode mode = MouseMode::free;
@@ -152,7 +159,7 @@ struct SetMouse {
 using SessionCommand =
     std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
                  SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
-                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse>;
+                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse, SetMirror>;
 
 struct SessionState;
 

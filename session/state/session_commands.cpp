@@ -58,6 +58,11 @@ public:
         orders_.amplifiers.push_back({set.on, orders_.line});
         return {};
     }
+    Result<void> operator()(const SetMirror& set) {
+        if (const auto given = order(sculpt::MirrorStrokes{set.mirror}); !given) return given;
+        state_.mirror = set.mirror;
+        return {};
+    }
     Result<void> operator()(const SetForceShown& set) {
         state_.force_shown = set.on;
         return {};

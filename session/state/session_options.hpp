@@ -11,6 +11,7 @@
 
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/feel_options.hpp"
+#include "sculpt/mirror.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/desk_input_table.hpp"
@@ -87,6 +88,7 @@ struct SculptOptions {
     bool no_workpiece = false;                  // with a world
     std::string points;  // of a handle, that touch (devices::points_named); empty: the tool is held in its middle
     sculpt::ToolOptions tool;
+    sculpt::Mirror mirror;   // planes on whose other sides it works as well
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep
     sculpt::EngineChoice engine = sculpt::EngineChoice::automatic;

@@ -35,6 +35,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--material", o.tool.material);
     visit("--sweep-tolerance", o.tool.sweep_tolerance_cells, kSweepToleranceBounds);
     visit("--smooth-strength", o.tool.smooth_strength, kSmoothStrengthBounds);
+    visit("--mirror", o.mirror);
     visit("--hardness", o.feel.hardness);
     visit("--yield", o.feel.yield_kPa);
     visit("--grain", o.feel.grain_mm);
@@ -63,6 +64,9 @@ std::optional<std::string> text(compute::Operation operation) {
     return std::string(sculpt::descriptor_of(operation).name);
 }
 std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
+std::optional<std::string> text(const sculpt::Mirror& mirror) {
+    return mirror.any() ? std::optional(sculpt::name_of(mirror)) : std::nullopt;
+}
 std::optional<std::string> text(MouseMode mode) { return std::string(name_of(mode)); }
 std::optional<std::string> text(const std::vector<NamedDevice>& hands) {
     if (hands.empty()) return std::nullopt;
@@ -102,6 +106,11 @@ bool read(const std::string& text, compute::Operation& value) {
         if (known.name == text) return true;
     }
     return false;
+}
+bool read(const std::string& text, sculpt::Mirror& value) {
+    const Result<sculpt::Mirror> mirror = sculpt::parse_mirror(text, "--mirror " + text);
+    value = mirror.value_or(sculpt::Mirror{});
+    return mirror.has_value();
 }
 bool read(const std::string& text, MouseMode& value) {
     const Result<MouseMode> mode = parse_mouse_mode(text, "--mouse " + text);

@@ -262,6 +262,10 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     static_cast<void>(take_up(state));  // tool_of() says why it has none
     state.feel = feel;
     state.output = output;
+    if (room.carved_object) {
+        state.mirror_panes = mirror_panes(*room.carved_object);
+        state.mirror_middle_object = room.carved_object->center();
+    }
     state.mouse = room.mouse;
     state.no_surface = room.no_surface;
     begin_hands(state, room, handles, hands);

@@ -22,6 +22,7 @@
 #include "session/state/hand_state.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
+#include "session/state/shown_mirror.hpp"
 #include "session/state/world_objects.hpp"
 #include "wall/output_settings.hpp"
 
@@ -42,6 +43,9 @@ struct SessionState : HandState {
     sculpt::FeelSettings feel;
     bool force_shown = false;                   // as an arrow
     bool carves = true;                         // there is a workpiece
+    sculpt::Mirror mirror;                      // planes on whose other sides the workpiece is carved as well
+    MirrorPanes mirror_panes;                   // none where nothing is carved
+    Vec3 mirror_middle_object{0.0};             // of the workpiece, through which the planes go
     MouseMode mouse = MouseMode::free;          // how it leads the hand in use
     std::string no_surface;                     // why it cannot lead it along a surface; empty: it can
     std::shared_ptr<const WorldObjects> world;  // null: none
@@ -105,9 +109,10 @@ struct HandRoom {
 
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
 struct Room : HandRoom {
-    Box workpiece_object;             // of all that stands before the viewer
-    bool covers_depth = false;        // the workspace reaches all of it, not its front alone
-    std::optional<Box> reach_object;  // what the workspace reaches, if not that
+    Box workpiece_object;              // of all that stands before the viewer
+    std::optional<Box> carved_object;  // of the workpiece that is carved; none: there is none
+    bool covers_depth = false;         // the workspace reaches all of it, not its front alone
+    std::optional<Box> reach_object;   // what the workspace reaches, if not that
     SessionWall wall;
     std::vector<HandRoom> others;       // of the hands after the first
     MouseMode mouse = MouseMode::free;  // at the start

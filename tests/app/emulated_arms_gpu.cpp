@@ -25,8 +25,8 @@ std::string emulators(const std::string& burin, const std::string& suffixes, con
            "while ! test -s $n.txt; do sleep 0.05; done; done; ";
 }
 
-// Ticks with the first button down, and those of them with a force, in a table whose first column is the buttons, and the
-// last one a force.
+// Ticks with the first button down, and those of them with a force, in a table whose first column is the buttons, and
+// the last one a force.
 struct WorkingTicks {
     int pressed = 0, felt = 0;
 };

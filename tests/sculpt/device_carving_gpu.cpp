@@ -38,8 +38,8 @@ TEST(DeviceCarving, GivesTheSamePartAndCountsTheSameRaysWhetherTheHandIsRigidOrF
         for (const std::string engine : {"cpu", "vulkan"}) {
             const auto outcome = place.run(std::string(kBurinCommand) +
                                            " sculpt --workpiece ball:0.05 --tool ball:0.004 --stroke s.csv " +
-                                           "--resolution 64 --hand " + hand + " --engine " + engine + " --export " +
-                                           engine + ".ply --report " + engine + ".json");
+                                           "--resolution 64 --mirror yz --hand " + hand + " --engine " + engine +
+                                           " --export " + engine + ".ply --report " + engine + ".json");
             ASSERT_EQ(outcome.status, 0) << outcome.output;
         }
         const auto cpu = Json::parse(place.read("cpu.json"));

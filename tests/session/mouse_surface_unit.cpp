@@ -258,6 +258,34 @@ TEST(MouseOnSurface, KeysShowAllOfItFromTheFrontTheSideAndAbove) {
     EXPECT_EQ(desk.session->state().desk.head_world.position_m, head_before) << "arrow keys shear nothing";
 }
 
+TEST(MouseOnSurface, AStrokeIsMirroredShownOnBothSidesAndUndoneAsOne) {
+    MouseDesk desk(plate(10.0));
+    desk.run({{CommandInput{"mirror", {"x"}}, 0}});
+    const auto glass = [&] {
+        const auto scene = desk.session->scene_on(0);
+        return scene ? std::ranges::count_if(scene->objects, [](const auto& o) { return o.opacity < 1.0; }) : -1;
+    };
+    desk.stroke({{20.0, 20.0, 10.0}, {20.0, 40.0, 10.0}});
+    EXPECT_EQ(glass(), 2) << "the plane, and the tool's image";
+    EXPECT_EQ(desk.strokes(), 1u) << "for one undo";
+    // How deep the plate is cut beside a place of its top, mm.
+    const auto depth_at = [&](double x_mm) {
+        double deepest = 0.0;
+        for (const Vec3& p : desk.vertices_mm())
+            if (std::abs(p.x - x_mm) < 1.0 && std::abs(p.y - 30.0) < 5.0 && p.z > 5.0)
+                deepest = std::max(deepest, 10.0 - p.z);
+        return deepest;
+    };
+    EXPECT_GT(depth_at(20.0), 0.5);
+    EXPECT_NEAR(depth_at(60.0), depth_at(20.0), 0.1 * desk.cell_mm());
+    EXPECT_LT(depth_at(40.0), 0.01);
+    desk.run({{CommandInput{"undo", {}}, 0}}, 200'000'000);
+    EXPECT_LT(depth_at(20.0), 0.01);
+    EXPECT_LT(depth_at(60.0), 0.01);
+    desk.run({{CommandInput{"mirror", {"none"}}, 0}}, 100'000'000);
+    EXPECT_EQ(glass(), 0);
+}
+
 TEST(MouseOnSurface, AThinWallIsNeverEnteredFromBehind) {
     MouseDesk desk(plate(2.0));
     const double front = 2.0;

@@ -35,7 +35,7 @@ sculpt::ToolSpec any_tool() {
 }
 
 SessionCommand any_command() {
-    switch (*rc::gen::inRange(0, 17)) {
+    switch (*rc::gen::inRange(0, 18)) {
         case 0: return RunAction{static_cast<Action>(*rc::gen::inRange<std::size_t>(0, action_names().size()))};
         case 1: return SetTool{any_tool()};
         case 2: return SetOperation{any_of(sculpt::operations()).operation};
@@ -49,6 +49,10 @@ SessionCommand any_command() {
         case 7: return SetTestPattern{static_cast<wall::TestPattern>(*rc::gen::inRange(0, 4))};
         case 8: return SetEyeSwap{*rc::gen::arbitrary<bool>()};
         case 9: return SetForce{*rc::gen::arbitrary<bool>()};
+        case 16: {
+            const auto any = [] { return *rc::gen::arbitrary<bool>(); };
+            return SetMirror{{{any(), any(), any()}}};
+        }
         case 15: return SetAmplifiers{*rc::gen::arbitrary<bool>()};
         case 14: return CalibrateHandle{*rc::gen::arbitrary<bool>()};
         case 13: return SetMaterial{any_of(sculpt::feel_presets()).preset};

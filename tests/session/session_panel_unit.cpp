@@ -109,6 +109,7 @@ std::vector<sculpt::ToolKind> kinds_on_panel() {
 // Another kind of tool than the model's is given in about its size (PanelSizes, below).
 std::map<std::string, Commands> expected_commands() {
     std::map<std::string, Commands> expected = fixed_commands();
+    for (const char* axis : {"x", "y", "z"}) expected[std::string("mirror ") + axis] = {{"mirror", {axis}}};
     const sculpt::ToolSpec held = idle_model().tool;
     for (const sculpt::ToolKind kind : kinds_on_panel()) {
         Commands& given = expected["tool " + std::string(sculpt::descriptor_of(kind).name)];

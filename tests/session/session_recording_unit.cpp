@@ -44,9 +44,11 @@ TEST(SessionRecording, OfAMouseOnTheSurfaceIsDoneAgainToTheBit) {
     const std::string path = (place / "a.session").string();
     SculptOptions options = short_options(path);
     options.live.mouse = MouseMode::surface;
+    options.mirror.across[0] = true;
     ASSERT_TRUE(settle_mouse(options));
     const std::uint64_t ticks = record_live(options,
-                                            "burin-input 1 test\n0.02 mouse 320 180\n0.2 button press left\n"
+                                            "burin-input 1 test\n0.02 mouse 320 180\n0.1 command mirror xz\n"
+                                            "0.2 button press left\n"
                                             "0.3 mouse 330 184\n0.4 mouse 350 190\n0.5 button release left\n"
                                             "0.55 button press right\n0.6 mouse 380 190\n0.62 button release right\n"
                                             "0.8 close\n");

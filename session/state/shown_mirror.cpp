@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "session/state/shown_mirror.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+namespace {
+
+constexpr double kBeyond = 0.06;     // of the longest side, how far a pane stands out
+constexpr double kThickness = 5e-4;  // of the longest side
+constexpr double kPaneOpacity = 0.22, kImageOpacity = 0.55;
+// Of the axes x, y and z, as they are coloured everywhere.
+constexpr std::array<Vec3, 3> kColours{{{0.80, 0.30, 0.28}, {0.36, 0.66, 0.32}, {0.28, 0.46, 0.82}}};
+
+std::shared_ptr<const renderer::DrawnMesh> ball() {
+    static const auto mesh = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
+    return mesh;
+}
+
+}  // namespace
+
+MirrorPanes mirror_panes(const Box& workpiece_object) {
+    const Vec3 size = workpiece_object.extent();
+    const double longest_m = std::max({size.x, size.y, size.z});
+    MirrorPanes panes;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 half = 0.5 * size + Vec3(kBeyond * longest_m);
+        half[axis] = kThickness * longest_m;
+        geometry::TriangleMesh mesh = sculpt::drawing_of(compute::BoxTool{half});
+        for (Vec3& place_m : mesh.positions_m) place_m += workpiece_object.center();
+        panes.at(static_cast<std::size_t>(axis)) = renderer::drawn_mesh(mesh);
+    }
+    return panes;
+}
+
+void add_mirror(renderer::Scene& scene, const SessionState& state, const haptics::ToolState& tool) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!state.mirror.across.at(axis) || !state.mirror_panes.at(axis)) continue;
+        scene.objects.push_back(
+            {state.mirror_panes.at(axis), state.world_from_object, kColours.at(axis), kPaneOpacity});
+    }
+    if (!scene.tool.visible || tool.tick == 0 || !state.held) return;
+    const bool is_mesh = std::holds_alternative<compute::MeshTool>(state.held->shape);
+    for (const sculpt::MirrorImage& image : sculpt::images_of(state.mirror)) {
+        if (is_mesh && image.reverses()) continue;
+        const Pose there = sculpt::image_of(Pose{tool.proxy_object_m, tool.tool_orientation_object}, image,
+                                            state.mirror_middle_object);
+        const Similarity object_from_tool{
+            there.position_m, there.orientation,
+            state.held->drawn ? 1.0 : scene.tool.radius_m / state.world_from_object.scale};
+        scene.objects.push_back({state.held->drawn ? state.held->drawn : ball(),
+                                 state.world_from_object * object_from_tool, scene.tool.colour, kImageOpacity});
+    }
+}
+
+}  // namespace burin::session
