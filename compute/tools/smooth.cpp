@@ -22,7 +22,9 @@ constexpr double kVarianceAPath = 0.18;
 constexpr double kStampPath = 0.25;        // the path, in radii, for which a stamp counts
 constexpr double kKernelVariances = 10.0;  // width^2 of a kernel over its variance
 // The least width in cells. A kernel that ought to be narrower moves the surface by a share of what this one does.
-constexpr double kLeastWidth = 2.5;
+constexpr double kLeastWidth = 3.0;
+// In cells: the error after a Newton step is of the order of its square, here less than a unit.
+constexpr double kSmallStep = 0.01;
 constexpr int kMostWaves = 8;  // cells by which the surface may move into a node's neighbours
 
 // What is known of a lattice node.
@@ -359,25 +361,41 @@ private:
         const bool crossed = e.low_inside != e.high_inside;
         const bool same_way = held_low_inside == e.low_inside;
         if (held.empty() && same_way && !crossed) return;
-        if (same_way && (held.size() % 2 != 0) == crossed && held.size() != 1 && keeps_sliver(e, held, field)) {
-            to.insert(to.end(), held.begin(), held.end());
+        if (same_way && (held.size() % 2 != 0) == crossed) {
+            append_moved(e, held, field, to);
         } else if (crossed) {
-            to.push_back(held.size() == 1 && same_way ? moved(e, held.front(), field) : made(e, field));
+            to.push_back(made(e, field));
         }
     }
 
-    // Tells whether a span between two ends on one edge is still there: by the field in its middle.
-    [[nodiscard]] bool keeps_sliver(const Edge& e, RayEnds held, const SmoothField& field) const {
+    // Appends the ends of an edge, moved. Two that meet, or between which the field sees nothing, are dropped.
+    void append_moved(const Edge& e, RayEnds held, const SmoothField& field, std::vector<DexelEnd>& to) const {
+        const std::size_t first = to.size();
+        for (std::size_t i = 0; i < held.size(); ++i) {
+            const bool inside_between = e.low_inside == (i % 2 != 0);
+            if (i + 1 < held.size() && is_gone(e, held[i], held[i + 1], inside_between, field)) {
+                ++i;
+                continue;
+            }
+            const DexelEnd end = moved(e, held[i], field);
+            if (to.size() > first && depth_of(to.back()) >= depth_of(end))
+                to.pop_back();
+            else
+                to.push_back(end);
+        }
+    }
+
+    // Tells whether what is between two ends on one edge has vanished: by the field in its middle.
+    [[nodiscard]] bool is_gone(const Edge& e, const DexelEnd& from, const DexelEnd& to, bool inside,
+                               const SmoothField& field) const {
         const double bottom = e.low[static_cast<std::size_t>(e.axis)];
-        const double from = depth_of(held[0]) / double(kUnitsPerCell) - bottom,
-                     to = depth_of(held[1]) / double(kUnitsPerCell) - bottom;
-        const double sign = e.low_inside ? 1.0 : -1.0;  // of the distance in the span
-        const Vec3 middle = e.at(0.5 * (from + to));
+        const double half = 0.5 * (depth_of(to) - depth_of(from)) / kUnitsPerCell;
+        const Vec3 middle = e.at(depth_of(from) / double(kUnitsPerCell) - bottom + half);
         const Smoothing smoothing = smoothing_at(middle);
-        if (!(smoothing.share > 0.0)) return true;
+        if (!(smoothing.share > 0.0)) return false;
         const SmoothField::Value value = field.at(middle, smoothing.width, false);
-        const double was = sign * 0.5 * (to - from) * std::abs(decoded(held[0].normal)[e.axis]);
-        return !value.known || sign * (was + smoothing.share * (value.distance - was)) > 0.0;
+        const double sign = inside ? -1.0 : 1.0, was = sign * half * std::abs(decoded(from.normal)[e.axis]);
+        return value.known && sign * (was + smoothing.share * (value.distance - was)) <= 0.0;
     }
 
     [[nodiscard]] static DexelEnd end_at(const Edge& e, double share, std::uint32_t material, std::uint32_t normal) {
@@ -403,8 +421,9 @@ private:
             const double slope = value.gradient[e.axis];
             const double by =
                 std::clamp(-value.distance / (std::abs(slope) > 1e-3 ? slope : std::copysign(1e-3, slope)), -0.5, 0.5);
-            if (step == 2 || std::abs(by) < 0.1 / kUnitsPerCell) break;
+            if (step == 2) break;
             root.share += by;
+            if (std::abs(by) < kSmallStep) break;
         }
         return root;
     }

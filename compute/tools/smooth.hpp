@@ -6,7 +6,7 @@
 // length that follows from the ball's radius, the strength and how much of the path lies near; it falls off to the
 // ball's border. No sum runs over lattice nodes, so the same edge is rounded alike wherever it lies on the lattice and
 // however fine that is. A path counts by its length, so it does not matter into how many pieces it is cut.
-// Kernels narrower than 2.5 cells would see too few ends. There the surface moves a share of the way that a kernel of
+// Kernels narrower than 3 cells would see too few ends. There the surface moves a share of the way that a kernel of
 // that width moves it.
 //
 // Nodes next to the surface change sides where the field says so, then the neighbours of those that did. On all three

@@ -10,7 +10,7 @@ namespace burin::compute {
 namespace {
 
 // A level is used for widths of at least this many of its merged boxes.
-constexpr double kBoxesAWidth = 4.0;
+constexpr double kBoxesAWidth = 3.0;
 
 double facing_weight(double cosine) {
     const double t = std::clamp((cosine + 0.5) / 0.5, 0.0, 1.0);

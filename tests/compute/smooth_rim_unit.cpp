@@ -81,7 +81,49 @@ struct RimFigures {
     double sink_m = 0.0;       // mean depth below the sharp rim
     double variation_m = 0.0;  // standard deviation of the depth along the rim
     double slope_deg = 0.0;    // root mean square of the surface's slope along the rim
+    double rays_m = 0.0;       // root mean square distance of the rays' ends from one profile for the whole rim
 };
+
+// Returns how far the ends within 2 mm of the rim lie from the parabola through those with about the same place across
+// it, wherever these lie along the rim.
+double scatter_of_ends(const Solid& solid, const TurnedRim& rim) {
+    std::vector<Vec2> profile;  // across, out
+    for (int axis = 0; axis < 3; ++axis) {
+        const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
+        for (int v = 0; v < set.rays_v(); ++v)
+            for (int u = 0; u < set.rays_u(); ++u)
+                for (const shared::DexelEnd& end : set.ends(u, v)) {
+                    Vec3 units(0.0);
+                    units[axis] = depth_of(end);
+                    units[(axis + 1) % 3] = u * 4096.0;
+                    units[(axis + 2) % 3] = v * 4096.0;
+                    const Vec3 p = rim.seen(solid.lattice.object_from_units(units));
+                    if (std::abs(p.x) < kRimMiddle && std::abs(p.y) < 3e-3 && std::abs(p.z) < 6e-3)
+                        profile.emplace_back(p.y, p.z);
+                }
+    }
+    std::ranges::sort(profile, {}, [](const Vec2& p) { return p.x; });
+    constexpr std::size_t kSides = 12;  // neighbours to each side
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = kSides; i + kSides < profile.size(); ++i) {
+        if (std::abs(profile[i].x) > 2e-3) continue;
+        const double unit = profile[i + kSides].x - profile[i - kSides].x + 1e-12;
+        glm::dmat3 squares(0.0);
+        Vec3 by_height(0.0);
+        for (std::size_t k = i - kSides; k <= i + kSides; ++k) {
+            const double t = (profile[k].x - profile[i].x) / unit;
+            const Vec3 powers(1.0, t, t * t);
+            squares += glm::outerProduct(powers, powers);
+            by_height += powers * profile[k].y;
+        }
+        const Vec3 fit = glm::inverse(squares) * by_height;
+        const double off = (profile[i].y - fit.x) / std::hypot(1.0, fit.y / unit);
+        sum += off * off;
+        ++count;
+    }
+    return std::sqrt(sum / std::max(count, 1));
+}
 
 // Measures the mesh where a plane through the rim and its outward direction cuts it.
 RimFigures rim_of(const Solid& solid, const TurnedRim& rim) {
@@ -116,7 +158,7 @@ RimFigures rim_of(const Solid& solid, const TurnedRim& rim) {
         figures.variation_m += std::pow(height[i] + figures.sink_m, 2.0) / (kPlaces + 1);
         figures.slope_deg += slope[i] * slope[i] / (kPlaces + 1);
     }
-    return {figures.sink_m, std::sqrt(figures.variation_m), std::sqrt(figures.slope_deg)};
+    return {figures.sink_m, std::sqrt(figures.variation_m), std::sqrt(figures.slope_deg), scatter_of_ends(solid, rim)};
 }
 
 void pass_along(CarvingEngine& engine, const TurnedRim& rim, double radius_m, double piece_m = 0.2) {
@@ -131,8 +173,8 @@ void pass_along(CarvingEngine& engine, const TurnedRim& rim, double radius_m, do
 }
 
 void print_rim(const char* what, int passes, const RimFigures& figures) {
-    std::printf("%18s, %d passes: sinks %.3f mm, varies by %.1f um, slope %.2f degrees\n", what, passes,
-                figures.sink_m * 1e3, figures.variation_m * 1e6, figures.slope_deg);
+    std::printf("%18s, %d passes: sinks %.3f mm, varies by %.1f um, slope %.2f degrees, rays by %.1f um\n", what,
+                passes, figures.sink_m * 1e3, figures.variation_m * 1e6, figures.slope_deg, figures.rays_m * 1e6);
 }
 
 }  // namespace
@@ -158,6 +200,10 @@ TEST(SmoothRim, SixPassesLeaveItAsEvenAsAFillet) {
                 EXPECT_GT(now.sink_m, last.sink_m + 0.02e-3);
                 EXPECT_LT(now.variation_m, fillet.variation_m + 0.025 * lattice.spacing_m);
                 EXPECT_LT(now.slope_deg, fillet.slope_deg + 1.5);
+                EXPECT_LT(now.rays_m, 0.02 * lattice.spacing_m);
+                if (i > 1) {
+                    EXPECT_LT(now.rays_m, std::max(1.1 * last.rays_m, 0.006 * lattice.spacing_m));
+                }
                 last = now;
             }
             EXPECT_GT(last.sink_m, 0.5e-3);
@@ -184,6 +230,7 @@ TEST(SmoothRim, EveryPassMakesANotchedRimEvener) {
         EXPECT_LT(now.variation_m, 0.25 * notched.variation_m);
         EXPECT_LT(now.slope_deg, 0.35 * notched.slope_deg);
         EXPECT_LT(now.variation_m, 1.05 * last.variation_m);  // the mesh of a rounded rim varies by itself
+        EXPECT_LT(now.rays_m, last.rays_m);
         last = now;
     }
 }
