@@ -10,7 +10,8 @@ import math
 import pathlib
 
 BALL_MM, TOOL_MM = 110.0, 3.0
-CUT_SPEED_MM_S, TRAVEL_SPEED_MM_S, ROW_S = 50.0, 120.0, 0.02
+# At this speed the tool cuts in on the first millimetres of a letter; at 50 mm/s it slid over the leg of the R.
+CUT_SPEED_MM_S, TRAVEL_SPEED_MM_S, ROW_S = 30.0, 120.0, 0.02
 DWELL_S = 0.15
 LIFT_MM = 5.0  # how far the tool's surface is above the ball while travelling
 
@@ -59,15 +60,15 @@ def lines():
     step = CUT_SPEED_MM_S * ROW_S
     for stroke in letters():
         yield [(x, y, 1.9) for x, y in resampled(stroke, step)]
-    yield [(x, y, 1.0) for x, y in resampled(arc(0, 0, 50, 50, 90, 450, 180), step)]
+    # Deeper than the ball's seams, and a little beyond its beginning.
+    yield [(x, y, 1.8) for x, y in resampled(arc(0, 0, 50, 50, 90, 456, 180), step)]
     for middle in (90, 270):
         wave = []
         for k in range(241):
             t = k / 240
-            angle = math.radians(middle - 58 + 116 * t)
-            rise = math.sin(math.pi * t)
-            radius = 35 - 4.5 * rise * math.cos(2 * math.pi * 6 * t)
-            swelling = 0.5 + 1.2 * rise * (1 - 0.5 * math.cos(4 * math.pi * 6 * t)) / 1.5
+            angle = math.radians(middle - 52 + 104 * t)
+            radius = 37 + 2.6 * math.cos(2 * math.pi * 6 * t)
+            swelling = 1.2 + 0.8 * math.sin(math.pi * t)
             wave.append((radius * math.cos(angle), radius * math.sin(angle), swelling))
         yield wave
 
@@ -82,7 +83,7 @@ def main():
         rows.append((time, to, button))
 
     def dwell():
-        """A hand waits for the tool to arrive before it goes on in another direction."""
+        """A hand waits above the ball before it goes on in another direction: on the ball it would leave a dot."""
         nonlocal time
         time += DWELL_S
         rows.append((time, rows[-1][1], rows[-1][2]))
@@ -101,7 +102,6 @@ def main():
             move(on_ball(start[0], start[1], -LIFT_MM + (LIFT_MM + start[2]) * k / 5), CUT_SPEED_MM_S, 1)
         for point in line[1:]:
             move(on_ball(*point), CUT_SPEED_MM_S, 1)
-        dwell()
         move(on_ball(end[0], end[1], -LIFT_MM), CUT_SPEED_MM_S, 0)
         last_end = end
 
