@@ -88,9 +88,14 @@ std::optional<Vec3> StrokeReader::working_point(const haptics::TickRecord& tick)
             return std::nullopt;
         case compute::Operation::fill: return tick.contact.points[0].proxy_object_m;
         case compute::Operation::paint:
-        case compute::Operation::smooth:
             if ((tick.flags & haptics::kTickInContact) != 0) return tick.contact.points[0].hip_object_m;
             return std::nullopt;
+        case compute::Operation::smooth: {
+            if ((tick.flags & haptics::kTickInContact) == 0) return std::nullopt;
+            const haptics::PointRecord& point = tick.contact.points[0];
+            if (tool_.turns()) return point.hip_object_m;
+            return point.proxy_object_m - tool_.ball_radius_m() * point.normal_object;
+        }
     }
     return std::nullopt;
 }

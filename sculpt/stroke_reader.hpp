@@ -5,7 +5,9 @@
 //   cut            at the cutting point (ContactRecord::cut_object_m) while the tool eats its way in; material without
 //                  hardness gives way wherever the hand is
 //   fill           where the tool rests on the surface
-//   paint, smooth  where the hand is, while it touches
+//   paint          where the hand is, while it touches
+//   smooth         a ball about the place of the surface that it touches, since it would only graze what it rests on;
+//                  another tool where the hand is, while it touches
 // Frame: object, metres. Thread: that of the scene's service, which reads the ring and hands the samples on.
 #pragma once
 

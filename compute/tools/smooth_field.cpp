@@ -9,6 +9,8 @@
 namespace burin::compute {
 namespace {
 
+// The shares of the two terms of the field.
+constexpr double kOfPlanes = 0.25, kOfMiddle = 1.0 - kOfPlanes;
 // A level is used for widths of at least this many of its merged boxes.
 constexpr double kBoxesAWidth = 3.0;
 
@@ -49,7 +51,7 @@ struct KernelSums {
         }
     }
     [[nodiscard]] double distance() const {
-        return -0.5 * (height + glm::dot(normal, off) / glm::length(normal)) / weight;
+        return -(kOfPlanes * height + kOfMiddle * glm::dot(normal, off) / glm::length(normal)) / weight;
     }
     [[nodiscard]] Vec3 gradient() const {
         const double length = glm::length(normal);
@@ -63,8 +65,8 @@ struct KernelSums {
         }
         for (int c = 0; c < 3; ++c)
             turning += off[c] / length * (normal_by_place.at(static_cast<std::size_t>(c)) - m[c] * m_by_normal);
-        return -0.5 * ((height_by_place - normal + turning + moving) / weight -
-                       (height + along) / (weight * weight) * weight_by_place);
+        return -(kOfPlanes * (height_by_place - normal) + kOfMiddle * (turning + moving)) / weight +
+               (kOfPlanes * height + kOfMiddle * along) / (weight * weight) * weight_by_place;
     }
 };
 

@@ -5,12 +5,14 @@
 // At a place x all points p with normal n nearer than a width w count with the weight area (1 - |p - x|^2 / w^2)^3.
 // With means weighted so, and m the direction of the mean normal, the function is
 //
-//   F(x) = (mean(n . (x - p)) + m . (x - mean(p))) / 2.
+//   F(x) = 1/4 mean(n . (x - p)) + 3/4 m . (x - mean(p)).
 //
 // The first term alone (Kolluri 2008, implicit moving least squares) bulges over an edge, the second alone (Adamson and
 // Alexa 2003) sinks below it; on a sphere of radius r they are off by -s^2 / r and s^2 / r, with s = w / sqrt(10)
-// the kernel's standard deviation on a plane, and their mean by less than s^4 / r^3. So planes are kept exactly,
-// spheres do not shrink, and what is narrower than s is rounded or filled.
+// the kernel's standard deviation on a plane. So planes are kept exactly, an edge of 90 degrees sinks by 0.55 s, and a
+// sphere by s^2 / 2r: the surface moves by its curvature, at half the pace of a mean over the surface. Equal shares
+// would leave spheres where they are, but then grooves of about the tool's width do not fill, and what little the sums
+// depend on the lattice is not smoothed away by the passes that follow.
 //
 // Points whose normals are turned by more than 120 degrees from m belong to another side of the material and count
 // nothing, those turned by 90 degrees or less count fully: a thin wall keeps its thickness.

@@ -35,6 +35,7 @@ struct Steps {
     Similarity change;
     std::vector<Action> actions;
     bool missed = false;
+    std::vector<Gesture> strokes = {};
     std::optional<Vec3> approach_device_m = std::nullopt;  // where the tool is to begin to work, above where it then is
 
     [[nodiscard]] MouseMode mode() const { return view.surface ? MouseMode::surface : MouseMode::free; }
@@ -212,8 +213,10 @@ struct Steps {
             begin_drag(in.button, gesture_of(MouseUse::right_button, held_with(in.modifiers)));
         if (in.button == MouseButton::middle)
             begin_drag(in.button, gesture_of(MouseUse::middle_drag, held_with(in.modifiers)));
-        if (!is_left || state.drag || !gesture_of(MouseUse::left_button, held_with(in.modifiers))) return;
+        const auto stroke = gesture_of(MouseUse::left_button, held_with(in.modifiers));
+        if (!is_left || state.drag || !stroke) return;
         if (!follow_surface()) return begin_drag(in.button, Gesture::turn_scene);
+        strokes.push_back(*stroke);
         state.on_surface.pressed = true;
         state.on_surface.as_it_was = *view.surface->seen;
         state.buttons |= kCarve;
@@ -349,6 +352,7 @@ DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double d
     step.scene_change = steps.change;
     step.actions = std::move(steps.actions);
     step.missed = steps.missed;
+    step.strokes = std::move(steps.strokes);
     step.state = std::move(steps.state);
     return step;
 }

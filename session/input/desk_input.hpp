@@ -116,6 +116,8 @@ struct DeskStep {
     Similarity scene_change;      // world_from_scene becomes scene_change * world_from_scene
     std::vector<Action> actions;  // in order; reset_view is among them and also resets head and stylus' turn here
     bool missed = false;          // a click beside the workpiece
+    // The gestures with which strokes on the surface began, in order.
+    std::vector<Gesture> strokes;
 };
 
 // Applies one step's events. dt_s: time since the step before, not negative.

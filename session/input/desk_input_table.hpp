@@ -30,7 +30,7 @@ enum class MouseMode : std::uint8_t { free, surface };
 enum class Gesture : std::uint8_t {
     // clang-format off
     move_stylus, move_stylus_in_depth, carve, move_workspace, turn_scene, pan_scene, stylus_depth, scale_scene,
-    turn_stylus, roll_stylus, follow_surface, work_on_surface, zoom_to_cursor,
+    turn_stylus, roll_stylus, follow_surface, work_on_surface, smooth_surface, zoom_to_cursor,
     // clang-format on
 };
 

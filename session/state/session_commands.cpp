@@ -126,6 +126,7 @@ private:
         return change_tool([&](SessionState& s) {
             s.tool.operation = operation;
             s.only_touch = only_touch;
+            s.smooth_stroke.reset();  // this is the operation from now on
         });
     }
     Result<void> resize_tool(double factor) {

@@ -338,6 +338,8 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
             step.orders.messages.push_back({done.error().line(), line});
     };
     step.orders.line = events.empty() ? 0 : events.back().line;
+    if (const auto done = follow_smooth_stroke(state, step.orders, desk.strokes, view); !done)
+        step.orders.messages.push_back({done.error().line(), 0});
     for (const Action action : desk.actions) run({std::string(name_of(action)), {}}, 0);
     for (const InputEvent& event : events) {
         step.orders.line = event.line;

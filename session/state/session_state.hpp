@@ -23,6 +23,7 @@
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
 #include "session/state/shown_mirror.hpp"
+#include "session/state/smooth_stroke.hpp"
 #include "session/state/world_objects.hpp"
 #include "wall/output_settings.hpp"
 
@@ -52,6 +53,7 @@ struct SessionState : HandState {
     scene::ObjectId selected = 0;               // on the panel; 0: the first
     wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false, devices = false;
+    std::optional<SmoothStroke> smooth_stroke;  // while one lasts
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
     bool quit = false;
@@ -158,6 +160,11 @@ struct SessionStep {
 };
 [[nodiscard]] SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
                                        const SessionView& view);
+
+// Has the tool smooth from the press of a stroke that began with Shift until all of it has been carved, given the
+// gestures with which strokes on the surface began in a step.
+[[nodiscard]] Result<void> follow_smooth_stroke(SessionState& state, SessionOrders& orders,
+                                                std::span<const Gesture> strokes, const SessionView& view);
 
 // Runs a command by its name (command_table.hpp). On an Error, which says what would be right, nothing has changed.
 [[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command);

@@ -198,16 +198,15 @@ TEST(SmoothRim, SixPassesLeaveItAsEvenAsAFillet) {
                 print_rim("smoothed", i, now);
                 print_rim("a fillet as deep", i, fillet);
                 EXPECT_GT(now.sink_m, last.sink_m + 0.02e-3);
-                EXPECT_LT(now.variation_m, fillet.variation_m + 0.025 * lattice.spacing_m);
-                EXPECT_LT(now.slope_deg, fillet.slope_deg + 1.5);
+                EXPECT_LT(now.variation_m, fillet.variation_m + 0.01 * lattice.spacing_m);
+                EXPECT_LT(now.slope_deg, fillet.slope_deg + 1.0);
                 EXPECT_LT(now.rays_m, 0.02 * lattice.spacing_m);
                 if (i > 1) {
-                    EXPECT_LT(now.rays_m, std::max(1.1 * last.rays_m, 0.006 * lattice.spacing_m));
+                    EXPECT_LT(now.rays_m, last.rays_m);
                 }
                 last = now;
             }
-            EXPECT_GT(last.sink_m, 0.5e-3);
-            EXPECT_LT(last.sink_m, 1.3e-3);
+            EXPECT_NEAR(last.sink_m, 2.5e-3, 0.1e-3);  // the same at either resolution, however turned
         }
     }
 }
@@ -229,7 +228,8 @@ TEST(SmoothRim, EveryPassMakesANotchedRimEvener) {
         print_rim("smoothed", i, now);
         EXPECT_LT(now.variation_m, 0.25 * notched.variation_m);
         EXPECT_LT(now.slope_deg, 0.35 * notched.slope_deg);
-        EXPECT_LT(now.variation_m, 1.05 * last.variation_m);  // the mesh of a rounded rim varies by itself
+        EXPECT_LT(now.variation_m, last.variation_m);
+        EXPECT_LT(now.slope_deg, last.slope_deg);
         EXPECT_LT(now.rays_m, last.rays_m);
         last = now;
     }
@@ -246,7 +246,7 @@ TEST(SmoothRim, HowAStrokeIsCutDoesNotMatter) {
         std::printf("in pieces of %.1f mm it sinks %.3f mm\n", piece_m * 1e3, sinks_m.back() * 1e3);
     }
     const auto [least, most] = std::ranges::minmax(sinks_m);
-    EXPECT_LT(most, 1.15 * least);
+    EXPECT_LT(most, 1.02 * least);
 }
 
 TEST(SmoothRim, SinksAlikeAtEveryResolution) {
@@ -259,7 +259,7 @@ TEST(SmoothRim, SinksAlikeAtEveryResolution) {
         std::printf("N = %d: sinks %.3f mm\n", resolution, sinks_m.back() * 1e3);
     }
     const auto [least, most] = std::ranges::minmax(sinks_m);
-    EXPECT_LT(most, 1.1 * least);
+    EXPECT_LT(most, 1.03 * least);
 }
 
 // A ball of 2 mm has carved a groove 1 mm deep along a face.
@@ -293,7 +293,7 @@ TEST(SmoothRim, AGrooveFills) {
             EXPECT_LT(now_m, last_m);
             last_m = now_m;
         }
-        EXPECT_LT(last_m, 0.5 * before_m);
+        EXPECT_LT(last_m, 0.25 * before_m);
     }
 }
 
