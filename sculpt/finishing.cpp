@@ -91,6 +91,13 @@ Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute:
         std::fprintf(stderr, "burin: %llu pairs of triangles still pass through each other\n",
                      static_cast<unsigned long long>(repair.left));
     }
+    if (repair.vertices_moved > 0) {
+        std::printf(
+            "  repaired %llu pairs of triangles that passed through each other; for that, vertices lie up to %s "
+            "farther from the surface\n",
+            static_cast<unsigned long long>(repair.found - repair.left),
+            in_millimetres(repair.deviation_max_m).c_str());
+    }
     const compute::SliverReport slivers = compute::find_slivers(solid, pool);
     finished.slivers = describe(slivers, solid.lattice);
     finished.too_thin = too_thin(slivers, solid.lattice);
