@@ -3,6 +3,7 @@
 
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
+#include "sculpt/workpiece.hpp"
 
 namespace burin::app {
 
@@ -47,6 +48,19 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.flag("--panel-window", options.panel_window,
                  "The panel in a window of its own, for an operator; the pictures show no more of it than the page for "
                  "the person who stands before them");
+    command.option(
+        "--panel-scale",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (given.empty()) return {};
+            const auto scale = sculpt::parse_numbers(given.back(), 1, "--panel-scale");
+            const auto& bounds = session::kPanelScaleBounds;
+            if (!scale || (*scale)[0] < bounds.least || (*scale)[0] > bounds.most)
+                return fail("--panel-scale " + given.back(), "is no size of letters",
+                            "write a number from 0.5 to 4; 1 is for a display of 96 dpi");
+            options.panel_scale = (*scale)[0];
+            return {};
+        },
+        "Size of the panel's letters, from 0.5 to 4; else as the desktop asks (2 at 192 dpi)");
     command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
     command.option("--width", options.width, "Of the window, in pixels").within(session::kPictureBounds).show_default();
     command.option("--height", options.height, "Of the window, in pixels")

@@ -135,6 +135,20 @@ long distance_to(const Monitor& m, int x, int y) {
     return dx + dy;
 }
 
+// Enlarges a window by its display's scale, but beyond no monitor.
+void fit_to_scale(Window::Size asked, GLFWwindow* handle) {
+    float x = 1.0f, y = 1.0f;
+    glfwGetWindowContentScale(handle, &x, &y);
+    int left = 0, top = 0, width = 0, height = 0, framebuffer = 0, window = 0, ignored = 0;
+    if (GLFWmonitor* const primary = glfwGetPrimaryMonitor())
+        glfwGetMonitorWorkarea(primary, &left, &top, &width, &height);
+    glfwGetFramebufferSize(handle, &framebuffer, &ignored);
+    glfwGetWindowSize(handle, &window, &ignored);
+    if (x <= 1.0f || width <= 0 || height <= 0 || framebuffer != window) return;  // the desktop scales by itself
+    glfwSetWindowSize(handle, std::min(static_cast<int>(x * static_cast<float>(asked.width)), width),
+                      std::min(static_cast<int>(x * static_cast<float>(asked.height)), height));
+}
+
 }  // namespace
 
 Window::Window(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
@@ -170,6 +184,7 @@ Result<Window> Window::create(const WindowOptions& options) {
     made->desktop_place.width = options.width;
     made->desktop_place.height = options.height;
     if (monitor != nullptr) made->filled_monitor = glfwGetMonitorName(monitor);
+    if (monitor == nullptr && options.scaled) fit_to_scale(Window::Size{width, height}, handle);
     if (monitor == nullptr && options.x && options.y) glfwSetWindowPos(handle, *options.x, *options.y);
     return Window(std::move(made));
 }
@@ -231,6 +246,12 @@ double Window::content_scale() const {
     Size size;
     glfwGetWindowSize(implementation_->handle(), &size.width, &size.height);
     return size.width > 0 ? static_cast<double>(framebuffer().width) / size.width : 1.0;
+}
+
+double Window::display_scale() const {
+    float x = 1.0f, y = 1.0f;
+    glfwGetWindowContentScale(implementation_->handle(), &x, &y);
+    return x > 0.0f ? static_cast<double>(x) : 1.0;
 }
 
 bool Window::full_screen() const { return glfwGetWindowMonitor(implementation_->handle()) != nullptr; }

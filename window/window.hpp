@@ -43,6 +43,7 @@ struct Monitor {
 struct WindowOptions {
     std::string title = "Burin";
     int width = 1280, height = 800;               // size of a window on the desktop
+    bool scaled = false;                          // times the display's scale, as far as its monitor has room
     std::optional<std::string> full_screen = {};  // a monitor's name or its index; "" means the primary one
     std::optional<int> x = {}, y = {};            // position of a window that is not full screen, on the desktop
     bool visible = true;
@@ -77,6 +78,8 @@ public:
     [[nodiscard]] Monitor monitor() const;  // the monitor that holds the window's middle
     // Returns the framebuffer's pixels for each unit of desktop coordinates: above 1 on scaled displays.
     [[nodiscard]] double content_scale() const;
+    // Returns how much larger than on a common display (96 dpi) the desktop asks letters to be; 1 where it is silent.
+    [[nodiscard]] double display_scale() const;
     [[nodiscard]] bool full_screen() const;
     [[nodiscard]] bool minimised() const;
     [[nodiscard]] bool asked_to_close() const;

@@ -10,8 +10,10 @@
 #include "session/drive/session_frames.hpp"
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
+#include "session/live/first_time.hpp"
 #include "session/live/session_watch.hpp"
 #include "session/present/display_watch.hpp"
+#include "session/state/option_bounds.hpp"
 #include "session/state/session_tracker.hpp"
 #include "session/timing/machine_pace.hpp"
 
@@ -107,6 +109,7 @@ std::vector<InputEvent> LiveFrames::wait_for_frame() {
     if (active) return wait_for_refresh();
     Nanoseconds until_ns = clock_.now_ns() + kRest_ns;
     if (const auto event_ns = input_.next_event_ns()) until_ns = std::min(until_ns, session_.start_ns() + *event_ns);
+    if (const auto change_ns = session_.changes_ns()) until_ns = std::min(until_ns, session_.start_ns() + *change_ns);
     std::vector<InputEvent> happened = wait_for_input(until_ns);
     plan_ = display_.plan(clock_.now_ns());
     plan_.wake_ns = clock_.now_ns();
@@ -203,6 +206,17 @@ Result<void> begin_recording(InputSource& input, const SculptOptions& options, c
     return {};
 }
 
+// Completes the options by what the display says: the size of letters, and that of the window, which follows it.
+SculptOptions as_displayed(SculptOptions options, const SessionWall& wall, Presenter& presenter) {
+    if (!options.live.panel_scale) options.live.panel_scale = presenter.display_scale();
+    presenter.look();
+    const ImageSize size = presenter.place().size;
+    if (!wall.desk || !presenter.has_windows() || is_empty(size)) return options;
+    options.live.width = std::clamp(static_cast<int>(size.width), kPictureBounds.least, kPictureBounds.most);
+    options.live.height = std::clamp(static_cast<int>(size.height), kPictureBounds.least, kPictureBounds.most);
+    return options;
+}
+
 // Says what a session file holds now.
 void tell_of(const SessionRecording& recording) {
     const SessionRecording::Progress done = recording.progress();
@@ -218,16 +232,19 @@ haptics::LoopPace pace_of(haptics::LoopPace asked, bool felt_by_person, bool has
     return asked;
 }
 
-Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
+Result<SessionRecord> run_in_real_time(const SculptOptions& given, const SessionWall& wall, InputSource input,
                                        RealTimeRun run) {
     MonotonicClock clock;
-    Result<Presenter> presenter = Presenter::open(options.live, wall, std::move(run.driver));
+    Result<Presenter> presenter = Presenter::open(given.live, wall, std::move(run.driver));
     if (!presenter) return std::unexpected(presenter.error());
+    const SculptOptions options = as_displayed(given, wall, *presenter);
     const auto wake = [&to = *presenter] { to.wake(); };
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
     auto opened = LiveSession::create(options, wall, clock, machine_pace);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
+    presenter->name_windows(session.document_name());
+    if (options.live.first_steps) remember_first_time();
     if (const auto begun = begin_recording(input, options, run.facts, session); !begun)
         return std::unexpected(begun.error());
     const std::shared_ptr<SessionRecording> recording = input.recording();

@@ -8,6 +8,7 @@
 
 #include "devices/registry/device_registry.hpp"
 #include "session/drive/tick_comparison.hpp"
+#include "session/live/first_time.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/log_outputs.hpp"
@@ -170,6 +171,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());
     if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
+    options.live.first_steps = !log && wall->desk && options.live.mouse == MouseMode::surface && is_first_time();
     if (log && options.live.record.empty())
         return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
     const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "session/drive/driver.hpp"
@@ -63,7 +64,11 @@ private:
 // The frames of a script: each at the time that the input gives it. Events of windows are ignored.
 class ScriptedFrames : public SessionFrames {
 public:
-    using SessionFrames::SessionFrames;
+    // Pictures depend on the script alone.
+    ScriptedFrames(LiveSession& session, Presenter& presenter, InputSource input)
+        : SessionFrames(session, presenter, std::move(input)) {
+        session.hear_nothing_from_outside();
+    }
 
 protected:
     [[nodiscard]] std::optional<FrameInput> next_input() override;

@@ -42,6 +42,7 @@ constexpr std::array kShortCuts = {
     ShortCut{Key::down, kNone, Action::turn_down, true, "Turn the scene downwards", MouseMode::surface},
     ShortCut{Key::comma, kNone, Action::roll_left, true, "Turn the tool about its axis", MouseMode::surface},
     ShortCut{Key::period, kNone, Action::roll_right, true, "Turn the tool about its axis", MouseMode::surface},
+    ShortCut{Key::escape, kNone, Action::put_away, false, "Put messages away"},
     ShortCut{Key::tab, kNone, Action::toggle_panel, false, "Show or hide the panel"},
     ShortCut{Key::f1, kNone, Action::toggle_help, false, "Show or hide this help"},
     ShortCut{Key::f2, kNone, Action::toggle_frame_figures, false, "Show or hide the figures of frames and ticks"},
@@ -104,7 +105,7 @@ constexpr std::array kSurfaceGestures = {
 
 constexpr std::array<std::string_view, 2> kMouseModeNames = {"free", "surface"};
 
-constexpr std::array<std::string_view, 33> kActionNames = {"undo",
+constexpr std::array<std::string_view, 35> kActionNames = {"undo",
                                                            "redo",
                                                            "tool-1",
                                                            "tool-2",
@@ -136,6 +137,8 @@ constexpr std::array<std::string_view, 33> kActionNames = {"undo",
                                                            "roll-left",
                                                            "roll-right",
                                                            "next-hand",
+                                                           "put-away",
+                                                           "first-steps",
                                                            "quit"};
 static_assert(kActionNames[static_cast<std::size_t>(Action::quit)] == "quit");
 

@@ -37,11 +37,11 @@ void AskedFiles::place(sculpt::ExportSurface& wanted) {
 
 void AskedFiles::tell(const sculpt::ExportOutcome& ended) {
     if (ended.written) {
-        log_.notify(ended.message, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
+        log_.notify(ended.message, MessageKind::info, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
     } else if (outputs_.refuse_meshes()) {
         log_.notify(ended.message);
     } else {
-        log_.notify(ended.message, {failed_on(ended.asked_by), {}});
+        log_.notify(ended.message, MessageKind::error, {failed_on(ended.asked_by), {}});
     }
 }
 
@@ -52,9 +52,9 @@ void AskedFiles::keep_picture(const Asked& wanted, const Result<Image>& image) {
     const auto written = place ? renderer::write_png(*place, *image) : std::unexpected(place.error());
     if (written) {
         const std::string message = "wrote " + outputs_.shown(wanted.text, *place);
-        log_.notify_of_event(message, {{}, where_it_lies(message, place->string(), was_there)});
+        log_.notify_of_event(message, MessageKind::info, {{}, where_it_lies(message, place->string(), was_there)});
     } else {
-        log_.notify_of_event(written.error().line(), {failed_on(wanted.line), {}});
+        log_.notify_of_event(written.error().line(), MessageKind::error, {failed_on(wanted.line), {}});
     }
 }
 
@@ -67,7 +67,7 @@ std::string AskedFiles::failed_on(std::size_t line) {
 void AskedFiles::notify_of_loss(const std::string& message) {
     const std::string where = failed_on(last_line_);
     if (where.empty()) ++failures_;
-    log_.notify(message, {where, {}});
+    log_.notify(message, MessageKind::error, {where, {}});
 }
 
 Result<void> AskedFiles::outcome() const {

@@ -2,6 +2,7 @@
 #include "session/live/live_panel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace burin::session {
@@ -56,6 +57,8 @@ void add_objects(PanelModel& m, const SessionState& state) {
     for (std::size_t i = 0; i < 3; ++i) m.object->colour_srgb.at(i) = object.colour.at(i) / 255.0;
 }
 
+PanelNote note_of(const Message& message) { return {message.text, message.kind, message.count, message.time_ns}; }
+
 }  // namespace
 
 PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::GateCause cause, std::size_t led_hand) {
@@ -68,7 +71,7 @@ PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::Ga
     return {name, led ? "simulated, steered by the mouse" : "simulated, rests", Condition::good};
 }
 
-PanelModel LivePanel::model_of(const PanelContext& context, const std::string& message) const {
+PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& log) const {
     const SessionState& state = context.state;
     const haptics::ToolState& tool_state = context.tool;
     PanelModel m;
@@ -108,7 +111,11 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.export_path = state.export_path;
     m.exporting = context.exporting;
     m.activity = context.activity;
-    m.message = message;
+    for (const Message& message : log.all()) {
+        m.log.push_back(note_of(message));
+        if (log.is_shown(message)) m.notes.push_back(note_of(message));
+    }
+    m.first_steps = state.first_steps;
     m.touch = touch_of(state, tool_state);
     for (std::size_t part = 0; part < context.tools.size(); ++part)
         m.sources.push_back(hand_source(context.hands, part, context.tools[part].cause, context.state.hand));
@@ -120,6 +127,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.hand = state.hand;
     if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));
     feed_.show_on(m);
+    if (!context.tells_late_pictures) m.warnings.clear();
     return m;
 }
 
@@ -143,12 +151,24 @@ void LivePanel::feed_times(const FrameInput& input, const PanelContext& context)
                 context.recording_ended, recorded_ ? &*recorded_ : nullptr});
 }
 
-Result<void> LivePanel::open(std::optional<Panel>& panel, ImageSize size, MessageLog& log) const {
+std::uint32_t panel_width(const Room& room, ImageSize eye, ImageSize window) {
+    const auto width = static_cast<std::uint32_t>(std::lround(kPanelWidth_px * room.panel_scale));
+    const bool has_room = room.wall.desk && !room.wall.has_panel_window() && eye.height > 0 && eye.width > width &&
+                          window.width >= 2 * width;
+    return has_room ? width : 0;
+}
+
+double beside_panel(const Room& room, ImageSize eye, ImageSize window) {
+    constexpr double kLeast = 0.1;  // of a picture that the panel covers
+    const std::uint32_t width = panel_width(room, eye, window);
+    return width == 0 ? 1.0 : std::max(1.0 - static_cast<double>(width) / eye.width, kLeast);
+}
+
+Result<void> LivePanel::open(std::optional<Panel>& panel, ImageSize size, double scale) {
     if (!panel) {
-        auto made = Panel::create({.size = size});
+        auto made = Panel::create({.size = size, .scale = scale});
         if (!made) return std::unexpected(made.error());
         panel.emplace(std::move(*made));
-        if (!panel->notice().empty()) log.notify(panel->notice());
     }
     panel->resize(size);
     return {};
@@ -160,22 +180,31 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
     feed_times(input, context);
     const ImageSize eye = context.eye();
     const bool stands = !context.room.wall.desk, in_window = context.room.wall.has_panel_window();
-    const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
-    // A window too narrow for both shows the scene alone.
-    const bool has_place = in_window ? !is_empty(context.panel_output)
-                                     : context.state.panel && eye.height > 0 && (stands || eye.width >= 2 * width);
+    const std::uint32_t width = in_window || stands ? static_cast<std::uint32_t>(kPanelWidth_px)
+                                                    : std::max(panel_width(context.room, eye, context.output.size), 1u);
+    const bool has_column = in_window ? !is_empty(context.panel_output)
+                            : stands  ? context.state.panel && eye.height > 0
+                                      : context.state.panel && panel_width(context.room, eye, context.output.size) > 0;
+    const bool has_place = has_column || (!in_window && !stands && !is_empty(eye));
+    column_shown_ = has_column;
     SceneInput left{{input.events.begin(), input.events.end()}, {}};
     if (has_place) {
         const ImageSize size = in_window ? ImageSize{width, context.panel_output.height}
                                : stands  ? kStanding_px
                                          : ImageSize{width, eye.height};
-        if (const auto opened = open(panel_, size, log); !opened) return std::unexpected(opened.error());
+        const double scale = in_window || stands ? 1.0 : context.room.panel_scale;
+        if (const auto opened = open(panel_, size, scale); !opened) return std::unexpected(opened.error());
+        panel_->lie_over(in_window || stands ? ImageSize{} : eye);
         left = in_window ? feed_in_window(input, context.panel_output) : feed_over_picture(input, context, size);
-        PanelModel model = model_of(context, log.newest());
-        model.visible = true;
+        PanelModel model = model_of(context, log);
+        model.visible = has_column;
         model.may_be_hidden = !in_window;
         add_devices(model, log.follows_recording());
         layout_ = &panel_->show(model, input.time_ns);
+        if (told_notice_ != panel_->notice()) {
+            told_notice_ = panel_->notice();
+            if (!told_notice_.empty()) log.notify(told_notice_, MessageKind::info);
+        }
         actions_ = layout_->actions;
         left.captured = {layout_->wants_mouse && !in_window, layout_->wants_keyboard};
     } else {
@@ -183,8 +212,12 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
         pointer_ = {.mouse_px = on.pointer.mouse_px};
     }
     if (!in_window) return left;
-    if (const auto page = lay_out_page(context, input.time_ns, log); !page) return std::unexpected(page.error());
+    if (const auto page = lay_out_page(context, input.time_ns); !page) return std::unexpected(page.error());
     return left;
+}
+
+double LivePanel::free_width(const Room& room, ImageSize eye, ImageSize window) const {
+    return column_shown_ ? beside_panel(room, eye, window) : 1.0;
 }
 
 // Returns what the panel leaves to the scene.
@@ -215,14 +248,15 @@ SceneInput LivePanel::feed_in_window(const FrameInput& input, ImageSize window) 
 }
 
 // The activity's page for the person before the pictures, as high as its text.
-Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds time_ns, MessageLog& log) {
+Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds time_ns) {
     if (!context.activity || context.activity->page.empty()) return {};
     PanelModel model;
     model.page_alone = true;
     model.activity = ActivityPanel{};
     model.activity->page = context.activity->page;
     const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
-    if (const auto opened = open(page_, page_ ? page_->size() : ImageSize{width, width}, log); !opened) return opened;
+    const ImageSize size = page_ ? page_->size() : ImageSize{width, width};
+    if (const auto opened = open(page_, size, 1.0); !opened) return opened;
     page_layout_ = &page_->show(model, time_ns);
     if (page_->page_height() == page_->size().height) return {};
     page_->resize({width, page_->page_height()});
@@ -238,8 +272,9 @@ std::optional<PanelPicture> LivePanel::picture_on(std::size_t screen, const Room
     const bool stands = !wall.desk && !in_own_window;
     if (layout == nullptr || (wall.desk && !in_own_window && screen != wall.main)) return std::nullopt;
     const Panel& panel = is_page ? *page_ : *panel_;
-    return PanelPicture{layout->mesh, panel.atlas(), panel.size(),
-                        stands ? std::optional(stand_in(room, panel.size())) : std::nullopt};
+    return PanelPicture{layout->mesh,  panel.atlas(),
+                        layout->size,  panel.atlases(),
+                        layout->parts, stands ? std::optional(stand_in(room, panel.size())) : std::nullopt};
 }
 
 }  // namespace burin::session

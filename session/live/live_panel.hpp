@@ -46,6 +46,8 @@ struct PanelContext {
     // PanelFacts
     std::optional<std::uint64_t> acknowledged = std::nullopt;
     bool recording_ended = false;
+    // Somebody feels the hand, or is tracked, and notices what is late.
+    bool tells_late_pictures = true;
     [[nodiscard]] ImageSize eye() const { return wall::eye_size(shown.mode, output.size); }
 };
 
@@ -60,15 +62,28 @@ struct SceneInput {
 [[nodiscard]] PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::GateCause cause,
                                       std::size_t led_hand);
 
+// Returns how wide the panel is at the right of a desktop window's picture; 0 where the window is too narrow for both,
+// or where it has a window of its own. In modes that halve the picture it covers more of each half. And the share of
+// the picture that it leaves free.
+[[nodiscard]] std::uint32_t panel_width(const Room& room, ImageSize eye, ImageSize window);
+[[nodiscard]] double beside_panel(const Room& room, ImageSize eye, ImageSize window);
+
 class LivePanel {
 public:
-    // Feeds a step's events and lays the panel out, with the log's newest message on it; an Error where there can be no
+    // Feeds a step's events and lays the panel out, with the log's messages on it; an Error where there can be no
     // panel.
     [[nodiscard]] Result<SceneInput> feed(const FrameInput& input, const PanelContext& context, MessageLog& log);
     // Returns the commands that its widgets gave in the last step.
     [[nodiscard]] const std::vector<CommandInput>& actions() const { return actions_; }
     // Returns its picture for a screen, as laid out in the last step; nothing where it is not shown.
     [[nodiscard]] std::optional<PanelPicture> picture_on(std::size_t screen, const Room& room) const;
+
+    // Returns the share of the main screen's picture that the panel left free in the last step, at its left.
+    [[nodiscard]] double free_width(const Room& room, ImageSize eye, ImageSize window) const;
+    // Returns when it changes by itself, in session time; nothing where it does not.
+    [[nodiscard]] std::optional<Nanoseconds> changes_ns() const {
+        return layout_ != nullptr ? layout_->changes_ns : std::nullopt;
+    }
 
     // Records what the main screen's frame drew and left out, which the next steps' figures show.
     void note_drawn(const renderer::RenderStats& stats) { drawn_ = stats; }
@@ -80,14 +95,16 @@ public:
 private:
     void add_devices(PanelModel& model, bool follows_recording);
     void feed_times(const FrameInput& input, const PanelContext& context);
-    [[nodiscard]] Result<void> open(std::optional<Panel>& panel, ImageSize size, MessageLog& log) const;
+    [[nodiscard]] static Result<void> open(std::optional<Panel>& panel, ImageSize size, double scale);
     [[nodiscard]] SceneInput feed_over_picture(const FrameInput& input, const PanelContext& context, ImageSize size);
     [[nodiscard]] SceneInput feed_in_window(const FrameInput& input, ImageSize window);
-    [[nodiscard]] Result<void> lay_out_page(const PanelContext& context, Nanoseconds time_ns, MessageLog& log);
-    [[nodiscard]] PanelModel model_of(const PanelContext& context, const std::string& message) const;
+    [[nodiscard]] Result<void> lay_out_page(const PanelContext& context, Nanoseconds time_ns);
+    [[nodiscard]] PanelModel model_of(const PanelContext& context, const MessageLog& log) const;
 
     std::optional<Panel> panel_;          // created when it is first shown
-    const PanelFrame* layout_ = nullptr;  // of the last step; null while the panel is hidden
+    const PanelFrame* layout_ = nullptr;  // of the last step; null while there is nothing of it
+    std::string told_notice_;             // about fonts
+    bool column_shown_ = false;           // and not only what lies over the picture
     std::optional<Panel> page_;           // beside a panel in its own window
     const PanelFrame* page_layout_ = nullptr;
     bool mouse_on_window_ = false;  // the panel's own

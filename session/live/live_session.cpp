@@ -18,6 +18,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     if (!is_empty(output.size)) output_ = output;
     if (!is_empty(panel_output)) panel_output_ = panel_output;
     fit_desk_screen(room_.wall, main_eye());
+    log_.begin_step(input.time_ns);
     tools_.assign(tools.begin(), tools.end());
     std::vector<haptics::ToolState> of_hands;  // by the first part of each
     for (std::size_t hand = 0; hand < hands().hands(); ++hand) of_hands.push_back(tools_[hands().first_part(hand)]);
@@ -27,6 +28,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     last_step_ns_ = input.time_ns;
     if (!input.events.empty()) files_.note_line(input.events.back().line);
     const SceneInput left = feed_panel(input);
+    room_.free_width = panel_.free_width(room_, main_eye(), output_.size);
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     SessionStep step =
         step_session(state_, room_, left.events,
@@ -56,6 +58,7 @@ void LiveSession::hold_governed(const SessionState& before, SessionOrders& order
 }
 
 SceneInput LiveSession::feed_panel(const FrameInput& input) {
+    laid_out_changes_ = log_.changes();
     auto left = panel_.feed(input,
                             {.state = state_,
                              .room = room_,
@@ -75,9 +78,11 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .output = output_,
                              .panel_output = panel_output_,
                              .acknowledged = acknowledged_,
-                             .recording_ended = recording_ended_},
+                             .recording_ended = recording_ended_,
+                             .tells_late_pictures = tells_late_pictures()},
                             log_);
-    for (const std::string& line : times_.take_new_warnings()) std::fprintf(stderr, "burin: %s\n", line.c_str());
+    for (const std::string& line : times_.take_new_warnings())
+        if (tells_late_pictures()) std::fprintf(stderr, "burin: %s\n", line.c_str());
     if (left) return std::move(*left);
     notify(left.error().line());
     state_.panel = false;
@@ -94,7 +99,7 @@ void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
     const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
                                    : "those of " + std::string(hands().device(hands().first_part(state_.hand)).name) +
                                          " cannot be switched from here";
-    log_.notify_of_event("amplifiers: " + why, {files_.failed_on(asked.line), {}});
+    log_.notify_of_event("amplifiers: " + why, MessageKind::warning, {files_.failed_on(asked.line), {}});
 }
 
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
@@ -114,12 +119,13 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
         give(scene_.carving(sculpt::LightFrom{*lamp}, state_.hand));
     for (const Asked& message : orders.messages) {
         if (message.line == 0) {
-            notify(message.text);
+            notify(message.text, message.kind);
         } else {
-            log_.notify(message.text, {files_.failed_on(message.line), {}});
+            log_.notify(message.text, message.kind, {files_.failed_on(message.line), {}});
         }
     }
     files_.ask_for_pictures(std::move(orders.screenshots));
+    if (orders.put_away) log_.dismiss();
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
 }
 
@@ -132,8 +138,9 @@ void LiveSession::watch(Nanoseconds time_ns) {
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
     for (const std::string& message : hands().take_messages()) notify_of_event(message);
+    if (const auto nothing = strokes_.look(state_, tool_in_use(), scene_.spacing_m(), time_ns)) notify(*nothing);
     for (DeviceWatch::News& news : devices_.look(hands(), tools_)) {
-        notify(news.message);
+        notify(news.message, news.kind);
         events_.push_back(std::move(news.event));
     }
     std::ranges::move(activity_.take_events(), std::back_inserter(events_));
@@ -192,13 +199,22 @@ void LiveSession::take(sculpt::SurfaceUpdate news) {
     exporting_ = news.exporting;
     times_.cut(news.cut_ns);
     seen_.take(news);
+    strokes_.take(news);
     updates_.push_back(std::move(news));
 }
 
 void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {
     state_.output.mode = working;
     refused_ = working;
-    notify_of_event(error.line());
+    notify_of_event(error.line(), MessageKind::warning);
+}
+
+std::optional<Nanoseconds> LiveSession::changes_ns() const {
+    if (log_.changes() != laid_out_changes_) return last_step_ns_;
+    std::optional<Nanoseconds> next = panel_.changes_ns();
+    for (const auto& other : {log_.next_change_ns(), strokes_.due_ns()})
+        if (other) next = std::min(next.value_or(*other), *other);
+    return next;
 }
 
 }  // namespace burin::session

@@ -97,11 +97,19 @@ public:
     // Returns the durations of the scene's updates in which the carved surface changed.
     [[nodiscard]] const haptics::Histogram& carving_duration() const { return scene_.news().carving_duration(); }
     [[nodiscard]] SessionTimes& times() { return times_; }
+    // Returns when a picture changes without input, in session time: a message goes, a tool-tip comes. None: never.
+    [[nodiscard]] std::optional<Nanoseconds> changes_ns() const;
+    // Returns the name of what is worked on: its file's, or its shape's.
+    [[nodiscard]] const std::string& document_name() const { return workpiece_.name; }
     [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
     [[nodiscard]] bool wants_full_screen_exchanged() { return std::exchange(exchange_full_screen_, false); }
     // See MessageLog.
-    void notify(const std::string& message) { log_.notify(message); }
-    void notify_of_event(const std::string& message) { log_.notify_of_event(message); }
+    void hear_nothing_from_outside() { log_.hear_nothing_from_outside(); }
+    void notify(const std::string& message, MessageKind kind = MessageKind::warning) { log_.notify(message, kind); }
+    void notify_of_event(const std::string& message, MessageKind kind = MessageKind::info) {
+        log_.notify_of_event(message, kind);
+    }
+    [[nodiscard]] const std::vector<Message>& messages() const { return log_.all(); }
     void replay_events(std::span<const std::string> recorded) { log_.replay_events(recorded); }
     // Tells the panel the last tick that a session file has on the disk, and whether its recording goes on.
     void note_acknowledged(std::uint64_t tick, bool goes_on) {
@@ -148,6 +156,7 @@ private:
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void switch_amplifiers(const AskedAmplifiers& asked);
     void take(sculpt::SurfaceUpdate news);
+    [[nodiscard]] bool tells_late_pictures() const { return hands().felt_by_person() || state_.head.tracked; }
     void watch(Nanoseconds time_ns);
     void watch_misfit(const sculpt::Tool& tool);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
@@ -181,7 +190,9 @@ private:
     LampWatch lamp_;
     DeviceWatch devices_;
     MisfitWatch misfit_;
-    std::vector<EventMark> events_;  // not taken yet
+    StrokeWatch strokes_;
+    std::uint64_t laid_out_changes_ = 0;  // of the log, when the panel was laid out
+    std::vector<EventMark> events_;       // not taken yet
     bool exchange_full_screen_ = false;
     std::optional<wall::StereoMode> refused_;  // for the recorder
     std::optional<std::uint64_t> acknowledged_;

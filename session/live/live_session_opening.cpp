@@ -24,6 +24,17 @@ std::size_t ring_for(const std::string& recording) {
     return is_session_file(recording) ? record::kRingTicks : kTicksToLog;
 }
 
+Vec3 across(const wall::Screen& screen) { return screen.lower_right_world - screen.lower_left_world; }
+
+// The share of a desktop window's picture beside the panel, in the mode that the session begins with.
+double free_width_at_first(const LiveOptions& live, const Room& room) {
+    if (!room.wall.desk || room.wall.has_panel_window()) return 1.0;
+    const auto mode = live.stereo.empty() ? wall::StereoMode::mono
+                                          : wall::parse_stereo_mode(live.stereo).value_or(wall::StereoMode::mono);
+    const ImageSize size{static_cast<std::uint32_t>(live.width), static_cast<std::uint32_t>(live.height)};
+    return beside_panel(room, wall::eye_size(mode, size), size);
+}
+
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
@@ -45,6 +56,12 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     Result<OpenedRoom> opened = open_room(options, wall);
     if (!opened) return std::unexpected(opened.error());
     room_ = std::move(opened->room);
+    room_.panel_scale = options.live.panel_scale.value_or(1.0);
+    room_.first_steps = options.live.first_steps;
+    room_.free_width = free_width_at_first(options.live, room_);
+    // Before the middle of what the panel leaves free, so that nothing there is seen aslant.
+    if (room_.wall.desk && room_.mouse == MouseMode::surface)
+        room_.desk.home_head_world.position_m -= 0.5 * (1.0 - room_.free_width) * across(room_.screen());
     hands_.use(std::move(opened->handles));
     const bool has_world = options.scene || !options.world.empty();
     if (!options.no_workpiece || !has_world)

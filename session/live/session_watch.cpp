@@ -33,6 +33,31 @@ std::string who_goes_on(const SessionHands& hands, std::size_t but, const std::v
     return "; " + joined(names) + (names.size() == 1 ? " goes on" : " go on");
 }
 
+// Says of a stroke that has changed nothing what it did not do, and what would do it.
+std::string why_nothing(const SessionState& state, bool touched, double spacing_m) {
+    if (state.only_touch)
+        return "the tool only touches: choose Cut, Fill, Paint or Smooth (keys 1 to 4) to work with it";
+    if (!state.force_on)
+        return "nothing was changed: the force is off, and the tool keeps out of the material; switch it on under "
+               "Touch";
+    if (!touched) return "the tool touched nothing on its way: press where it stands on the workpiece";
+    switch (state.tool.operation) {
+        case compute::Operation::paint: return "nothing was painted: the surface has this colour already";
+        case compute::Operation::smooth: return "nothing was smoothed: the surface is as smooth there as it gets";
+        case compute::Operation::cut:
+        case compute::Operation::fill: break;
+    }
+    const std::string what = state.tool.operation == compute::Operation::cut ? "removed" : "added";
+    const double deep_m = state.desk.strength * state.held->half_width_m();
+    if (deep_m < 0.25 * spacing_m)
+        return "nothing was " + what + ": the stroke is " + formatted("%.2g", 1e3 * deep_m) +
+               " mm deep, and a cell of the workpiece is " + formatted("%.2g", 1e3 * spacing_m) +
+               " mm; set a greater Depth, or turn the wheel while the button is down";
+    return "nothing was " + what +
+           ": the material gives way more slowly than the stroke went; go slowly, or choose a softer one under "
+           "Material";
+}
+
 }  // namespace
 
 std::optional<std::string> ComfortWatch::look(const SessionState& state, const Room& room,
@@ -89,7 +114,8 @@ std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std:
         if (lost[part])
             news.push_back({who + ": " + why + others, {tool.time_ns, who + " is lost", why}});
         else
-            news.push_back({who + ": its device is well again", {tool.time_ns, who + " is well again", ""}});
+            news.push_back(
+                {who + ": its device is well again", {tool.time_ns, who + " is well again", ""}, MessageKind::info});
     };
     for (std::size_t hand = 0; hand < hands.hands(); ++hand) {
         const std::size_t first = hands.first_part(hand), count = hands.parts_of(hand);
@@ -101,6 +127,30 @@ std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std:
             if (!whole && own(part)) tell(hands.name_of(part), part);
     }
     return news;
+}
+
+// Tiles are meshed anew where a tool has only passed; what a stroke has changed can be undone.
+void StrokeWatch::take(const sculpt::SurfaceUpdate& update) {
+    undoable_ = update.undoable;
+    told_ = told_ || !update.messages.empty();
+}
+
+std::optional<std::string> StrokeWatch::look(const SessionState& state, const haptics::ToolState& tool,
+                                             double spacing_m, Nanoseconds time_ns) {
+    if (!state.carves || state.mouse != MouseMode::surface) return std::nullopt;
+    constexpr std::uint32_t kWorks = 1;
+    const bool pressed = (tool.buttons & kWorks) != 0;
+    if (pressed && !std::exchange(pressed_, true)) {
+        touched_ = told_ = false;
+        undoable_before_ = undoable_;
+        due_ns_.reset();
+    }
+    if (pressed) touched_ = touched_ || (tool.flags & haptics::kTickInContact) != 0;
+    if (!pressed && std::exchange(pressed_, false)) due_ns_ = time_ns + kSettled_ns;
+    if (!due_ns_ || time_ns < *due_ns_) return std::nullopt;
+    due_ns_.reset();
+    if (undoable_ != undoable_before_ || told_) return std::nullopt;
+    return why_nothing(state, touched_, spacing_m);
 }
 
 std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& settings, const sculpt::Tool& tool,

@@ -74,6 +74,7 @@ public:
     struct News {
         std::string message;  // for the user
         EventMark event;      // for the recording
+        MessageKind kind = MessageKind::error;
     };
     // Returns what has begun or ended with these tools, one of each part. A device whose parts are all lost at once is
     // named as a whole.
@@ -85,6 +86,27 @@ private:
         Nanoseconds last_ns = 0;  // when it was last seen without force for its device's sake
     };
     std::vector<Part> parts_;
+};
+
+// Watches whether strokes of the mouse change anything: what seems to do nothing must say why.
+class StrokeWatch {
+public:
+    // What a stroke has changed is known this long after it.
+    static constexpr Nanoseconds kSettled_ns = 300'000'000;
+
+    // Takes what has changed of the surface.
+    void take(const sculpt::SurfaceUpdate& update);
+    // Returns what a stroke that has changed nothing did not do, and why, once it is over. spacing_m: of the lattice.
+    [[nodiscard]] std::optional<std::string> look(const SessionState& state, const haptics::ToolState& tool,
+                                                  double spacing_m, Nanoseconds time_ns);
+    // Returns when a stroke is to be judged; nothing where none is.
+    [[nodiscard]] std::optional<Nanoseconds> due_ns() const { return due_ns_; }
+
+private:
+    std::size_t undoable_ = 0, undoable_before_ = 0;  // strokes, now and before this one
+    bool pressed_ = false, touched_ = false;
+    bool told_ = false;  // the workpiece itself has told something since it began
+    std::optional<Nanoseconds> due_ns_;
 };
 
 // Watches whether tool and workpiece suit one another.

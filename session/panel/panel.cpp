@@ -2,8 +2,10 @@
 #include "session/panel/panel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "session/panel/panel_input.hpp"
@@ -18,20 +20,24 @@ using panel::Kit;
 // Layouts after the last event before the panel is taken to rest: lists close, fields lose the keyboard.
 constexpr int kSettling = 3;
 
+// How long the mouse rests on something before it says what that is.
+constexpr Nanoseconds kTipAfter_ns = 600'000'000;
+
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                     ImGuiWindowFlags_NoNav;
 
-PixelRect clip_of(const ImVec4& clip, ImageSize size) {
+// Layouts are made in pixels of the whole picture; left: where the mesh begins in it.
+PixelRect clip_of(const ImVec4& clip, ImageSize size, float left) {
     const auto within = [](float value, std::uint32_t most) {
         return static_cast<std::uint32_t>(std::clamp(value, 0.0f, static_cast<float>(most)));
     };
-    const std::uint32_t x0 = within(clip.x, size.width), y0 = within(clip.y, size.height);
-    const std::uint32_t x1 = within(clip.z, size.width), y1 = within(clip.w, size.height);
+    const std::uint32_t x0 = within(clip.x - left, size.width), y0 = within(clip.y, size.height);
+    const std::uint32_t x1 = within(clip.z - left, size.width), y1 = within(clip.w, size.height);
     return {x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0};
 }
 
-renderer::PanelMesh mesh_of(const ImDrawData& data, ImageSize size) {
+renderer::PanelMesh mesh_of(const ImDrawData& data, ImageSize size, float left) {
     renderer::PanelMesh mesh;
     mesh.vertices.reserve(static_cast<std::size_t>(data.TotalVtxCount));
     mesh.indices.reserve(static_cast<std::size_t>(data.TotalIdxCount));
@@ -39,11 +45,13 @@ renderer::PanelMesh mesh_of(const ImDrawData& data, ImageSize size) {
         const ImDrawList& list = *data.CmdLists[l];
         const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
         const auto first_index = static_cast<std::uint32_t>(mesh.indices.size());
-        for (const ImDrawVert& v : list.VtxBuffer) mesh.vertices.push_back({v.pos.x, v.pos.y, v.uv.x, v.uv.y, v.col});
+        for (const ImDrawVert& v : list.VtxBuffer)
+            mesh.vertices.push_back({v.pos.x - left, v.pos.y, v.uv.x, v.uv.y, v.col});
         for (const ImDrawIdx i : list.IdxBuffer) mesh.indices.push_back(first_vertex + i);
         for (const ImDrawCmd& command : list.CmdBuffer) {
             if (command.ElemCount == 0) continue;
-            mesh.draws.push_back({clip_of(command.ClipRect, size), first_index + command.IdxOffset, command.ElemCount});
+            mesh.draws.push_back(
+                {clip_of(command.ClipRect, size, left), first_index + command.IdxOffset, command.ElemCount});
         }
     }
     return mesh;
@@ -78,16 +86,39 @@ public:
 
     Result<void> load_letters(const std::string& file) {
         const Current current(context_);
-        auto type = panel::load_type(file, kit_.scale);
+        type_file_ = file;
+        auto type = panel::load_type(file, kit_.scale, std::vector<std::uint32_t>(letters_.begin(), letters_.end()));
         if (!type) return std::unexpected(type.error());
         kit_.type = std::move(*type);
         atlas_ = panel::atlas_of_context();
+        ++atlases_;
         return {};
+    }
+
+    // Has letters ready that texts of people hold: names of files and objects, messages, what is typed.
+    void learn_letters(const PanelModel& model) {
+        const std::size_t before = letters_.size();
+        const auto learn = [&](std::string_view text) {
+            for (const std::uint32_t letter : panel::letters_beyond_latin(text)) letters_.insert(letter);
+        };
+        const std::array<const std::string*, 5> texts{&model.workpiece.name, &model.export_path, &model.tool.file,
+                                                      &kit_.memory.path, &kit_.memory.field};
+        for (const std::string* text : texts) learn(*text);
+        for (const std::string& name : model.object_names) learn(name);
+        for (const PanelNote& note : model.log) learn(note.text);
+        for (const PanelSource& source : model.sources) learn(source.detail);
+        if (model.activity) {
+            for (const std::string* text : {&model.activity->title, &model.activity->aside, &model.activity->page})
+                learn(*text);
+            for (const ActivityPanel::Row& row : model.activity->rows) learn(row.name + row.value);
+        }
+        if (letters_.size() > before) static_cast<void>(load_letters(type_file_));  // the file was good before
     }
 
     const PanelFrame& show(const PanelModel& model, Nanoseconds time_ns) {
         frame_.actions.clear();
-        const bool still = events_.empty() && resting_ <= 0 && model_ && *model_ == model;
+        const bool changes = frame_.changes_ns && time_ns >= *frame_.changes_ns;
+        const bool still = events_.empty() && resting_ <= 0 && !changes && model_ && *model_ == model;
         if (still) {
             ++spared_;
             frame_.changed = false;
@@ -97,8 +128,13 @@ public:
         resting_ = !events_.empty() || !model_ ? kSettling : std::max(resting_ - 1, 0);
         model_ = model;
         const Current current(context_);
-        renderer::PanelMesh mesh = model.visible ? lay_out(model, time_ns) : hidden();
-        frame_.changed = laid_out_before_ ? mesh != frame_.mesh : true;
+        learn_letters(model);
+        const bool over_picture = !is_empty(picture_) && (!model.notes.empty() || model.first_steps);
+        const ImageSize size_before = frame_.size;
+        frame_.parts.clear();
+        frame_.changes_ns.reset();
+        renderer::PanelMesh mesh = model.visible || over_picture ? lay_out(model, time_ns) : hidden();
+        frame_.changed = laid_out_before_ ? mesh != frame_.mesh || frame_.size != size_before : true;
         laid_out_before_ = true;
         frame_.mesh = std::move(mesh);
         last_ns_ = time_ns;
@@ -119,7 +155,15 @@ public:
         ImGuiContext* before_;
     };
 
-    ImageSize size_;
+    // Where the panel begins in the picture that it lies over.
+    [[nodiscard]] float left() const {
+        return picture_.width > size_.width ? static_cast<float>(picture_.width - size_.width) : 0.0f;
+    }
+
+    std::string type_file_;
+    std::set<std::uint32_t> letters_;  // beyond Latin 1, that were shown
+    std::uint64_t atlases_ = 0;
+    ImageSize size_, picture_;
     Kit kit_;
     renderer::PanelAtlas atlas_;
     panel::PanelEvents events_;
@@ -140,7 +184,8 @@ private:
         int refits = 0;
         do {
             ImGuiIO& io = ImGui::GetIO();
-            io.DisplaySize = {static_cast<float>(size_.width), static_cast<float>(size_.height)};
+            const ImageSize whole = is_empty(picture_) ? size_ : picture_;
+            io.DisplaySize = {static_cast<float>(whole.width), static_cast<float>(whole.height)};
             io.DeltaTime = static_cast<float>(dt_s);
             dt_s = 1e-4;
             events_.hand_over();
@@ -148,11 +193,14 @@ private:
             ImGui::PushFont(kit_.type.text);
             kit_.places.clear();
             kit_.actions.clear();
+            kit_.parts.clear();
             kit_.again = false;
+            kit_.hovered.clear();
             if (model.page_alone) {
                 show_page(model);
             } else {
-                show_column(model);
+                if (model.visible) show_column(model);
+                show_over_all(model, time_ns);
             }
             ImGui::PopFont();
             ImGui::Render();
@@ -164,12 +212,44 @@ private:
         } while (!events_.empty() || kit_.again);
         frame_.wants_mouse = ImGui::GetIO().WantCaptureMouse;
         frame_.wants_keyboard = ImGui::GetIO().WantTextInput;
-        return mesh_of(*ImGui::GetDrawData(), size_);
+        return taken(model.visible);
+    }
+
+    // Takes what was laid out: the column alone, or all that lies over the picture.
+    renderer::PanelMesh taken(bool column) {
+        const bool alone = is_empty(picture_) || kit_.parts.empty();
+        frame_.size = alone ? size_ : picture_;
+        frame_.parts = alone ? std::vector<PixelRect>{} : kit_.parts;
+        if (column)
+            frame_.parts.push_back({alone ? 0 : static_cast<std::uint32_t>(left()), 0, size_.width, size_.height});
+        return mesh_of(*ImGui::GetDrawData(), frame_.size, alone ? left() : 0.0f);
+    }
+
+    // Shows messages, the card of first steps and a tool-tip, which move nothing that lies below.
+    void show_over_all(const PanelModel& model, Nanoseconds time_ns) {
+        const ImVec2 screen = ImGui::GetIO().DisplaySize;
+        panel::Area free{{0.0f, 0.0f}, {model.visible ? left() : screen.x, screen.y}};
+        if (is_empty(picture_)) free = {{0.0f, 0.0f}, {screen.x, column_bottom_}};
+        kit_.visible_lo = {0.0f, 0.0f};
+        kit_.visible_hi = screen;
+        if (model.first_steps && !is_empty(picture_)) panel::show_first_steps(kit_, model, free);
+        panel::show_notes(kit_, model, free);
+        if (kit_.hovered != tip_for_) {
+            tip_for_ = kit_.hovered;
+            tip_from_ns_ = time_ns;
+        }
+        const Nanoseconds due_ns = tip_from_ns_ + kTipAfter_ns;
+        if (tip_for_.empty() || ImGui::IsAnyItemActive()) return;
+        if (time_ns >= due_ns)
+            panel::show_tip(kit_, tip_for_, is_empty(picture_) ? 0.0f : left());
+        else
+            frame_.changes_ns = due_ns;
     }
 
     renderer::PanelMesh hidden() {
         events_.drop();
         kit_.places.clear();
+        frame_.size = size_;
         ImGuiIO& io = ImGui::GetIO();
         for (bool& down : io.MouseDown) down = false;
         for (bool& down : io.KeysDown) down = false;
@@ -179,18 +259,19 @@ private:
 
     // Begins a window that fills the panel.
     void begin_ground(float margin, float above) {
-        const ImVec2 screen = ImGui::GetIO().DisplaySize;
-        ImGui::SetNextWindowPos({0.0f, 0.0f});
-        ImGui::SetNextWindowSize(screen);
+        const ImVec2 from{left(), 0.0f}, size{static_cast<float>(size_.width), static_cast<float>(size_.height)};
+        const ImVec2 to{from.x + size.x, size.y};
+        ImGui::SetNextWindowPos(from);
+        ImGui::SetNextWindowSize(size);
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, above});
         ImGui::Begin("panel", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
         ImGui::PopStyleVar();
         ImDrawList& ground = *ImGui::GetWindowDrawList();
         ground.PushClipRectFullScreen();
-        ground.AddRectFilled({0.0f, 0.0f}, screen, panel::kGround);
+        ground.AddRectFilled(from, to, panel::kGround);
         ground.PopClipRect();
-        kit_.visible_lo = {0.0f, 0.0f};
-        kit_.visible_hi = screen;
+        kit_.visible_lo = from;
+        kit_.visible_hi = to;
     }
 
     void show_page(const PanelModel& model) {
@@ -202,7 +283,7 @@ private:
     }
 
     void show_column(const PanelModel& model) {
-        const ImVec2 screen = ImGui::GetIO().DisplaySize;
+        const ImVec2 screen{left() + static_cast<float>(size_.width), static_cast<float>(size_.height)};
         const float margin = kit_.px(12.0f);
         begin_ground(margin, kit_.px(8.0f));
         panel::show_header(kit_, model);
@@ -223,15 +304,16 @@ private:
         show_inside(model);
         inside_height_ = ImGui::GetCursorPosY();
         ImGui::EndChild();
-        kit_.visible_lo = {0.0f, 0.0f};
+        kit_.visible_lo = {left(), 0.0f};
         kit_.visible_hi = screen;
+        column_bottom_ = top.y + inside.y;
         if (governed) {
-            ImGui::SetCursorScreenPos({margin, screen.y - footer + kit_.px(4.0f)});
+            ImGui::SetCursorScreenPos({left() + margin, screen.y - footer + kit_.px(4.0f)});
             panel::show_acts(kit_, *model.activity);
         }
-        ImGui::SetCursorScreenPos({margin, screen.y - foot + kit_.px(4.0f)});
+        ImGui::SetCursorScreenPos({left() + margin, screen.y - foot + kit_.px(4.0f)});
         panel::show_plots(kit_, model);
-        ImGui::SetCursorScreenPos({margin, screen.y - kit_.px(26.0f + 8.0f)});
+        ImGui::SetCursorScreenPos({left() + margin, screen.y - kit_.px(26.0f + 8.0f)});
         panel::show_footer(kit_, model);
         ImGui::End();
     }
@@ -260,11 +342,15 @@ private:
             panel::show_history(kit_, model);
             panel::show_touch_of_others(kit_, model);
         }
+        panel::show_log(kit_, model);
         panel::show_state(kit_, model);
     }
 
     ImGuiContext* context_ = nullptr;
     Nanoseconds last_ns_ = 0;
+    std::string tip_for_;  // the label that the mouse rests on, and since when
+    Nanoseconds tip_from_ns_ = 0;
+    float column_bottom_ = 0.0f;                        // of what scrolls
     float inside_height_ = 0.0f, scrolls_over_ = 0.0f;  // of what scrolls, and what its bar is for
 };
 
@@ -286,18 +372,26 @@ void Panel::resize(ImageSize size) {
     implementation_->size_ = size;
     implementation_->resting_ = kSettling;
 }
+void Panel::lie_over(ImageSize picture) {
+    if (picture == implementation_->picture_) return;
+    implementation_->picture_ = picture;
+    implementation_->resting_ = kSettling;
+}
 ImageSize Panel::size() const { return implementation_->size_; }
 std::uint32_t Panel::page_height() const {
     return static_cast<std::uint32_t>(std::ceil(std::max(implementation_->page_height_, 1.0f)));
 }
 const renderer::PanelAtlas& Panel::atlas() const { return implementation_->atlas_; }
+std::uint64_t Panel::atlases() const { return implementation_->atlases_; }
 const std::string& Panel::notice() const { return implementation_->kit_.type.notice; }
 std::uint64_t Panel::laid_out() const { return implementation_->laid_out_; }
 std::uint64_t Panel::spared() const { return implementation_->spared_; }
 
 void Panel::feed(std::span<const InputEvent> events, const PanelPlace& place) {
     for (const InputEvent& event : events) {
-        auto input = panel::panel_input(event.input, place.origin_px, place.px_per_panel_px);
+        const Vec2 left_px(static_cast<double>(implementation_->left()), 0.0);
+        auto input =
+            panel::panel_input(event.input, place.origin_px - left_px * place.px_per_panel_px, place.px_per_panel_px);
         if (input) implementation_->events_.add(std::move(*input));
     }
 }
@@ -306,7 +400,7 @@ void Panel::point(const std::optional<Vec2>& at_px, bool pressed) {
     Implementation& p = *implementation_;
     if (at_px != p.wand_px_) {
         if (at_px)
-            p.events_.add(MouseMove{*at_px});
+            p.events_.add(MouseMove{*at_px + Vec2(static_cast<double>(p.left()), 0.0)});
         else
             p.events_.add(panel::PointerGone{});
     }
@@ -320,6 +414,12 @@ const PanelFrame& Panel::show(const PanelModel& model, Nanoseconds time_ns) {
 }
 
 std::optional<PixelRect> Panel::place_of(std::string_view label) const {
+    std::optional<PixelRect> at = place_over_picture(label);
+    if (at) at->x -= static_cast<std::uint32_t>(implementation_->left());
+    return at;
+}
+
+std::optional<PixelRect> Panel::place_over_picture(std::string_view label) const {
     const auto at = implementation_->kit_.places.find(label);
     return at == implementation_->kit_.places.end() ? std::nullopt : std::optional(at->second);
 }

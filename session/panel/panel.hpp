@@ -52,6 +52,11 @@ struct PanelPlace {
 
 struct PanelFrame {
     renderer::PanelMesh mesh;
+    // Of the mesh: the panel's, or that of the whole picture while something lies over it beside the panel.
+    ImageSize size;
+    std::vector<PixelRect> parts;  // of that, where anything is painted
+    // When the panel changes by itself, without another model or event; none: it does not.
+    std::optional<Nanoseconds> changes_ns;
     std::vector<CommandInput> actions;  // in order
     // The mouse is over the panel or drags something on it; step_desk() then ignores it.
     bool wants_mouse = false;
@@ -68,11 +73,16 @@ public:
     ~Panel();
 
     void resize(ImageSize size);
+    // Has the panel lie at the right of a picture of this size, over which messages, tool-tips and the card of first
+    // steps are shown; empty: there is none, and they lie over the panel itself.
+    void lie_over(ImageSize picture);
     [[nodiscard]] ImageSize size() const;
     // Returns the height that the last page_alone took.
     [[nodiscard]] std::uint32_t page_height() const;
     [[nodiscard]] const renderer::PanelAtlas& atlas() const;
-    // Notice for the user about the font; empty: none.
+    // Counts the atlases that there have been: a letter that was not shown before makes another.
+    [[nodiscard]] std::uint64_t atlases() const;
+    // Notice for the user about the font, which may lack a letter of the last model; empty: none.
     [[nodiscard]] const std::string& notice() const;
 
     // Feeds mouse, keys and text; ignores all other events.
@@ -88,6 +98,8 @@ public:
     // scrolled away. For tests and scripts. A label is the command that the widget gives ("undo", "operation paint",
     // "radius") or its section's title.
     [[nodiscard]] std::optional<PixelRect> place_of(std::string_view label) const;
+    // Likewise of what lies over the picture, in its pixels: "message 0", "tip", "first-steps".
+    [[nodiscard]] std::optional<PixelRect> place_over_picture(std::string_view label) const;
     [[nodiscard]] std::vector<std::string> labels() const;
     [[nodiscard]] std::uint64_t laid_out() const;  // number of layouts made
     [[nodiscard]] std::uint64_t spared() const;    // number of frames that needed none

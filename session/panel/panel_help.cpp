@@ -56,6 +56,11 @@ void show_flight(Kit& kit) {
 }  // namespace
 
 void show_help(Kit& kit, MouseMode mouse) {
+    if (mouse == MouseMode::surface) {
+        const float wide = ImGui::GetContentRegionAvail().x - kit.px(2.0f);
+        if (kit.button("first-steps", "Show the first steps", wide)) kit.give(RunAction{Action::first_steps});
+        kit.gap(6.0f);
+    }
     if (kit.begin_card("Keys")) {
         std::vector<HelpLine> lines;
         for (const ShortCut& cut : short_cuts())
@@ -102,14 +107,15 @@ void show_footer(Kit& kit, const PanelModel& model) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (i > 0) ImGui::SameLine(0.0f, gap);
         const Action action = entries[i].action;
-        if (!kit.button(std::string(name_of(action)), entries[i].text, each,
-                        action != Action::toggle_panel || model.may_be_hidden, entries[i].on, 26.0f))
-            continue;
+        const bool stays = action == Action::toggle_panel && !model.may_be_hidden;
+        kit.off(stays ? "The panel has this window to itself." : "");
+        if (!kit.button(std::string(name_of(action)), entries[i].text, each, !stays, entries[i].on, 26.0f)) continue;
         if (action == Action::quit && model.activity && model.activity->governs)
             kit.memory.asking = name_of(action);  // show_acts() asks
         else
             kit.give(RunAction{action});
     }
+    kit.off({});
 }
 
 }  // namespace burin::session::panel

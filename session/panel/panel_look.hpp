@@ -6,7 +6,11 @@
 
 #include <imgui/imgui.h>
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/error.hpp"
 #include "renderer/panel/panel_mesh.hpp"
@@ -44,8 +48,11 @@ struct Type {
 
 // Applies colours and sizes to the current context.
 void apply_style(float scale);
-// Adds the fonts to the current context and rasterises them into its atlas.
-[[nodiscard]] Result<Type> load_type(const std::string& file, float scale);
+// Adds the fonts to the current context in place of those that it has, and rasterises them into its atlas: Latin 1 and
+// these letters, those that the font lacks from another that is installed.
+[[nodiscard]] Result<Type> load_type(const std::string& file, float scale, std::span<const std::uint32_t> letters);
+// Returns the letters of a UTF-8 text that are beyond Latin 1 and that the toolkit can show, which ends at U+FFFF.
+[[nodiscard]] std::vector<std::uint32_t> letters_beyond_latin(std::string_view text);
 [[nodiscard]] renderer::PanelAtlas atlas_of_context();
 
 }  // namespace burin::session::panel

@@ -12,6 +12,7 @@
 #include "haptics/stability/safety_gate.hpp"
 #include "session/state/activity.hpp"
 #include "session/state/command_table.hpp"
+#include "session/state/message_kind.hpp"
 
 namespace burin::session {
 
@@ -110,6 +111,16 @@ struct PanelObject {
     bool operator==(const PanelObject&) const = default;
 };
 
+// A message to the user, and how often it was told.
+struct PanelNote {
+    std::string text;  // "Saved part.stl, 983328 triangles"
+    MessageKind kind = MessageKind::info;
+    std::uint32_t count = 1;
+    Nanoseconds time_ns = 0;  // of the session
+
+    bool operator==(const PanelNote&) const = default;
+};
+
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
     bool show_devices = false;                                     // F3: the page of devices, in place of the sections
@@ -153,13 +164,14 @@ struct PanelModel {
 
     std::uint32_t undo_count = 0, redo_count = 0;
     std::string export_path = "part.stl";
-    bool exporting = false;  // an export is running
-    std::string message;     // the newest: "Saved part.stl, 983328 triangles"
+    bool exporting = false;        // an export is running
+    std::vector<PanelNote> notes;  // that lie over the picture now, the oldest first
+    std::vector<PanelNote> log;    // all that are kept, the oldest first
+    bool first_steps = false;      // the card for who sees this for the first time
 
     PanelTouch touch;
     std::vector<PanelSource> sources;   // device, tracker
     std::vector<std::string> warnings;  // FrameWarning::title
-    std::vector<std::string> notices;
     PanelPlot force_N, tick_us, frame_ms;
     PanelFigures figures;
     std::optional<PanelSavings> savings;

@@ -262,8 +262,13 @@ void show_touch(Kit& kit, const PanelModel& model) {
     if (kit.begin_card(("Touch" + whose).c_str())) {
         if (kit.toggle("force", "Force", model.touch.force_on)) kit.give(SetForce{!model.touch.force_on});
         if (model.carves) {  // of the workpiece
+            if (model.mouse == MouseMode::surface)
+                kit.off(
+                    "A mouse leads the tool to a set depth, however stiff the surface is. It counts where the "
+                    "mouse flies freely, and with a device that is felt.");
             kit.quantity(Quantity::stiffness, "Stiffness", model.stiffness_N_per_m,
                          written("%.0f N/m", model.stiffness_N_per_m));
+            kit.off({});
             kit.quantity(Quantity::friction, "Friction", model.friction, written("%.2f", model.friction));
         }
         kit.quantity(Quantity::velocity_filter, "Velocity filter", model.velocity_filter,
@@ -349,12 +354,17 @@ void show_view(Kit& kit, const PanelModel& model) {
         const auto mode = kit.list("stereo-mode", "Stereo", modes, static_cast<std::size_t>(model.stereo_mode));
         if (mode) kit.give(SetStereoMode{static_cast<wall::StereoMode>(*mode)});
         kit.paragraph(kDim, wall::purpose_of(model.stereo_mode));
+        const bool one_eye = wall::needs_of(model.stereo_mode).one_eye_point;
+        if (one_eye) kit.off("Both eyes see one picture now: choose a stereo mode first.");
         if (kit.toggle("swap-eyes", "Exchange eyes", model.eyes_swapped)) kit.give(SetEyeSwap{!model.eyes_swapped});
+        kit.off({});
         if (kit.toggle("show-force", "Arrow of the force", model.force_shown)) {
             kit.give(SetForceShown{!model.force_shown});
         }
+        if (one_eye) kit.off("Both eyes see one picture now: choose a stereo mode first.");
         kit.quantity(Quantity::eye_distance, "Eye distance", model.eye_distance_m,
                      written("%.1f mm", 1e3 * model.eye_distance_m));
+        kit.off({});
         constexpr std::array kPatternTitles{"Scene", "Eyes", "Ghosts", "Grid"};
         std::vector<Item> patterns;
         for (std::size_t i = 0; i < kPatternTitles.size(); ++i)
@@ -382,36 +392,32 @@ void show_path(Kit& kit, const PanelModel& model) {
     memory.path = bytes.data();
     ImGui::SameLine(0.0f, gap);
     const bool ready = !model.exporting && !memory.path.empty();
-    const bool pressed = kit.button("export", "Export", button, ready, true);
+    if (!ready) kit.off(model.exporting ? "The mesh is being written." : "Name a file first, such as part.stl.");
+    const bool pressed = kit.button("export", model.exporting ? "Writing" : "Export", button, ready, true);
+    kit.off({});
     if (pressed || (entered && ready)) kit.give(ExportTo{memory.path});
-}
-
-// Without a workpiece there is nothing to undo or to export.
-void show_message(Kit& kit, const PanelModel& model) {
-    if (model.message.empty()) return;
-    if (kit.begin_card("Messages")) kit.paragraph(kDim, model.message);
-    kit.end_card();
 }
 
 }  // namespace
 
 void show_history(Kit& kit, const PanelModel& model) {
-    if (!model.carves) return show_message(kit, model);
+    if (!model.carves) return;  // there is nothing to undo or to export
     if (kit.begin_card("History and export")) {
         const float half = 0.5f * (kit.width() - kit.px(6.0f));
         const auto counted = [](const char* name, std::uint32_t count) {
             return count > 0 ? std::string(name) + "  " + std::to_string(count) : std::string(name);
         };
+        if (model.undo_count == 0) kit.off("There is no stroke to undo.");
         if (kit.button("undo", counted("Undo", model.undo_count), half, model.undo_count > 0)) {
             kit.give(RunAction{Action::undo});
         }
         ImGui::SameLine(0.0f, kit.px(6.0f));
+        kit.off(model.redo_count == 0 ? "There is no stroke to redo: nothing was undone since the last one." : "");
         if (kit.button("redo", counted("Redo", model.redo_count), half, model.redo_count > 0)) {
             kit.give(RunAction{Action::redo});
         }
+        kit.off({});
         show_path(kit, model);
-        if (model.exporting) kit.paragraph(kDim, "exporting");
-        if (!model.message.empty()) kit.paragraph(kDim, model.message);
     }
     kit.end_card();
 }

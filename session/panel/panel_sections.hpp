@@ -21,6 +21,8 @@ void show_touch(Kit& kit, const PanelModel& model);
 void show_touch_of_others(Kit& kit, const PanelModel& model);
 // Says what a hand touches, and what its ticks tell of themselves: "in contact, sticking"; or why it gets no force.
 [[nodiscard]] std::string touch_text(const PanelTouch& touch);
+// Turns a cause into a sentence: "no force: the device has stopped sending" -> "The device has stopped sending."
+[[nodiscard]] std::string sentence_of(std::string text);
 void show_mouse(Kit& kit, const PanelModel& model);
 void show_workspace(Kit& kit, const PanelModel& model);
 void show_view(Kit& kit, const PanelModel& model);
@@ -31,6 +33,20 @@ void show_plots(Kit& kit, const PanelModel& model);  // side by side, always vis
 void show_help(Kit& kit, MouseMode mouse);
 void show_devices(Kit& kit, const PanelModel& model);
 void show_footer(Kit& kit, const PanelModel& model);
+// The messages that are kept, in a card of one height, so that none of them moves anything.
+void show_log(Kit& kit, const PanelModel& model);
+
+// A part of the layout.
+struct Area {
+    ImVec2 lo{}, hi{};
+};
+// What lies over all else: messages in the lower left corner of an area, the card of first steps in its middle, and
+// what a widget is for, beside the widget; left: of the panel, where there is room beside it.
+void show_notes(Kit& kit, const PanelModel& model, const Area& free);
+void show_first_steps(Kit& kit, const PanelModel& model, const Area& free);
+void show_tip(Kit& kit, const std::string& label, float left);
+// Returns what the command of a label does, and the keys that do it too; empty where the label is no command's.
+[[nodiscard]] std::string tip_of(std::string_view label);
 
 // Draws colours to choose from; gives the one chosen, which may be held in the hand for a while.
 void show_swatches(Kit& kit, const std::string& label, const std::array<double, 3>& now_srgb,

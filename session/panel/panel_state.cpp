@@ -34,14 +34,6 @@ std::string flags_text(const PanelTouch& touch) {
     return text;
 }
 
-// Turns a cause into a sentence: "no force: the device has stopped sending" -> "The device has stopped sending."
-std::string sentence(std::string text) {
-    constexpr std::string_view kPrefix = "no force: ";
-    if (text.starts_with(kPrefix)) text.erase(0, kPrefix.size());
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-    return text + ".";
-}
-
 std::string in_ms(const std::optional<double>& ms) { return ms ? written("%.1f ms", *ms) : "-"; }
 
 void show_source(Kit& kit, const PanelSource& source) {
@@ -72,6 +64,13 @@ void show_savings(Kit& kit, const PanelSavings& s) {
 
 }  // namespace
 
+std::string sentence_of(std::string text) {
+    constexpr std::string_view kPrefix = "no force: ";
+    if (text.starts_with(kPrefix)) text.erase(0, kPrefix.size());
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text + ".";
+}
+
 std::string touch_text(const PanelTouch& touch) {
     if (!touch.force_on) return "force is off";
     return touch.cause != haptics::GateCause::none ? text(touch.cause) : flags_text(touch);
@@ -84,34 +83,20 @@ void show_header(Kit& kit, const PanelModel& model) {
     const float name = kit.write({at.x + kit.px(2.0f), at.y + kit.px(4.0f)}, kText, model.title, kit.type.title);
     const float left = at.x + name + kit.px(12.0f), right = at.x + whole - kit.px(2.0f);
     const float upper = at.y + kit.px(2.0f), lower = at.y + kit.px(18.0f);
-    const std::string fps =
-        model.figures.frames_per_s > 0.0 ? written("%.0f fps", model.figures.frames_per_s) : std::string();
-    kit.write_right(right, upper, kDim, fps, kit.type.small);
+    const PanelFigures& f = model.figures;
+    std::string fps = f.frames_per_s > 0.0 ? written("%.0f fps", f.frames_per_s) : std::string();
+    // What a hand or a head does is seen so much later.
+    if (f.frames_per_s > 0.0 && f.motion_to_photon_ms) fps = written("%.0f ms \xC2\xB7 ", *f.motion_to_photon_ms) + fps;
+    kit.write_right(right, upper, model.warnings.empty() ? kDim : kWarning, fps, kit.type.small);
     const float room = right - left, beside_fps = room - kit.size_of(fps, kit.type.small).x - kit.px(8.0f);
     kit.write({left, upper}, kText, kit.shortened(model.workpiece.name, beside_fps, kit.type.small), kit.type.small);
     kit.write({left, lower}, kDim, kit.shortened(model.workpiece.size, room, kit.type.small), kit.type.small);
-    const PanelTouch& touch = model.touch;
-    if (!touch.force_on) {
-        kit.banner(Condition::warning, "Force is switched off",
-                   "The device is held at zero; switch it on under Touch.");
-    } else if (touch.cause != haptics::GateCause::none && touch.cause != haptics::GateCause::caught) {
-        kit.banner(Condition::fault, "No force", sentence(text(touch.cause)));
-        // Whether they can be is the device's to say.
-        if (touch.cause == haptics::GateCause::device_fault &&
-            kit.button("amplifiers", "Enable the amplifiers", ImGui::GetContentRegionAvail().x))
-            kit.give(SetAmplifiers{true});
-    } else if (touch.was_let_go) {
-        kit.banner(Condition::warning, "The tool has been let go",
-                   "It was caught on the surface while the hand was free. The force has faded out and comes back.");
-    }
-    for (const std::string& warning : model.warnings) kit.banner(Condition::warning, warning, "");
-    for (const std::string& notice : model.notices) kit.banner(Condition::idle, notice, "");
 }
 
 void show_state(Kit& kit, const PanelModel& model) {
     if (kit.begin_card("State", flags_text(model.touch).size() < 30 ? flags_text(model.touch) : std::string())) {
         for (const PanelSource& source : model.sources) show_source(kit, source);
-        if (flags_text(model.touch).size() >= 30) kit.paragraph(kDim, sentence(flags_text(model.touch)));
+        if (flags_text(model.touch).size() >= 30) kit.paragraph(kDim, sentence_of(flags_text(model.touch)));
     }
     kit.end_card();
 }

@@ -83,6 +83,8 @@ void Kit::note(const std::string& label) {
     const float x0 = std::max(lo.x, visible_lo.x), y0 = std::max(lo.y, visible_lo.y);
     const float x1 = std::min(hi.x, visible_hi.x), y1 = std::min(hi.y, visible_hi.y);
     if (x1 - x0 < 2.0f || y1 - y0 < 2.0f) return;  // scrolled away
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) hovered = label;
+    if (!off_because.empty()) why_off[label] = off_because;
     places[label] = {static_cast<std::uint32_t>(x0), static_cast<std::uint32_t>(y0),
                      static_cast<std::uint32_t>(x1 - x0), static_cast<std::uint32_t>(y1 - y0)};
 }
@@ -182,13 +184,14 @@ std::optional<std::size_t> Kit::segments(std::span<const Item> items, std::size_
         ImGui::SetCursorScreenPos(start + ImVec2{each * static_cast<float>(i), 0.0f});
         const Pressed p = press_area(items[i].label.c_str(), {each, px(height)});
         note(items[i].label);
-        if (p.clicked && items[i].enabled) chosen = i;
+        const bool enabled = items[i].enabled && off_because.empty();
+        if (p.clicked && enabled) chosen = i;
         const float inset = px(2.0f);
         const ImVec2 lo = p.lo + ImVec2{inset, inset}, hi = p.hi + ImVec2{-inset, -inset};
         const bool on = i == selected;
-        if (on) draw().AddRectFilled(lo, hi, p.hovered ? kAccentHovered : kAccent, px(5.0f));
-        if (!on && p.hovered && items[i].enabled) draw().AddRectFilled(lo, hi, kControl, px(5.0f));
-        const ImU32 colour = on ? kOnAccent : !items[i].enabled ? kFaint : p.hovered ? kText : kDim;
+        if (on) draw().AddRectFilled(lo, hi, !enabled ? kControl : p.hovered ? kAccentHovered : kAccent, px(5.0f));
+        if (!on && p.hovered && enabled) draw().AddRectFilled(lo, hi, kControl, px(5.0f));
+        const ImU32 colour = !enabled ? kFaint : on ? kOnAccent : p.hovered ? kText : kDim;
         if (!items[i].text.empty()) write_middle(lo, hi, colour, items[i].text, on ? type.strong : nullptr);
     }
     return chosen;
@@ -199,20 +202,26 @@ std::optional<double> Kit::slider(const std::string& label, std::string_view tit
     const ImVec2 start = ImGui::GetCursorScreenPos();
     const float whole = width(), height = px(24.0f), name = px(92.0f), number = px(94.0f), knob = px(6.0f);
     const float middle = start.y + 0.5f * height;
-    write({start.x, middle - 0.5f * type.text->FontSize}, kDim, title);
+    const bool on = off_because.empty();
+    write({start.x, middle - 0.5f * type.text->FontSize}, on ? kDim : kFaint, title);
     ImGui::SetCursorScreenPos({start.x + name, start.y});
-    const Pressed p = press_area(label.c_str(), {whole - name - number, height});
+    Pressed p = press_area(label.c_str(), {whole - name - number, height});
     note(label);
+    p.held = p.held && on;
+    p.hovered = p.hovered && on;
     const float x0 = p.lo.x + knob, x1 = p.hi.x - knob;
     std::optional<double> moved;
     if (p.held) moved = std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)), 0.0, 1.0);
     if (p.held && ImGui::IsMouseClicked(0)) memory.last = {};
     const float at = x0 + static_cast<float>(moved.value_or(part)) * (x1 - x0), half = px(2.0f);
     draw().AddRectFilled({x0 - half, middle - half}, {x1 + half, middle + half}, kField, half);
-    draw().AddRectFilled({x0 - half, middle - half}, {at, middle + half}, kAccent, half);
+    draw().AddRectFilled({x0 - half, middle - half}, {at, middle + half}, on ? kAccent : kControl, half);
     draw().AddCircleFilled({at, middle}, p.held || p.hovered ? knob : 0.85f * knob,
-                           p.held || p.hovered ? kText : IM_COL32(204, 208, 212, 255), 24);
-    write_right(start.x + whole, middle - 0.5f * type.text->FontSize, kText, value);
+                           !on                   ? kFaint
+                           : p.held || p.hovered ? kText
+                                                 : IM_COL32(204, 208, 212, 255),
+                           24);
+    write_right(start.x + whole, middle - 0.5f * type.text->FontSize, on ? kText : kFaint, value);
     return moved;
 }
 
@@ -231,13 +240,20 @@ bool Kit::toggle(const std::string& label, std::string_view title, bool on, std:
     const float height = px(25.0f);
     const Pressed p = press_area(label.c_str(), {width(), height});
     note(label);
+    const bool can = off_because.empty();
     const float middle = 0.5f * (p.lo.y + p.hi.y), r = px(8.0f), right = p.hi.x;
-    write({p.lo.x, middle - 0.5f * type.text->FontSize}, kDim, title);
-    draw().AddRectFilled({right - 3.8f * r, middle - r}, {right, middle + r},
-                         on ? (p.hovered ? kAccentHovered : kAccent) : (p.hovered ? kControlHovered : kControl), r);
-    draw().AddCircleFilled({on ? right - r : right - 2.8f * r, middle}, 0.7f * r, on ? kOnAccent : kText, 20);
+    write({p.lo.x, middle - 0.5f * type.text->FontSize}, can ? kDim : kFaint, title);
+    const ImU32 ground = !can ? kField
+                         : on ? (p.hovered ? kAccentHovered : kAccent)
+                              : (p.hovered ? kControlHovered : kControl);
+    draw().AddRectFilled({right - 3.8f * r, middle - r}, {right, middle + r}, ground, r);
+    draw().AddCircleFilled({on ? right - r : right - 2.8f * r, middle}, 0.7f * r,
+                           !can ? kFaint
+                           : on ? kOnAccent
+                                : kText,
+                           20);
     if (!aside.empty()) write_right(right - 4.6f * r, middle - 0.5f * type.small->FontSize, kDim, aside, type.small);
-    return p.clicked;
+    return p.clicked && can;
 }
 
 std::optional<std::size_t> Kit::list(const std::string& label, std::string_view title, std::span<const Item> items,
@@ -297,30 +313,11 @@ std::optional<std::size_t> Kit::list(const std::string& label, std::string_view 
 bool Kit::button(const std::string& label, std::string_view text, float wide, bool enabled, bool strong, float height) {
     const Pressed p = press_area(label.c_str(), {wide, px(height)});
     note(label);
+    enabled = enabled && off_because.empty();
     const ImU32 plain = strong ? kAccent : kControl, hovered = strong ? kAccentHovered : kControlHovered;
     draw().AddRectFilled(p.lo, p.hi, !enabled ? with_alpha(kControl, 90) : p.hovered ? hovered : plain, px(6.0f));
     write_middle(p.lo, p.hi, !enabled ? kFaint : strong ? kOnAccent : kText, text, strong ? type.strong : nullptr);
     return p.clicked && enabled;
-}
-
-void Kit::banner(Condition condition, std::string_view title, std::string_view text) {
-    const ImU32 colour = colour_of(condition);
-    draw().ChannelsSplit(2);
-    draw().ChannelsSetCurrent(1);
-    const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const float right = lo.x + ImGui::GetContentRegionAvail().x;
-    ImGui::Dummy({1.0f, px(2.0f)});
-    ImGui::Indent(px(14.0f));
-    paragraph(colour, title, type.strong);
-    if (!text.empty()) paragraph(kText, text, type.small);
-    ImGui::Unindent(px(14.0f));
-    const ImVec2 hi{right, ImGui::GetCursorScreenPos().y + px(2.0f)};
-    draw().ChannelsSetCurrent(0);
-    draw().AddRectFilled(lo, hi, kCard, px(7.0f));
-    draw().AddRectFilled(lo, hi, with_alpha(colour, 38), px(7.0f));
-    draw().AddRectFilled(lo, {lo.x + px(4.0f), hi.y}, colour, px(7.0f), ImDrawFlags_RoundCornersLeft);
-    draw().ChannelsMerge();
-    ImGui::Dummy({1.0f, px(5.0f)});
 }
 
 void Kit::figure(std::string_view name, std::string_view value, ImU32 colour) {

@@ -54,16 +54,22 @@ struct Kit {
     float card_top = 0.0f;
     bool first_in_card = true;
     ForHand for_hand;
+    std::string off_because;  // why the widgets that follow can do nothing; empty: they can
+    std::map<std::string, std::string, std::less<>> why_off;  // of this frame's widgets, by label
+    std::string hovered;                                      // the label under the mouse
+    std::vector<PixelRect> parts;                             // of what lies over all else
 
     [[nodiscard]] float px(float length) const { return length * scale; }
     void give(const SessionCommand& command);
     // Has what is given from now on be for another hand than the one in use, which is led for as long as it takes;
     // neither: for the hand in use again. Labels of quantities bear the name of such a hand.
     void speak_for(ForHand hand) { for_hand = std::move(hand); }
+    // Greys the widgets that follow, which say why they can do nothing; empty: no more.
+    void off(std::string_view because) { off_because = because; }
     // Gives the command once for each value, however long the hand rests on it.
     void give_held(const SessionCommand& command);
     void add(CommandInput input);
-    // Records the last item's rectangle under its label.
+    // Records the last item's rectangle under its label, and whether the mouse is there.
     void note(const std::string& label);
 
     // Draws text from a position on; returns its width.
@@ -97,7 +103,6 @@ struct Kit {
     // Draws a plot. whole: its width in pixels.
     void plot(std::string_view title, std::string_view value, const PanelPlot& plot, ImU32 colour, float least_top,
               float whole);
-    void banner(Condition condition, std::string_view title, std::string_view text);
     // Draws a line of "name ..... value".
     void figure(std::string_view name, std::string_view value, ImU32 colour = kText);
     void lamp(ImVec2 middle, Condition condition);

@@ -71,9 +71,17 @@ Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<rendere
 Result<void> SessionPicture::paint(gpu::Commands& commands, const std::optional<PanelPicture>& panel) {
     const bool was_shown = std::exchange(panel_shown_, panel.has_value());
     panel_changed_ = was_shown != panel_shown_;
+    panel_parts_before_ = std::exchange(panel_parts_, {});
+    if (panel && !panel->stand) {
+        const std::uint32_t left = eye_.width > panel->size.width ? eye_.width - panel->size.width : 0;
+        panel_parts_ = panel->parts;
+        if (panel_parts_.empty()) panel_parts_ = {all_of(panel->size)};
+        for (PixelRect& part : panel_parts_) part.x += left;
+    }
     standing_.reset();
     if (!panel) return {};
-    if (!painter_) {
+    if (!painter_ || atlases_ != panel->atlases) {
+        atlases_ = panel->atlases;
         auto made = renderer::PanelPainter::create(device_, panel->size, panel->atlas);
         if (!made) return std::unexpected(made.error());
         painter_ = std::move(*made);
@@ -97,8 +105,8 @@ std::vector<PixelRect> SessionPicture::changed(const wall::OutputPlace& place,
     };
     for (const PixelRect& part : stats_.parts) add(part);
     if (panel_changed_ && painter_ && !standing_) {
-        const std::uint32_t width = std::min(painter_->size().width, eye_.width);
-        add({eye_.width - width, 0, width, std::min(painter_->size().height, eye_.height)});
+        for (const auto* parts_of : {&panel_parts_before_, &panel_parts_})
+            for (const PixelRect& part : *parts_of) add(common(part, {0, 0, eye_.width, eye_.height}));
     }
     return parts;
 }

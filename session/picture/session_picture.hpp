@@ -20,6 +20,8 @@ struct PanelPicture {
     const renderer::PanelMesh& mesh;
     const renderer::PanelAtlas& atlas;
     ImageSize size;
+    std::uint64_t atlases = 0;                                 // counts them: a change is another atlas
+    std::vector<PixelRect> parts = {};                         // where anything is painted
     std::optional<renderer::PanelStand> stand = std::nullopt;  // in the scene; none: at the right of each eye's picture
 };
 
@@ -64,6 +66,9 @@ private:
     std::optional<renderer::OutputStage> window_stage_, photo_stage_;
     std::optional<renderer::PanelPainter> painter_;
     bool panel_shown_ = false, panel_changed_ = false;
+    // Where the panel is painted in the eye's picture, and where it was before it changed.
+    std::vector<PixelRect> panel_parts_, panel_parts_before_;
+    std::uint64_t atlases_ = 0;    // whose letters the painter has
     std::uint64_t paintings_ = 0;  // number of times the panel was painted
     std::optional<renderer::ScenePanel> standing_;
     std::optional<gpu::Image> pattern_;              // a test pattern, or darkness

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <thread>
 #include <utility>
 #include <variant>
 
 #include "gpu/driver_threads.hpp"
+#include "session/state/option_bounds.hpp"
 
 namespace burin::session {
 namespace {
@@ -103,6 +105,7 @@ Result<void> Presenter::open_outputs() {
         if (screens_.size() > 1 && screen.monitor.empty()) place = beside.next(screen.size);
         auto window = SessionWindow::open(title, screen.monitor, screen.size, place);
         if (!window) return std::unexpected(with_ways_out(window.error(), screen));
+        screens_[i].title = title;
         screens_[i].window = window->get();
         screens_[i].output = std::move(*window);
     }
@@ -190,6 +193,20 @@ std::vector<wall::OutputPlace> Presenter::places() const {
     std::vector<wall::OutputPlace> places;
     for (const ScreenStage& screen : screens_) places.push_back(screen.place);
     return places;
+}
+
+void Presenter::name_windows(const std::string& document) {
+    if (document.empty()) return;
+    for (ScreenStage& screen : screens_) {
+        if (screen.window != nullptr) screen.window->name(document + " - " + screen.title);
+    }
+}
+
+// Steps of a quarter, so that letters stand sharp; only a desktop's window follows it.
+double Presenter::display_scale() const {
+    const ScreenStage& main = screens_[wall_->main];
+    if (main.window == nullptr || !wall_->desk) return 1.0;
+    return std::clamp(std::round(4.0 * main.window->scale()) / 4.0, kPanelScaleBounds.least, kPanelScaleBounds.most);
 }
 
 double Presenter::refresh_Hz() const { return shows() ? screens_[wall_->main].output->refresh_Hz() : 60.0; }

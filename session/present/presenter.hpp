@@ -44,6 +44,10 @@ public:
     [[nodiscard]] bool shows() const { return screens_.front().output != nullptr; }
     [[nodiscard]] bool has_windows() const { return !waker_ && shows(); }
     [[nodiscard]] double refresh_Hz() const;
+    // Has the windows say what is worked on.
+    void name_windows(const std::string& document);
+    // Returns how much larger than on a common display letters have to be on the main screen's, as the desktop says.
+    [[nodiscard]] double display_scale() const;
     // Return what the display reports: how long all outputs waited (the vblank is the main screen's, the left eye's of
     // two), and what the main screen's output has presented; nothing where nothing is shown.
     [[nodiscard]] SessionOutput::Blocked take_blocked();
@@ -86,6 +90,7 @@ private:
     struct ScreenStage {
         std::unique_ptr<SessionOutput> output;
         SessionWindow* window = nullptr;  // same object, where the output is a window
+        std::string title;                // of the window, without what is worked on
         std::unique_ptr<SessionWindow> right_window;
         PresentedParts parts, right_parts;
         std::optional<SessionPicture> picture;

@@ -70,6 +70,7 @@ Result<std::unique_ptr<SessionWindow>> SessionWindow::open(const std::string& ti
                                                            std::optional<window::Window::Position> place) {
     window::WindowOptions wanted{
         .title = title, .width = static_cast<int>(size.width), .height = static_cast<int>(size.height)};
+    wanted.scaled = true;
     if (!monitor.empty()) wanted.full_screen = monitor;
     if (place) {
         wanted.x = place->x;

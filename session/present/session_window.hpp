@@ -31,6 +31,8 @@ public:
     [[nodiscard]] Position on_monitor() const override;
     [[nodiscard]] double refresh_Hz() const override;
     void exchange_full_screen() override;
+    void name(const std::string& title) { window_.set_title(title); }
+    [[nodiscard]] double scale() const { return window_.display_scale(); }
 
 private:
     explicit SessionWindow(window::Window window) : window_(std::move(window)) {}

@@ -58,7 +58,8 @@ public:
     // Returns what a message calls the file: a log's by its name, so that pictures of the panel do not depend on the
     // folder.
     [[nodiscard]] std::string shown(const std::string& name, const std::filesystem::path& place) const {
-        return rule_ == Rule::in_folder ? name : place.string();
+        std::error_code ignored;
+        return rule_ == Rule::in_folder ? name : std::filesystem::absolute(place, ignored).string();
     }
 
 private:

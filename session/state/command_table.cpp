@@ -305,6 +305,7 @@ const std::vector<Entry>& entries() {
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::quit) + 1;
 
 std::string_view help_of(Action action) {
+    if (action == Action::first_steps) return "Show what the mouse does, in four pictures";  // the one without a key
     const auto cut = std::ranges::find(short_cuts(), action, &ShortCut::action);
     return cut == short_cuts().end() ? std::string_view{} : cut->description;
 }

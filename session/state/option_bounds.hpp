@@ -16,6 +16,7 @@ struct Bounds {
 };
 
 inline constexpr Bounds<int> kPictureBounds{64, 8192};  // width and height, pixels
+inline constexpr Bounds<double> kPanelScaleBounds{0.5, 4.0};
 inline constexpr Bounds<int> kResolutionBounds{compute::kMinResolution, compute::kMaxResolution};
 inline constexpr Bounds<double> kSweepToleranceBounds{0.001, 1000.0};  // lattice cells
 inline constexpr Bounds<double> kSmoothStrengthBounds{0.0, 1.0};

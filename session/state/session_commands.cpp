@@ -150,20 +150,18 @@ private:
         return {};
     }
 
-    // Shows all of the workpiece, as large as at first, turned so.
-    Result<void> show(const Quat& world_from_object) {
+    // Shows all of the workpiece in the free part of the picture, turned as it is.
+    Result<void> show() {
         if (const auto may = may_turn(); !may) return may;
-        const Similarity& home = state_.home_world_from_object;
-        Similarity& now = state_.world_from_object;
-        now.orientation = glm::normalize(world_from_object);
-        now.scale = home.scale;
-        now.position_m = home * state_.middle_object - now.scale * (now.orientation * state_.middle_object);
+        state_.world_from_object = fitted(state_.seen_from, state_.world_from_object.orientation);
         return update_touch();
     }
-    // Turned from how it stood at first, about an axis of the screen.
+    // Straight on, turned from how it stood at first, about an axis of the screen.
     Result<void> show_from(double angle_rad, const Vec3& axis_screen) {
+        if (const auto may = may_turn(); !may) return may;
         const Quat home = state_.home_world_from_object.orientation;
-        return show(home * glm::angleAxis(angle_rad, axis_screen));
+        state_.world_from_object = fitted_straight(state_.seen_from, home * glm::angleAxis(angle_rad, axis_screen));
+        return update_touch();
     }
     // Turns the scene about its middle, about an axis of the screen as the workpiece stood along it at first.
     Result<void> turn(double angle_rad, const Vec3& axis_screen) {
@@ -252,7 +250,7 @@ Result<void> Runner::operator()(const RunAction& run) {
             if (const auto may = may_turn(); !may) return may;
             state_.world_from_object = state_.home_world_from_object;
             return update_touch();
-        case Action::fit_view: return show(state_.world_from_object.orientation);
+        case Action::fit_view: return show();
         case Action::view_front: return show_from(0.0, Vec3(0.0, 1.0, 0.0));
         case Action::view_side: return show_from(-0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
         case Action::view_top: return show_from(0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
@@ -266,6 +264,11 @@ Result<void> Runner::operator()(const RunAction& run) {
             return lead_hand(state_, state_.hands.empty()
                                          ? "next"
                                          : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
+        case Action::put_away:
+            state_.first_steps = false;
+            orders_.put_away = true;
+            return {};
+        case Action::first_steps: state_.help = false; return toggle(&SessionState::first_steps);
         case Action::quit: state_.quit = true; return {};
     }
     return {};

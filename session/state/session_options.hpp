@@ -56,6 +56,9 @@ struct LiveOptions {
     std::string full_screen;  // a monitor's name or index; empty: a window
     // The panel has a window of its own and is on no picture; these show the activity's page alone.
     bool panel_window = false;
+    // Size of the panel's letters; none: as the display asks, 1 in simulated time.
+    std::optional<double> panel_scale = std::nullopt;
+    bool first_steps = false;  // a card of them is shown at first; no option of the command line
     int width = 1280, height = 720;
     std::uint32_t samples = 0;    // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
     std::string screenshots;      // folder for screenshots with a relative name; empty: the working directory

@@ -51,6 +51,8 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--width", o.live.width, kPictureBounds);
     visit("--height", o.live.height, kPictureBounds);
     visit("--panel-window", o.live.panel_window);
+    visit("--panel-scale", o.live.panel_scale, kPanelScaleBounds);
+    visit("--first-steps", o.live.first_steps);
     visit("--samples", o.live.samples, kSampleCounts);
 }
 
@@ -143,6 +145,10 @@ std::string beyond(const T& value, const Bounds<B>& bounds) {
     const double number = static_cast<double>(value);
     if (number >= static_cast<double>(bounds.least) && number <= static_cast<double>(bounds.most)) return {};
     return "from " + *text(bounds.least) + " to " + *text(bounds.most);
+}
+template <typename T, typename B>
+std::string beyond(const std::optional<T>& value, const Bounds<B>& bounds) {
+    return value ? beyond(*value, bounds) : std::string();
 }
 template <typename T>
 std::string beyond(const T& value, const std::initializer_list<int>& known) {

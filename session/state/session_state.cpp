@@ -85,6 +85,11 @@ Vec3 resting_hand_device(const HandRoom& hand, const HeldHandle* held, double be
     return (0.5 * glm::dot(glm::abs(front), hand.workspace_device_m) - before_front_m) * front;
 }
 
+SeenFrom seen_from(const SessionState& state, const Room& room) {
+    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+    return {sight.screen, wall::middle_of(wall::eyes_of(sight.viewer)), room.free_width, room.workpiece_object};
+}
+
 // Before a wall, moves the workpiece back or forth as far as its viewer's eyes require at the start.
 void move_into_comfort(SessionState& state, const Room& room) {
     if (room.wall.desk) return;
@@ -253,6 +258,9 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     state.interpupillary_m = interpupillary_m(room.wall.setup.eyes);
     state.world_from_object = place_workpiece(room, state.handle.get());
     move_into_comfort(state, room);
+    state.seen_from = seen_from(state, room);
+    if (room.wall.desk && room.mouse == MouseMode::surface)
+        state.world_from_object = fitted(state.seen_from, state.world_from_object.orientation);
     state.home_world_from_object = state.world_from_object;
     state.middle_object = room.workpiece_object.center();
     state.world_from_device = place_workspace(room, room, state.world_from_object, state.handle.get());
@@ -268,6 +276,7 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     }
     state.mouse = room.mouse;
     state.no_surface = room.no_surface;
+    state.first_steps = room.first_steps;
     begin_hands(state, room, handles, hands);
     return state;
 }
@@ -308,6 +317,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
                          const SessionView& view) {
     SessionStep step;
     step.led_hand = state.hand;
+    state.seen_from = seen_from(state, room);
     if (state.handle) state.handle_reads_device = read_pose(view.tool);
     DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.of(state.hand).desk);
     state.desk = desk.state;
@@ -343,6 +353,8 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     for (const Action action : desk.actions) run({std::string(name_of(action)), {}}, 0);
     for (const InputEvent& event : events) {
         step.orders.line = event.line;
+        const auto* click = std::get_if<MouseClick>(&event.input);
+        if (click != nullptr && click->pressed) state.first_steps = false;
         if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command, event.line);
         if (std::holds_alternative<WindowClose>(event.input)) state.quit = true;
     }
@@ -424,11 +436,11 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     scene.lattice_origin_object = lattice_origin_object;
     scene.workpiece_object = room.workpiece_object;
     scene.show_wall_frame = false;
-    const Vec3 size = room.workpiece_object.extent() * state.home_world_from_object.scale;
-    const Vec3 middle = state.home_world_from_object * room.workpiece_object.center();
-    scene.pedestal.visible = true;
-    scene.pedestal.top_center_world = {middle.x, middle.y - 0.5 * size.y, middle.z};
-    scene.pedestal.radius_m = 0.25 * glm::length(size);
+    const PlinthPlace plinth =
+        plinth_under(room.workpiece_object, state.world_from_object, wall::middle_of(wall::eyes_of(scene.viewer)));
+    scene.pedestal.visible = plinth.visible;
+    scene.pedestal.top_center_world = plinth.top_center_world;
+    scene.pedestal.radius_m = plinth.radius_m;
     Staging staging = staging_of(tool, tool_radius_m(state), room.of(state.hand).workspace_device_m);
     staging.held = state.held;
     staging.contact_shown = state.force_shown;

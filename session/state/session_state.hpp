@@ -19,7 +19,9 @@
 #include "session/input/input_event.hpp"
 #include "session/input/input_wand.hpp"
 #include "session/state/command_table.hpp"
+#include "session/state/fitted_view.hpp"
 #include "session/state/hand_state.hpp"
+#include "session/state/message_kind.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
 #include "session/state/shown_mirror.hpp"
@@ -54,6 +56,8 @@ struct SessionState : HandState {
     wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false, devices = false;
     std::optional<SmoothStroke> smooth_stroke;  // while one lasts
+    bool first_steps = false;                   // the card for who sees this for the first time
+    SeenFrom seen_from;                         // as of the last step
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
     bool quit = false;
@@ -75,6 +79,7 @@ struct SessionState : HandState {
 struct Asked {
     std::string text;
     std::size_t line = 0;  // of the log that asked; 0: none
+    MessageKind kind = MessageKind::warning;
 };
 
 // What the activity is told by a command.
@@ -100,6 +105,7 @@ struct SessionOrders {
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
     bool full_screen = false;        // toggle between window and full screen
+    bool put_away = false;           // the messages that are shown
     std::vector<Asked> messages;     // for the user: why a command was not carried out; with the line of one in a log
 };
 
@@ -119,6 +125,9 @@ struct Room : HandRoom {
     std::vector<HandRoom> others;       // of the hands after the first
     MouseMode mouse = MouseMode::free;  // at the start
     bool offers_mouse = false;          // the panel has the choice
+    bool first_steps = false;           // are shown at first
+    double panel_scale = 1.0;           // of the panel's letters on a desktop
+    double free_width = 1.0;            // of the main screen's picture, that the panel leaves free at its left
     // Why the mouse cannot lead the hand along a surface; empty: it can.
     std::string no_surface;
 

@@ -45,6 +45,7 @@ TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
     session->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, haptics::ToolState{},
                   [](const scene::SceneThread::Order&) {});
     Panel alike = Panel::create({.size = session->panel_on(0).value().size}).value();
+    alike.lie_over({1280, 900});
     PanelModel model;
     model.workpiece = {"block:0.05,0.04,0.0305", "50 x 40 x 30.5 mm, 32 cells"};
     const std::vector<renderer::PanelVertex> expected = header_of(alike.show(model, 0).mesh);

@@ -44,7 +44,8 @@ inline PanelModel carving_model() {
     }
     model.figures = {59.8, 18.3, 31.2, 12.4, 6.1, 26.5, 16.7, 35.8};
     model.savings = PanelSavings{412, 173, 104, 98, 37, 61, 3.4, 1204};
-    model.message = "Saved part.stl: 983328 triangles, closed";
+    model.log = {{"Saved part.stl: 983328 triangles, closed", MessageKind::info, 1, 61'000'000'000}};
+    model.notes = model.log;
     return model;
 }
 
@@ -66,7 +67,7 @@ inline PanelModel export_model() {
     model.tool = {sculpt::ToolKind::bullnose, {0.006, 0.0015, 0.024}, {}};
     model.undo_count = 3;
     model.exporting = true;
-    model.message = "Writing part.stl";
+    model.log = model.notes = {{"Writing part.stl", MessageKind::info, 1, 12'000'000'000}};
     return model;
 }
 

@@ -160,7 +160,7 @@ TEST(LampWatch, FollowsATurningWorkpieceInStepsAndARestingOneAtOnce) {
 TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     testing::internal::CaptureStderr();
     MessageLog log;
-    log.notify("undone", {"script.txt:3: ", " (elsewhere)"});
+    log.notify("undone", MessageKind::info, {"script.txt:3: ", " (elsewhere)"});
     EXPECT_EQ(log.newest(), "undone") << "what the panel shows depends on no file's name";
     log.notify_of_event("a monitor has gone");
     EXPECT_EQ(log.newest(), "a monitor has gone");

@@ -95,6 +95,7 @@ const std::map<std::string, Commands>& fixed_commands() {
         {"Workspace", {}},
         {"View", {}},
         {"History and export", {}},
+        {"Messages", {}},
         {"State", {}}};
     return expected;
 }
@@ -127,6 +128,7 @@ PanelModel workable_model() {
     model.undo_count = 3;
     model.redo_count = 1;
     model.hardness_Ns_per_m3 = 3e6;  // not the middle
+    model.stereo_mode = wall::StereoMode::anaglyph_red_cyan;
     model.tool_sizes = tool_sizes_for(0.05);
     return model;
 }
@@ -333,14 +335,15 @@ TEST(PanelRest, LaysNothingOutWhileNothingChanges) {
     EXPECT_TRUE(desk.panel.show(desk.model, desk.now_ns).changed);
 }
 
-// A message that is broken into other lines changes the height of what scrolls. The bar kept the length that fitted the
-// message before, for as long as nothing else changed, so that pictures of the same state differed.
-TEST(PanelRest, LooksTheSameWhateverMessageCameBefore) {
+// A page that is broken into other lines changes the height of what scrolls. The bar kept the length that fitted the
+// page before, for as long as nothing else changed, so that pictures of the same state differed.
+TEST(PanelRest, LooksTheSameWhateverPageCameBefore) {
     const auto after = [](const std::string& before) {
         PanelDesk desk(workable_model(), {340, 680});
+        desk.model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
         for (int i = 0; i < 5; ++i) desk.show();
-        for (const std::string& message : {before, std::string("wrote part.stl")}) {
-            desk.model.message = message;
+        for (const std::string& page : {before, std::string("wrote part.stl")}) {
+            desk.model.activity->page = page;
             desk.show();
         }
         return desk.panel.show(desk.model, desk.now_ns).mesh;
