@@ -74,6 +74,26 @@ std::string joined(const std::vector<std::string>& sentences) {
     return text;
 }
 
+std::string in_words(const geometry::ClosingReport& closing) {
+    double largest_m = 0.0;
+    for (const geometry::ClosedHole& hole : closing.holes) largest_m = std::max(largest_m, hole.perimeter_m);
+    const std::size_t count = closing.holes.size();
+    return (count == 1 ? "1 hole was closed" : std::to_string(count) + " holes were closed") +
+           formatted(", the largest %.3g mm around", 1e3 * largest_m);
+}
+
+// Closes the holes of a mesh where none is larger around than the mesh's shortest side: a scan's, and not the open end
+// of a pipe or a missing face. Returns what it closed; nothing where there is a larger one, or the mesh is open still.
+std::optional<geometry::ClosingReport> close_small_holes(geometry::TriangleMesh& mesh, const Vec3& size_m) {
+    const double most_m = std::min({size_m.x, size_m.y, size_m.z});
+    geometry::TriangleMesh closed = mesh;
+    geometry::ClosingReport closing = geometry::close_holes(closed);
+    const auto is_small = [&](const geometry::ClosedHole& hole) { return hole.perimeter_m <= most_m; };
+    if (!std::ranges::all_of(closing.holes, is_small) || !geometry::examine(closed).closed) return std::nullopt;
+    mesh = std::move(closed);
+    return closing;
+}
+
 // Says how an open mesh can be closed.
 std::string remedy_of_open(const geometry::TriangleMesh& mesh) {
     if (const auto tolerance_m = geometry::tolerance_that_closes_m(mesh))
@@ -99,13 +119,23 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
     geometry::MeshHealth health = geometry::examine(mesh);
     report["health"] = describe(health);
     if (!health.closed) {
-        if (!options.close_holes) {
+        std::optional<geometry::ClosingReport> closing;
+        if (options.close_holes) {
+            closing = close_holes(mesh);
+        } else if (options.close_small_holes) {
+            closing = close_small_holes(mesh, closed.size_m);
+        }
+        if (!closing) {
             std::vector<std::string> complaints = geometry::complaints(health);
             if (!closed.joined.empty()) complaints.push_back(closed.joined + " before");
             return fail(options.source, "is not closed, so it has no inside: " + joined(complaints),
                         remedy_of_open(mesh));
         }
-        report["closed_holes"] = describe(close_holes(mesh));
+        report["closed_holes"] = describe(*closing);
+        if (!closing->holes.empty()) {
+            closed.closed = in_words(*closing);
+            closed.size += "; " + closed.closed;
+        }
         health = geometry::examine(mesh);
     }
     if (!health.consistently_oriented || health.inside_out()) {
@@ -119,7 +149,8 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
 Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
     Result<ClosedMesh> closed = load_closed_mesh(options);
     if (!closed) return std::unexpected(closed.error());
-    LoadedWorkpiece workpiece{{}, std::move(closed->report), std::move(closed->size), closed->unit, closed->size_m};
+    LoadedWorkpiece workpiece{
+        {}, std::move(closed->report), std::move(closed->size), closed->unit, closed->size_m, closed->closed};
     Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();

@@ -23,6 +23,7 @@ struct WorkpieceOptions {
     std::string source = "ball:0.1";  // FILE | block:X,Y,Z | ball:R
     int resolution = 256;             // lattice cells along the longest side
     bool close_holes = false;
+    bool close_small_holes = false;  // where none of them is larger around than the mesh's shortest side
     std::optional<LengthUnit> units = std::nullopt;  // of a file; none: as it states, else guessed (mesh_unit.hpp)
     std::optional<double> weld_m = std::nullopt;     // of a file; none: by its numbers (join_open_edges)
 };
@@ -33,6 +34,7 @@ struct LoadedWorkpiece {
     std::string size = {};            // in a line, and for a file in which unit it was read
     LengthUnit unit = LengthUnit::m;  // of the file's numbers
     Vec3 size_m{0.0};                 // from side to side
+    std::string closed = {};          // which holes were closed, in words; empty where none were
 };
 
 struct ClosedMesh {
@@ -42,12 +44,13 @@ struct ClosedMesh {
     LengthUnit unit = LengthUnit::m;
     Vec3 size_m{0.0};
     std::string joined = {};  // which corners were joined, in words; empty where none were
+    std::string closed = {};  // which holes were closed, likewise
 };
 
 // Reads the mesh file that is the source, welds it and turns it to face outwards; the report says how much of each.
 // Equal positions become one vertex; where it is open, corners at open edges are joined within a tolerance that follows
 // from the precision of the file's numbers, or within weld_m, which `size` tells. Fails on a mesh that is not closed
-// then, with the reason, unless its holes are to be closed.
+// then, with the reason, unless its holes are to be closed: all of them, or small ones where all are small.
 [[nodiscard]] Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options);
 
 // Notes in `size` and in the report what of the mesh no ray of its solid met (unmet_parts.hpp).

@@ -167,6 +167,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
         log = std::move(*read);
     }
     if (const auto settled = settle_mouse(options); !settled) return settled;
+    if (!log) options.workpiece.close_small_holes = true;
     if (const auto ok = check(options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());
@@ -181,6 +182,8 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
 
 Result<SessionRecord> time_session(SculptOptions options, bool for_a_device) {
     options.live.writes_nothing = true;
+    options.workpiece.close_small_holes = true;
+    if (const auto settled = settle_mouse(options); !settled) return std::unexpected(settled.error());
     if (const auto ok = check(options); !ok) return std::unexpected(ok.error());
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());

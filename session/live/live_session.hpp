@@ -169,6 +169,7 @@ private:
     SceneSide scene_{hands_.all()};  // after what its parts refer to
     PanelWorkpiece workpiece_;
     LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
+    bool holes_closed_ = false;         // of the workpiece's mesh
     sculpt::ToolOptions tool_options_;  // as the session began
     ToolSizeRange tool_sizes_;
     Room room_;

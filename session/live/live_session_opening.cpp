@@ -83,7 +83,9 @@ Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool_);
     if (!workpiece) return std::unexpected(workpiece.error());
     std::fprintf(stderr, "burin: %s\n", workpiece->size.c_str());
+    if (!workpiece->closed.empty()) notify(workpiece->closed);
     unit_ = workpiece->unit;
+    holes_closed_ = !workpiece->closed.empty();
     room_.workpiece_object = sculpt::workpiece_bounds(workpiece->solid.lattice);
     room_.carved_object = room_.workpiece_object;
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
@@ -159,6 +161,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
 
 SculptOptions LiveSession::settled(SculptOptions options) const {
     options.workpiece.units = unit_;
+    options.workpiece.close_holes = options.workpiece.close_holes || holes_closed_;
     options.tool = tool_options_;
     return options;
 }
