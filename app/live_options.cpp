@@ -7,6 +7,30 @@
 
 namespace burin::app {
 
+void add_mouse_option(Command command, session::LiveOptions& options) {
+    command.option(
+        "--mouse",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (given.empty()) return {};
+            const auto mode = session::parse_mouse_mode(given.back(), "--mouse " + given.back());
+            if (!mode) return std::unexpected(mode.error());
+            options.mouse = *mode;
+            return {};
+        },
+        "surface: the tool is where the cursor points, as usual for a person who carves; free: the mouse moves it "
+        "along the screen and the wheel in depth, as usual for an --input");
+}
+
+void add_detail_option(Command command, session::LiveOptions& options) {
+    using session::DetailChoice;
+    command.choice(
+        "--detail", options.detail,
+        "auto: on a device that is a processor the picture has fewer pixels while the view moves, and all of "
+        "them when it rests; full: always all",
+        std::vector<std::pair<std::string, DetailChoice>>{{"auto", DetailChoice::automatic},
+                                                          {"full", DetailChoice::full}});
+}
+
 std::vector<std::string> add_live_options(Command command, session::LiveOptions& options, const char* input_help,
                                           const char* device_help) {
     const std::size_t before = command.options().size();
@@ -31,18 +55,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
         "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +
             "; several hands have one each: --device right=simulated --device left=simulated-wand. There are " +
             devices::haptic_usage() + device_help);
-    command.option(
-        "--mouse",
-        [&options](const std::vector<std::string>& given) -> Result<void> {
-            if (given.empty()) return {};
-            const auto mode = session::parse_mouse_mode(given.back(), "--mouse " + given.back());
-            if (!mode) return std::unexpected(mode.error());
-            options.mouse = *mode;
-            return {};
-        },
-        "surface: the tool is where the cursor points, as usual for a person who carves; free: the mouse moves it "
-        "along "
-        "the screen and the wheel in depth, as usual for an --input");
+    add_mouse_option(command, options);
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");
     command.flag("--panel-window", options.panel_window,
@@ -69,6 +82,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.option("--samples", options.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
         .one_of(session::kSampleCounts)
         .show_default();
+    add_detail_option(command, options);
     command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
     command.option("--outputs", options.outputs,
                    "With --input: the folder below which all its files go; else one in the working folder, named after "

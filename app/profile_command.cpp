@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/live_options.hpp"
 #include "app/output_files.hpp"
 #include "app/profile.hpp"
 #include "compute/rays/lattice.hpp"
@@ -75,6 +76,9 @@ ProfileCommand::ProfileCommand(Command app)
                   "Ticks as a session without a device has them, which may rest; else as a device's user needs them");
     command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it").show_default();
     command_.option("--tool", s.tool.shape, "As burin sculpt has it").show_default();
+    command_.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
+    command_.option("--weld", s.workpiece.weld_m, "As burin sculpt has it");
+    command_.unit("--units", s.workpiece.units, "As burin sculpt has it");
     command_.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
         .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
@@ -90,6 +94,8 @@ ProfileCommand::ProfileCommand(Command app)
     command_.option("--samples", s.live.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
         .one_of(session::kSampleCounts)
         .show_default();
+    add_mouse_option(command_, s.live);
+    add_detail_option(command_, s.live);
     command_.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
     command_.option("--driver-threads", o.driver_threads,
                     "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");

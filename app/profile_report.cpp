@@ -48,6 +48,50 @@ Json ages_of_all(const std::vector<session::TimedFrame>& frames) {
     return ages;
 }
 
+// What a person with a mouse does, by what its frames show, and how many frames a second are aimed at for it.
+struct Doing {
+    const char* name;
+    double aim_per_s;
+    bool (*is)(const session::FrameMotion&);
+};
+constexpr std::array kDoings{
+    Doing{"turning", 30.0, [](const session::FrameMotion& m) { return m.view; }},
+    Doing{"carving", 25.0, [](const session::FrameMotion& m) { return !m.view && m.works; }},
+    Doing{"looking", 30.0, [](const session::FrameMotion& m) { return !m.view && !m.works && m.tool; }},
+};
+// From the click until its cut is seen: so many frames at most, of those that are drawn while carving.
+constexpr double kMostFramesOfAClick = 2.0;
+
+Json describe_doing(const std::vector<session::TimedFrame>& all, const Doing& doing) {
+    std::vector<session::TimedFrame> frames;
+    std::size_t followed = 0;  // frames whose time since the frame before is known
+    Nanoseconds together_ns = 0;
+    for (const session::TimedFrame& frame : all) {
+        if (!doing.is(frame.motion)) continue;
+        frames.push_back(frame);
+        const auto time_ns = session::worse_eye(frame.ages, session::FrameFigure::frame_time);
+        if (!time_ns) continue;
+        ++followed;
+        together_ns += *time_ns;
+    }
+    Json json{{"frames", frames.size()}, {"aim_per_s", doing.aim_per_s}};
+    json["drawn_per_s"] = together_ns > 0 ? Json(static_cast<double>(followed) / seconds(together_ns)) : Json(nullptr);
+    json["frame_ms"] = in_ms(summary_of(frames, [](const session::TimedFrame& f) {
+        return session::worse_eye(f.ages, session::FrameFigure::frame_time);
+    }));
+    json["processor_ms"] =
+        in_ms(summary_of(frames, [](const session::TimedFrame& f) { return std::optional(f.processor_ns); }));
+    return json;
+}
+
+Json describe_clicks(const std::vector<session::TimedFrame>& frames, const Json& carving) {
+    Json json = in_ms(summary_of(frames, [](const session::TimedFrame& f) { return f.click_ns; }));
+    if (json.is_null() || carving["frame_ms"].is_null()) return json;
+    json["aim_frames"] = kMostFramesOfAClick;
+    json["frames"] = json["median"].get<double>() / carving["frame_ms"]["median"].get<double>();
+    return json;
+}
+
 std::string line(const char* format, auto... values) {
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(), format, values...);
@@ -67,6 +111,25 @@ std::string rows(const Json& figures) {
 }
 
 std::string heading(const char* title) { return line("%-24s%12s%12s%12s\n", title, "median", "p99", "worst"); }
+
+// Returns what a person's doings were given beside what is aimed at.
+std::string doings(const Json& run) {
+    std::string text =
+        line("%-24s%12s%12s%12s%20s\n", "a person's frames", "a second", "aim", "median, ms", "processor, ms");
+    for (const auto& [name, doing] : run["doing"].items()) {
+        if (doing["drawn_per_s"].is_null()) continue;
+        text += line("  %-22s%12.1f%12.0f%12.2f%20.2f\n", name.c_str(), doing["drawn_per_s"].get<double>(),
+                     doing["aim_per_s"].get<double>(), doing["frame_ms"]["median"].get<double>(),
+                     doing["processor_ms"]["median"].get<double>());
+    }
+    const Json& click = run["click_to_cut_ms"];
+    if (!click.is_null() && click.contains("frames"))
+        text +=
+            line("  from a click until its cut is seen: %.2f ms in the median, %.2f at worst; %.1f frames, aim %.0f\n",
+                 click["median"].get<double>(), click["worst"].get<double>(), click["frames"].get<double>(),
+                 click["aim_frames"].get<double>());
+    return text + "\n";
+}
 
 double number(const Json& figure, const char* key) { return figure.is_null() ? 0.0 : figure[key].get<double>(); }
 
@@ -98,6 +161,8 @@ Json describe_run(const ProfiledRun& run) {
                      {"lost_targets", r.lost_targets},
                      {"duration_us", in_us(r.tick_duration)},
                      {"lateness_us", in_us(r.tick_lateness)}};
+    for (const Doing& doing : kDoings) json["doing"][doing.name] = describe_doing(r.frames, doing);
+    json["click_to_cut_ms"] = describe_clicks(r.frames, json["doing"]["carving"]);
     json["warnings"] = r.warnings;
     return json;
 }
@@ -114,7 +179,8 @@ std::string profile_table(const Json& run) {
         text += line("at rest for %.1f s of these, with %.2f %% of a core\n\n", rest["seconds"].get<double>(),
                      100.0 * rest["cores_busy"].get<double>());
     }
-    text += heading("a frame, ms") + rows(run["stages_ms"]) + row("processor, all threads", run["processor_ms"]);
+    text += doings(run) + heading("a frame, ms") + rows(run["stages_ms"]) +
+            row("processor, all threads", run["processor_ms"]);
     text += row("carving, beside it", run["carve_update_ms"]);
     text += "\n" + heading("when seen, ms") + rows(run["ages_ms"]);
     text += "\n" + heading("1 kHz loop, us") + row("tick", ticks["duration_us"]) + row("late by", ticks["lateness_us"]);

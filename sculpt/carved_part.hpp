@@ -82,7 +82,7 @@ public:
 class CarvedPart final : public scene::ScenePart {
 public:
     // Tiles baked in one update: few while the tool works, more while it rests.
-    static constexpr std::size_t kLitWorking = 4, kLitResting = 16;
+    static constexpr std::size_t kLitWorking = 2, kLitResting = 16;
     // Between updates while something changes, and at rest.
     static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;
 

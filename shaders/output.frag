@@ -46,6 +46,8 @@ struct Footprint {
 };
 
 Footprint footprint_of(OutputCell cell, ivec2 tap) {
+    if (is_built_in(kOutputSamePixels) && !is_built_in(kOutputWarp))
+        return Footprint(ivec2(cell.x, cell.y), vec2(0.0), 1);
     if (!is_built_in(kOutputWarp)) {
         return Footprint(ivec2(copied_pixel(cell.x, cell.width, cell.taps_x, tap.x, c.eye_size.x),
                                copied_pixel(cell.y, cell.height, cell.taps_y, tap.y, c.eye_size.y)),

@@ -4,13 +4,25 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "renderer/scene/frame_setup.hpp"
 
 namespace burin::renderer {
 
 namespace {
 
 using gpu::structure;
+
+constexpr std::uint32_t kMaxSide = 8192;
+
+Result<void> check_size(ImageSize size) {
+    if (size.width > 0 && size.height > 0 && size.width <= kMaxSide && size.height <= kMaxSide) return {};
+    return fail("picture size", std::to_string(size.width) + " x " + std::to_string(size.height) + " is not possible",
+                "choose 1 to " + std::to_string(kMaxSide) + " pixels each way");
+}
 
 // `clear` acts within the render area. An initial layout other than UNDEFINED preserves what lies outside of it.
 VkAttachmentDescription attachment(VkFormat format, std::uint32_t samples, bool clear, bool keep, VkImageLayout before,
@@ -107,9 +119,10 @@ Result<gpu::Image> create_image(gpu::Device& device, const FrameTargets& t, std:
 Result<void> create_images(gpu::Device& device, FrameTargets& t) {
     constexpr VkImageUsageFlags kDrawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     const VkFormat format = t.encodes ? FrameTargets::kEncodedFormat : FrameTargets::kLinearFormat;
-    auto picture =
-        create_image(device, t, 1, format, kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                     VK_IMAGE_ASPECT_COLOR_BIT, "picture");
+    auto picture = create_image(
+        device, t, 1, format,
+        kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        VK_IMAGE_ASPECT_COLOR_BIT, "picture");
     if (!picture) return std::unexpected(picture.error());
     auto depth = create_image(device, t, t.samples, FrameTargets::kDepthFormat,
                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, "depth");
@@ -169,6 +182,7 @@ std::uint64_t layer_bytes(ImageSize size) { return std::uint64_t{4} * size.width
 }  // namespace
 
 Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, std::uint32_t samples, Views views) {
+    if (const auto ok = check_size(size); !ok) return std::unexpected(ok.error());
     FrameTargets targets;
     targets.size = size;
     targets.samples = samples;
@@ -177,6 +191,13 @@ Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, s
     if (const auto done = create_images(device, targets); !done) return std::unexpected(done.error());
     if (const auto done = create_passes(device, targets); !done) return std::unexpected(done.error());
     return targets;
+}
+
+VkViewport viewport_of(ImageSize size) {
+    const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+    constexpr auto kTimes = static_cast<float>(kGuard);
+    return {
+        -0.5f * (kTimes - 1.0f) * width, -0.5f * (kTimes - 1.0f) * height, kTimes * width, kTimes * height, 0.0f, 1.0f};
 }
 
 Result<void> Readback::fit(gpu::Device& device, ImageSize size) {

@@ -37,6 +37,9 @@ struct FrameTargets {
                                                      Views views = Views::both);
 };
 
+// Returns the viewport of targets of this size, kGuard times as large.
+[[nodiscard]] VkViewport viewport_of(ImageSize size);
+
 // Reads both eyes' finished pictures back to the host.
 class Readback {
 public:

@@ -216,14 +216,18 @@ PixelRect within(const PixelRect& part, std::span<const PixelRect> rects) {
 }  // namespace
 
 bool same_room(const Shown& a, const Shown& b) {
-    Scene s = a.scene;
-    s.tool = b.scene.tool;
-    s.contact = b.scene.contact;
-    s.box = b.scene.box;
-    s.proposed_box = b.scene.proposed_box;
-    s.bubble = b.scene.bubble;
-    s.panel = b.scene.panel;
-    return s == b.scene && a.workpiece == b.workpiece && a.depth == b.depth;
+    return same_room(a.scene, b.scene) && a.workpiece == b.workpiece && a.depth == b.depth;
+}
+
+bool same_room(const Scene& a, const Scene& b) {
+    Scene s = a;
+    s.tool = b.tool;
+    s.contact = b.contact;
+    s.box = b.box;
+    s.proposed_box = b.proposed_box;
+    s.bubble = b.bubble;
+    s.panel = b.panel;
+    return s == b;
 }
 
 PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world) {

@@ -32,6 +32,8 @@ struct Shown {
 
 // Returns whether the two differ at most in what can be redrawn in part. If not, the whole picture must be redrawn.
 [[nodiscard]] bool same_room(const Shown& shown, const Shown& wanted);
+// The part of it that two scenes tell.
+[[nodiscard]] bool same_room(const Scene& shown, const Scene& wanted);
 // Returns the damaged rectangles, given that same_room() holds; some may be empty. changed: boxes around changed
 // patches and parts of patches, in the patches' frame, including patches that look different because the tool moved
 // (changed_near_tool in renderer/surface/patch_choice.hpp).

@@ -7,6 +7,7 @@
 
 #include "gpu/commands.hpp"
 #include "renderer/frame/frame_targets.hpp"
+#include "renderer/frame/magnify.hpp"
 #include "renderer/frame/mesh_store.hpp"
 #include "renderer/frame/pipelines.hpp"
 #include "renderer/frame/redraw.hpp"
@@ -23,46 +24,9 @@ namespace {
 
 using gpu::structure;
 
-constexpr std::uint32_t kMaxSide = 8192;
-
-// Returns the constants for drawing the room: world_from_local maps the viewport's corners, -1 to 1, to the plane of
-// the screen, kGuard times as far out as the picture's corners.
-shared::DrawConstants screen_constants(const wall::Screen& screen) {
-    const Vec3 half_x = 0.5 * (screen.lower_right_world - screen.lower_left_world);
-    const Vec3 half_y = 0.5 * (screen.upper_left_world - screen.lower_left_world);
-    shared::DrawConstants c{};
-    c.world_from_local[0] = glm::vec4(glm::vec3(kGuard * half_x), 0.0f);
-    c.world_from_local[1] = glm::vec4(glm::vec3(kGuard * half_y), 0.0f);
-    c.world_from_local[3] = glm::vec4(glm::vec3(screen.lower_left_world + half_x + half_y), 1.0f);
-    return c;
-}
-
-Result<void> check_size(ImageSize size) {
-    if (size.width > 0 && size.height > 0 && size.width <= kMaxSide && size.height <= kMaxSide) return {};
-    return fail("picture size", std::to_string(size.width) + " x " + std::to_string(size.height) + " is not possible",
-                "choose 1 to " + std::to_string(kMaxSide) + " pixels each way");
-}
-
-// Lists the meshes that the scene shows.
-std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene) {
-    std::vector<std::shared_ptr<const DrawnMesh>> meshes;
-    if (scene.tool.visible && scene.tool.mesh) meshes.push_back(scene.tool.mesh);
-    for (const DrawnObject& object : scene.objects) meshes.push_back(object.mesh);
-    std::ranges::sort(meshes);
-    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
-    return meshes;
-}
-
 // Returns the pipeline for what is lit at every pixel.
 PipelineKind solid_of(const Scene& scene) {
     return scene.capsules.empty() ? PipelineKind::solid : PipelineKind::solid_beside_capsules;
-}
-
-VkViewport viewport_of(ImageSize size) {
-    const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
-    constexpr auto kTimes = static_cast<float>(kGuard);
-    return {
-        -0.5f * (kTimes - 1.0f) * width, -0.5f * (kTimes - 1.0f) * height, kTimes * width, kTimes * height, 0.0f, 1.0f};
 }
 
 }  // namespace
@@ -71,8 +35,8 @@ class Renderer::Implementation {
 public:
     static Result<std::unique_ptr<Implementation>> create(gpu::Device& device, ImageSize size,
                                                           const RendererOptions& options);
-    Result<RenderStats> record(gpu::Commands& commands, const Scene& scene);
-    Result<StereoImage> render(const Scene& scene);
+    Result<RenderStats> record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel);
+    Result<StereoImage> render(const Scene& scene, std::uint32_t pixel);
     void show_panel(VkImageView panel) {
         if (panel == panel_) return;
         panel_ = panel;
@@ -109,6 +73,7 @@ private:
         std::uint64_t shows = 0;  // number of the picture it shows
     };
     Result<void> upload_primitives();
+    Result<void> draw_with(std::uint32_t pixel);
     std::vector<PixelRect> parts_to_draw(const Shown& wanted);
     Result<void> draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part);
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
@@ -138,8 +103,13 @@ private:
     }
     const VolkDeviceTable& vk() const { return device_.core()->vk; }
 
+    // Returns what frames are drawn into at present.
+    const FrameTargets& drawn_into() const { return pixel_ == 1 ? targets : *fewer_; }
+
     gpu::Device device_;
     bool owns_surface_ = false;
+    std::uint32_t pixel_ = 1;            // side of what is drawn as one, in pixels of the picture
+    std::optional<FrameTargets> fewer_;  // of so many fewer pixels, once there have been any
     DrawnPatches drawn_;
     Pipelines pipelines_;
     Primitives primitives_;
@@ -154,7 +124,6 @@ private:
 
 Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::create(gpu::Device& device, ImageSize size,
                                                                                    const RendererOptions& options) {
-    if (const auto ok = check_size(size); !ok) return std::unexpected(ok.error());
     const std::uint32_t most = device.capabilities().msaa_samples;
     const std::uint32_t samples = options.samples == 0 ? most : options.samples;
     if (samples != 1 && samples != most) {
@@ -180,10 +149,25 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
 
 // Keeps the pipelines: they fit any targets of the same formats, views and number of samples.
 Result<void> Renderer::Implementation::resize(ImageSize size, Views views) {
-    if (const auto ok = check_size(size); !ok) return ok;
     auto other = FrameTargets::create(device_, size, targets.samples, views);
     if (!other) return std::unexpected(other.error());
     targets = std::move(*other);
+    fewer_.reset();
+    pixel_ = 1;
+    shown.reset();
+    return {};
+}
+
+// Makes ready to draw with pixels of this side; another than before makes the next frame a full redraw.
+Result<void> Renderer::Implementation::draw_with(std::uint32_t pixel) {
+    if (pixel == pixel_) return {};
+    const ImageSize size = drawn_size(targets.size, pixel);
+    if (pixel > 1 && !(fewer_ && fewer_->size == size)) {
+        auto made = FrameTargets::create(device_, size, targets.samples, targets.views);
+        if (!made) return std::unexpected(made.error());
+        fewer_ = std::move(*made);
+    }
+    pixel_ = pixel;
     shown.reset();
     return {};
 }
@@ -203,7 +187,7 @@ Result<void> Renderer::Implementation::upload_primitives() {
     return done;
 }
 
-Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, const Scene& scene) {
+Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel) {
     if (!wall::can_be_seen(scene.screen, wall::eyes_of(scene.viewer))) {
         return fail("viewer", "the eyes are behind the screen, or the screen is not a rectangle",
                     "check the wall's corners and the head pose");
@@ -212,6 +196,7 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
         return fail("fade of parallax", "is not from 0 to 1, or its band is below 0",
                     "choose 0 to 1, and a band of 0.2");
     }
+    if (const auto ready = draw_with(std::max(pixel, 1u)); !ready) return std::unexpected(ready.error());
     commands.barrier();  // waits until the previous frame has read what is now overwritten
     const auto uploaded = owns_surface_ ? surface->flush(commands) : Result<std::uint64_t>(0);
     if (!uploaded) return std::unexpected(uploaded.error());
@@ -220,6 +205,7 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
     wanted.depth = depth_range(scene, wanted.workpiece);
     stats = {.part = {},
              .parts = parts_to_draw(wanted),
+             .whole = false,
              .triangles = patches.triangles(),
              .patches = patches.patches(),
              .patch_counts = {},
@@ -237,12 +223,18 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
     for (const PixelRect& part : stats.parts)
         if (const auto done = draw_part(commands, wanted, part); !done) return std::unexpected(done.error());
     stats.pipelines = pipelines_created();
+    stats.whole = !stats.parts.empty() && stats.parts.front() == all_of(drawn_into().size);
+    if (pixel_ > 1 && !stats.parts.empty()) {
+        magnify(device_, commands, drawn_into(), targets);
+        stats.part = all_of(targets.size);
+        stats.parts = {stats.part};
+    }
     shown = std::move(wanted);
     return stats;
 }
 
 std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& wanted) {
-    const PixelRect all = all_of(targets.size);
+    const PixelRect all = all_of(drawn_into().size);
     std::vector<PixelRect> parts{all};
     const std::span<const Box> occluders = surface->occluders();
     DrawnPatches::Changes changes = drawn_.take_changes();
@@ -250,14 +242,14 @@ std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& want
     if (savings.parts_only && shown && same_room(*shown, wanted)) {
         std::vector<Box>& changed = changes.boxes;
         const auto add = [&](const std::vector<Box>& more) { changed.insert(changed.end(), more.begin(), more.end()); };
-        add(changed_near_tool(drawn_.patches(), shown->scene, wanted.scene, targets.size, occluders));
-        add(choose_rates(drawn_, wanted.scene, targets.size, savings));
-        parts = damage_rectangles(changed_rects(*shown, wanted, targets.size, changed), targets.size);
+        add(changed_near_tool(drawn_.patches(), shown->scene, wanted.scene, drawn_into().size, occluders));
+        add(choose_rates(drawn_, wanted.scene, drawn_into().size, savings));
+        parts = damage_rectangles(changed_rects(*shown, wanted, drawn_into().size, changed), drawn_into().size);
         if (!savings.parts_apart && !parts.empty())
             parts = {std::accumulate(parts.begin(), parts.end(), PixelRect{}, around)};
     }
     if (std::ranges::find(parts, all) != parts.end()) {
-        choose_levels(drawn_, wanted.scene, targets.size, savings, occluders);
+        choose_levels(drawn_, wanted.scene, drawn_into().size, savings, occluders);
         parts = {all};
     }
     return parts;
@@ -265,10 +257,10 @@ std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& want
 
 Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part) {
     const Scene& scene = wanted.scene;
-    ShownShapes shapes = shapes_in(part, scene, primitives_, targets.size, savings);
+    ShownShapes shapes = shapes_in(part, scene, primitives_, drawn_into().size, savings);
     Recording r{commands, scene, part, std::move(shapes.shapes), {}};
     r.workpiece = wanted.workpiece;
-    r.surface = choose_draws(drawn_, scene, targets.size, part, savings, surface->occluders());
+    r.surface = choose_draws(drawn_, scene, drawn_into().size, part, savings, surface->occluders(), pixel_ > 1);
     const auto done = draw_views(r);
     stats.part = around(stats.part, part);
     stats.shapes_left_out += shapes.left_out;
@@ -302,17 +294,17 @@ void Renderer::Implementation::begin_pass(Recording& r) {
                             static_cast<float>(background.z), 1.0f}};
     }
     clears[1].depthStencil.depth = 1.0f;
-    const bool whole = r.part == all_of(targets.size);
+    const bool whole = r.part == all_of(drawn_into().size);
     auto info = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
-    info.renderPass = whole ? targets.whole_pass.raw() : targets.part_pass.raw();
-    info.framebuffer = targets.framebuffer.raw();
+    info.renderPass = whole ? drawn_into().whole_pass.raw() : drawn_into().part_pass.raw();
+    info.framebuffer = drawn_into().framebuffer.raw();
     info.renderArea = {{static_cast<std::int32_t>(r.part.x), static_cast<std::int32_t>(r.part.y)},
                        {r.part.width, r.part.height}};
     info.clearValueCount = static_cast<std::uint32_t>(clears.size());
     info.pClearValues = clears.data();
     const VkCommandBuffer raw = r.commands.raw();
     vk().vkCmdBeginRenderPass(raw, &info, VK_SUBPASS_CONTENTS_INLINE);
-    const VkViewport viewport = viewport_of(targets.size);
+    const VkViewport viewport = viewport_of(drawn_into().size);
     vk().vkCmdSetViewport(raw, 0, 1, &viewport);
     vk().vkCmdSetScissor(raw, 0, 1, &info.renderArea);
     const VkDescriptorSet set = pipelines_.set();
@@ -364,7 +356,7 @@ Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind k
 Result<void> Renderer::Implementation::draw_room(Recording& r) {
     if (!r.scene.show_grid) return {};
     std::vector<RoomPart> parts{{r.part, RoomLook::full}};
-    if (savings.plain_room) parts = room_parts(r.scene, r.workpiece, targets.size, r.part);
+    if (savings.plain_room) parts = room_parts(r.scene, r.workpiece, drawn_into().size, r.part);
     bind_primitives(r);
     for (const auto& [look, kind] : {std::pair(RoomLook::full, PipelineKind::backdrop),
                                      std::pair(RoomLook::without_shadows, PipelineKind::backdrop_without_shadows),
@@ -455,11 +447,11 @@ void Renderer::Implementation::push(Recording& r, const shared::DrawConstants& c
 
 // ---- Reading back
 
-Result<StereoImage> Renderer::Implementation::render(const Scene& scene) {
+Result<StereoImage> Renderer::Implementation::render(const Scene& scene, std::uint32_t pixel) {
     if (const auto ready = readback_.fit(device_, targets.size); !ready) return std::unexpected(ready.error());
     auto commands = gpu::Commands::begin(device_);
     if (!commands) return std::unexpected(commands.error());
-    if (const auto recorded = record(*commands, scene); !recorded) return std::unexpected(recorded.error());
+    if (const auto recorded = record(*commands, scene, pixel); !recorded) return std::unexpected(recorded.error());
     readback_.copy(device_, *commands, targets.picture.raw());
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
@@ -482,8 +474,8 @@ Renderer::~Renderer() = default;
 
 SurfaceStore& Renderer::surface() { return *implementation_->surface; }
 void Renderer::show_panel(VkImageView panel) { implementation_->show_panel(panel); }
-Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene) {
-    return implementation_->record(commands, scene);
+Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel) {
+    return implementation_->record(commands, scene, pixel);
 }
 VkImageView Renderer::both_eyes() const { return implementation_->targets.both_eyes.raw(); }
 ImageSize Renderer::size() const { return implementation_->targets.size; }
@@ -493,7 +485,9 @@ void Renderer::set_savings(const Savings& savings) {
     implementation_->savings = savings;
     forget_picture();
 }
-Result<StereoImage> Renderer::render(const Scene& scene) { return implementation_->render(scene); }
+Result<StereoImage> Renderer::render(const Scene& scene, std::uint32_t pixel) {
+    return implementation_->render(scene, pixel);
+}
 const RenderStats& Renderer::stats() const { return implementation_->stats; }
 
 }  // namespace burin::renderer

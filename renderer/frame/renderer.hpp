@@ -46,6 +46,7 @@ struct RendererOptions {
 struct RenderStats {
     PixelRect part;                // bounds all that was redrawn; empty: nothing was
     std::vector<PixelRect> parts;  // the redrawn rectangles, which hardly overlap
+    bool whole = false;            // all of the picture was drawn anew
     std::uint64_t triangles = 0;   // all of the workpiece's
     std::uint32_t patches = 0;
     PatchCounts patch_counts;           // of this frame, summed over the parts
@@ -55,6 +56,11 @@ struct RenderStats {
     std::uint64_t uploaded_bytes = 0;   // of changed patches, for this frame; 0 where the surface is shared
     std::uint32_t pipelines = 0;        // compiled so far
 };
+
+// Returns the size at which a picture is drawn with larger pixels.
+[[nodiscard]] inline ImageSize drawn_size(ImageSize picture, std::uint32_t pixel) {
+    return {(picture.width + pixel - 1) / pixel, (picture.height + pixel - 1) / pixel};
+}
 
 class Renderer {
 public:
@@ -75,7 +81,9 @@ public:
     void show_panel(VkImageView panel);
     // Records the commands that update the picture from the previous
     // scene to this one. Later commands may sample the picture.
-    [[nodiscard]] Result<RenderStats> record(gpu::Commands& commands, const Scene& scene);
+    // pixel: side of what is drawn as one pixel and magnified, in pixels of the picture; 1: the full picture. A frame
+    // with another than the frame before is a full redraw, so that full pictures do not depend on others before them.
+    [[nodiscard]] Result<RenderStats> record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel = 1);
     // Returns the two views: an array of two layers that yields linear
     // light, in layout SHADER_READ_ONLY_OPTIMAL after the first frame.
     [[nodiscard]] VkImageView both_eyes() const;
@@ -89,7 +97,7 @@ public:
     void set_savings(const Savings& savings);
 
     // Records, waits, and reads the picture back.
-    [[nodiscard]] Result<StereoImage> render(const Scene& scene);
+    [[nodiscard]] Result<StereoImage> render(const Scene& scene, std::uint32_t pixel = 1);
     [[nodiscard]] const RenderStats& stats() const;  // of the last frame
 
 private:

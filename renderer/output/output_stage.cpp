@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/output/output_stage.hpp"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <vector>
 
 #include "gpu/pipelines.hpp"
 #include "renderer/output/compose.hpp"
@@ -41,6 +44,33 @@ Result<gpu::FramebufferHandle> create_framebuffer(gpu::Device& device, VkRenderP
         return gpu::vulkan_failure(kWhere, "no framebuffer", r);
     }
     return gpu::FramebufferHandle(core, framebuffer);
+}
+
+// Returns the four sides of a part that lie beside a hole in it; some may be empty.
+std::array<PixelRect, 4> beside(const PixelRect& part, const PixelRect& hole) {
+    const PixelRect in = common(part, hole);
+    if (in.empty()) return {part};
+    const std::uint32_t right = in.x + in.width, below = in.y + in.height;
+    return {{{part.x, part.y, part.width, in.y - part.y},
+             {part.x, below, part.width, part.y + part.height - below},
+             {part.x, in.y, in.x - part.x, in.height},
+             {right, in.y, part.x + part.width - right, in.height}}};
+}
+
+// Returns the part of the target on which the overlay lies, where each pixel is copied; nothing where it may be
+// anywhere.
+std::optional<PixelRect> overlaid(const EyesView& eyes, const wall::OutputPlace& place,
+                                  const wall::OutputSettings& settings, const std::optional<OverlayView>& overlay) {
+    const bool copies = mode_number(settings.mode) == shared::kModeOneEye && !settings.homography &&
+                        !settings.blend.in_use() && eyes.eye_size == place.size;
+    if (!copies) return std::nullopt;
+    if (!overlay) return PixelRect{};
+    const auto at = [](int v, std::uint32_t most) {
+        return std::min(static_cast<std::uint32_t>(std::max(v, 0)), most);
+    };
+    const wall::OverlayPlace& p = overlay->place;
+    const std::uint32_t x = at(p.x, place.size.width), y = at(p.y, place.size.height);
+    return PixelRect{x, y, at(p.x + p.width, place.size.width) - x, at(p.y + p.height, place.size.height) - y};
 }
 
 }  // namespace
@@ -204,6 +234,8 @@ shared::OutputConstants OutputStage::constants(const EyesView& eyes, const wall:
     c.target_size = {static_cast<int>(place.size.width), static_cast<int>(place.size.height)};
     c.flags = mode_flags(settings, place);
     if (!encodes_srgb(format_)) c.flags |= shared::kOutputEncode;
+    if (mode_number(settings.mode) == shared::kModeOneEye && eyes.eye_size == place.size)
+        c.flags |= shared::kOutputSamePixels;
     if (settings.homography) c.flags |= shared::kOutputWarp;
     if (settings.blend.in_use()) c.flags |= shared::kOutputBlend;
     if (panel) c.flags |= shared::kOutputOverlay;
@@ -233,10 +265,6 @@ Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const
     const auto set = bind_images(commands, eyes.eyes, overlay ? overlay->view : no_overlay_.view());
     if (!set) return std::unexpected(set.error());
 
-    const shared::OutputConstants c = constants(eyes, target.place, settings, overlay);
-    const auto pipeline_for_mode = pipeline(mode_number(settings.mode), c.flags & shared::kOutputBuiltIn);
-    if (!pipeline_for_mode) return std::unexpected(pipeline_for_mode.error());
-
     const VolkDeviceTable& vk = device_.core()->vk;
     const VkCommandBuffer raw = commands.raw();
     auto begin = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
@@ -244,21 +272,38 @@ Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const
     begin.framebuffer = framebuffer->raw();
     begin.renderArea = {{0, 0}, {size.width, size.height}};
     vk.vkCmdBeginRenderPass(raw, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    vk.vkCmdBindPipeline(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline_for_mode);
     vk.vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.raw(), 0, 1, &*set, 0, nullptr);
-    vk.vkCmdPushConstants(raw, layout_.raw(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(c), &c);
     const VkViewport viewport{0.0f, 0.0f, static_cast<float>(size.width), static_cast<float>(size.height), 0.0f, 1.0f};
     vk.vkCmdSetViewport(raw, 0, 1, &viewport);
+    const auto fill = [&](const std::vector<PixelRect>& rects, const std::optional<OverlayView>& over) -> Result<void> {
+        if (std::ranges::all_of(rects, [](const PixelRect& rect) { return rect.empty(); })) return {};
+        const shared::OutputConstants c = constants(eyes, target.place, settings, over);
+        const auto pipeline_for_mode = pipeline(mode_number(settings.mode), c.flags & shared::kOutputBuiltIn);
+        if (!pipeline_for_mode) return std::unexpected(pipeline_for_mode.error());
+        vk.vkCmdBindPipeline(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline_for_mode);
+        vk.vkCmdPushConstants(raw, layout_.raw(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(c), &c);
+        for (const PixelRect& rect : rects) {
+            if (rect.empty()) continue;
+            const VkRect2D scissor{{static_cast<std::int32_t>(rect.x), static_cast<std::int32_t>(rect.y)},
+                                   {rect.width, rect.height}};
+            vk.vkCmdSetScissor(raw, 0, 1, &scissor);
+            vk.vkCmdDraw(raw, 3, 1, 0, 0);
+        }
+        return {};
+    };
+    // Where pixels are copied, those beside the overlay are spared its mixing: the same bytes, for less.
+    const std::optional<PixelRect> hole = overlaid(eyes, target.place, settings, overlay);
+    std::vector<PixelRect> under, clear;
     for (const PixelRect& part : parts) {
         BURIN_CHECK(part.x + part.width <= size.width && part.y + part.height <= size.height);
-        const VkRect2D scissor{{static_cast<std::int32_t>(part.x), static_cast<std::int32_t>(part.y)},
-                               {part.width, part.height}};
-        vk.vkCmdSetScissor(raw, 0, 1, &scissor);
-        vk.vkCmdDraw(raw, 3, 1, 0, 0);
+        under.push_back(hole ? common(part, *hole) : part);
+        if (hole) std::ranges::copy(beside(part, *hole), std::back_inserter(clear));
     }
+    Result<void> done = fill(under, overlay);
+    if (done) done = fill(clear, std::nullopt);
     vk.vkCmdEndRenderPass(raw);
     commands.keep_alive(std::move(*framebuffer));
-    return {};
+    return done;
 }
 
 }  // namespace burin::renderer

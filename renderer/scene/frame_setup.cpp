@@ -343,4 +343,23 @@ shared::DrawConstants surface_constants(const Scene& scene) {
     return c;
 }
 
+shared::DrawConstants screen_constants(const wall::Screen& screen) {
+    const Vec3 half_x = 0.5 * (screen.lower_right_world - screen.lower_left_world);
+    const Vec3 half_y = 0.5 * (screen.upper_left_world - screen.lower_left_world);
+    shared::DrawConstants c{};
+    c.world_from_local[0] = glm::vec4(glm::vec3(kGuard * half_x), 0.0f);
+    c.world_from_local[1] = glm::vec4(glm::vec3(kGuard * half_y), 0.0f);
+    c.world_from_local[3] = glm::vec4(glm::vec3(screen.lower_left_world + half_x + half_y), 1.0f);
+    return c;
+}
+
+std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene) {
+    std::vector<std::shared_ptr<const DrawnMesh>> meshes;
+    if (scene.tool.visible && scene.tool.mesh) meshes.push_back(scene.tool.mesh);
+    for (const DrawnObject& object : scene.objects) meshes.push_back(object.mesh);
+    std::ranges::sort(meshes);
+    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
+    return meshes;
+}
+
 }  // namespace burin::renderer

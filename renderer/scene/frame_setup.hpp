@@ -87,6 +87,12 @@ struct Shapes {
 // Returns the draw constants of the workpiece.
 [[nodiscard]] shared::DrawConstants surface_constants(const Scene& scene);
 
+// Returns the constants for drawing the room: world_from_local maps the viewport's corners, -1 to 1, to the plane of
+// the screen, kGuard times as far out as the picture's corners.
+[[nodiscard]] shared::DrawConstants screen_constants(const wall::Screen& screen);
+// Lists the meshes that the scene shows, each once.
+[[nodiscard]] std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene);
+
 // Converts an sRGB colour to linear light.
 [[nodiscard]] Vec3 linear_of(const Vec3& srgb);
 

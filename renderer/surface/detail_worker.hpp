@@ -17,16 +17,21 @@
 #include <vector>
 
 #include "geometry/contact/surface_tile.hpp"
-#include "renderer/surface/patch_detail.hpp"
+#include "renderer/surface/patch_groups.hpp"
 
 namespace burin::renderer {
 
+// The levels of a patch, or of a group of patches where it has members.
 struct DetailJob {
     std::uint32_t patch = 0;
     std::shared_ptr<const geometry::SurfaceTile> surface;
     std::vector<geometry::VertexLight> light;  // empty: full light
     double edge_m = 0.0;
+    std::vector<GroupMember> members = {};
+    GroupPlace group{};
+    std::uint64_t version = 0;  // of the group
     [[nodiscard]] std::vector<PatchLevel> levels() const {
+        if (!members.empty()) return group_levels(members, edge_m);
         return coarser_levels(surface->vertices, surface->indices, light, edge_m);
     }
 };

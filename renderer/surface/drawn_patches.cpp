@@ -8,7 +8,7 @@ namespace {
 
 // A screen that draws nothing for a while, say in a minimised window, collects no more boxes than this.
 constexpr std::size_t kMostBoxes = 4096;
-constexpr std::size_t kWorthAPicture = 64;  // patches with new levels
+constexpr std::size_t kWorthAPicture = 256;  // patches with new levels
 
 }  // namespace
 

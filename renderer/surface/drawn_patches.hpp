@@ -31,6 +31,7 @@ public:
     };
     // Returns the store's patches in the order of the index buffer, and the state of one of them.
     [[nodiscard]] std::span<PatchStore::Patch* const> patches() const { return store_.in_order(); }
+    [[nodiscard]] const std::map<GroupPlace, PatchGroup>& groups() const { return store_.groups(); }
     [[nodiscard]] State& of(const PatchStore::Patch& patch) { return states_[patch.slot]; }
     [[nodiscard]] const State& of(const PatchStore::Patch& patch) const { return states_[patch.slot]; }
 

@@ -12,6 +12,8 @@ namespace {
 
 // Largest error of a coarser level: below what the position of a sample can show.
 constexpr double kMostError_px = 0.5;
+// And of a group's, of a moving picture, in its larger pixels.
+constexpr double kMostMovingError_px = 0.75;
 // Edge lengths up to which light is computed at vertices: all triangles up to the first, since light changes too little
 // between their vertices to be seen, and smooth triangles up to the second.
 constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 64.0;
@@ -155,6 +157,15 @@ std::uint32_t lit_at_vertices(const PatchStore::Level& level, ShadingRate rate) 
     return 0;
 }
 
+// Returns the coarsest level of a group whose error a moving picture does not show; null where there is none.
+const PatchGroup::Level* level_of(const PatchGroup& group, const PatchPixel& pixel) {
+    const double most_m = kMostMovingError_px * pixel.at(group.shape);
+    const PatchGroup::Level* found = nullptr;
+    for (const PatchGroup::Level& level : group.levels)
+        if (level.error_m <= most_m) found = &level;
+    return found;
+}
+
 bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
     switch (reason) {
         case Hidden::no: return false;
@@ -165,6 +176,26 @@ bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
         case Hidden::behind: counts.behind += savings.cull_behind ? 1 : 0; return savings.cull_behind;
     }
     return false;
+}
+
+// Draws the groups that have a level for the purpose. Returns them, hidden ones too, in the order of their addresses.
+std::vector<const PatchGroup*> draw_groups(PatchDraws& draws, const DrawnPatches& drawn, const Scene& scene,
+                                           ImageSize size, const EyePair& eyes, std::span<const Box> occluders,
+                                           const Savings& savings) {
+    const PatchPixel pixel(scene, size);
+    const ToolZone zone(scene);
+    std::vector<const PatchGroup*> groups;
+    for (const auto& [place, group] : drawn.groups()) {
+        const PatchGroup::Level* const level = level_of(group, pixel);
+        if (level == nullptr) continue;
+        groups.push_back(&group);
+        if (spared(hidden(eyes, group.shape, occluders), savings, draws.counts)) continue;
+        append(zone.touches(group.shape) ? draws.solid : draws.fine, level->first_index, level->index_count);
+        ++draws.counts.groups;
+        draws.counts.triangles += level->index_count / 3;
+    }
+    std::ranges::sort(groups);
+    return groups;
 }
 
 }  // namespace
@@ -213,12 +244,16 @@ std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, 
 }
 
 PatchDraws choose_draws(const DrawnPatches& drawn, const Scene& scene, ImageSize size, const PixelRect& part,
-                        const Savings& savings, std::span<const Box> occluders) {
+                        const Savings& savings, std::span<const Box> occluders, bool moving) {
     PatchDraws draws;
     const std::span<PatchStore::Patch* const> patches = drawn.patches();
-    const Sight sight(eye_frusta(scene, size, part), occluders, patches);
+    const EyePair eyes = eye_frusta(scene, size, part);
+    const Sight sight(eyes, occluders, patches);
+    std::vector<const PatchGroup*> groups;
+    if (moving && !eyes.fade) groups = draw_groups(draws, drawn, scene, size, eyes, occluders, savings);
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const PatchStore::Patch& patch = *patches[i];
+        if (std::ranges::binary_search(groups, static_cast<const PatchGroup*>(patch.group))) continue;
         if (spared(sight.why_hidden(i, patch.shape), savings, draws.counts)) continue;
         const DrawnPatches::State& state = drawn.of(patch);
         const PatchStore::Level& level = patch.levels[state.level];

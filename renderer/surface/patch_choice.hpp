@@ -26,12 +26,14 @@ struct Savings {
 
 struct PatchCounts {
     std::uint32_t drawn = 0, beside = 0, turned_away = 0, behind = 0;
+    std::uint32_t groups = 0;       // drawn, in place of their patches
     std::uint32_t coarser = 0;      // drawn with fewer triangles than they have
     std::uint32_t vertex_rate = 0;  // drawn, with some or all triangles lit at vertices
     std::uint64_t triangles = 0;    // drawn, in one view
 
     PatchCounts& operator+=(const PatchCounts& other) {
         drawn += other.drawn;
+        groups += other.groups;
         beside += other.beside;
         turned_away += other.turned_away;
         behind += other.behind;
@@ -61,8 +63,10 @@ void choose_levels(DrawnPatches& drawn, const Scene& scene, ImageSize size, cons
 // position, or in its shadow.
 [[nodiscard]] std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, const Scene& before,
                                                  const Scene& now, ImageSize size, std::span<const Box> occluders);
-// Returns what has to be drawn for this part of the picture.
+// Returns what has to be drawn for this part of the picture. moving: groups of patches are drawn as one, with few
+// triangles, where they have any (patch_groups.hpp).
 [[nodiscard]] PatchDraws choose_draws(const DrawnPatches& drawn, const Scene& scene, ImageSize size,
-                                      const PixelRect& part, const Savings& savings, std::span<const Box> occluders);
+                                      const PixelRect& part, const Savings& savings, std::span<const Box> occluders,
+                                      bool moving = false);
 
 }  // namespace burin::renderer

@@ -180,44 +180,6 @@ bool differ_little(const Look& a, const Look& b) {
                kSmoothChange;
 }
 
-// A patch's triangles by colour. Those between different colours stay as they are, and so do the borders of each group.
-struct ByColour {
-    std::vector<std::uint32_t> between;
-    std::vector<std::vector<std::uint32_t>> groups;
-};
-
-ByColour by_colour(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices) {
-    ByColour parts;
-    std::vector<std::uint32_t> colours;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const std::uint32_t colour = vertices[indices[i]].colour;
-        const bool one = vertices[indices[i + 1]].colour == colour && vertices[indices[i + 2]].colour == colour;
-        std::vector<std::uint32_t>* to = &parts.between;
-        if (one) {
-            const auto known = std::ranges::find(colours, colour);
-            const auto group = static_cast<std::size_t>(known - colours.begin());
-            if (known == colours.end()) {
-                colours.push_back(colour);
-                parts.groups.emplace_back();
-            }
-            to = &parts.groups[group];
-        }
-        to->insert(to->end(), indices.begin() + static_cast<std::ptrdiff_t>(i),
-                   indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
-    }
-    return parts;
-}
-
-void append_simplified(std::vector<std::uint32_t>& out, std::span<const std::uint32_t> group,
-                       std::span<const SurfaceVertex> vertices, double error_m, double scale_m) {
-    const std::size_t begin = out.size();
-    out.resize(begin + group.size());
-    const std::size_t count =
-        meshopt_simplify(out.data() + begin, group.data(), group.size(), &vertices[0].x, vertices.size(),
-                         sizeof(SurfaceVertex), 0, static_cast<float>(error_m / scale_m), meshopt_SimplifyLockBorder);
-    out.resize(begin + count);
-}
-
 }  // namespace
 
 SmoothFirst smooth_first(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
@@ -240,21 +202,56 @@ SmoothFirst smooth_first(std::span<const SurfaceVertex> vertices, std::span<cons
     return sorted;
 }
 
+std::vector<std::vector<std::uint32_t>> by_colour(std::span<const SurfaceVertex> vertices,
+                                                  std::span<const std::uint32_t> indices) {
+    std::vector<std::vector<std::uint32_t>> parts(1);
+    std::vector<std::uint32_t> colours;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::uint32_t colour = vertices[indices[i]].colour;
+        const bool one = vertices[indices[i + 1]].colour == colour && vertices[indices[i + 2]].colour == colour;
+        std::size_t part = 0;
+        if (one) {
+            const auto known = std::ranges::find(colours, colour);
+            part = 1 + static_cast<std::size_t>(known - colours.begin());
+            if (known == colours.end()) {
+                colours.push_back(colour);
+                parts.emplace_back();
+            }
+        }
+        parts[part].insert(parts[part].end(), indices.begin() + static_cast<std::ptrdiff_t>(i),
+                           indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    }
+    return parts;
+}
+
+std::vector<std::uint32_t> simplified(std::span<const std::uint32_t> indices, std::span<const SurfaceVertex> vertices,
+                                      double error_m) {
+    std::vector<std::uint32_t> fewer(indices.size());
+    const double scale_m =
+        vertices.empty() ? 0.0 : meshopt_simplifyScale(&vertices[0].x, vertices.size(), sizeof(SurfaceVertex));
+    if (!(scale_m > 0.0)) return {indices.begin(), indices.end()};
+    fewer.resize(meshopt_simplify(fewer.data(), indices.data(), indices.size(), &vertices[0].x, vertices.size(),
+                                  sizeof(SurfaceVertex), 0, static_cast<float>(error_m / scale_m),
+                                  meshopt_SimplifyLockBorder));
+    return fewer;
+}
+
 std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
                                        std::span<const geometry::VertexLight> light, double edge_m) {
     std::vector<PatchLevel> levels;
     if (indices.empty() || !(edge_m > 0.0)) return levels;
-    const double scale_m = meshopt_simplifyScale(&vertices[0].x, vertices.size(), sizeof(SurfaceVertex));
-    if (!(scale_m > 0.0)) return levels;
-    const ByColour parts = by_colour(vertices, indices);
+    if (!(meshopt_simplifyScale(&vertices[0].x, vertices.size(), sizeof(SurfaceVertex)) > 0.0)) return levels;
+    const std::vector<std::vector<std::uint32_t>> parts = by_colour(vertices, indices);
     const Judge judge(vertices, indices, light);
     const bool all_smooth = smooth_first(vertices, indices, light).smooth == indices.size();
     std::size_t before = indices.size();
     for (const double error : kErrors) {
         PatchLevel level;
-        level.indices = parts.between;
-        for (const auto& group : parts.groups)
-            append_simplified(level.indices, group, vertices, error * edge_m, scale_m);
+        level.indices = parts.front();
+        for (std::size_t i = 1; i < parts.size(); ++i) {
+            const std::vector<std::uint32_t> fewer = simplified(parts[i], vertices, error * edge_m);
+            level.indices.insert(level.indices.end(), fewer.begin(), fewer.end());
+        }
         if (static_cast<double>(level.indices.size()) > kWorthIt * static_cast<double>(before)) continue;
         level.error_m = judge.deviation(level.indices);
         if (level.error_m == HUGE_VAL) break;  // a still coarser level would look even more different

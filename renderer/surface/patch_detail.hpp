@@ -32,6 +32,13 @@ struct SmoothFirst {
                                        std::span<const std::uint32_t> indices,
                                        std::span<const geometry::VertexLight> light);
 
+// Returns the triangles by colour: first those between different colours, then those of each colour by itself.
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> by_colour(std::span<const shared::SurfaceVertex> vertices,
+                                                                std::span<const std::uint32_t> indices);
+// Returns fewer triangles on the same vertices, with the border as it is; the surface moves about so far.
+[[nodiscard]] std::vector<std::uint32_t> simplified(std::span<const std::uint32_t> indices,
+                                                    std::span<const shared::SurfaceVertex> vertices, double error_m);
+
 struct PatchLevel {
     // Three a triangle, of the patch's own vertices, ordered as smooth_first does.
     std::vector<std::uint32_t> indices;

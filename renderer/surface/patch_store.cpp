@@ -95,6 +95,8 @@ void PatchStore::release(std::uint32_t id) {
     const auto found = placed_.find(id);
     if (found == placed_.end()) return;
     leave(found->second);
+    --found->second.group->patches;
+    changed_group(*found->second.group);
     release_levels(found->second, 0);
     vertex_ranges_.release(found->second.first_vertex, found->second.vertex_count);
     placed_.erase(found);
@@ -118,6 +120,7 @@ Result<std::uint64_t> PatchStore::flush(gpu::Device& device, gpu::Commands& comm
 void PatchStore::remove_all() {
     for_each_picture([&](DrawnPatches& drawn) { drawn.all_removed(bounds_); });
     placed_.clear();
+    groups_.clear();
     in_order_.clear();
     triangles_ = 0;
     measured_ = false;
@@ -244,6 +247,9 @@ Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std
         return done;
     }
     patch.slot = slot ? *slot : take_slot();
+    patch.group = &groups_.of(patch.shape);
+    ++patch.group->patches;
+    changed_group(*patch.group);
     enter(placed_.emplace(id, std::move(patch)).first->second);
     return {};
 }
@@ -311,7 +317,7 @@ Result<void> PatchStore::place_ready_levels(gpu::Device& device, gpu::Commands& 
     levels_ready_ = false;
     for (auto& [id, patch] : placed_)
         if (const auto done = place_ready(device, commands, patch); !done) return done;
-    return {};
+    return place_ready_groups(device, commands);
 }
 
 std::optional<DetailJob> PatchStore::next_detail(bool resting) {
@@ -334,6 +340,10 @@ bool PatchStore::wanted(const Patch& patch) const {
 }
 
 const PatchStore::Patch* PatchStore::take(DetailDone done) {
+    if (!done.job.members.empty()) {
+        take_group(std::move(done));
+        return nullptr;
+    }
     const auto found = placed_.find(done.job.patch);
     if (found == placed_.end()) return nullptr;
     Patch& patch = found->second;
@@ -341,6 +351,60 @@ const PatchStore::Patch* PatchStore::take(DetailDone done) {
     patch.ready = std::move(done.levels);
     levels_ready_ = levels_ready_ || !patch.ready.empty();
     return patch.ready.empty() ? nullptr : &patch;
+}
+
+// ---- Groups
+
+// Drops the levels of a group, one of whose patches has another mesh.
+void PatchStore::changed_group(PatchGroup& group) {
+    for (const PatchGroup::Level& level : group.levels) index_ranges_.release(level.first_index, level.index_count);
+    group.levels.clear();
+    group.ready.clear();
+    ++group.version;
+    group.changed_at = flushes_;
+}
+
+std::optional<DetailJob> PatchStore::next_group(bool resting) {
+    for (auto& [place, group] : groups_.all()) {
+        const bool changes = flushes_ < group.changed_at + kRestingFlushes;
+        if (group.patches == 0 || group.asked == group.version || (changes && !resting)) continue;
+        group.asked = group.version;
+        DetailJob job;
+        job.group = place;
+        job.version = group.version;
+        Box bounds;
+        for (const auto& [id, patch] : placed_) {
+            if (patch.group != &group) continue;
+            job.members.push_back({patch.surface, patch.first_vertex});
+            job.edge_m = std::max(job.edge_m, patch.shape.edge_m);
+            bounds.include(patch.shape.bounds.lo);
+            bounds.include(patch.shape.bounds.hi);
+        }
+        group.shape = {.bounds = bounds, .center = bounds.center(), .radius_m = 0.5 * glm::length(bounds.extent())};
+        return job;
+    }
+    return std::nullopt;
+}
+
+void PatchStore::take_group(DetailDone done) {
+    const auto found = groups_.all().find(done.job.group);
+    if (found == groups_.all().end() || found->second.version != done.job.version) return;
+    found->second.ready = std::move(done.levels);
+    levels_ready_ = levels_ready_ || !found->second.ready.empty();
+}
+
+Result<void> PatchStore::place_ready_groups(gpu::Device& device, gpu::Commands& commands) {
+    for (auto& [place, group] : groups_.all()) {
+        for (const PatchLevel& level : std::exchange(group.ready, {})) {
+            const auto count = static_cast<std::uint32_t>(level.indices.size());
+            const auto first = room_for(device, commands, count, false);
+            if (!first) return std::unexpected(first.error());
+            if (!*first) break;
+            group.levels.push_back({**first, count, level.error_m});
+            upload_indices(commands, **first, level.indices);
+        }
+    }
+    return {};
 }
 
 // ---- Order, bounds and counts

@@ -46,6 +46,7 @@ public:
         std::vector<Level> levels;      // from fine to coarse; the first always exists
         std::vector<PatchLevel> ready;  // computed, not uploaded yet
         bool refined = false;           // nothing more is to be computed, or a job is under way
+        PatchGroup* group = nullptr;    // to which it belongs
         std::uint64_t changed_at = 0;   // number of the last flush that replaced its surface or light; 0: none
     };
 
@@ -61,12 +62,15 @@ public:
     // Returns a job for the next patch that any screen wants and that has no levels yet, round robin. resting: also
     // patches that changed a moment ago and may soon change again.
     [[nodiscard]] std::optional<DetailJob> next_detail(bool resting);
+    // Returns one for the next group whose levels are not known, likewise.
+    [[nodiscard]] std::optional<DetailJob> next_group(bool resting);
     // Accepts a patch's levels if the patch has not changed since; they are uploaded by the next flush. Returns the
-    // patch, or null where none were accepted.
+    // patch, or null where none were accepted, and of a group.
     const Patch* take(DetailDone done);
 
     // Returns the patches in the order of the index buffer, as of the last flush.
     [[nodiscard]] std::span<Patch* const> in_order() const { return in_order_; }
+    [[nodiscard]] const std::map<GroupPlace, PatchGroup>& groups() const { return groups_.all(); }
     [[nodiscard]] const gpu::Buffer& vertex_buffer() const { return vertices_; }
     [[nodiscard]] const gpu::Buffer& light_buffer() const { return lights_; }
     [[nodiscard]] const gpu::Buffer& index_buffer() const { return indices_; }
@@ -107,6 +111,9 @@ private:
     void upload_finest(gpu::Commands& commands, Patch& patch);
     void upload_indices(gpu::Commands& commands, std::uint32_t first, std::span<const std::uint32_t> indices);
     [[nodiscard]] Result<void> place_ready(gpu::Device& device, gpu::Commands& commands, Patch& patch);
+    void changed_group(PatchGroup& group);
+    void take_group(DetailDone done);
+    [[nodiscard]] Result<void> place_ready_groups(gpu::Device& device, gpu::Commands& commands);
     [[nodiscard]] Result<void> place_ready_levels(gpu::Device& device, gpu::Commands& commands);
     void report_change(const Patch& was, const Patch& now, bool replaced) const;
     void upload_light(gpu::Commands& commands, const Patch& patch);
@@ -118,6 +125,7 @@ private:
     std::map<std::uint32_t, Pending> pending_;
     std::map<std::uint32_t, std::vector<geometry::VertexLight>> pending_light_;
     std::map<std::uint32_t, Patch> placed_;
+    PatchGroups groups_;
     bool cleared_ = false, levels_ready_ = false;
     std::uint64_t bytes_ = 0;  // uploaded by the current flush
     RangeAllocator vertex_ranges_, index_ranges_;

@@ -53,10 +53,11 @@ void SurfaceStore::refine_beside(bool resting) {
         patches_.for_each_picture([&](DrawnPatches& drawn) { drawn.levels_came(*patch); });
     }
     while (detail_.waiting() < kAhead) {
-        auto job = patches_.next_detail(resting);
+        auto job = patches_.next_group(resting);
+        if (!job) job = patches_.next_detail(resting);
         if (!job) break;
+        work_.detail_jobs += job->members.empty() ? 1 : 0;  // not those of groups
         detail_.give(std::move(*job));
-        ++work_.detail_jobs;
     }
     const bool all_done = resting && detail_.waiting() == 0;
     patches_.for_each_picture([&](DrawnPatches& drawn) { drawn.levels_are_there(all_done); });

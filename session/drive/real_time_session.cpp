@@ -103,7 +103,8 @@ std::optional<FrameInput> LiveFrames::next_input() {
 
 // Waits until it is time for the next frame, plans it, and returns what has happened in the windows.
 std::vector<InputEvent> LiveFrames::wait_for_frame() {
-    const bool active = presenter_.takes_turns(session_) || clock_.now_ns() - changed_ns_ < kActive_ns;
+    const bool active = presenter_.takes_turns(session_) || presenter_.owes_full_picture() ||
+                        clock_.now_ns() - changed_ns_ < kActive_ns;
     presenter_.refine_beside(!active);
     display_.shown_at(presenter_.refresh_Hz());
     if (active) return wait_for_refresh();
@@ -258,6 +259,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
         tracker = std::move(*port);
     }
 
+    if (options.live.detail == DetailChoice::automatic) presenter->draw_less_in_motion();
     LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get(), heard->where);
     const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), session.has_activity());
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,

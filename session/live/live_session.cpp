@@ -24,6 +24,12 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     for (std::size_t hand = 0; hand < hands().hands(); ++hand) of_hands.push_back(tools_[hands().first_part(hand)]);
     const haptics::ToolState tool = tool_in_use();
     times_.sampled(start_ns_ + head_sampled_ns(input), tool.time_ns);
+    if (tool.buttons != 0) times_.works();
+    for (const InputEvent& event : input.events) {
+        const auto* click = std::get_if<MouseClick>(&event.input);
+        if (click != nullptr && click->pressed && click->button == MouseButton::left)
+            times_.pressed(start_ns_ + event.time_ns);
+    }
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
     last_step_ns_ = input.time_ns;
     if (!input.events.empty()) files_.note_line(input.events.back().line);
@@ -115,7 +121,7 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     }
     for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
     for (HoldOrder& order : orders.holds) give(scene_.holding(std::move(order)));
-    if (const auto lamp = scene_.carved() != nullptr ? lamp_.look(state_) : std::nullopt)
+    if (const auto lamp = scene_.carved() != nullptr ? lamp_.look(state_, last_step_ns_) : std::nullopt)
         give(scene_.carving(sculpt::LightFrom{*lamp}, state_.hand));
     for (const Asked& message : orders.messages) {
         if (message.line == 0) {

@@ -11,8 +11,10 @@
 namespace burin::session {
 namespace {
 
-// Turn of the lamp, in radians, after which shadows are computed anew while the workpiece is being turned.
-constexpr double kShadowsFollow = 0.1;
+// How long a workpiece must not have turned until its shadows are computed anew: all of its surface is, which takes a
+// processor's core for a second, and a turn that goes on would have it do so without end.
+constexpr Nanoseconds kShadowsFollow_ns = 150'000'000;
+constexpr double kSame = 1e-9;  // of two directions
 
 // Returns whether it is the device, and not what is done with it, that takes the force off.
 bool is_of_device(haptics::GateCause cause) {
@@ -161,11 +163,16 @@ std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& setting
     return misfit;
 }
 
-// While the workpiece turns its shadows follow in steps.
-std::optional<compute::Lamp> LampWatch::look(const SessionState& state) {
+std::optional<compute::Lamp> LampWatch::look(const SessionState& state, Nanoseconds time_ns) {
     const Vec3 direction = inverse(state.world_from_object.orientation) * renderer::direction_to_light();
-    const bool turning = state.desk.drag.has_value();
-    if (glm::length(direction - direction_object_) <= (turning ? kShadowsFollow : 1e-9)) return std::nullopt;
+    const bool first = direction_object_ == Vec3(0.0);
+    const bool turns = glm::length(direction - seen_object_) > kSame;
+    if (turns) turned_ns_ = time_ns;
+    seen_object_ = direction;
+    if (glm::length(direction - direction_object_) <= kSame) return std::nullopt;
+    // Once the button that turns it is up, the next frame in which it rests is soon enough.
+    const Nanoseconds rests_ns = turns || state.desk.drag ? kShadowsFollow_ns : 0;
+    if (!first && time_ns - turned_ns_ < rests_ns) return std::nullopt;
     direction_object_ = direction;
     return compute::Lamp{direction, renderer::kLightHalfAngleTangent};
 }

@@ -58,11 +58,13 @@ private:
 // turns is lit from elsewhere.
 class LampWatch {
 public:
-    // Returns the lamp in the object frame when it has turned enough to compute shadows anew, and at first.
-    [[nodiscard]] std::optional<compute::Lamp> look(const SessionState& state);
+    // Returns the lamp in the object frame when the workpiece has turned and has rested since, and at first. While it
+    // turns, its shadows turn with it.
+    [[nodiscard]] std::optional<compute::Lamp> look(const SessionState& state, Nanoseconds time_ns);
 
 private:
-    Vec3 direction_object_{0.0};  // last returned; zero: not yet
+    Vec3 direction_object_{0.0}, seen_object_{0.0};  // last returned, zero: not yet; and at the last look
+    Nanoseconds turned_ns_ = 0;                      // when it was another than at the look before
 };
 
 // Watches the devices of the hands: one that faults, stops sending or reports a place that cannot be gives no force,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/frame/redraw.hpp"
 #include "renderer/output/canvas.hpp"
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
@@ -50,22 +51,29 @@ Result<void> SessionPicture::fit(ImageSize eye, Views views) {
 }
 
 Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<renderer::Scene> scene, ImageSize output,
-                                  const wall::OutputSettings& settings) {
+                                  const wall::OutputSettings& settings, std::uint32_t pixel) {
     if (const auto fits = fit(wall::eye_size(settings.mode, output), views_shown(settings)); !fits) return fits;
     const bool was_dark = std::exchange(dark_, !scene.has_value());
     if (dark_) {
         stats_ = {};
         if (!was_dark) stats_.parts = {stats_.part = all_of(eye_)};
+        scene_.reset();
         return {};
     }
     if (was_dark) renderer_->forget_picture();
     if (std::exchange(renderer_in_full_, full_) != full_) renderer_->set_savings({.coarser_levels = !full_});
     renderer_->show_panel(standing_ ? painter_->view() : VK_NULL_HANDLE);
     scene->panel = standing_;
-    const auto recorded = renderer_->record(commands, *scene);
+    const auto recorded = renderer_->record(commands, *scene, pixel);
     if (!recorded) return std::unexpected(recorded.error());
     stats_ = *recorded;
+    scene_ = std::move(scene);
     return {};
+}
+
+PictureChange SessionPicture::change_to(const std::optional<renderer::Scene>& scene) const {
+    if (!scene_ || !scene) return {};
+    return {.room = !renderer::same_room(*scene_, *scene), .tool = scene_->tool != scene->tool};
 }
 
 Result<void> SessionPicture::paint(gpu::Commands& commands, const std::optional<PanelPicture>& panel) {

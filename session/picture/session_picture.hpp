@@ -25,6 +25,11 @@ struct PanelPicture {
     std::optional<renderer::PanelStand> stand = std::nullopt;  // in the scene; none: at the right of each eye's picture
 };
 
+// What moved between two scenes: all of the picture, or the tool before it.
+struct PictureChange {
+    bool room = false, tool = false;
+};
+
 class SessionPicture {
 public:
     // samples: see RendererOptions. The surface is flushed before each draw() (SurfaceStore).
@@ -35,8 +40,11 @@ public:
     void draw_in_full(bool full) { full_ = full; }
     // Records the scene for an output of this size and mode; without a scene it is dark. stats().parts says what of the
     // eyes' pictures changed.
+    // pixel: see Renderer::record.
     [[nodiscard]] Result<void> draw(gpu::Commands& commands, std::optional<renderer::Scene> scene, ImageSize output,
-                                    const wall::OutputSettings& settings);
+                                    const wall::OutputSettings& settings, std::uint32_t pixel = 1);
+    // Returns how the scene differs from that of the last picture, before draw().
+    [[nodiscard]] PictureChange change_to(const std::optional<renderer::Scene>& scene) const;
     // Paints the panel of the next picture, or hides it where there is none; before draw().
     [[nodiscard]] Result<void> paint(gpu::Commands& commands, const std::optional<PanelPicture>& panel);
     // Returns what the last draw() and paint() changed of a target; one rectangle with everything where that is
@@ -79,6 +87,7 @@ private:
     ImageSize eye_;
     Views views_ = Views::both;  // which the renderer draws
     renderer::RenderStats stats_;
+    std::optional<renderer::Scene> scene_;  // of the last picture; none: it was dark
 };
 
 }  // namespace burin::session

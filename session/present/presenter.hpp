@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "session/live/live_session.hpp"
+#include "session/picture/drawn_detail.hpp"
 #include "session/picture/session_picture.hpp"
 #include "session/picture/session_surface.hpp"
 #include "session/present/direct_output.hpp"
@@ -64,6 +65,11 @@ public:
     [[nodiscard]] std::vector<Input> inputs(double wait_s);
     void wake();  // any thread
 
+    // Has frames from now on draw less while the view moves, where the device is a processor (drawn_detail.hpp). Only
+    // for a session in real time: what is drawn depends on how long it takes.
+    void draw_less_in_motion() { draws_less_ = true; }
+    // Returns whether the full picture is still to come; a frame after its rest draws it.
+    [[nodiscard]] bool owes_full_picture() const { return burin::session::owes_full_picture(detail_); }
     // Draws one frame, if anything is new; returns whether it was. frame_ns: when it is to be seen, in session time.
     [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns);
     // Returns whether eyes are shown by turns, which needs a picture at each refresh.
@@ -119,7 +125,9 @@ private:
     // state it can show.
     [[nodiscard]] Result<void> fit_mode(std::size_t screen, wall::StereoMode mode);
     [[nodiscard]] Result<bool> draw_screens(LiveSession& session);
-    [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, LiveSession& session);
+    [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, LiveSession& session,
+                                           std::optional<renderer::Scene> scene);
+    void choose_detail(LiveSession& session, std::span<const std::optional<renderer::Scene>> scenes);
     static bool note_changes(ScreenStage& screen);
     [[nodiscard]] Result<void> show_screens(Nanoseconds frame_ns);
     [[nodiscard]] Result<void> show(ScreenStage& screen, Nanoseconds frame_ns);
@@ -138,7 +146,11 @@ private:
     std::unique_ptr<SessionWaker> waker_;  // present where no window waits for events
     std::vector<std::string> messages_;
     std::optional<gpu::Submission> submitted_;  // the last of this frame's submissions; done when all are
-    int losses_ = 0;                            // device losses since the last picture
+    MonotonicClock clock_;
+    bool draws_less_ = false;
+    DetailState detail_;
+    std::optional<WholePicture> last_whole_;  // of the frame before, if it drew one
+    int losses_ = 0;                          // device losses since the last picture
 };
 
 }  // namespace burin::session

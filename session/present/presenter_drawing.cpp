@@ -29,6 +29,7 @@ bool Presenter::takes_turns(const LiveSession& session) const {
 }
 
 Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
+    const Nanoseconds began_ns = clock_.now_ns();
     surface_.take(session.take_surface_updates(), session.lattice_origin_object());
     if (const auto fitted = fit_modes(session); !fitted) return std::unexpected(fitted.error());
     const Result<bool> drawn = draw_screens(session);
@@ -37,6 +38,8 @@ Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
     session.times().reached(FrameStage::show);
     if (const auto done = wait_for_device(); !done) return std::unexpected(done.error());
     session.times().reached(FrameStage::draw);
+    if (*drawn && screens_[wall_->main].picture->stats().whole)
+        last_whole_ = WholePicture{detail_.pixel, clock_.now_ns() - began_ns};
     take_screenshots(session);
     if (*drawn) losses_ = 0;
     return drawn;
@@ -90,11 +93,16 @@ Result<bool> Presenter::draw_screens(LiveSession& session) {
     if (!commands) return std::unexpected(commands.error());
     const auto uploaded = surface_.upload(*commands);
     if (!uploaded) return std::unexpected(uploaded.error());
+    std::vector<std::optional<renderer::Scene>> scenes(screens_.size());
+    for (std::size_t i = 0; i < screens_.size(); ++i)
+        if (!is_empty(screens_[i].place.size)) scenes[i] = session.scene_on(i);
+    choose_detail(session, scenes);
     bool any = false;
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         screens_[i].anew = false;
         if (is_empty(screens_[i].place.size)) continue;  // minimised
-        if (const auto drawn = draw_screen(*commands, i, session); !drawn) return std::unexpected(drawn.error());
+        const auto drawn = draw_screen(*commands, i, session, std::move(scenes[i]));
+        if (!drawn) return std::unexpected(drawn.error());
         any = any || screens_[i].anew;
     }
     session.times().reached(FrameStage::record);
@@ -105,12 +113,29 @@ Result<bool> Presenter::draw_screens(LiveSession& session) {
     return any;
 }
 
-Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, LiveSession& session) {
+// Decides with how many pixels all screens are drawn, and notes what moves.
+void Presenter::choose_detail(LiveSession& session, std::span<const std::optional<renderer::Scene>> scenes) {
+    PictureChange change;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const PictureChange one = screens_[i].picture->change_to(scenes[i]);
+        change = {change.room || one.room, change.tool || one.tool};
+    }
+    session.times().moved({.view = change.room, .tool = change.tool});
+    const bool less = draws_less_ && device_->info().is_software() && !session.files().wants_pictures();
+    detail_ = step_detail(detail_, {.now_ns = clock_.now_ns(),
+                                    .in_full = !less,
+                                    .moves = change.room,
+                                    .last = std::exchange(last_whole_, std::nullopt)})
+                  .state;
+}
+
+Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, LiveSession& session,
+                                    std::optional<renderer::Scene> scene) {
     ScreenStage& screen = screens_[i];
     SessionPicture& picture = *screen.picture;
     if (const auto painted = picture.paint(commands, session.panel_on(i)); !painted) return painted;
     picture.draw_in_full(session.files().wants_pictures());
-    const auto drawn = picture.draw(commands, session.scene_on(i), screen.place.size, screen.settings);
+    const auto drawn = picture.draw(commands, std::move(scene), screen.place.size, screen.settings, detail_.pixel);
     if (!drawn) return drawn;
     if (i == wall_->main) session.note_drawn(picture.stats());
     screen.anew = note_changes(screen);

@@ -34,6 +34,9 @@ inline constexpr std::size_t kMostHands = 4;
 // Reads what --device was given: one device alone, or a named one for each hand. Fails on two of one name.
 [[nodiscard]] Result<void> set_devices(struct LiveOptions& live, const std::vector<std::string>& given);
 
+// How much of a picture is drawn while the view moves (session/picture/drawn_detail.hpp).
+enum class DetailChoice { automatic, full };
+
 struct LiveOptions {
     bool live = false;  // explicitly requested; also implied when there is neither a stroke nor an output
     std::string input;  // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
@@ -60,7 +63,8 @@ struct LiveOptions {
     std::optional<double> panel_scale = std::nullopt;
     bool first_steps = false;  // a card of them is shown at first; no option of the command line
     int width = 1280, height = 720;
-    std::uint32_t samples = 0;    // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
+    std::uint32_t samples = 0;  // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
+    DetailChoice detail = DetailChoice::automatic;
     std::string screenshots;      // folder for screenshots with a relative name; empty: the working directory
     std::string outputs;          // folder for all files of an input; empty: one named after the input
     bool writes_nothing = false;  // files that are asked for are left out

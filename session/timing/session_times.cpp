@@ -52,6 +52,12 @@ void SessionTimes::cut(Nanoseconds cut_ns) {
     if (cut_ns > cut_drawn_ns_) frame_.times.cut_ns = cut_ns;
 }
 
+void SessionTimes::moved(const FrameMotion& motion) {
+    frame_.motion.view = frame_.motion.view || motion.view;
+    frame_.motion.tool = frame_.motion.tool || motion.tool;
+    frame_.motion.works = frame_.motion.works || motion.works || frame_.times.cut_ns.has_value();
+}
+
 void SessionTimes::finished(bool drawn, const DisplayBeat& beat) {
     if (!begun_) return;
     beat_ = beat;
@@ -66,6 +72,8 @@ void SessionTimes::finished(bool drawn, const DisplayBeat& beat) {
     frame_.times.draw_ns = frame_.stage_ns[static_cast<std::size_t>(FrameStage::draw)];
     frame_.processor_ns = processor_() - processor_at_begin_ns_;
     if (frame_.times.cut_ns) cut_drawn_ns_ = *frame_.times.cut_ns;
+    if (pressed_ns_ && frame_.times.cut_ns && *frame_.times.cut_ns >= *pressed_ns_)
+        frame_.click_ns = frame_.times.seen_ns - *std::exchange(pressed_ns_, std::nullopt);
     history_.use({.display_ns = beat.period_ns / 2, .right_eye_later_ns = beat.right_eye_later_ns});
     history_.add(frame_.times);
     if (keeps_) {

@@ -45,11 +45,20 @@ struct DisplayBeat {
 // where vblanks are unknown.
 [[nodiscard]] Nanoseconds begins_to_show_ns(Nanoseconds handed_ns, const DisplayBeat& beat);
 
+// What a frame shows that the one before did not: for people, what they were doing.
+struct FrameMotion {
+    bool view = false, tool = false;  // all of the picture has changed; the tool has moved
+    bool works = false;               // its button is down, or what it cut is shown
+};
+
 struct TimedFrame {
     FrameTimes times;
+    FrameMotion motion;
     FrameAges ages;
     std::array<Nanoseconds, kFrameStages> stage_ns{};
     Nanoseconds processor_ns = 0;  // of all threads, from begin() to finished()
+    // From a press of the button until this frame is seen, which is the first to show a cut of it.
+    std::optional<Nanoseconds> click_ns;
 };
 
 // Returns the processor time of all threads of this process.
@@ -68,6 +77,9 @@ public:
     // ---- Reported by the session, about the frame in progress.
     void sampled(Nanoseconds head_ns, Nanoseconds tool_ns);  // 0: no such sample
     void cut(Nanoseconds cut_ns);                            // newest cut on the surface drawn; 0: none
+    void moved(const FrameMotion& motion);                   // besides what cut() and works() tell
+    void works() { frame_.motion.works = true; }
+    void pressed(Nanoseconds pressed_ns) { pressed_ns_ = pressed_ns; }  // a button that may begin a cut
 
     // ---- Results.
     [[nodiscard]] bool running() const { return begun_; }
@@ -95,7 +107,8 @@ private:
     TimedFrame frame_;  // the frame in progress
     bool begun_ = false, keeps_ = false;
     Nanoseconds last_ns_ = 0, processor_at_begin_ns_ = 0;
-    Nanoseconds cut_drawn_ns_ = 0;  // newest cut that earlier frames have shown
+    std::optional<Nanoseconds> pressed_ns_;  // no cut of it has been shown yet
+    Nanoseconds cut_drawn_ns_ = 0;           // newest cut that earlier frames have shown
     std::uint64_t drawn_ = 0, skipped_ = 0;
     bool skipped_before_ = false;  // whether the previous frame was skipped
     Nanoseconds judged_ns_ = 0;

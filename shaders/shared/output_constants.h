@@ -34,8 +34,10 @@ BURIN_CONSTANT kOutputCodedOverlay = 32;  // the overlay's colours are sRGB valu
 BURIN_CONSTANT kOutputPhaseX = 64;        // the target's column 0 is the second eye's (columns, checkerboard)
 BURIN_CONSTANT kOutputPhaseY = 128;       // likewise row 0 (rows, checkerboard)
 BURIN_CONSTANT kOutputOverlay = 256;      // an overlay is present
+BURIN_CONSTANT kOutputSamePixels = 512;   // kModeOneEye: the target has as many pixels as the eye's picture
 // Flags that a pipeline is specialised for; the others are passed with each target.
-BURIN_CONSTANT kOutputBuiltIn = kOutputEncode | kOutputWarp | kOutputBlend | kOutputCodedOverlay | kOutputOverlay;
+BURIN_CONSTANT kOutputBuiltIn =
+    kOutputEncode | kOutputWarp | kOutputBlend | kOutputCodedOverlay | kOutputOverlay | kOutputSamePixels;
 
 struct OutputConstants {
     // Columns of the homography; w of the first: 1 / gamma, of the second: the curve of the blend.

@@ -87,9 +87,44 @@ TEST(ProfileReport, TheTableHasALineForEachFigure) {
     EXPECT_EQ(lines_with(table, "100 frames drawn (20.0 a second), 33 skipped, 1.60 cores busy"), 1u);
     EXPECT_EQ(lines_with(table, "5000 ticks, 7 late, 3 deadlines missed"), 1u);
     EXPECT_EQ(lines_with(table, "warning: too late"), 1u);
-    EXPECT_EQ(lines_with(table, "median"), 3u);
+    EXPECT_EQ(lines_with(table, "median"), 4u);
     EXPECT_EQ(lines_with(table, "nan"), 0u);
     EXPECT_EQ(lines_with(table, "at rest"), 0u);
+}
+
+// Ten frames of each kind: turning 50 ms apart, carving 40, looking 20; a cut that is seen 100 ms after its click.
+TEST(ProfileReport, TellsWhatAPersonsFramesWereGivenBesideWhatIsAimedAt) {
+    ProfiledRun run;
+    Nanoseconds seen_ns = 1000 * kMs;
+    const auto add = [&](const session::FrameMotion& motion, Nanoseconds after_ns) {
+        session::FrameTimes before;
+        before.seen_ns = seen_ns;
+        session::TimedFrame frame;
+        frame.motion = motion;
+        frame.processor_ns = 7 * kMs;
+        frame.times.seen_ns = seen_ns += after_ns;
+        frame.ages = session::ages_of(frame.times, &before, {});
+        run.record.frames.push_back(frame);
+    };
+    for (int i = 0; i < 10; ++i) {
+        add({.view = true, .tool = true}, 50 * kMs);
+        add({.tool = true, .works = true}, 40 * kMs);
+        add({.tool = true}, 20 * kMs);
+        add({}, 900 * kMs);
+    }
+    run.record.frames[1].click_ns = 100 * kMs;
+    const Json described = describe_run(run);
+    EXPECT_DOUBLE_EQ(described["doing"]["turning"]["drawn_per_s"].get<double>(), 20.0);
+    EXPECT_DOUBLE_EQ(described["doing"]["carving"]["drawn_per_s"].get<double>(), 25.0);
+    EXPECT_DOUBLE_EQ(described["doing"]["looking"]["drawn_per_s"].get<double>(), 50.0);
+    EXPECT_DOUBLE_EQ(described["doing"]["looking"]["aim_per_s"].get<double>(), 30.0);
+    EXPECT_DOUBLE_EQ(described["click_to_cut_ms"]["median"].get<double>(), 100.0);
+    EXPECT_DOUBLE_EQ(described["click_to_cut_ms"]["frames"].get<double>(), 2.5);
+    const std::string table = profile_table(described);
+    EXPECT_EQ(lines_with(table, "  turning                       20.0          30       50.00                7.00"),
+              1u);
+    EXPECT_EQ(lines_with(table, "until its cut is seen: 100.00 ms in the median, 100.00 at worst; 2.5 frames, aim 2"),
+              1u);
 }
 
 TEST(ProfileReport, RestIsToldByItself) {

@@ -7,6 +7,7 @@
 #include "session/panel/panel.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::session {
 namespace {
@@ -134,27 +135,31 @@ TEST(TrackerWatch, TellsOfALossAndOfItsEndOnce) {
     EXPECT_EQ(watch.report().state, wall::TrackerState::ok);
 }
 
-TEST(LampWatch, FollowsATurningWorkpieceInStepsAndARestingOneAtOnce) {
+TEST(LampWatch, ATurningWorkpieceIsNotLitAnewUntilItHasRested) {
     SessionState state;
     LampWatch watch;
-    const auto first = watch.look(state);
+    Nanoseconds now_ns = 0;
+    const auto look = [&](Nanoseconds later_ns) { return watch.look(state, now_ns += later_ns * kMs); };
+    const auto first = look(0);
     ASSERT_TRUE(first) << "the carving side does not know the lamp yet";
-    EXPECT_FALSE(watch.look(state));
+    EXPECT_FALSE(look(16));
     const auto turn = [&](double angle_rad) {
         state.world_from_object.orientation = glm::angleAxis(angle_rad, Vec3(1.0, 0.0, 0.0));
     };
     state.desk.drag.emplace();
-    turn(0.02);
-    EXPECT_FALSE(watch.look(state)) << "too little while it turns";
-    turn(0.4);
-    EXPECT_TRUE(watch.look(state));
-    turn(0.42);
-    EXPECT_FALSE(watch.look(state));
+    for (int i = 1; i < 100; ++i) {
+        turn(0.02 * i);
+        EXPECT_FALSE(look(16)) << "all of its surface would be lit for a moment";
+    }
+    EXPECT_FALSE(look(100));
+    EXPECT_TRUE(look(60)) << "the hand holds it still";
+    turn(1.0);
+    EXPECT_FALSE(look(16));
     state.desk.drag.reset();
-    const auto last = watch.look(state);
+    const auto last = look(16);
     ASSERT_TRUE(last) << "it rests where it is";
     EXPECT_GT(glm::length(last->direction_object - first->direction_object), 0.1);
-    EXPECT_FALSE(watch.look(state));
+    EXPECT_FALSE(look(16));
 }
 
 TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
