@@ -99,6 +99,7 @@ std::string felt_settings(const session::SculptOptions& options, const sculpt::T
                       {"resolution", options.workpiece.resolution},
                       {"close_holes", options.workpiece.close_holes},
                       {"weld_m", optional_json(options.workpiece.weld_m)},
+                      {"room", optional_json(options.workpiece.room)},
                       {"units", units ? std::string(name_of(*units)) : std::string()}}},
                     {"tool",
                      {{"shape", tool.shape},
@@ -133,6 +134,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     reader.number("workpiece", "resolution", o.workpiece.resolution, session::kResolutionBounds);
     reader.flag("workpiece", "close_holes", o.workpiece.close_holes);
     reader.maybe_later("workpiece", "weld_m", o.workpiece.weld_m);
+    reader.maybe_later("workpiece", "room", o.workpiece.room);
     reader.text("workpiece", "units", units);
     reader.text("tool", "shape", o.tool.shape);
     reader.text("tool", "operation", operation);

@@ -17,6 +17,7 @@
 #include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
 #include "app/world_command.hpp"
+#include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
 #include "gpu/device.hpp"
 #include "session/drive/session.hpp"
@@ -82,6 +83,13 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
     command.option("--resolution", options.workpiece.resolution, "Lattice cells along the longest side")
         .within(session::kResolutionBounds)
         .show_default();
+    command
+        .option(
+            "--room", options.workpiece.room,
+            formatted("Empty room on every side of the workpiece for what is added, as a share of its longest side; "
+                      "else %g for a person, and where a --stroke adds material, or 0",
+                      sculpt::kUsualRoom))
+        .within(session::kRoomBounds);
     command.choice("--engine", options.engine, "auto, cpu or vulkan",
                    {{"auto", sculpt::EngineChoice::automatic},
                     {"cpu", sculpt::EngineChoice::cpu},
@@ -249,7 +257,10 @@ int run(int argc, char** argv) {
     const bool felt_recording = records_a_felt_stroke(sculpt_options);
     if (sculpt.parsed() && !felt_recording && session::wants_session(sculpt_options))
         return finish(run_recorded_session(sculpt_options, "sculpt"));
-    if (sculpt.parsed()) return finish(app::sculpt(sculpt_options));
+    if (sculpt.parsed()) {
+        session::settle_room(sculpt_options);
+        return finish(app::sculpt(sculpt_options));
+    }
     if (bench.parsed()) return finish(bench.run());
     if (wall.parsed()) return finish(wall.run());
     if (world.parsed() && !world.misuse().empty()) {

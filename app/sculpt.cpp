@@ -77,8 +77,7 @@ Result<void> check_for_a_stroke(const session::SculptOptions& options) {
     return {};
 }
 
-void say_that_nothing_was_touched(const sculpt::Sculpture& carving) {
-    const Box box = sculpt::workpiece_bounds(carving.surface().lattice());
+void say_that_nothing_was_touched(const Box& box) {
     std::fprintf(stderr,
                  "burin: the tool has touched nothing; the workpiece lies between (%g, %g, %g) and (%g, %g, %g) mm, "
                  "and the stroke's file is in metres\n",
@@ -114,8 +113,8 @@ Result<ChosenTool> choose_tool(const session::SculptOptions& options, std::optio
 
 // Tells the user what the tool's file was read as, and whether a tool that is used suits the workpiece; returns the
 // tool's part of the report.
-Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& material, const sculpt::Sculpture& carving,
-                       bool is_used) {
+Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& material, double longest_side_m,
+                       double cell_m, bool is_used) {
     Json report = sculpt::describe_tool(chosen.options, material);
     if (chosen.settings.shape.kind == sculpt::ToolKind::mesh) {
         const auto size = size_of_file(chosen.settings.shape);
@@ -123,9 +122,7 @@ Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& mater
         report["size"] = *size;
         std::printf("%s\n", size->c_str());
     }
-    const compute::Lattice& lattice = carving.surface().lattice();
-    const auto misfit = sculpt::misfit(chosen.settings, chosen.tool,
-                                       sculpt::longest_side_m(sculpt::workpiece_bounds(lattice)), lattice.spacing_m);
+    const auto misfit = sculpt::misfit(chosen.settings, chosen.tool, longest_side_m, cell_m);
     if (!is_used || !misfit) return report;
     std::fprintf(stderr, "burin: %s\n", misfit->c_str());
     report["misfit"] = *misfit;
@@ -219,7 +216,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
     for (const std::string& path : options.exports) {
         if (const auto ok = sculpt::check_precision(path, workpiece->solid.lattice); !ok) return ok;
     }
-    const double longest_side_m = sculpt::longest_side_m(sculpt::workpiece_bounds(workpiece->solid.lattice));
+    const Box bounds_object = workpiece->bounds_object;
+    const double longest_side_m = sculpt::longest_side_m(bounds_object);
     if (options.tool.shape.empty()) chosen_tool = choose_tool(options, longest_side_m);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
     const Result<geometry::Material> material = take_up(*workpiece, *chosen_tool);
@@ -228,8 +226,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
 
     std::optional<session::Pictures> pictures;
     if (!options.pictures.empty()) {
-        Result<session::Pictures> opened =
-            session::Pictures::create(options.pictures, sculpt::workpiece_bounds(workpiece->solid.lattice));
+        Result<session::Pictures> opened = session::Pictures::create(options.pictures, bounds_object);
         if (!opened) return std::unexpected(opened.error());
         pictures.emplace(std::move(*opened));
     }
@@ -240,7 +237,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (const auto taken = pictures->take_before(carving); !taken) return taken;
     }
 
-    Result<Json> tool_report = introduce(*chosen_tool, *material, carving, !stroke.empty());
+    Result<Json> tool_report =
+        introduce(*chosen_tool, *material, longest_side_m, carving.surface().lattice().spacing_m, !stroke.empty());
     if (!tool_report) return std::unexpected(tool_report.error());
     std::printf("%s\n", workpiece->size.c_str());
     carving.mirror(options.mirror);
@@ -279,7 +277,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);
-    if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(carving);
+    if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
     report["mesh"] = describe_mesh(mesh, export_unit);
     report["mesh"]["self_intersections"] = finished->self_intersections;
     report["slivers"] = finished->slivers;

@@ -9,6 +9,8 @@
 
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
+#include "sculpt/tool_mesh.hpp"
+#include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -79,12 +81,13 @@ Result<void> CarvedPart::carve(Carver& carver) {
     do {
         swept = carver.reader.read();
         drop_invalid(carver, swept.sweeps);
+        note_border(carver, swept.sweeps);
         if (!swept.sweeps.empty()) {
             if (const auto updated = sculpture_.update(swept.sweeps); !updated) return updated;
         }
         if (swept.stroke_ended) {
             sculpture_.end_stroke();
-            carver.said_why = false;
+            carver.said_why = carver.said_border = false;
         }
     } while (swept.stroke_ended);
     return {};
@@ -122,6 +125,20 @@ void CarvedPart::drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& s
         if (why && !std::exchange(carver.said_why, true)) notify(why->line());
         return why.has_value();
     });
+}
+
+// Tells once a stroke that material was added beyond the lattice, where none can be.
+void CarvedPart::note_border(Carver& carver, std::span<const compute::ToolSweep> sweeps) {
+    const Box room = lattice_bounds(sculpture_.surface().lattice());
+    const auto leaves = [&](const compute::ToolSweep& sweep) {
+        const Vec3 least(size_of(sweep.shape));
+        return sweep.operation == compute::Operation::fill &&
+               glm::any(glm::lessThan(glm::min(sweep.start.position_m, sweep.end.position_m) - least, room.lo) ||
+                        glm::greaterThan(glm::max(sweep.start.position_m, sweep.end.position_m) + least, room.hi));
+    };
+    if (carver.said_border || !std::ranges::any_of(sweeps, leaves)) return;
+    carver.said_border = true;
+    notify("what is added ends at the border of the room around the workpiece; open it with more --room");
 }
 
 bool CarvedPart::has_news() const {

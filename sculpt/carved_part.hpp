@@ -124,8 +124,9 @@ private:
         StrokeReader reader;
         Vec3 tool_object{0.0};  // as of the last publication
         std::optional<Error>
-            refused{};          // why the tool that was asked for last cannot carve; nothing does until another
-        bool said_why = false;  // this stroke's user has been told why nothing is carved
+            refused{};             // why the tool that was asked for last cannot carve; nothing does until another
+        bool said_why = false;     // this stroke's user has been told why nothing is carved
+        bool said_border = false;  // and that what is added ends at the border of the room
     };
     void carry_out(const UseTool& use) { use_tool(carvers_.front(), use); }
     void carry_out(const MirrorStrokes& with) { sculpture_.mirror(with.mirror); }
@@ -135,6 +136,7 @@ private:
     void carry_out(const LightFrom& from);
     void use_tool(Carver& carver, const UseTool& use);
     [[nodiscard]] Result<void> carve(Carver& carver);
+    void note_border(Carver& carver, std::span<const compute::ToolSweep> sweeps);
     void drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& sweeps);
     [[nodiscard]] Carver* carver_of(std::size_t hand);
     [[nodiscard]] bool pressed() const;

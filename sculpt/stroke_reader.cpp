@@ -86,7 +86,10 @@ std::optional<Vec3> StrokeReader::working_point(const haptics::TickRecord& tick)
             if (hardness_Ns_per_m3_ == 0.0) return tick.contact.points[0].hip_object_m;
             if ((tick.flags & haptics::kTickCutting) != 0) return tick.contact.cut_object_m;
             return std::nullopt;
-        case compute::Operation::fill: return tick.contact.points[0].proxy_object_m;
+        case compute::Operation::fill:
+            if (!tool_.fills_at_hand) return tick.contact.points[0].proxy_object_m;
+            if ((tick.flags & haptics::kTickInContact) != 0) return tick.contact.points[0].hip_object_m;
+            return std::nullopt;
         case compute::Operation::paint:
             if ((tick.flags & haptics::kTickInContact) != 0) return tick.contact.points[0].hip_object_m;
             return std::nullopt;

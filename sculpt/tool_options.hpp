@@ -44,6 +44,7 @@ struct Tool {
     std::uint8_t material = 0;  // of the surface that it leaves: an index into the solid's materials
     double tolerance_cells = 0.1;
     double smooth_strength = 0.5;
+    bool fills_at_hand = false;  // material is added where the hand is, and not where the tool rests on the surface
 
     // Returns the radius of a ball; 0 for other tools.
     [[nodiscard]] double ball_radius_m() const {

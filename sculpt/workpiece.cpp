@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "compute/rays/room.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
@@ -269,7 +270,17 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
 }
 
 Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {
-    return is_shape(options.source) ? from_shape(options) : from_file(options, pool);
+    Result<LoadedWorkpiece> workpiece = is_shape(options.source) ? from_shape(options) : from_file(options, pool);
+    if (!workpiece) return workpiece;
+    workpiece->bounds_object = workpiece_bounds(workpiece->solid.lattice);
+    const double room_m = options.room.value_or(0.0) * longest_side_m(workpiece->bounds_object);
+    const double cells = std::ceil(room_m / workpiece->solid.lattice.spacing_m);
+    const int most = compute::most_room_cells(workpiece->solid.lattice);
+    Result<compute::Solid> roomy =
+        compute::with_room(std::move(workpiece->solid), std::min(most, static_cast<int>(cells)));
+    if (!roomy) return std::unexpected(roomy.error());
+    workpiece->solid = std::move(*roomy);
+    return workpiece;
 }
 
 Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file) {
@@ -284,11 +295,16 @@ double longest_side_m(const Box& box) {
     return std::max({size.x, size.y, size.z});
 }
 
+Box lattice_bounds(const compute::Lattice& lattice) {
+    const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
+    return {lattice.origin_object, lattice.origin_object + size};
+}
+
 Box workpiece_bounds(const compute::Lattice& lattice) {
     // The lattice has about one and a half empty cells around the workpiece.
     const Vec3 inset(1.5 * lattice.spacing_m);
-    const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
-    return {lattice.origin_object + inset, lattice.origin_object + size - inset};
+    const Box all = lattice_bounds(lattice);
+    return {all.lo + inset, all.hi - inset};
 }
 
 // ---- Engine

@@ -19,9 +19,14 @@ namespace burin::sculpt {
 
 // ---- Workpiece
 
+// What a session offers where nothing else is asked for.
+inline constexpr double kUsualRoom = 0.15;
+
 struct WorkpieceOptions {
     std::string source = "ball:0.1";  // FILE | block:X,Y,Z | ball:R
     int resolution = 256;             // lattice cells along the longest side
+    // Empty room on every side for what is added, as a share of the longest side. None: where it is not settled.
+    std::optional<double> room = std::nullopt;
     bool close_holes = false;
     bool close_small_holes = false;  // where none of them is larger around than the mesh's shortest side
     std::optional<LengthUnit> units = std::nullopt;  // of a file; none: as it states, else guessed (mesh_unit.hpp)
@@ -35,6 +40,7 @@ struct LoadedWorkpiece {
     LengthUnit unit = LengthUnit::m;  // of the file's numbers
     Vec3 size_m{0.0};                 // from side to side
     std::string closed = {};          // which holes were closed, in words; empty where none were
+    Box bounds_object = {};           // of the workpiece, without its room
 };
 
 struct ClosedMesh {
@@ -58,11 +64,13 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
 
 // Checks the length of --weld, which must be a distance above zero; a loaded mesh must be more than ten times as long.
 [[nodiscard]] Result<void> check_weld(std::optional<double> weld_m, double longest_side_m);
-// Makes the solid of a file or a shape. Every triangle of a file is in the solid or in the report.
+// Makes the solid of a file or a shape, with its room. Every triangle of a file is in the solid or in the report.
 [[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool);
 
-// Returns the bounds of an uncarved workpiece, which its lattice surrounds with some empty cells.
+// Returns the bounds of an uncarved workpiece that has no room: its lattice surrounds it with some empty cells.
 [[nodiscard]] Box workpiece_bounds(const compute::Lattice& lattice);
+// Returns the bounds of the lattice: material can be added within them alone.
+[[nodiscard]] Box lattice_bounds(const compute::Lattice& lattice);
 [[nodiscard]] double longest_side_m(const Box& box);
 // Checks whether --units has a mesh file to speak of: sizes of shapes are in metres.
 [[nodiscard]] Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file);

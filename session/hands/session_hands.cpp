@@ -63,9 +63,14 @@ std::string SessionHands::name_of(std::size_t part) const {
 }
 
 void SessionHands::move_hand(std::size_t hand, std::span<const devices::SteeredTarget> way, Nanoseconds time_ns,
-                             const devices::HandTarget& end) {
+                             const devices::HandTarget& end, Source source) {
     Hand& own = *hands_[hand];
     const auto tell = [&](const devices::SteeredTarget& target) {
+        if (source == Source::mouse && target.time_ns - own.told.time_ns > kMouseRests_ns) {
+            devices::SteeredTarget rested = own.told;
+            rested.time_ns = target.time_ns - kMouseSetsOut_ns;
+            static_cast<void>(own.steering.push(rested));
+        }
         if (own.steering.push(target)) own.told = target;  // else the next frame tells the end again
     };
     for (const devices::SteeredTarget& target : way) tell(target);

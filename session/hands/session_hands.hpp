@@ -63,10 +63,15 @@ public:
     // Names a part for people: "right", "left index"; the device's name for the only part of the only hand.
     [[nodiscard]] std::string name_of(std::size_t part) const;
 
+    // What a gap between two targets means. On a path the hand is under way between them. A mouse has rested: it says
+    // where it is many times a second while it moves. A hand that took its rest for a slow motion would be late by it.
+    enum class Source : std::uint8_t { path, mouse };
+    // A gap from which on a mouse has rested, and how long before the target behind it the rest has ended.
+    static constexpr Nanoseconds kMouseRests_ns = 60'000'000, kMouseSetsOut_ns = 10'000'000;
     // Publishes where a hand is to go, for its device's next ticks: through the targets of the way, each at its own
     // time, to where it is to be at time_ns if the way does not end there. All times are session time.
     void move_hand(std::size_t hand, std::span<const devices::SteeredTarget> way, Nanoseconds time_ns,
-                   const devices::HandTarget& end);
+                   const devices::HandTarget& end, Source source = Source::path);
     // Returns the number of targets that were lost to a full channel, of all hands.
     [[nodiscard]] std::uint64_t lost_targets() const;
     // Publishes other parameters of a part's ticks; numbers them, and gives them the machine's pace.

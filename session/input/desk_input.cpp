@@ -203,8 +203,7 @@ struct Steps {
             } else if (is_left && state.on_surface.pressed) {
                 state.on_surface.pressed = false;
                 state.on_surface.as_it_was = {};
-                state.buttons &= ~kCarve;
-                follow_surface();
+                state.buttons &= ~kCarve;  // where it has worked: on its way up it would add material
             }
             return;
         }

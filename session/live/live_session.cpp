@@ -50,7 +50,8 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
     scene_.news().frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
-    hands().move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);
+    hands().move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand,
+                      state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
 }
@@ -177,6 +178,7 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
         if (part != hands().first_part(state_.hand))
             add_tool(*scene, state_, hands().part_of_hand(part).hand, tools_[part]);
     if (scene) add_mirror(*scene, state_, tool_in_use());
+    if (scene) add_border(*scene, state_, room_, tool_in_use());
     if (scene && scene_.world() != nullptr)
         std::ranges::move(scene_.world()->drawn().in_world(state_.world_from_object),
                           std::back_inserter(scene->objects));

@@ -86,8 +86,9 @@ Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
     if (!workpiece->closed.empty()) notify(workpiece->closed);
     unit_ = workpiece->unit;
     holes_closed_ = !workpiece->closed.empty();
-    room_.workpiece_object = sculpt::workpiece_bounds(workpiece->solid.lattice);
+    room_.workpiece_object = workpiece->bounds_object;
     room_.carved_object = room_.workpiece_object;
+    room_.lattice_object = sculpt::lattice_bounds(workpiece->solid.lattice);
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
     scene_.take(std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_));

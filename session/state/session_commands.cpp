@@ -92,7 +92,7 @@ public:
         state_.desk.on_surface = {};
         state_.desk.buttons = 0;
         state_.desk.drag.reset();
-        return update_touch();
+        return change_tool([](SessionState&) {});  // how it adds material depends on who leads it
     }
     Result<void> operator()(const EditObject& wanted) {
         const WorldObjects none;

@@ -70,6 +70,13 @@ Result<void> settle_mouse(SculptOptions& options) {
     return {};
 }
 
+void settle_room(SculptOptions& options) {
+    if (options.workpiece.room) return;
+    const bool adds =
+        options.stroke.empty() ? options.live.input.empty() : options.tool.operation == compute::Operation::fill;
+    options.workpiece.room = adds ? sculpt::kUsualRoom : 0.0;
+}
+
 Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& given) {
     if (given.empty()) return {};
     live.device_given = true;

@@ -81,6 +81,10 @@ struct LiveOptions {
 // was given, by which arm. Fails where it is to be led along the surface and cannot.
 [[nodiscard]] Result<void> settle_mouse(struct SculptOptions& options);
 
+// Decides how much room a workpiece has where the options leave it open: some where a person carves, or where material
+// is added along a stroke; none for an input, because recordings and logs from before there was any have none.
+void settle_room(struct SculptOptions& options);
+
 // Returns the devices of all hands: one without a name where there is one hand.
 [[nodiscard]] std::vector<NamedDevice> devices_of(const LiveOptions& live);
 

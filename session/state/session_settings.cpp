@@ -30,6 +30,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--close-holes", o.workpiece.close_holes);
     visit("--weld", o.workpiece.weld_m);
     visit("--resolution", o.workpiece.resolution, kResolutionBounds);
+    visit("--room", o.workpiece.room, kRoomBounds);
     visit("--tool", o.tool.shape);
     visit("--operation", o.tool.operation);
     visit("--material", o.tool.material);

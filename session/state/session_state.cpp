@@ -417,7 +417,9 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     const ToolMeshes none;
     Result<compute::ToolShape> shape = (state.meshes ? *state.meshes : none).shape_of(tool.shape);
     if (!shape) return std::unexpected(shape.error());
-    return sculpt::UseTool{sculpt::make_tool(tool, std::move(*shape)), sculpt::material_of(tool),
+    sculpt::Tool made = sculpt::make_tool(tool, std::move(*shape));
+    made.fills_at_hand = state.mouse == MouseMode::surface;
+    return sculpt::UseTool{std::move(made), sculpt::material_of(tool),
                            material_under_tool(state, state).hardness_Ns_per_m3};
 }
 

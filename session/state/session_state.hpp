@@ -24,7 +24,7 @@
 #include "session/state/message_kind.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
-#include "session/state/shown_mirror.hpp"
+#include "session/state/shown_guides.hpp"
 #include "session/state/smooth_stroke.hpp"
 #include "session/state/world_objects.hpp"
 #include "wall/output_settings.hpp"
@@ -119,6 +119,7 @@ struct HandRoom {
 struct Room : HandRoom {
     Box workpiece_object;              // of all that stands before the viewer
     std::optional<Box> carved_object;  // of the workpiece that is carved; none: there is none
+    Box lattice_object;                // within which material can be added; empty: nothing is carved
     bool covers_depth = false;         // the workspace reaches all of it, not its front alone
     std::optional<Box> reach_object;   // what the workspace reaches, if not that
     SessionWall wall;

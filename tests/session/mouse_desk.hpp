@@ -56,11 +56,12 @@ public:
     static constexpr ImageSize kWindow{1280, 720};
 
     explicit MouseDesk(const std::string& part_stl, const std::string& tool = "ball:0.004", int frames_per_s = 60,
-                       int resolution = 128)
+                       int resolution = 128, double room = 0.0)
         : frame_ns_(1'000'000'000 / frames_per_s) {
         place_.write("part.stl", part_stl);
         options.workpiece.source = part_stl.empty() ? "ball:0.04" : (place_ / "part.stl").string();
         options.workpiece.resolution = resolution;
+        options.workpiece.room = room;
         options.tool.shape = tool;
         options.engine = sculpt::EngineChoice::cpu;
         options.live.mouse = MouseMode::surface;

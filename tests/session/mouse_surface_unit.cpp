@@ -365,6 +365,39 @@ TEST(MouseOnSurface, TheToolStandsUprightOnTheSurfaceUnderTheCursor) {
     }
 }
 
+TEST(MouseOnSurface, MaterialIsAddedAboveTheTopAndTheBorderOfTheRoomIsShownNearIt) {
+    MouseDesk desk(plate(kThick_mm), "ball:0.004", 60, 128, 0.4);
+    desk.run({{CommandInput{"operation", {"fill"}}, 0}}, 100'000'000);
+    const double border_mm = 1e3 * desk.session->room().lattice_object.hi.z;
+    EXPECT_NEAR(border_mm, kThick_mm + 0.4 * 80.0, 2.0);
+    const auto highest = [&] {
+        double z = 0.0;
+        for (const Vec3& p : desk.vertices_mm()) z = std::max(z, p.z);
+        return z;
+    };
+    desk.stroke({{40, 30, kThick_mm}});
+    EXPECT_NEAR(highest(), kThick_mm + 2.0 * 4.0, 0.3) << "as high as the ball, however long it is pressed";
+    EXPECT_FALSE(desk.session->scene_on(0)->proposed_box.visible);
+    for (int again = 0; again < 5; ++again) desk.stroke({{40, 30, highest()}});
+    EXPECT_LE(highest(), border_mm);
+    EXPECT_GT(highest(), border_mm - 2.0) << "up to the border";
+    EXPECT_TRUE(desk.session->scene_on(0)->proposed_box.visible);
+}
+
+TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
+    SculptOptions person, log, cut, added, given;
+    log.live.input = "log.txt";
+    cut.stroke = added.stroke = "stroke.csv";
+    added.tool.operation = compute::Operation::fill;
+    given.workpiece.room = 0.4;
+    for (SculptOptions* options : {&person, &log, &cut, &added, &given}) settle_room(*options);
+    EXPECT_EQ(person.workpiece.room, sculpt::kUsualRoom);
+    EXPECT_EQ(log.workpiece.room, 0.0);
+    EXPECT_EQ(cut.workpiece.room, 0.0);
+    EXPECT_EQ(added.workpiece.room, sculpt::kUsualRoom);
+    EXPECT_EQ(given.workpiece.room, 0.4);
+}
+
 TEST(MouseOnSurface, IsForWhoHasAMouseAndLogsOfBeforeFlyFreely) {
     SculptOptions options;
     ASSERT_TRUE(settle_mouse(options));

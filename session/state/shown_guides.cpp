@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/state/shown_mirror.hpp"
+#include "session/state/shown_guides.hpp"
 
 #include <algorithm>
 #include <variant>
@@ -19,6 +19,8 @@ std::shared_ptr<const renderer::DrawnMesh> ball() {
     static const auto mesh = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
     return mesh;
 }
+
+constexpr Vec3 kBorderColour{0.93, 0.67, 0.25};
 
 }  // namespace
 
@@ -54,6 +56,19 @@ void add_mirror(renderer::Scene& scene, const SessionState& state, const haptics
         scene.objects.push_back({state.held->drawn ? state.held->drawn : ball(),
                                  state.world_from_object * object_from_tool, scene.tool.colour, kImageOpacity});
     }
+}
+
+void add_border(renderer::Scene& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool) {
+    const Box& border = room.lattice_object;
+    if (border.empty() || !state.held || state.tool.operation != compute::Operation::fill || tool.tick == 0) return;
+    const Vec3& at = tool.proxy_object_m;
+    const Vec3 inside = glm::min(at - border.lo, border.hi - at);
+    if (std::min({inside.x, inside.y, inside.z}) > 2.0 * state.held->half_width_m()) return;
+    scene.proposed_box = {{state.world_from_object * border.center(), state.world_from_object.orientation},
+                          border.extent() * state.world_from_object.scale,
+                          kBorderColour,
+                          true,
+                          0.0};
 }
 
 }  // namespace burin::session

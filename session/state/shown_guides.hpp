@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a picture shows of symmetric carving (sculpt/mirror.hpp): the planes as panes of glass, each of its axis'
-// colour, and the tool in use once more wherever it works as well. Pure functions; any thread.
+// What a picture shows besides things, to guide the hand. Of symmetric carving (sculpt/mirror.hpp): the planes as panes
+// of glass, each of its axis' colour, and the tool in use once more wherever it works as well. Of adding material: the
+// border of the room that there is for it, while the tool is near. Pure functions; any thread.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 
 namespace burin::session {
 
+struct Room;
 struct SessionState;
 
 // Panes across x, y and z. Null: the session carves nothing.
@@ -21,5 +23,8 @@ using MirrorPanes = std::array<std::shared_ptr<const renderer::DrawnMesh>, 3>;
 // Adds panes and images to a picture. Of a tool that is a mesh, images that reverse it are left out: they are carved by
 // a mesh of their own, which is not drawn.
 void add_mirror(renderer::Scene& scene, const SessionState& state, const haptics::ToolState& tool);
+
+// Shows the border of the room as a box of lines where the tool in use adds material within its own width of it.
+void add_border(renderer::Scene& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool);
 
 }  // namespace burin::session
