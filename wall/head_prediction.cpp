@@ -124,11 +124,12 @@ void keep_continuous(const HeadSettings& s, HeadTrack& track, const Pose& target
                 time_ns);
 }
 
-std::string cause_of(const HeadTrack& track) {
+std::string cause_of(const HeadSettings& settings, const HeadTrack& track) {
     switch (track.fault) {
         case SampleFault::none: break;
         case SampleFault::not_a_number:
             return "the tracker's sample is not a number; check its calibration and line of sight";
+        case SampleFault::too_far: return too_far_away("the head", track.fault_away_m, settings.farthest_m);
         case SampleFault::back_in_time:
             return formatted("the tracker's time went back by %.3f s; check its clock", track.fault_back_s);
         case SampleFault::too_fast:
@@ -142,6 +143,12 @@ std::string cause_of(const HeadTrack& track) {
 
 }  // namespace
 
+std::string too_far_away(const std::string& who, double away_m, double farthest_m) {
+    const std::string is = formatted("%s is %.0f m away", who.c_str(), away_m);
+    if (away_m > 1000.0 * farthest_m) return is + "; check the tracker's calibration";
+    return is + ", as if its tracker reported millimetres; say reported_units = \"mm\" in a description of the tracker";
+}
+
 HeadSettings head_settings(const WallSetup& setup) {
     HeadSettings settings;
     settings.fallback_tracker = setup.fallback_head_tracker;
@@ -152,6 +159,14 @@ HeadTrack take(const HeadSettings& settings, HeadTrack track, const TrackerSampl
     if (!usable(given.sensor_tracker)) {
         ++track.refused;
         track.fault = SampleFault::not_a_number;
+        track.pending_run = 0;
+        return track;
+    }
+    const double away_m = glm::length(given.sensor_tracker.position_m - settings.fallback_tracker.position_m);
+    if (away_m > settings.farthest_m) {
+        ++track.refused;
+        track.fault = SampleFault::too_far;
+        track.fault_away_m = away_m;
         track.pending_run = 0;
         return track;
     }
@@ -214,12 +229,14 @@ TrackerReport report(const HeadSettings& settings, const HeadTrack& track, Nanos
     made.gliding = glm::length(track.offset_m) > settings.glide_m_per_s * since_s ||
                    glm::length(track.offset_rad) > settings.glide_rad_per_s * since_s;
     if (track.count == 0) {
-        made.cause = track.refused > 0 ? cause_of(track) : "no sample yet; is the tracker on, and its server running?";
+        if (track.refused > 0) made.state = TrackerState::jumped;
+        made.cause =
+            track.refused > 0 ? cause_of(settings, track) : "no sample yet; is the tracker on, and its server running?";
         return made;
     }
     const Nanoseconds age_ns = time_ns - track.samples[static_cast<std::size_t>(track.count - 1)].time_ns;
     made.sample_age_s = seconds(age_ns);
-    made.cause = cause_of(track);
+    made.cause = cause_of(settings, track);
     made.state = made.cause.empty() ? TrackerState::ok : TrackerState::jumped;
     if (is_lost(settings, track, time_ns)) {
         made.state = TrackerState::lost;

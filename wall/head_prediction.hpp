@@ -12,8 +12,8 @@
 // To avoid overshoot, the velocity is kept for 50 ms beyond the newest sample, falls linearly to zero at 100 ms, and
 // stays zero: a tracker that stops sending leaves the head at most 75 ms ahead.
 //
-// Plausibility check. A sample that is not a number, that goes back in time or that would need a speed above the limit
-// is not used; prediction goes on from the samples before. When kSamplesToTrust samples in a row agree among themselves
+// Plausibility check. A sample that is not a number, that is farther away than any hall is long (a tracker that reports
+// millimetres), that goes back in time or that would need a speed above the limit is not used; prediction goes on from the samples before. When kSamplesToTrust samples in a row agree among themselves
 // (a tracker was restarted, or its first samples were the wrong ones), they are accepted. After lost_after_ns without a
 // sample the head glides to the fallback pose, and back when samples return.
 //
@@ -37,6 +37,7 @@ struct TrackerSample {
 
 struct HeadSettings {
     Pose fallback_tracker{{0.0, 1.6, 2.0}, Quat{1.0, 0.0, 0.0, 0.0}};
+    double farthest_m = 25.0;          // from the fallback pose
     double max_speed_m_per_s = 3.0;    // a brisk walk is 2; faster is a jump
     double max_turn_rad_per_s = 12.0;  // quick head turns reach about 10
     Nanoseconds velocity_window_ns = 25'000'000;
@@ -49,17 +50,21 @@ struct HeadSettings {
     double glide_rad_per_s = 0.8;
 };
 
+// Says how far away something tracked is, what may be wrong, and the remedy: a tracker that reports millimetres as metres
+// has everything a thousand times as far away. who: "the head".
+[[nodiscard]] std::string too_far_away(const std::string& who, double away_m, double farthest_m);
+
 // Default settings with the setup's fallback pose.
 [[nodiscard]] HeadSettings head_settings(const WallSetup& setup);
 
 enum class TrackerState : std::uint8_t {
-    waiting,  // no sample yet: the fallback pose is drawn
+    waiting,  // no sample yet, not even one that is refused: the fallback pose is drawn
     ok,
     jumped,  // the newest samples are not accepted
     lost,
 };
 
-enum class SampleFault : std::uint8_t { none, not_a_number, back_in_time, too_fast };
+enum class SampleFault : std::uint8_t { none, not_a_number, too_far, back_in_time, too_fast };
 
 // Source of a frame's pose; when it changes the picture glides.
 enum class DrawnFrom : std::uint8_t {
@@ -82,6 +87,7 @@ struct HeadTrack {
     double fault_speed = 0.0;               // m/s, or rad/s when fault_turned
     bool fault_turned = false;
     double fault_back_s = 0.0;
+    double fault_away_m = 0.0;  // from the fallback pose, when too_far
     std::uint64_t refused = 0;  // refused samples since the start
 
     bool drawn_before = false;

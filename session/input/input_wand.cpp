@@ -47,8 +47,11 @@ struct Events {
 
     void operator()(const WandInput& in) {
         if (in.wand >= state.wands.size()) return;
-        state.wands[in.wand].tracked = in.tracked;
-        if (in.tracked) state.wands[in.wand].pose_world = in.pose_world;
+        WandNow& wand = state.wands[in.wand];
+        const double away_m = glm::length(in.pose_world.position_m);
+        wand.too_far_m = in.tracked && away_m > settings.farthest_m ? away_m : 0.0;
+        wand.tracked = in.tracked && wand.too_far_m == 0.0;
+        if (wand.tracked) wand.pose_world = in.pose_world;
     }
     void operator()(const WandClick& in) {
         if (in.wand >= state.wands.size() || in.button >= kMostWandButtons) return;

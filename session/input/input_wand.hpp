@@ -49,12 +49,14 @@ struct WandSettings {
     double turn_speed_rad_per_s = 0.8;
     double scale_rate_per_s = 0.7;  // of the natural logarithm: doubles in a second
     double least_scale = 0.01, most_scale = 100.0;
+    double farthest_m = 25.0;  // from the world's origin: a wand farther away counts as not tracked
     Similarity home_world_from_scene;
 };
 
 struct WandNow {
     Pose pose_world;
     bool tracked = false;
+    double too_far_m = 0.0;  // how far away its tracker has it, where that cannot be; 0: it can
     std::uint32_t buttons = 0;
     Vec2 stick{0.0};
 };

@@ -144,6 +144,7 @@ void LiveSession::watch_misfit(const sculpt::Tool& tool) {
 void LiveSession::watch(Nanoseconds time_ns) {
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
+    if (const auto change = wand_.look(state_.wands)) notify(*change);
     for (const std::string& message : hands().take_messages()) notify_of_event(message);
     if (const auto nothing = strokes_.look(state_, tool_in_use(), scene_.spacing_m(), time_ns)) notify(*nothing);
     for (DeviceWatch::News& news : devices_.look(hands(), tools_)) {

@@ -188,6 +188,7 @@ private:
     SessionTimes times_{clock_};
     ComfortWatch comfort_;
     TrackerWatch tracker_;
+    WandWatch wand_;
     LampWatch lamp_;
     DeviceWatch devices_;
     MisfitWatch misfit_;

@@ -85,6 +85,15 @@ std::optional<std::string> TrackerWatch::look(const SessionState& state, const R
     return "head tracker: " + report_.cause;
 }
 
+std::optional<std::string> WandWatch::look(const WandState& wands) {
+    const auto far = std::ranges::find_if(wands.wands, [](const WandNow& wand) { return wand.too_far_m > 0.0; });
+    const bool is_far = far != wands.wands.end();
+    if (std::exchange(far_, is_far) == is_far) return std::nullopt;
+    if (!is_far) return "the tracker has the wand within reach again";
+    return wall::too_far_away("wand " + std::to_string(far - wands.wands.begin()), far->too_far_m,
+                              WandSettings{}.farthest_m);
+}
+
 std::optional<std::string> FirstWordWatch::look(bool heard, Nanoseconds time_ns) {
     if (!begun_ns_) begun_ns_ = time_ns;
     if (heard_) return std::nullopt;

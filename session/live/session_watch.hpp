@@ -39,6 +39,16 @@ private:
     wall::TrackerReport report_;
 };
 
+// Watches whether wands are where they can be.
+class WandWatch {
+public:
+    // Returns a message when a wand's tracker begins to have it farther away than any hall is long.
+    [[nodiscard]] std::optional<std::string> look(const WandState& wands);
+
+private:
+    bool far_ = false;
+};
+
 // Watches whether a tracker speaks at all: one that sends elsewhere, or is off, is otherwise silent without a word.
 class FirstWordWatch {
 public:

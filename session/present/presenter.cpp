@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <thread>
 #include <utility>
 #include <variant>
 
 #include "gpu/driver_threads.hpp"
+#include "session/present/window_rows.hpp"
 #include "session/state/option_bounds.hpp"
 
 namespace burin::session {
@@ -50,30 +52,29 @@ bool is_of_main_alone(const Input& input) {
            std::holds_alternative<WindowFocus>(input);
 }
 
-// Positions desktop windows side by side, in rows as wide as the main monitor.
-class Rows {
-public:
-    Rows() {
-        const auto monitors = window::monitors();
-        if (monitors && !monitors->empty()) width_ = monitors->front().width;
+// Returns the places of the screens that are windows on the desktop, on the main monitor; those of others are empty.
+std::vector<PlacedWindow> places_of(std::span<const SessionScreen> screens) {
+    std::vector<PlacedWindow> places(screens.size());
+    const auto on_desktop = [](const SessionScreen& screen) { return !screen.direct && screen.monitor.empty(); };
+    std::vector<ImageSize> sizes;
+    for (const SessionScreen& screen : screens)
+        if (on_desktop(screen)) sizes.push_back(screen.size);
+    const auto monitors = window::monitors();
+    if (!monitors || monitors->empty() || sizes.empty() || screens.size() < 2) return places;
+    const window::Monitor& main = monitors->front();
+    const auto placed =
+        side_by_side(sizes, {static_cast<std::uint32_t>(main.width), static_cast<std::uint32_t>(main.height)});
+    if (placed.front().size.width < sizes.front().width)
+        std::fprintf(stderr, "burin: the windows are smaller than asked for, so that all %zu are on the monitor\n",
+                     sizes.size());
+    for (std::size_t i = 0, next = 0; i < screens.size(); ++i) {
+        if (!on_desktop(screens[i])) continue;
+        places[i] = placed[next++];
+        places[i].x += main.x;
+        places[i].y += main.y;
     }
-    window::Window::Position next(ImageSize size) {
-        const int width = static_cast<int>(size.width), height = static_cast<int>(size.height);
-        if (x_ > 0 && x_ + width > width_) {
-            x_ = 0;
-            y_ += tallest_ + kTitle;
-            tallest_ = 0;
-        }
-        const window::Window::Position place{x_, y_};
-        x_ += width + kGap;
-        tallest_ = std::max(tallest_, height);
-        return place;
-    }
-
-private:
-    static constexpr int kGap = 4, kTitle = 40;  // pixels
-    int width_ = 1280, x_ = 0, y_ = 0, tallest_ = 0;
-};
+    return places;
+}
 
 }  // namespace
 
@@ -91,7 +92,7 @@ Result<Presenter> Presenter::open(const LiveOptions& options, const SessionWall&
 }
 
 Result<void> Presenter::open_outputs() {
-    Rows beside;
+    const std::vector<PlacedWindow> places = places_of(wall_->screens);
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         const SessionScreen& screen = wall_->screens[i];
         if (screen.direct) {
@@ -102,8 +103,12 @@ Result<void> Presenter::open_outputs() {
                                   : wall_->is_panel(i) ? "Burin, panel"
                                                        : "Burin, screen " + screen.name;
         std::optional<window::Window::Position> place;
-        if (screens_.size() > 1 && screen.monitor.empty()) place = beside.next(screen.size);
-        auto window = SessionWindow::open(title, screen.monitor, screen.size, place);
+        ImageSize size = screen.size;
+        if (places[i].size.width > 0) {
+            place = {places[i].x, places[i].y};
+            size = places[i].size;
+        }
+        auto window = SessionWindow::open(title, screen.monitor, size, place);
         if (!window) return std::unexpected(with_ways_out(window.error(), screen));
         screens_[i].title = title;
         screens_[i].window = window->get();

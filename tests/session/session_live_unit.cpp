@@ -98,6 +98,32 @@ TEST(ComfortWatch, WarnsOnceEachTimeThatTheStrainBegins) {
     EXPECT_FALSE(watch.look(state, room, tool)) << "one picture for both eyes strains nobody";
 }
 
+TEST(WandWatch, TellsOnceOfAWandThatIsReportedInMillimetresAndLeavesTheSceneAlone) {
+    const Room room = room_before("cave.toml");
+    SessionState state = state_in(room);
+    const Similarity before = state.world_from_object;
+    WandWatch watch;
+    std::vector<std::string> told;
+    const auto step_at = [&](int frame, double unit) {
+        const Nanoseconds time_ns = 10'000'000 * (frame + 1);
+        const Pose pose{Vec3(0.1 + 0.001 * frame, 1.2, 0.8) * unit, Quat{1, 0, 0, 0}};
+        const std::vector<InputEvent> events{{time_ns, WandInput{0, pose, true}},
+                                             {time_ns, WandClick{0, 0, frame < 30}}};
+        const SessionView view{
+            .dt_s = 0.01, .display_ns = time_ns, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
+        state = step_session(state, room, events, view).state;
+        if (auto says = watch.look(state.wands)) told.push_back(*says);
+    };
+    for (int frame = 0; frame < 20; ++frame) step_at(frame, 1000.0);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("wand 0"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find("millimetres"), std::string::npos) << told[0];
+    EXPECT_EQ(state.world_from_object, before);
+    for (int frame = 20; frame < 30; ++frame) step_at(frame, 1.0);
+    EXPECT_EQ(told.size(), 2u);
+    EXPECT_GT(glm::length(state.world_from_object.position_m - before.position_m), 0.005) << "it holds the scene now";
+}
+
 TEST(TrackerWatch, TellsOfALossAndOfItsEndOnce) {
     const Room room = room_before("cave.toml");
     SessionState state = state_in(room);

@@ -134,6 +134,33 @@ TEST(TrackerWatch, DoesNotBelieveASingleJumpAndSaysSo) {
               std::string::npos);
 }
 
+// It once put the head two kilometres away, from where the picture glided back at half a metre a second.
+TEST(TrackerWatch, KnowsATrackerThatBeginsInMillimetresAndTakesItUpWhenItIsMended) {
+    const HeadSettings settings;
+    HeadTrack track;
+    const auto draw_at = [&](Nanoseconds t) {
+        DrawnHead drawn = draw(settings, track, {t, t});
+        track = drawn.track;
+        return drawn.poses.left_tracker;
+    };
+    for (int i = 0; i < 50; ++i) {
+        Pose millimetres = uniform(0.01 * i);
+        millimetres.position_m *= 1000.0;
+        track = take(settings, track, {10 * i * kMs, millimetres});
+        EXPECT_LT(apart_m(draw_at((10 * i + 5) * kMs), settings.fallback_tracker), 1e-12) << "the usual place is drawn";
+    }
+    const TrackerReport said = report(settings, track, 500 * kMs);
+    EXPECT_EQ(said.state, TrackerState::jumped);
+    EXPECT_NE(said.cause.find("millimetres"), std::string::npos) << said.cause;
+    EXPECT_NE(said.cause.find("reported_units"), std::string::npos) << said.cause;
+    for (int i = 50; i < 700; ++i) {
+        track = take(settings, track, {10 * i * kMs, uniform(0.01 * i)});
+        static_cast<void>(draw_at((10 * i + 5) * kMs));
+    }
+    EXPECT_EQ(report(settings, track, 7000 * kMs).state, TrackerState::ok);
+    EXPECT_LT(apart_m(draw_at(7000 * kMs), uniform(7.0)), 0.02) << "and the picture has come back";
+}
+
 TEST(TrackerWatch, RefusesWhatIsNotANumberAndTimeThatGoesBack) {
     const HeadSettings settings;
     const HeadTrack good = followed(settings, uniform, 0, 500 * kMs, 10 * kMs);
