@@ -209,7 +209,11 @@ void LiveSession::take(sculpt::SurfaceUpdate news) {
     times_.cut(news.cut_ns);
     seen_.take(news);
     strokes_.take(news);
-    updates_.push_back(std::move(news));
+    // What nobody draws for long, as off screen, would keep each tile as often as it has changed.
+    if (updates_.empty())
+        updates_.push_back(std::move(news));
+    else
+        sculpt::merge(updates_.back(), std::move(news));
 }
 
 void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {

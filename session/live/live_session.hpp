@@ -179,7 +179,7 @@ private:
     Nanoseconds last_step_ns_ = 0;
     wall::OutputPlace output_;                    // of the main screen
     ImageSize panel_output_;                      // of the panel's window; empty: there is none
-    std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet
+    std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet: all of them in one, or none
     std::size_t undoable_ = 0, redoable_ = 0;     // as of the last update
     bool exporting_ = false;
     LivePanel panel_;

@@ -2,6 +2,7 @@
 // The mouse as a hand on the surface of an own part: where the tool goes, how deep a stroke is, what a stroke does
 // where the ray leaves what it was on.
 #include <map>
+#include <set>
 
 #include "tests/session/mouse_desk.hpp"
 
@@ -396,6 +397,23 @@ TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
     EXPECT_EQ(cut.workpiece.room, 0.0);
     EXPECT_EQ(added.workpiece.room, sculpt::kUsualRoom);
     EXPECT_EQ(given.workpiece.room, 0.4);
+}
+
+// Off screen it once kept every tile as often as it had changed: some megabytes a stroke.
+TEST(MouseOnSurface, StrokesThatNobodyDrawsKeepEachTileOnce) {
+    MouseDesk desk(plate(kThick_mm));
+    static_cast<void>(desk.session->take_surface_updates());
+    desk.draws = false;
+    for (int i = 0; i < 3; ++i) desk.stroke({{20.0, 20.0 + 3.0 * i, kThick_mm}, {60.0, 20.0 + 3.0 * i, kThick_mm}});
+    const auto updates = desk.session->take_surface_updates();
+    ASSERT_EQ(updates.size(), 1u);
+    std::set<std::uint32_t> tiles;
+    for (const sculpt::TileUpdate& tile : updates[0].tiles) {
+        EXPECT_TRUE(tiles.insert(tile.tile).second) << tile.tile;
+        EXPECT_EQ(tile.surface, desk.session->surface()->shared_tile(tile.tile)) << "the newest";
+    }
+    EXPECT_GT(tiles.size(), 3u);
+    EXPECT_EQ(updates[0].undoable, 3u);
 }
 
 TEST(MouseOnSurface, IsForWhoHasAMouseAndLogsOfBeforeFlyFreely) {
