@@ -58,6 +58,14 @@ struct CombineOptions {
 };
 [[nodiscard]] Result<void> combine_files(const CombineOptions& options);
 
+// burin film: joins the pictures of a folder, in the order of the numbers in their names, into one that moves.
+struct FilmOptions {
+    std::string folder, out;
+    double pictures_a_second = 10.0;
+};
+void add_film_options(Command command, FilmOptions& film);
+[[nodiscard]] Result<void> film(const FilmOptions& options);
+
 // burin seek: the objects of a world are sought by touch, against the clock (activities/seek/seek.hpp).
 struct SeekSession {
     session::SculptOptions session;

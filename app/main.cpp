@@ -233,6 +233,10 @@ int run(int argc, char** argv) {
     Command hand = app.subcommand("hand", "Close, feel, grasp, carry and point with a drawn hand");
     add_hand_options(hand, hand_options);
 
+    FilmOptions film_options;
+    Command film = app.subcommand("film", "Join a folder's pictures into one that moves (animated PNG)");
+    add_film_options(film, film_options);
+
     SeekSession seek_options;
     Command seek = app.subcommand("seek", "Touch the objects of a world as they are named, against the clock");
     add_seek_options(seek, seek_options);
@@ -269,6 +273,7 @@ int run(int argc, char** argv) {
     }
     if (world.parsed()) return finish(world.run());
     if (hand.parsed()) return finish(app::hand(hand_options));
+    if (film.parsed()) return finish(app::film(film_options));
     if (seek.parsed()) return finish(app::seek(seek_options));
     if (demo.parsed()) return finish(demo.run());
     if (profile.parsed()) return finish(profile.run());

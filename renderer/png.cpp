@@ -57,6 +57,24 @@ Result<std::vector<std::byte>> encode_png(const Image& image) {
     return bytes;
 }
 
+Result<Image> read_png(const std::filesystem::path& path) {
+    constexpr std::uint64_t kMostPixels = 64u << 20;
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    const auto refuse = [&](const std::string& what) {
+        png_image_free(&png);
+        return fail(path.string(), what, "give a PNG file, such as a screenshot");
+    };
+    if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
+        return refuse(std::string("cannot be read as PNG: ") + png.message);
+    if (std::uint64_t{png.width} * png.height > kMostPixels) return refuse("has more than 64 million pixels");
+    png.format = PNG_FORMAT_RGBA;
+    Image image{{png.width, png.height}, std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
+    if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0)
+        return refuse(std::string("is damaged: ") + png.message);
+    return image;
+}
+
 Result<void> write_png(const std::filesystem::path& path, const Image& image) {
     const auto bytes = encode_png(image);
     if (!bytes) return fail(path.string(), bytes.error().what, bytes.error().remedy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes PNG files, through libpng.
+// Reads and writes PNG files, through libpng.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,9 @@ namespace burin::renderer {
 
 // Returns the bytes of a PNG file: RGB, 8 bits, marked sRGB. The same image gives the same bytes.
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(const Image& image);
+
+// Reads a PNG of any kind as RGBA. Fails on what is no PNG, and on one of more than 64 million pixels.
+[[nodiscard]] Result<Image> read_png(const std::filesystem::path& path);
 
 // Writes a PNG under a temporary name beside `path`, then renames it: a failure leaves no partial file and keeps the
 // previous file. The Error names the file.

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/commands.hpp"
+#include "base/file_io.hpp"
+#include "base/text.hpp"
+#include "renderer/film.hpp"
+#include "renderer/png.hpp"
+
+namespace burin::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Returns the number in a name, for pictures such as 0.5.png and 12.png; those without one come first, by name.
+double number_in(const fs::path& path) {
+    const std::string name = path.stem().string();
+    const std::size_t at = name.find_first_of("0123456789");
+    return at == std::string::npos ? -1.0 : std::strtod(name.c_str() + at, nullptr);
+}
+
+Result<std::vector<fs::path>> pictures_in(const std::string& folder) {
+    std::error_code failed;
+    std::vector<fs::path> pictures;
+    for (const auto& entry : fs::directory_iterator(folder, failed))
+        if (entry.path().extension() == ".png") pictures.push_back(entry.path());
+    if (failed) return fail(folder, failed.message(), "name a folder with pictures");
+    if (pictures.empty())
+        return fail(folder, "holds no .png", "burin replay FILE --pictures FOLDER --every 0.1 makes some");
+    std::ranges::sort(pictures, [](const fs::path& a, const fs::path& b) {
+        const double first = number_in(a), second = number_in(b);
+        return first != second ? first < second : a < b;
+    });
+    return pictures;
+}
+
+}  // namespace
+
+void add_film_options(Command command, FilmOptions& film) {
+    command.option("FOLDER", film.folder, "Pictures as PNG, in the order of the numbers in their names").required();
+    command.option("OUT", film.out, "The file: animated PNG").required();
+    command.option("--rate", film.pictures_a_second, "How many pictures are shown a second")
+        .within(0.1, 100.0)
+        .show_default();
+}
+
+Result<void> film(const FilmOptions& options) {
+    const auto pictures = pictures_in(options.folder);
+    if (!pictures) return std::unexpected(pictures.error());
+    renderer::Film made(static_cast<std::uint16_t>(std::lround(1000.0 / options.pictures_a_second)));
+    for (const fs::path& path : *pictures) {
+        if (fs::weakly_canonical(path) == fs::weakly_canonical(options.out)) continue;
+        const auto picture = renderer::read_png(path);
+        if (!picture) return std::unexpected(picture.error());
+        if (const auto added = made.add(*picture); !added)
+            return fail(path.string(), added.error().what, added.error().remedy);
+    }
+    const auto bytes = made.finish();
+    if (!bytes) return std::unexpected(bytes.error());
+    if (const auto written = write_file_atomically(options.out, *bytes); !written) return written;
+    std::printf("%s: %zu pictures, %.1f MB\n", options.out.c_str(), made.pictures(),
+                1e-6 * static_cast<double>(bytes->size()));
+    return {};
+}
+
+}  // namespace burin::app
