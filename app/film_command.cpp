@@ -52,7 +52,7 @@ Result<void> film(const FilmOptions& options) {
     renderer::Film made(static_cast<std::uint16_t>(std::lround(1000.0 / options.pictures_a_second)));
     for (const fs::path& path : *pictures) {
         if (fs::weakly_canonical(path) == fs::weakly_canonical(options.out)) continue;
-        const auto picture = renderer::read_png(path);
+        const auto picture = renderer::load_png(path);
         if (!picture) return std::unexpected(picture.error());
         if (const auto added = made.add(*picture); !added)
             return fail(path.string(), added.error().what, added.error().remedy);

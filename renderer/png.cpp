@@ -57,7 +57,7 @@ Result<std::vector<std::byte>> encode_png(const Image& image) {
     return bytes;
 }
 
-Result<Image> read_png(const std::filesystem::path& path) {
+Result<Image> load_png(const std::filesystem::path& path) {
     constexpr std::uint64_t kMostPixels = 64u << 20;
     png_image png{};
     png.version = PNG_IMAGE_VERSION;

@@ -16,7 +16,7 @@ namespace burin::renderer {
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(const Image& image);
 
 // Reads a PNG of any kind as RGBA. Fails on what is no PNG, and on one of more than 64 million pixels.
-[[nodiscard]] Result<Image> read_png(const std::filesystem::path& path);
+[[nodiscard]] Result<Image> load_png(const std::filesystem::path& path);
 
 // Writes a PNG under a temporary name beside `path`, then renames it: a failure leaves no partial file and keeps the
 // previous file. The Error names the file.

@@ -13,9 +13,10 @@
 // stays zero: a tracker that stops sending leaves the head at most 75 ms ahead.
 //
 // Plausibility check. A sample that is not a number, that is farther away than any hall is long (a tracker that reports
-// millimetres), that goes back in time or that would need a speed above the limit is not used; prediction goes on from the samples before. When kSamplesToTrust samples in a row agree among themselves
-// (a tracker was restarted, or its first samples were the wrong ones), they are accepted. After lost_after_ns without a
-// sample the head glides to the fallback pose, and back when samples return.
+// millimetres), that goes back in time or that would need a speed above the limit is not used; prediction goes on from
+// the samples before. When kSamplesToTrust samples in a row agree among themselves (a tracker was restarted, or its
+// first samples were the wrong ones), they are accepted. After lost_after_ns without a sample the head glides to the
+// fallback pose, and back when samples return.
 //
 // The drawn pose never jumps: whenever the head is lost or found, and whenever the target leaves the last drawn pose by
 // more than the speed limit allows for the time passed, the difference is kept as an offset, which then glides to zero.
@@ -50,8 +51,8 @@ struct HeadSettings {
     double glide_rad_per_s = 0.8;
 };
 
-// Says how far away something tracked is, what may be wrong, and the remedy: a tracker that reports millimetres as metres
-// has everything a thousand times as far away. who: "the head".
+// Says how far away something tracked is, what may be wrong, and the remedy: a tracker that reports millimetres as
+// metres has everything a thousand times as far away. who: "the head".
 [[nodiscard]] std::string too_far_away(const std::string& who, double away_m, double farthest_m);
 
 // Default settings with the setup's fallback pose.
