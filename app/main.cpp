@@ -262,7 +262,7 @@ int run(int argc, char** argv) {
     if (sculpt.parsed() && !felt_recording && session::wants_session(sculpt_options))
         return finish(run_recorded_session(sculpt_options, "sculpt"));
     if (sculpt.parsed()) {
-        session::settle_room(sculpt_options);
+        session::settle_room(sculpt_options, false);
         return finish(app::sculpt(sculpt_options));
     }
     if (bench.parsed()) return finish(bench.run());

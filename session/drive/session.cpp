@@ -168,7 +168,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     }
     if (const auto settled = settle_mouse(options); !settled) return settled;
     if (!log) options.workpiece.close_small_holes = true;
-    settle_room(options);
+    settle_room(options, true);
     if (const auto ok = check(options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());

@@ -70,10 +70,10 @@ Result<void> settle_mouse(SculptOptions& options) {
     return {};
 }
 
-void settle_room(SculptOptions& options) {
+void settle_room(SculptOptions& options, bool in_session) {
     if (options.workpiece.room) return;
-    const bool adds =
-        options.stroke.empty() ? options.live.input.empty() : options.tool.operation == compute::Operation::fill;
+    const bool adds = in_session ? options.live.input.empty()
+                                 : !options.stroke.empty() && options.tool.operation == compute::Operation::fill;
     options.workpiece.room = adds ? sculpt::kUsualRoom : 0.0;
 }
 

@@ -83,7 +83,7 @@ struct LiveOptions {
 
 // Decides how much room a workpiece has where the options leave it open: some where a person carves, or where material
 // is added along a stroke; none for an input, because recordings and logs from before there was any have none.
-void settle_room(struct SculptOptions& options);
+void settle_room(struct SculptOptions& options, bool in_session);
 
 // Returns the devices of all hands: one without a name where there is one hand.
 [[nodiscard]] std::vector<NamedDevice> devices_of(const LiveOptions& live);

@@ -386,15 +386,17 @@ TEST(MouseOnSurface, MaterialIsAddedAboveTheTopAndTheBorderOfTheRoomIsShownNearI
 }
 
 TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
-    SculptOptions person, log, cut, added, given;
+    SculptOptions person, log, cut, added, given, untouched;
     log.live.input = "log.txt";
     cut.stroke = added.stroke = "stroke.csv";
     added.tool.operation = compute::Operation::fill;
     given.workpiece.room = 0.4;
-    for (SculptOptions* options : {&person, &log, &cut, &added, &given}) settle_room(*options);
+    for (SculptOptions* options : {&person, &log, &given}) settle_room(*options, true);
+    for (SculptOptions* options : {&cut, &added, &untouched}) settle_room(*options, false);
     EXPECT_EQ(person.workpiece.room, sculpt::kUsualRoom);
     EXPECT_EQ(log.workpiece.room, 0.0);
     EXPECT_EQ(cut.workpiece.room, 0.0);
+    EXPECT_EQ(untouched.workpiece.room, 0.0);
     EXPECT_EQ(added.workpiece.room, sculpt::kUsualRoom);
     EXPECT_EQ(given.workpiece.room, 0.4);
 }
