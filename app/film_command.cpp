@@ -47,11 +47,18 @@ void add_film_options(Command command, FilmOptions& film) {
 }
 
 Result<void> film(const FilmOptions& options) {
+    // There it would be a picture of the next film, or take the place of one of this.
+    const fs::path home = fs::path(options.out).parent_path();
+    std::error_code ignored;
+    if (fs::equivalent(home.empty() ? "." : home, options.folder, ignored))
+        return fail(options.out, "lies in the folder of the pictures", "give a place outside it");
+    const std::string ending = fs::path(options.out).extension().string();
+    if (ending != ".png" && ending != ".apng")
+        return fail(options.out, "is no name for an animated PNG", "let it end in .png or .apng");
     const auto pictures = pictures_in(options.folder);
     if (!pictures) return std::unexpected(pictures.error());
     renderer::Film made(static_cast<std::uint16_t>(std::lround(1000.0 / options.pictures_a_second)));
     for (const fs::path& path : *pictures) {
-        if (fs::weakly_canonical(path) == fs::weakly_canonical(options.out)) continue;
         const auto picture = renderer::load_png(path);
         if (!picture) return std::unexpected(picture.error());
         if (const auto added = made.add(*picture); !added)
@@ -60,7 +67,7 @@ Result<void> film(const FilmOptions& options) {
     const auto bytes = made.finish();
     if (!bytes) return std::unexpected(bytes.error());
     if (const auto written = write_file_atomically(options.out, *bytes); !written) return written;
-    std::printf("%s: %zu pictures, %.1f MB\n", options.out.c_str(), made.pictures(),
+    std::printf("%s: %zu picture(s), %.1f MB\n", options.out.c_str(), made.pictures(),
                 1e-6 * static_cast<double>(bytes->size()));
     return {};
 }

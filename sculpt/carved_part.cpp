@@ -68,11 +68,12 @@ void CarvedPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecor
     if (Carver* const carver = carver_of(hand)) carver->reader.take(ticks);
 }
 
-Result<void> CarvedPart::update(Nanoseconds, const scene::PartSeen* recorded) {
+Result<void> CarvedPart::update(Nanoseconds now_ns, const scene::PartSeen* recorded) {
     seen_ = recorded != nullptr ? *recorded : scene::PartSeen{export_is_done()};
     if (seen_.background_ended) finish();
     for (Carver& carver : carvers_)
         if (const auto carved = carve(carver); !carved) return carved;
+    carry_out_waiting(now_ns);
     return {};
 }
 
@@ -174,7 +175,24 @@ std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
 // ---- Orders
 
 void CarvedPart::order(const SculptOrder& order) {
+    const bool walks = std::holds_alternative<UndoStroke>(order) || std::holds_alternative<RedoStroke>(order);
+    const bool follows = !waiting_.empty() && std::holds_alternative<ExportSurface>(order);
+    if (follows || (walks && (pressed() || !waiting_.empty()))) {
+        waiting_.push_back(order);
+        return;
+    }
     std::visit([this](const auto& one) { carry_out(one); }, order);
+    status_changed_ = true;
+}
+
+// What was left of a stroke would be a stroke of its own, and the one that was undone would come back in part.
+void CarvedPart::carry_out_waiting(Nanoseconds now_ns) {
+    if (waiting_.empty()) return;
+    if (!waiting_since_ns_) waiting_since_ns_ = now_ns;
+    if (pressed() && now_ns - *waiting_since_ns_ < kMostWait_ns) return;
+    waiting_since_ns_.reset();
+    for (const SculptOrder& one : std::exchange(waiting_, {}))
+        std::visit([this](const auto& what) { carry_out(what); }, one);
     status_changed_ = true;
 }
 

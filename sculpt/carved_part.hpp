@@ -83,6 +83,8 @@ class CarvedPart final : public scene::ScenePart {
 public:
     // Tiles baked in one update: few while the tool works, more while it rests.
     static constexpr std::size_t kLitWorking = 2, kLitResting = 16;
+    // As long as a hand's delay may be (devices/hand/steered_hand.hpp).
+    static constexpr Nanoseconds kMostWait_ns = 500'000'000;
     // Between updates while something changes, and at rest.
     static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;
 
@@ -93,7 +95,9 @@ public:
                std::size_t hand = 0);
     ~CarvedPart() override;
 
-    // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update.
+    // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update. A hand
+    // comes after the cursor: undo and redo that are asked for while a button is still down wait for the stroke's end,
+    // up to kMostWait_ns, and so does an export behind them.
     void order(const SculptOrder& order);
     // Gives a hand a tool, likewise.
     void order(const UseTool& use, std::size_t hand);
@@ -128,6 +132,7 @@ private:
         bool said_why = false;     // this stroke's user has been told why nothing is carved
         bool said_border = false;  // and that what is added ends at the border of the room
     };
+    void carry_out_waiting(Nanoseconds now_ns);
     void carry_out(const UseTool& use) { use_tool(carvers_.front(), use); }
     void carry_out(const MirrorStrokes& with) { sculpture_.mirror(with.mirror); }
     void carry_out(const UndoStroke&);
@@ -147,9 +152,11 @@ private:
     Sculpture& sculpture_;
     std::vector<Carver> carvers_;  // at least one, in the order in which they were given tools
     bool keeps_history_;
-    bool stroke_open_ = false;    // a button was down at the end of the last update
-    bool status_changed_ = true;  // something other than tiles and messages has to be reported
-    bool busy_ = true;            // there was something to report after the last update
+    bool stroke_open_ = false;          // a button was down at the end of the last update
+    bool status_changed_ = true;        // something other than tiles and messages has to be reported
+    bool busy_ = true;                  // there was something to report after the last update
+    std::vector<SculptOrder> waiting_;  // for the end of a stroke
+    std::optional<Nanoseconds> waiting_since_ns_;
     std::future<ExportOutcome> export_;
     std::vector<std::string> messages_;
     std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of

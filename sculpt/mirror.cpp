@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sculpt/mirror.hpp"
 
+#include <cctype>
 #include <utility>
 
 #include "compute/tools/mesh_tool.hpp"
@@ -40,11 +41,12 @@ std::shared_ptr<const geometry::TriangleMesh> reflected_mesh(const geometry::Tri
 Result<Mirror> parse_mirror(std::string_view text, const std::string& where) {
     Mirror mirror;
     if (text == "none") return mirror;
-    const auto wrong = [&] { return fail(where, "names no planes", "write none or axes, such as x or xz"); };
-    if (text.empty()) return wrong();
+    const auto wrong = [&](const char* what) { return fail(where, what, "write none or axes, such as x or xz"); };
+    if (text.empty()) return wrong("names no planes");
     for (const char axis : text) {
-        const std::size_t at = kAxes.find(axis);
-        if (at == std::string_view::npos || std::exchange(mirror.across.at(at), true)) return wrong();
+        const std::size_t at = kAxes.find(static_cast<char>(std::tolower(static_cast<unsigned char>(axis))));
+        if (at == std::string_view::npos) return wrong("names a plane other than x, y and z");
+        if (std::exchange(mirror.across.at(at), true)) return wrong("names a plane twice");
     }
     return mirror;
 }

@@ -142,6 +142,7 @@ std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std:
 
 // Tiles are meshed anew where a tool has only passed; what a stroke has changed can be undone.
 void StrokeWatch::take(const sculpt::SurfaceUpdate& update) {
+    changed_ = changed_ || update.undoable != undoable_;
     undoable_ = update.undoable;
     told_ = told_ || !update.messages.empty();
 }
@@ -152,7 +153,7 @@ std::optional<std::string> StrokeWatch::look(const SessionState& state, const ha
     constexpr std::uint32_t kWorks = 1;
     const bool pressed = (tool.buttons & kWorks) != 0;
     if (pressed && !std::exchange(pressed_, true)) {
-        touched_ = told_ = false;
+        touched_ = told_ = changed_ = false;
         undoable_before_ = undoable_;
         due_ns_.reset();
     }
@@ -160,7 +161,7 @@ std::optional<std::string> StrokeWatch::look(const SessionState& state, const ha
     if (!pressed && std::exchange(pressed_, false)) due_ns_ = time_ns + kSettled_ns;
     if (!due_ns_ || time_ns < *due_ns_) return std::nullopt;
     due_ns_.reset();
-    if (undoable_ != undoable_before_ || told_) return std::nullopt;
+    if (changed_ || undoable_ != undoable_before_ || told_) return std::nullopt;
     return why_nothing(state, touched_, spacing_m);
 }
 

@@ -117,7 +117,8 @@ public:
 private:
     std::size_t undoable_ = 0, undoable_before_ = 0;  // strokes, now and before this one
     bool pressed_ = false, touched_ = false;
-    bool told_ = false;  // the workpiece itself has told something since it began
+    bool changed_ = false;  // the strokes have become more or fewer since it began
+    bool told_ = false;     // the workpiece itself has told something since it began
     std::optional<Nanoseconds> due_ns_;
 };
 

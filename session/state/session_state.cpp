@@ -447,6 +447,8 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     staging.held = state.held;
     staging.contact_shown = state.force_shown;
     staging.tool_visible = staging.tool_visible && !state.handle;
+    // Before the cursor has been over the picture nobody knows where the tool is to be.
+    if (state.mouse == MouseMode::surface && !state.desk.mouse_px) staging.tool_visible = false;
     // It is around all that is there.
     staging.box_visible = staging.box_visible && state.mouse != MouseMode::surface;
     stage(scene, staging, state.world_from_object);

@@ -185,6 +185,44 @@ TEST(CarvedPart, QuickClicksAreStrokesOfTheirOwnAlsoWithinOneUpdate) {
 }
 
 // What a file holds can be had back: an undo after it takes away only what was carved since.
+// A hand comes after the cursor: what was asked for as the button came up reached the part in mid-stroke, and the rest
+// of the stroke stayed.
+TEST(CarvedPart, AnUndoWhileTheHandStillCutsTakesBackTheWholeStroke) {
+    Bench bench;
+    ASSERT_TRUE(bench.desk.update(0));
+    const double whole_m3 = bench.carving.surface().volume_m3();
+    for (int i = 0; i < 5; ++i) bench.sample({0.01 * i - 0.05, 0.0, 0.1}, true);
+    ASSERT_TRUE(bench.desk.update(10'000'000));
+    bench.desk.order(UndoStroke{});
+    bench.desk.order(RedoStroke{});
+    bench.desk.order(UndoStroke{});
+    for (int i = 5; i < 10; ++i) bench.sample({0.01 * i - 0.05, 0.0, 0.1}, true);
+    ASSERT_TRUE(bench.desk.update(20'000'000));
+    EXPECT_LT(bench.carving.surface().volume_m3(), whole_m3) << "it waits";
+    bench.sample({0.05, 0.0, 0.2}, false);
+    ASSERT_TRUE(bench.desk.update(30'000'000));
+    EXPECT_EQ(bench.carving.surface().volume_m3(), whole_m3);
+    static_cast<void>(bench.desk.take_surface_update());
+    bench.desk.order(RedoStroke{});
+    const auto news = bench.desk.take_surface_update();
+    ASSERT_TRUE(news);
+    EXPECT_EQ(news->undoable, 1u);
+    EXPECT_TRUE(news->messages.empty());
+}
+
+TEST(CarvedPart, AnUndoWaitsNoLongerThanAHandIsLate) {
+    Bench bench;
+    ASSERT_TRUE(bench.desk.update(0));
+    const double whole_m3 = bench.carving.surface().volume_m3();
+    bench.sample({0.0, 0.0, 0.1}, true);  // and no more: a device that is lost with its button down
+    ASSERT_TRUE(bench.desk.update(10'000'000));
+    bench.desk.order(UndoStroke{});
+    ASSERT_TRUE(bench.desk.update(20'000'000));
+    EXPECT_LT(bench.carving.surface().volume_m3(), whole_m3);
+    ASSERT_TRUE(bench.desk.update(20'000'000 + CarvedPart::kMostWait_ns));
+    EXPECT_EQ(bench.carving.surface().volume_m3(), whole_m3);
+}
+
 TEST(CarvedPart, AnExportInMidStrokeEndsTheStroke) {
     const Workplace place;
     Bench bench;

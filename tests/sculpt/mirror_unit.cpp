@@ -84,7 +84,8 @@ TEST(Mirror, IsReadAsItIsWritten) {
         EXPECT_EQ(images_of(mirror).size() + 1, 1u << static_cast<unsigned>(std::ranges::count(mirror.across, true)));
     }
     EXPECT_EQ(*parse_mirror("zx", ""), (Mirror{{true, false, true}}));
-    for (const char* wrong : {"", "w", "xx", "X", "x,y", "nones"})
+    EXPECT_EQ(*parse_mirror("XZ", ""), (Mirror{{true, false, true}})) << "as the buttons show them";
+    for (const char* wrong : {"", "w", "xx", "Xx", "x,y", "nones"})
         EXPECT_EQ(parse_mirror(wrong, "--mirror").error().remedy, "write none or axes, such as x or xz") << wrong;
 }
 
