@@ -48,7 +48,7 @@ Json ages_of_all(const std::vector<session::TimedFrame>& frames) {
     return ages;
 }
 
-// What a person with a mouse does, by what its frames show, and how many frames a second are aimed at for it.
+// Names an activity of a person with a mouse, how its frames are recognised, and the frame rate aimed at for it.
 struct Doing {
     const char* name;
     double aim_per_s;

@@ -185,7 +185,7 @@ void CarvedPart::order(const SculptOrder& order) {
     status_changed_ = true;
 }
 
-// What was left of a stroke would be a stroke of its own, and the one that was undone would come back in part.
+// Waits, because samples of the stroke that come after the undo would begin a new stroke, which nobody undoes.
 void CarvedPart::carry_out_waiting(Nanoseconds now_ns) {
     if (waiting_.empty()) return;
     if (!waiting_since_ns_) waiting_since_ns_ = now_ns;

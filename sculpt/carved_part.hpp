@@ -83,7 +83,7 @@ class CarvedPart final : public scene::ScenePart {
 public:
     // Tiles baked in one update: few while the tool works, more while it rests.
     static constexpr std::size_t kLitWorking = 2, kLitResting = 16;
-    // As long as a hand's delay may be (devices/hand/steered_hand.hpp).
+    // Longest wait for a stroke to end: the greatest delay of a steered hand (devices/hand/steered_hand.hpp).
     static constexpr Nanoseconds kMostWait_ns = 500'000'000;
     // Between updates while something changes, and at rest.
     static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;

@@ -19,7 +19,7 @@ namespace burin::sculpt {
 
 // ---- Workpiece
 
-// What a session offers where nothing else is asked for.
+// Default room on every side of a workpiece, as a share of its longest side.
 inline constexpr double kUsualRoom = 0.15;
 
 struct WorkpieceOptions {

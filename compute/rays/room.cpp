@@ -47,7 +47,7 @@ Result<Solid> with_room(Solid solid, int cells) {
     roomy.lattice.origin_object -= Vec3(cells * solid.lattice.spacing_m);
     const auto rays = static_cast<std::uint64_t>(roomy.lattice.rays(0) + roomy.lattice.rays(1) + roomy.lattice.rays(2));
     const auto available = memory_available();
-    // Of a ray: its place in the page, its count while they are assigned, and as much on a device.
+    // Memory of a ray, at most: 4 bytes in its page, 4 of counts while rays are assigned, 8 on a device.
     constexpr std::uint64_t kBytesARay = 16;
     if (available && rays * kBytesARay > *available)
         return fail("--room", "takes more memory than there is", "give less, or lower --resolution");

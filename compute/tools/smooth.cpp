@@ -27,7 +27,7 @@ constexpr double kLeastWidth = 3.0;
 constexpr double kSmallStep = 0.01;
 constexpr int kMostWaves = 8;  // cells by which the surface may move into a node's neighbours
 
-// What is known of a lattice node.
+// State of a lattice node before and after smoothing.
 struct NodeState {
     bool was_inside = false, is_inside = false;
     bool weighs = false;    // the tool reaches it
@@ -81,7 +81,7 @@ double share_of_axis(const Vec3& normal, int axis) {
     return n2[axis] * n2[axis] / glm::dot(n2, n2);
 }
 
-// How strongly the tool smooths at a place.
+// Strength of smoothing at a place within the tool.
 struct Smoothing {
     double share = 0.0;        // of the way to the smoothed surface
     SmoothField::Width width;  // of the kernel, in cells
@@ -321,8 +321,8 @@ private:
         low[(s + 1) % 3] = ru;
         low[(s + 2) % 3] = rv;
         std::size_t next = 0;
-        // Whether the lower node is inside: by this ray's own ends where the tool does not reach the node, by the new
-        // side where it does.
+        // Sign of the lower node: taken from the ray's own ends where the tool does not reach the node, and from the
+        // smoothed field where it does.
         bool low_inside = false;
         for (int k = lo_[s] - 1; k <= hi_[s]; ++k) {
             low[s] = k;

@@ -63,8 +63,8 @@ public:
     // Names a part for people: "right", "left index"; the device's name for the only part of the only hand.
     [[nodiscard]] std::string name_of(std::size_t part) const;
 
-    // What a gap between two targets means. On a path the hand is under way between them. A mouse has rested: it says
-    // where it is many times a second while it moves. A hand that took its rest for a slow motion would be late by it.
+    // Tells what a gap between two targets means. On a path the hand moves evenly through it. A mouse reports many
+    // times a second while it moves, so a gap is a rest; a hand that played it as a slow motion would lag by the gap.
     enum class Source : std::uint8_t { path, mouse };
     // A gap from which on a mouse has rested, and how long before the target behind it the rest has ended.
     static constexpr Nanoseconds kMouseRests_ns = 60'000'000, kMouseSetsOut_ns = 10'000'000;

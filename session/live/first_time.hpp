@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether somebody has seen the first steps already: an empty file in the user's folder for settings says so,
+// Remembers that the user has seen the first steps, by an empty file in the user's configuration folder,
 // $XDG_CONFIG_HOME/burin/first-steps-seen, else below ~/.config. Thread: the frame's.
 #pragma once
 

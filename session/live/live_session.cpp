@@ -209,7 +209,7 @@ void LiveSession::take(sculpt::SurfaceUpdate news) {
     times_.cut(news.cut_ns);
     seen_.take(news);
     strokes_.take(news);
-    // What nobody draws for long, as off screen, would keep each tile as often as it has changed.
+    // Merged, because a session that draws rarely, as off screen, would keep every version of each tile.
     if (updates_.empty())
         updates_.push_back(std::move(news));
     else

@@ -31,7 +31,7 @@ struct Message {
 class MessageLog {
 public:
     static constexpr std::size_t kKept = 100;
-    // How long a message is shown; errors stay until they are dismissed.
+    // Time for which a message is shown, by kind; errors stay until they are dismissed.
     static constexpr Nanoseconds kInfo_ns = 5'000'000'000, kWarning_ns = 12'000'000'000;
 
     // Has messages from outside go to standard error alone: in simulated time pictures depend on the input alone.
