@@ -115,7 +115,9 @@ struct Steps {
         state.works = pointed.tool.works || !state.on_surface.pressed;
         const Similarity device_from_object = inverse(on.object_from_device);
         const Vec3 half = 0.5 * settings.workspace_m;
-        state.target_device_m = glm::clamp(device_from_object * pointed.tool.object_from_tool.position_m, -half, half);
+        const Vec3 wanted_m = device_from_object * pointed.tool.object_from_tool.position_m;
+        state.target_device_m = glm::clamp(wanted_m, -half, half);
+        state.beyond_reach = !state.on_surface.pressed && state.target_device_m != wanted_m;
         state.led_device = glm::normalize(device_from_object.orientation * pointed.tool.object_from_tool.orientation);
         // Its button goes down before it touches, so that it comes upon the surface from outside.
         if (begins) {

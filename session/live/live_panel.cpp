@@ -151,8 +151,12 @@ void LivePanel::feed_times(const FrameInput& input, const PanelContext& context)
                 context.recording_ended, recorded_ ? &*recorded_ : nullptr});
 }
 
+double panel_scale_in(const Room& room, ImageSize window) {
+    return std::min(room.panel_scale, std::max(1.0, window.width / (2.0 * kPanelWidth_px)));
+}
+
 std::uint32_t panel_width(const Room& room, ImageSize eye, ImageSize window) {
-    const auto width = static_cast<std::uint32_t>(std::lround(kPanelWidth_px * room.panel_scale));
+    const auto width = static_cast<std::uint32_t>(std::floor(kPanelWidth_px * panel_scale_in(room, window)));
     const bool has_room = room.wall.desk && !room.wall.has_panel_window() && eye.height > 0 && eye.width > width &&
                           window.width >= 2 * width;
     return has_room ? width : 0;
@@ -171,7 +175,7 @@ Result<void> LivePanel::open(std::optional<Panel>& panel, ImageSize size, double
         panel.emplace(std::move(*made));
     }
     panel->resize(size);
-    return {};
+    return panel->rescale(scale);
 }
 
 Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {
@@ -192,7 +196,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
         const ImageSize size = in_window ? ImageSize{width, context.panel_output.height}
                                : stands  ? kStanding_px
                                          : ImageSize{width, eye.height};
-        const double scale = in_window || stands ? 1.0 : context.room.panel_scale;
+        const double scale = in_window || stands ? 1.0 : panel_scale_in(context.room, context.output.size);
         if (const auto opened = open(panel_, size, scale); !opened) return std::unexpected(opened.error());
         panel_->lie_over(in_window || stands ? ImageSize{} : eye);
         left = in_window ? feed_in_window(input, context.panel_output) : feed_over_picture(input, context, size);

@@ -66,6 +66,8 @@ struct SceneInput {
 // or where it has a window of its own. In modes that halve the picture it covers more of each half. And the share of
 // the picture that it leaves free.
 [[nodiscard]] std::uint32_t panel_width(const Room& room, ImageSize eye, ImageSize window);
+// Returns the scale of its letters there: smaller than asked for where the panel would cover more than half the window.
+[[nodiscard]] double panel_scale_in(const Room& room, ImageSize window);
 [[nodiscard]] double beside_panel(const Room& room, ImageSize eye, ImageSize window);
 
 class LivePanel {
@@ -83,6 +85,12 @@ public:
     // Returns when it changes by itself, in session time; nothing where it does not.
     [[nodiscard]] std::optional<Nanoseconds> changes_ns() const {
         return layout_ != nullptr ? layout_->changes_ns : std::nullopt;
+    }
+
+    // Returns where a widget with this label lies over the main screen's picture, in its pixels; nothing where it is
+    // scrolled away, does not exist, or the panel stands elsewhere. For scripts and tests that press it.
+    [[nodiscard]] std::optional<PixelRect> place_of(std::string_view label) const {
+        return panel_ && layout_ != nullptr ? panel_->place_over_picture(label) : std::nullopt;
     }
 
     // Records what the main screen's frame drew and left out, which the next steps' figures show.

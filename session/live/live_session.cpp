@@ -40,11 +40,14 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
         step_session(state_, room_, left.events,
                      {dt_s, input.display_ns, main_eye(), tool, left.captured, of_hands, output_, &seen_});
     state_ = std::move(step.state);
+    fit_into_mode(step.orders);
     step.orders.line = input.events.empty() ? 0 : input.events.back().line;
     for (const CommandInput& action : panel_.actions()) {
         if (const auto done = run_command(state_, step.orders, action); !done)
             step.orders.messages.push_back({done.error().line()});
     }
+    // Before the parameters are published: else the hand would go on feeling the tool that was put down.
+    if (const auto taken = take_up(state_); !taken) step.orders.messages.push_back({taken.error().line()});
     if (before) hold_governed(*before, step.orders);
     activity_.step(state_, step.orders, input.time_ns, hands(), tools_);
     for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
@@ -54,6 +57,14 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
                       state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
+}
+
+// Two pictures side by side or one above the other leave each another shape: what filled one is cut off in the other.
+void LiveSession::fit_into_mode(SessionOrders& orders) {
+    const wall::StereoMode mode = output_on(room_.wall.main).mode, before = std::exchange(framed_, mode).value_or(mode);
+    const bool other_shape = wall::eye_size(mode, output_.size) != wall::eye_size(before, output_.size);
+    if (other_shape && room_.wall.desk && state_.mouse == MouseMode::surface)
+        static_cast<void>(run_command(state_, orders, RunAction{Action::fit_view}));
 }
 
 // A hand that goes on turning the scene is told once that it stays.

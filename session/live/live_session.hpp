@@ -74,6 +74,10 @@ public:
     [[nodiscard]] std::optional<PanelPicture> panel_on(std::size_t screen) const {
         return panel_.picture_on(screen, room_);
     }
+    // See LivePanel.
+    [[nodiscard]] std::optional<PixelRect> place_on_panel(std::string_view label) const {
+        return panel_.place_of(label);
+    }
     // Records what the main screen's frame drew and left out.
     void note_drawn(const renderer::RenderStats& stats) { panel_.note_drawn(stats); }
     [[nodiscard]] wall::OutputSettings output_on(std::size_t screen) const {
@@ -151,6 +155,7 @@ private:
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
+    void fit_into_mode(SessionOrders& orders);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
@@ -178,6 +183,7 @@ private:
     SeenSurface seen_;                       // that the mouse points at
     Nanoseconds last_step_ns_ = 0;
     wall::OutputPlace output_;                    // of the main screen
+    std::optional<wall::StereoMode> framed_;      // of the main screen, when the workpiece was last fitted into it
     ImageSize panel_output_;                      // of the panel's window; empty: there is none
     std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet: all of them in one, or none
     std::size_t undoable_ = 0, redoable_ = 0;     // as of the last update

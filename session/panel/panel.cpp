@@ -95,6 +95,15 @@ public:
         return {};
     }
 
+    Result<void> rescale(float scale) {
+        if (scale == kit_.scale) return {};
+        kit_.scale = scale;
+        resting_ = kSettling;
+        const Current current(context_);
+        panel::apply_style(scale);
+        return load_letters(type_file_);
+    }
+
     // Has letters ready that texts of people hold: names of files and objects, messages, what is typed.
     void learn_letters(const PanelModel& model) {
         const std::size_t before = letters_.size();
@@ -232,7 +241,11 @@ private:
         if (is_empty(picture_)) free = {{0.0f, 0.0f}, {screen.x, column_bottom_}};
         kit_.visible_lo = {0.0f, 0.0f};
         kit_.visible_hi = screen;
-        if (model.first_steps && !is_empty(picture_)) panel::show_first_steps(kit_, model, free);
+        if (model.first_steps && !is_empty(picture_)) {
+            panel::show_first_steps(kit_, model, free);
+            const auto card = kit_.places.find("first-steps");
+            if (card != kit_.places.end()) free.hi.y = static_cast<float>(card->second.y);
+        }
         panel::show_notes(kit_, model, free);
         if (kit_.hovered != tip_for_) {
             tip_for_ = kit_.hovered;
@@ -371,6 +384,10 @@ void Panel::resize(ImageSize size) {
     if (size == implementation_->size_) return;
     implementation_->size_ = size;
     implementation_->resting_ = kSettling;
+}
+Result<void> Panel::rescale(double scale) {
+    BURIN_CHECK(scale > 0.0);
+    return implementation_->rescale(static_cast<float>(scale));
 }
 void Panel::lie_over(ImageSize picture) {
     if (picture == implementation_->picture_) return;

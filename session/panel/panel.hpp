@@ -73,6 +73,8 @@ public:
     ~Panel();
 
     void resize(ImageSize size);
+    // Sets its letters in another size. Fails where a named font file can be used no more.
+    [[nodiscard]] Result<void> rescale(double scale);
     // Has the panel lie at the right of a picture of this size, over which messages, tool-tips and the card of first
     // steps are shown; empty: there is none, and they lie over the panel itself.
     void lie_over(ImageSize picture);

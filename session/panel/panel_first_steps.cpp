@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The card for who sees the program for the first time: what the mouse does, in four small pictures. It takes no mouse,
-// so that the first press already works.
+// so that the first press already works. It lies at the picture's lower end, where it hides the plinth rather than the
+// part.
 #include <algorithm>
 #include <cmath>
 
@@ -116,7 +117,8 @@ void show_first_steps(Kit& kit, const PanelModel&, const Area& free) {
     const ImVec2 size{static_cast<float>(across) * step + 2.0f * inset,
                       kit.px(62.0f) + row * static_cast<float>(4 / across)};
     if (size.x > room.x || size.y > room.y) return;
-    const ImVec2 lo{std::floor(free.lo.x + 0.5f * (room.x - size.x)), std::floor(free.lo.y + kit.px(20.0f))};
+    const ImVec2 lo{std::floor(free.lo.x + 0.5f * (room.x - size.x)),
+                    std::floor(free.hi.y - std::min(size.y + kit.px(14.0f), room.y))};
     ImGui::SetNextWindowPos(lo);
     ImGui::SetNextWindowSize(size);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});

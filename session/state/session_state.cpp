@@ -447,8 +447,10 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     staging.held = state.held;
     staging.contact_shown = state.force_shown;
     staging.tool_visible = staging.tool_visible && !state.handle;
-    // Before the cursor has been over the picture nobody knows where the tool is to be.
-    if (state.mouse == MouseMode::surface && !state.desk.mouse_px) staging.tool_visible = false;
+    // Before the cursor has been over the picture nobody knows where the tool is to be; and beside the cursor, at the
+    // border of what the hand reaches, it would be a large thing in the way.
+    if (state.mouse == MouseMode::surface && (!state.desk.mouse_px || state.desk.beyond_reach))
+        staging.tool_visible = false;
     // It is around all that is there.
     staging.box_visible = staging.box_visible && state.mouse != MouseMode::surface;
     stage(scene, staging, state.world_from_object);

@@ -17,6 +17,7 @@
 #include "session/live/live_session.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/projection.hpp"
+#include "wall/seen_place.hpp"
 
 namespace burin::session {
 
@@ -63,13 +64,8 @@ public:
         options.workpiece.resolution = resolution;
         options.workpiece.room = room;
         options.tool.shape = tool;
-        options.engine = sculpt::EngineChoice::cpu;
         options.live.mouse = MouseMode::surface;
-        if (const auto settled = settle_mouse(options); !settled) throw std::runtime_error(settled.error().line());
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
-        if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
-        session->take_loaded();
+        open();
         run({{CommandInput{"toggle-panel", {}}, 0}});
     }
 
@@ -85,15 +81,21 @@ public:
     }
     void rest(double seconds) { run({}, nanoseconds(seconds)); }
 
-    // Where a place of the part is seen, in pixels of the window.
+    // Where a place of the part is seen, in pixels of the main screen's window; of two pictures in it in the first.
     [[nodiscard]] Vec2 px_of(const Vec3& place_mm) const {
+        return px_of_world(session->state().world_from_object * (1e-3 * place_mm));
+    }
+    [[nodiscard]] Vec2 px_of_world(const Vec3& place_world) const {
         const SessionState& state = session->state();
-        const View view = view_of(session->room().wall.setup, 0, state.head, state.interpupillary_m);
+        const std::size_t screen = session->room().wall.main;
+        const View view = view_of(session->room().wall.setup, screen, state.head, state.interpupillary_m);
         const Vec3 eye = wall::middle_of(wall::eyes_of(view.viewer));
-        const Vec2 at_m = wall::point_on_screen(view.screen, eye, state.world_from_object * (1e-3 * place_mm));
+        const Vec2 at_m = wall::point_on_screen(view.screen, eye, place_world);
         const double wide_m = glm::length(view.screen.lower_right_world - view.screen.lower_left_world);
-        const double per_m = kWindow.width / wide_m;
-        return {at_m.x * per_m, kWindow.height - at_m.y * per_m};
+        const wall::StereoMode mode = session->output_on(screen).mode;
+        const ImageSize eye_px = wall::eye_size(mode, output.size);
+        const double per_m = eye_px.width / wide_m;
+        return Vec2{at_m.x * per_m, eye_px.height - at_m.y * per_m} / wall::picture_px_per_px(mode);
     }
     void move_to(const Vec2& px) { run({{MouseMove{px}, 8'000'000}}); }
     void point_at(const Vec3& place_mm) {
@@ -135,9 +137,24 @@ public:
     [[nodiscard]] std::size_t strokes() const { return strokes_; }
 
     SculptOptions options;
+    wall::OutputPlace output{.size = kWindow};
     bool draws = true;  // the frames take what has changed of the surface
     SimulatedClock clock;
     std::unique_ptr<LiveSession> session;
+
+protected:
+    // A desk that is opened later, with options of its own.
+    MouseDesk() = default;
+    void open() {
+        options.engine = sculpt::EngineChoice::cpu;
+        if (const auto settled = settle_mouse(options); !settled) throw std::runtime_error(settled.error().line());
+        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        if (!made) throw std::runtime_error(made.error().line());
+        session = std::move(*made);
+        session->take_loaded();
+    }
+    [[nodiscard]] const Workplace& place() const { return place_; }
+    [[nodiscard]] Nanoseconds now_ns() const { return next_ns_ - frame_ns_; }
 
 private:
     void frame() {
@@ -153,8 +170,10 @@ private:
         std::vector<InputEvent> now;
         while (taken_ < events_.size() && events_[taken_].time_ns <= next_ns_) now.push_back(events_[taken_++]);
         tool_ = session->newest_tool();
-        session->step({next_ns_, next_ns_, now}, {.size = kWindow}, tool_,
-                      [](const scene::SceneThread::Order& order) { order(); });
+        session->step({next_ns_, next_ns_, now}, output, tool_, [this](const scene::SceneThread::Order& order) {
+            order();
+            session->scene().finish();  // an export
+        });
         session->take_news(Executor::kAllCollected);
         if (draws)
             for (const sculpt::SurfaceUpdate& update : session->take_surface_updates()) strokes_ = update.undoable;
@@ -162,7 +181,7 @@ private:
     }
 
     Workplace place_;
-    Nanoseconds frame_ns_, next_ns_ = 0, told_ns_ = 0, next_update_ns_ = 10'000'000;
+    Nanoseconds frame_ns_ = 1'000'000'000 / 60, next_ns_ = 0, told_ns_ = 0, next_update_ns_ = 10'000'000;
     std::vector<InputEvent> events_;
     std::size_t taken_ = 0, strokes_ = 0;
     haptics::ToolState tool_;

@@ -107,6 +107,38 @@ TEST(MouseOnSurface, EveryToolCutsAStraightGroove) {
     }
 }
 
+// The hand went on feeling the tool that it had put down: a mill taken up on the panel stayed a ball's radius above
+// what it should cut, and a box cut nothing.
+TEST(MouseOnSurface, AToolTakenUpOnThePanelIsFeltAtOnce) {
+    for (const std::string tool : {"cylinder", "box"}) {
+        MouseDesk desk(plate(kThick_mm));
+        desk.run({{CommandInput{"toggle-panel", {}}, 0}}, 100'000'000);
+        const auto at = desk.session->place_on_panel("tool " + tool);
+        ASSERT_TRUE(at);
+        desk.move_to({at->x + 0.5 * at->width, at->y + 0.5 * at->height});
+        desk.run({{MouseClick{}, 50'000'000}, {MouseClick{MouseButton::left, false, {}}, 50'000'000}}, 100'000'000);
+        desk.stroke({{15, 30, 12}, {45, 30, 12}});
+        const Groove groove = groove_along_x(desk, 20.0, 40.0, 30.0, 8.0);
+        EXPECT_NEAR(std::ranges::min(groove.depths_mm), kDepth_mm, kBears_mm) << tool;
+        EXPECT_NEAR(std::ranges::max(groove.depths_mm), kDepth_mm, kBears_mm) << tool;
+    }
+}
+
+// It hung before the part, large and at the border of the hand's reach.
+TEST(MouseOnSurface, NoToolIsShownWhereItDoesNotGetToTheCursor) {
+    MouseDesk desk("");  // a ball of 40 mm
+    const auto shown = [&] { return desk.session->scene_on(0).value().tool.visible; };
+    desk.point_at({20, 0, 30});
+    EXPECT_TRUE(shown());
+    desk.point_at({48, 0, 0});
+    EXPECT_TRUE(shown()) << "beside the part it hovers";
+    desk.move_to({20, 20});
+    desk.rest(0.3);
+    EXPECT_FALSE(shown());
+    desk.point_at({-20, 0, 30});
+    EXPECT_TRUE(shown());
+}
+
 // The hand needs a while to where the cursor has jumped; the stroke begins there all the same, and not on the way.
 TEST(MouseOnSurface, AStrokeBeginsWhereTheButtonWentDownHoweverSoonAfterAJump) {
     for (const Nanoseconds after_ns : {0LL, 8'000'000LL, 20'000'000LL, 60'000'000LL}) {
