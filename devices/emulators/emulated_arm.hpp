@@ -18,10 +18,10 @@ struct EmulatedArmSteps {
     std::function<void(Nanoseconds now_ns)> publish;
 };
 
-// Shared has the time of the library's newest frame, frame_ns, and kSilent_ns. Before a library has had one the hand's
+// Shared is a SharedLife with the time of the library's newest frame, frame_ns. Before a library has had one the hand's
 // time stands.
 template <typename Shared>
-void run_emulated_arm(const Shared& shared, SimulatedOmni& arm, const EmulatedArmSteps& steps) {
+void run_emulated_arm(Shared& shared, SimulatedOmni& arm, const EmulatedArmSteps& steps) {
     constexpr Nanoseconds kPeriod_ns = 1'000'000;
     MonotonicClock clock;
     const Nanoseconds begun_ns = clock.now_ns();
@@ -30,14 +30,18 @@ void run_emulated_arm(const Shared& shared, SimulatedOmni& arm, const EmulatedAr
         due_ns = std::max(due_ns + kPeriod_ns, clock.now_ns() - 50 * kPeriod_ns);
         clock.sleep_until(due_ns);
         const Nanoseconds now_ns = clock.now_ns();
-        if (steps.is_silent(seconds(now_ns - begun_ns))) continue;
+        if (steps.is_silent(seconds(now_ns - begun_ns))) {
+            shared.pull_cable();
+            continue;
+        }
         const Nanoseconds frame_ns = shared.frame_ns.load(std::memory_order_relaxed);
-        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < Shared::kSilent_ns;
+        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < kSharedForce_ns;
         const Vec3 force_N = is_heard ? steps.written_N() : Vec3(0.0);
         if (finite(force_N)) arm.write({force_N, Vec3(0.0)});
         if (frame_ns > 0) arm.advance(kPeriod_ns);
         steps.publish(now_ns);
     }
+    shared.pull_cable();
 }
 
 }  // namespace burin::devices

@@ -38,9 +38,7 @@ void EmulatedDhd::publish(SimulatedOmni& arm, Nanoseconds now_ns) {
     if (drill_->is_nan) pose[0] = std::numeric_limits<double>::quiet_NaN();
     memory_->pose.write(pose);
     memory_->buttons.store(sample.buttons, std::memory_order_relaxed);
-    memory_->beat_ns.store(now_ns, std::memory_order_relaxed);
-    // release: who sees the layout's word sees what was written before.
-    memory_->magic.store(DhdShared::kMagic, std::memory_order_release);
+    memory_->beat(now_ns, DhdShared::kMagic);
 }
 
 void EmulatedDhd::run(const std::function<bool()>& ends) {

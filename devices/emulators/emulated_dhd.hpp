@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A Force Dimension omega.3 that is not there: a simulated arm in a scripted hand, offered through shared memory to the
 // emulated library of its maker (devices/emulators/dhd_library/), which a session loads in place of the maker's. The
-// script begins when a session has opened it. A force that no library has renewed for DhdShared::kSilent_ns is none.
+// script begins when a session has opened it. A force that no library has renewed for kSharedForce_ns is none.
 // One thread runs it; the drills may be set by any.
 #pragma once
 

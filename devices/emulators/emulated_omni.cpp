@@ -35,9 +35,7 @@ void EmulatedOmni::publish(SimulatedOmni& omni, Nanoseconds now_ns) {
     if (drill_->is_nan) transform[12] = std::numeric_limits<double>::quiet_NaN();
     memory_->transform.write(transform);
     memory_->buttons.store(sample.buttons, std::memory_order_relaxed);
-    memory_->beat_ns.store(now_ns, std::memory_order_relaxed);
-    // release: who sees the layout's word sees what was written before.
-    memory_->magic.store(HdShared::kMagic, std::memory_order_release);
+    memory_->beat(now_ns, HdShared::kMagic);
 }
 
 void EmulatedOmni::run(const std::function<bool()>& ends) {

@@ -2,7 +2,7 @@
 // A PHANTOM Omni that is not there: the simulated Omni in a scripted hand, offered through shared memory to the
 // emulated library of its maker (devices/emulators/hd_library/), which a session loads in place of the maker's. The
 // script (circling_hand.hpp) begins when a session has opened it. A force that no library has renewed for
-// HdShared::kSilent_ns is none. One thread runs it; the drills may be set by any.
+// kSharedForce_ns is none. One thread runs it; the drills may be set by any.
 #pragma once
 
 #include <atomic>

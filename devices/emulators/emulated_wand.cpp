@@ -64,7 +64,7 @@ DeviceWrench EmulatedWand::acting() const {
 DeviceWrench EmulatedWand::wrench_of_volts(const Pose& device_from_handle, Nanoseconds now_ns) const {
     const Nanoseconds written_ns = memory_->written_ns.load(std::memory_order_relaxed);
     const Nanoseconds expires_ns = memory_->watchdog_ns.load(std::memory_order_relaxed);
-    const bool is_heard = written_ns > 0 && now_ns - written_ns < kSharedSilent_ns;
+    const bool is_heard = written_ns > 0 && now_ns - written_ns < kSharedForce_ns;
     if (!is_heard || !are_amplifiers_on() || (expires_ns != 0 && now_ns > expires_ns)) return {};
     const WandAxis axis = axis_in_mechanism(wand_, device_from_handle);
     const auto joints = wand_joints(wand_.mechanism.arm, axis);
@@ -84,9 +84,7 @@ void EmulatedWand::publish(const Pose& device_from_handle, Nanoseconds now_ns) {
         counts[0] += drill_->miscount.load(std::memory_order_relaxed);
         memory_->encoder_counts.write(counts);
     }
-    memory_->beat_ns.store(now_ns, std::memory_order_relaxed);
-    // release: who sees the layout's word sees what was written before.
-    memory_->magic.store(HilShared::kMagic, std::memory_order_release);
+    memory_->beat(now_ns, HilShared::kMagic);
 }
 
 void EmulatedWand::run(const std::function<bool()>& ends) {
@@ -102,7 +100,10 @@ void EmulatedWand::run(const std::function<bool()>& ends) {
         due_ns = std::max(due_ns + kPeriod_ns, clock.now_ns() - 50 * kPeriod_ns);
         clock.sleep_until(due_ns);
         const Nanoseconds now_ns = clock.now_ns();
-        if (drill_->is_silent || options_.silence.is_silent(seconds(now_ns - begun_ns))) continue;
+        if (drill_->is_silent || options_.silence.is_silent(seconds(now_ns - begun_ns))) {
+            memory_->pull_cable();
+            continue;
+        }
         // A session whose process has ended leaves the handle to whoever puts it back into the jig.
         const std::uint32_t opener = memory_->opener.load(std::memory_order_relaxed);
         if (opener != 0 && ::kill(static_cast<pid_t>(opener), 0) != 0) {
@@ -118,6 +119,7 @@ void EmulatedWand::run(const std::function<bool()>& ends) {
         if (opener != 0) wand->advance(kPeriod_ns);
         publish(wand->true_pose_device(), now_ns);
     }
+    memory_->pull_cable();
 }
 
 }  // namespace burin::devices

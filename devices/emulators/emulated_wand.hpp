@@ -3,7 +3,7 @@
 // description has them, offered through shared memory to the emulated library of its maker
 // (devices/emulators/hil_library/), which a session loads in place of the maker's. Between two sessions the handle
 // rests in its jig; when one has opened it, the hand goes out to the workspace's middle, circles there and nods.
-// Volts are none where no library has renewed them for kSharedSilent_ns, where the watchdog has expired, and while the
+// Volts are none where no library has renewed them for kSharedForce_ns, where the watchdog has expired, and while the
 // amplifiers are off. One thread runs it; the drills may be set by any.
 #pragma once
 

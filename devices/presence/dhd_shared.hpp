@@ -7,15 +7,12 @@
 
 namespace burin::devices {
 
-struct DhdShared {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4831;  // "buriddH1": of this layout
-    static constexpr Nanoseconds kSilent_ns = kSharedSilent_ns;
+struct DhdShared : SharedLife {
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4832;  // "buriddH2": of this layout
     static constexpr const char* kPrefix = "burin-dhd-";
 
-    std::atomic<std::uint64_t> magic = 0;
     // ---- The emulator's
-    std::atomic<Nanoseconds> beat_ns = 0;  // of its newest step, CLOCK_MONOTONIC
-    SharedNumbers<12> pose;                // place, then the rows of its turn
+    SharedNumbers<12> pose;  // place, then the rows of its turn
     std::atomic<std::uint32_t> buttons = 0;
     std::atomic<std::int32_t> needs_reset = 0, force_off = 0;  // as DHD says why
     // ---- The library's
@@ -24,10 +21,7 @@ struct DhdShared {
     std::atomic<std::uint32_t> owner = 0;  // the process that has opened it; 0: none
     std::atomic<std::uint32_t> watchdog = 0;
 
-    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const {
-        return magic.load(std::memory_order_acquire) == kMagic &&
-               now_ns - beat_ns.load(std::memory_order_relaxed) < kSilent_ns;
-    }
+    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }
 };
 
 using DhdSharedMemory = SharedMemory<DhdShared>;

@@ -7,15 +7,12 @@
 
 namespace burin::devices {
 
-struct HdShared {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4431;  // "burinHD1": of this layout
-    static constexpr Nanoseconds kSilent_ns = kSharedSilent_ns;
+struct HdShared : SharedLife {
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4432;  // "burinHD2": of this layout
     static constexpr const char* kPrefix = "burin-hd-";
 
-    std::atomic<std::uint64_t> magic = 0;
     // ---- The emulator's
-    std::atomic<Nanoseconds> beat_ns = 0;  // of its newest step, CLOCK_MONOTONIC
-    SharedNumbers<16> transform;           // column by column
+    SharedNumbers<16> transform;  // column by column
     std::atomic<std::uint32_t> buttons = 0;
     std::atomic<std::uint32_t> calibration = 0;  // as HDAPI says it
     std::atomic<std::uint32_t> error = 0;        // raised by the library in every frame; 0: none
@@ -25,10 +22,7 @@ struct HdShared {
     std::atomic<std::uint32_t> owner = 0;  // the process that has opened it; 0: none
     std::atomic<std::uint32_t> calibrations = 0;
 
-    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const {
-        return magic.load(std::memory_order_acquire) == kMagic &&
-               now_ns - beat_ns.load(std::memory_order_relaxed) < kSilent_ns;
-    }
+    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }
 };
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<Nanoseconds>::is_always_lock_free);
 

@@ -7,15 +7,13 @@
 
 namespace burin::devices {
 
-struct HilShared {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c31;  // "burinHL1": of this layout
+struct HilShared : SharedLife {
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c32;  // "burinHL2": of this layout
     static constexpr const char* kPrefix = "burin-hil-";
 
-    std::atomic<std::uint64_t> magic = 0;
     // ---- The emulator's
-    std::atomic<Nanoseconds> beat_ns = 0;  // of its newest step, CLOCK_MONOTONIC
-    SharedNumbers<6> encoder_counts;       // since the emulator began
-    std::atomic<std::int32_t> error = 0;   // returned by whatever is called; 0: none
+    SharedNumbers<6> encoder_counts;      // since the emulator began
+    std::atomic<std::int32_t> error = 0;  // returned by whatever is called; 0: none
     // ---- The library's
     std::atomic<Nanoseconds> written_ns = 0;  // of its newest write to the analog outputs
     SharedNumbers<6> volts;
@@ -25,10 +23,7 @@ struct HilShared {
     std::atomic<std::uint32_t> opener = 0;     // the process that opened it last; 0: none has
     std::atomic<Nanoseconds> watchdog_ns = 0;  // after which the outputs are zero; 0: none is started
 
-    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const {
-        return magic.load(std::memory_order_acquire) == kMagic &&
-               now_ns - beat_ns.load(std::memory_order_relaxed) < kSharedSilent_ns;
-    }
+    [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }
 };
 
 using HilSharedMemory = SharedMemory<HilShared>;

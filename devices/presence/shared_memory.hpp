@@ -51,8 +51,29 @@ private:
     std::array<std::atomic<double>, Count> values_{};
 };
 
-// An emulator says with each step that it lives; an end that is silent for so long is gone.
-inline constexpr Nanoseconds kSharedSilent_ns = 50'000'000;
+// A force that no library has renewed for so long is none.
+inline constexpr Nanoseconds kSharedForce_ns = 50'000'000;
+// An emulator says with each step that it lives. One that is silent for so long has died: longer than a busy machine
+// keeps one from its steps. A cable that is pulled is seen at once.
+inline constexpr Nanoseconds kSharedDead_ns = 1'000'000'000;
+
+// How an emulator says that it lives; its layout begins with it.
+struct SharedLife {
+    std::atomic<std::uint64_t> magic = 0;  // the layout's word, from the first step on
+    std::atomic<Nanoseconds> beat_ns = 0;  // of the newest step, CLOCK_MONOTONIC; 0: its cable is pulled
+
+    void beat(Nanoseconds now_ns, std::uint64_t word) noexcept {
+        beat_ns.store(now_ns, std::memory_order_relaxed);
+        // release: who sees the layout's word sees what was written before.
+        magic.store(word, std::memory_order_release);
+    }
+    void pull_cable() noexcept { beat_ns.store(0, std::memory_order_relaxed); }
+    [[nodiscard]] bool is_alive(Nanoseconds now_ns, std::uint64_t word) const noexcept {
+        const bool is_made = magic.load(std::memory_order_acquire) == word;
+        const Nanoseconds at_ns = beat_ns.load(std::memory_order_relaxed);
+        return is_made && at_ns != 0 && now_ns - at_ns < kSharedDead_ns;
+    }
+};
 
 // Bytes of that name, mapped; the layout's own memory is made of it. `prefix` names the layout.
 struct SharedBytes {
@@ -74,14 +95,14 @@ class SharedMemory {
 public:
     // Makes it, as an emulator does: nothing where another lives by that name, or the system refuses. It is gone when
     // the object ends. What one that was killed just now has left looks alive until it has been silent for
-    // kSharedSilent_ns: that is waited for.
+    // kSharedDead_ns: that is waited for.
     [[nodiscard]] static std::optional<SharedMemory> create(const std::string& name) {
         MonotonicClock clock;
         const auto other = open(name);
-        const Nanoseconds until_ns = clock.now_ns() + 2 * kSharedSilent_ns;
+        const Nanoseconds until_ns = clock.now_ns() + 2 * kSharedDead_ns;
         while (other && (*other)->is_alive(clock.now_ns())) {
             if (clock.now_ns() >= until_ns) return std::nullopt;
-            clock.sleep_until(clock.now_ns() + kSharedSilent_ns / 10);
+            clock.sleep_until(clock.now_ns() + kSharedDead_ns / 50);
         }
         SharedBytes bytes = create_shared(Layout::kPrefix, name, sizeof(Layout));
         if (bytes.at == nullptr) return std::nullopt;

@@ -290,7 +290,10 @@ TEST(VrpnTracker, TakesNoPoseThatIsStaleByTheServersOwnTime) {
 
 TEST(VrpnTracker, TheListSaysHowOldTheNewestPoseIs) {
     const RunningServer fresh({.rate_Hz = 100.0});
-    const auto found = look_for_vrpn_at({"127.0.0.1", fresh.port()});
+    auto found = look_for_vrpn_at({"127.0.0.1", fresh.port()});
+    // A busy machine may keep the server from sending, or us from reading, for longer than that.
+    for (int i = 0; i < 20 && found.size() == 1 && !found[0].cause.contains("less than 0.1 s old"); ++i)
+        found = look_for_vrpn_at({"127.0.0.1", fresh.port()});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_TRUE(found[0].cause.contains("; its poses are less than 0.1 s old")) << found[0].cause;
     RawServer old;
