@@ -8,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "devices/presence/shared_memory.hpp"
 
 namespace burin::devices {
 

@@ -22,6 +22,7 @@
 #include "devices/trackers/spacemouse_tracker.hpp"
 #include "devices/trackers/tracker_bodies.hpp"
 #include "tests/devices/ticked_arm.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::devices {
 namespace {
