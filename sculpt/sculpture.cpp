@@ -23,7 +23,7 @@ double milliseconds(Nanoseconds from_ns, Nanoseconds to_ns) { return static_cast
 
 }  // namespace
 
-Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool)
+Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool, WorkWatch* watch)
     : engine_(std::move(engine)),
       pool_(pool),
       surface_(engine_->solid().lattice),
@@ -31,7 +31,7 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
       tile_changed_(surface_.tile_count(), true) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
-    surface_.mesh_all(engine_->solid(), pool_);
+    surface_.mesh_all(engine_->solid(), pool_, watch);
     first_mesh_ms_ = milliseconds(start_ns, clock.now_ns());
     initial_volume_m3_ = surface_.volume_m3();
 }

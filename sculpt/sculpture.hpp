@@ -41,8 +41,8 @@ struct SculptFigures {
 
 class Sculpture {
 public:
-    // Meshes the whole solid. The pool must outlive the object.
-    Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool);
+    // Meshes the whole solid, as far as the watch wants it. The pool must outlive the object.
+    Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool, WorkWatch* watch = nullptr);
 
     // Carries out the sweeps in order and brings the surface, the history and the light's bookkeeping up to date. Fails
     // on an invalid sweep, and then changes nothing, or when the engine does (compute/tools/apply.hpp).

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "base/text.hpp"
 #include "compute/rays/room.hpp"
@@ -104,10 +105,31 @@ std::string remedy_of_open(const geometry::TriangleMesh& mesh) {
            "corners joined that lie so near to each other";
 }
 
+// Parts of the work on a workpiece, as shares of all of it.
+struct LoadShares {
+    double read = 0.0, checked = 0.0, solid = 0.0;  // done when it is
+};
+
+bool is_shape(const std::string& source) { return source.starts_with("block:") || source.starts_with("ball:"); }
+
+// Estimates the shares by what a binary STL of 4.4 million triangles and a ball of 2048 cells took: they are shown, and
+// nothing follows from them.
+LoadShares shares_of(const WorkpieceOptions& options) {
+    constexpr double kOfByte = 34e-9, kOfSurfaceCell = 6.7e-6, kReading = 0.6, kSolid = 0.2;
+    std::error_code ignored;
+    const auto bytes = is_shape(options.source) ? 0 : std::filesystem::file_size(options.source, ignored);
+    const double file = ignored ? 0.0 : kOfByte * static_cast<double>(bytes);
+    const double solid = kOfSurfaceCell * options.resolution * options.resolution;
+    const double of_file = file / (file + solid);
+    return {kReading * of_file, of_file, of_file + kSolid * (1.0 - of_file)};
+}
+
 // Welds the mesh, closes it where that is asked for, and turns it to face outwards.
-Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, double tolerance_m) {
+Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, double tolerance_m, WorkWatch* watch) {
     geometry::TriangleMesh& mesh = closed.mesh;
     Json& report = closed.report;
+    const LoadShares shares = shares_of(options);
+    begin_step(watch, "checking the mesh", shares.read, shares.checked);
     report["vertices_welded"] = geometry::weld_vertices(mesh).vertices_merged;
     const geometry::JoinReport joins = geometry::join_open_edges(mesh, options.weld_m.value_or(tolerance_m));
     if (joins.vertices_joined > 0) {
@@ -117,10 +139,13 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
         closed.joined = in_words(joins);
         closed.size += "; " + closed.joined;
     }
+    if (!go_on(watch, 0.4)) return no_longer_wanted();
     geometry::MeshHealth health = geometry::examine(mesh);
     report["health"] = describe(health);
     if (!health.closed) {
         std::optional<geometry::ClosingReport> closing;
+        begin_step(watch, "closing holes", 0.5 * (shares.read + shares.checked), shares.checked);
+        if (watch != nullptr && !watch->is_wanted()) return no_longer_wanted();
         if (options.close_holes) {
             closing = close_holes(mesh);
         } else if (options.close_small_holes) {
@@ -139,6 +164,7 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
         }
         health = geometry::examine(mesh);
     }
+    if (!go_on(watch, 1.0)) return no_longer_wanted();
     if (!health.consistently_oriented || health.inside_out()) {
         const geometry::OrientationReport turned = geometry::orient_outward(mesh);
         report["triangles_turned"] = turned.triangles_turned;
@@ -147,11 +173,13 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
     return {};
 }
 
-Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
-    Result<ClosedMesh> closed = load_closed_mesh(options);
+Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool, const LoadWatch& watch) {
+    Result<ClosedMesh> closed = load_closed_mesh(options, watch);
     if (!closed) return std::unexpected(closed.error());
     LoadedWorkpiece workpiece{
         {}, std::move(closed->report), std::move(closed->size), closed->unit, closed->size_m, closed->closed};
+    const LoadShares shares = shares_of(options);
+    begin_step(watch.work, "building the solid", shares.checked, shares.solid);
     Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
@@ -167,8 +195,6 @@ Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& p
     note_unmet_parts(closed->mesh, workpiece.solid, workpiece.size, workpiece.report);
     return workpiece;
 }
-
-bool is_shape(const std::string& source) { return source.starts_with("block:") || source.starts_with("ball:"); }
 
 Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     const std::size_t colon = options.source.find(':');
@@ -202,6 +228,10 @@ Result<ChosenEngine> on_vulkan(compute::Solid solid, gpu::Device& device, std::s
 }  // namespace
 
 // ---- Workpiece
+
+double meshing_from(const WorkpieceOptions& options) { return shares_of(options).solid; }
+
+std::unexpected<Error> no_longer_wanted() { return fail("opening", "was ended", ""); }
 
 Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count, const std::string& what) {
     std::vector<double> numbers;
@@ -238,14 +268,17 @@ Result<void> check_weld(std::optional<double> weld_m, double longest_side_m) {
                 "give a shorter distance, in metres");
 }
 
-Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options) {
+Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options, const LoadWatch& watch) {
     const std::string& file = options.source;
+    begin_step(watch.work, "reading the file", 0.0, shares_of(options).read);
     Result<geometry::ImportedMesh> imported = geometry::import_mesh(file, options.units);
     if (!imported) return std::unexpected(imported.error());
     const Vec3& size_m = imported->report.size_m;
     if (const auto ok = check_weld(options.weld_m, std::max({size_m.x, size_m.y, size_m.z})); !ok)
         return std::unexpected(ok.error());
     const geometry::ImportReport& import = imported->report;
+    if (watch.look) watch.look(imported->mesh);
+    if (!go_on(watch.work, 1.0)) return no_longer_wanted();
     ClosedMesh closed{std::move(imported->mesh),
                       {},
                       describe_size(file, import.size_m, import.unit),
@@ -253,7 +286,7 @@ Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options) {
                       import.size_m};
     closed.report["source"] = file;
     closed.report["import"] = describe(import);
-    if (const auto ready = make_ready(closed, options, import.weld_tolerance_m); !ready) {
+    if (const auto ready = make_ready(closed, options, import.weld_tolerance_m, watch.work); !ready) {
         return std::unexpected(ready.error());
     }
     closed.report["size"] = closed.size;
@@ -269,9 +302,13 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
     report["unmet"] = describe(parts, solid.lattice);
 }
 
-Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {
-    Result<LoadedWorkpiece> workpiece = is_shape(options.source) ? from_shape(options) : from_file(options, pool);
+Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool, const LoadWatch& watch) {
+    const LoadShares shares = shares_of(options);
+    if (is_shape(options.source)) begin_step(watch.work, "building the solid", shares.checked, shares.solid);
+    Result<LoadedWorkpiece> workpiece =
+        is_shape(options.source) ? from_shape(options) : from_file(options, pool, watch);
     if (!workpiece) return workpiece;
+    if (!go_on(watch.work, 0.5)) return no_longer_wanted();
     workpiece->bounds_object = workpiece_bounds(workpiece->solid.lattice);
     const double room_m = options.room.value_or(0.0) * longest_side_m(workpiece->bounds_object);
     const double cells = std::ceil(room_m / workpiece->solid.lattice.spacing_m);

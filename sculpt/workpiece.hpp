@@ -3,6 +3,7 @@
 // Lengths in metres, object frame. Any thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/length_unit.hpp"
+#include "base/work_watch.hpp"
 #include "base/worker_pool.hpp"
 #include "compute/rays/engine.hpp"
 
@@ -32,6 +34,16 @@ struct WorkpieceOptions {
     std::optional<LengthUnit> units = std::nullopt;  // of a file; none: as it states, else guessed (mesh_unit.hpp)
     std::optional<double> weld_m = std::nullopt;     // of a file; none: by its numbers (join_open_edges)
 };
+
+// Looks on while a workpiece is made ready, which takes long for large files and lattices.
+struct LoadWatch {
+    WorkWatch* work = nullptr;                                     // null: nobody looks
+    std::function<void(const geometry::TriangleMesh&)> look = {};  // gets the mesh as it was read; may be empty
+};
+// Returns the share of all the work at which the solid is there and its surface is meshed.
+[[nodiscard]] double meshing_from(const WorkpieceOptions& options);
+// What ends work that nobody wants any more.
+[[nodiscard]] std::unexpected<Error> no_longer_wanted();
 
 struct LoadedWorkpiece {
     compute::Solid solid;
@@ -57,7 +69,7 @@ struct ClosedMesh {
 // Equal positions become one vertex; where it is open, corners at open edges are joined within a tolerance that follows
 // from the precision of the file's numbers, or within weld_m, which `size` tells. Fails on a mesh that is not closed
 // then, with the reason, unless its holes are to be closed: all of them, or small ones where all are small.
-[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options);
+[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options, const LoadWatch& watch = {});
 
 // Notes in `size` and in the report what of the mesh no ray of its solid met (unmet_parts.hpp).
 void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& solid, std::string& size, Json& report);
@@ -65,7 +77,8 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
 // Checks the length of --weld, which must be a distance above zero; a loaded mesh must be more than ten times as long.
 [[nodiscard]] Result<void> check_weld(std::optional<double> weld_m, double longest_side_m);
 // Makes the solid of a file or a shape, with its room. Every triangle of a file is in the solid or in the report.
-[[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool);
+[[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool,
+                                                     const LoadWatch& watch = {});
 
 // Returns the bounds of an uncarved workpiece that has no room: its lattice surrounds it with some empty cells.
 [[nodiscard]] Box workpiece_bounds(const compute::Lattice& lattice);

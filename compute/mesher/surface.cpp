@@ -2,6 +2,7 @@
 #include "compute/mesher/surface.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <tuple>
 
@@ -10,13 +11,16 @@
 namespace burin::compute {
 
 template <typename MaskOf>
-RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool) {
+RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool, WorkWatch* watch) {
     for (const std::uint32_t t : changed_tiles_) {
         triangles_ -= tile(t).triangles();
         disagreeing_edges_ -= tile(t).disagreeing_edges;
     }
     work_.resize(changed_tiles_.size());
+    std::atomic<std::size_t> done{0};
     pool.run(changed_tiles_.size(), [&](std::size_t i) {
+        const double count = static_cast<double>(changed_tiles_.size());
+        if (watch != nullptr && !watch->go_on(static_cast<double>(++done) / count)) return;
         const std::uint32_t t = changed_tiles_[i];
         auto fresh = std::make_shared<TileMesh>();
         work_[i] = mesh_tile(solid, grid_, t, mask_of(t), tile(t), *fresh);
@@ -35,12 +39,12 @@ RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool
     return stats;
 }
 
-RemeshStats Surface::mesh_all(const Solid& solid, WorkerPool& pool) {
+RemeshStats Surface::mesh_all(const Solid& solid, WorkerPool& pool, WorkWatch* watch) {
     changed_tiles_.resize(tiles_.size());
     std::iota(changed_tiles_.begin(), changed_tiles_.end(), 0u);
     CellMask all;
     all.set_all();
-    return mesh_tiles(solid, [&](std::uint32_t) -> const CellMask& { return all; }, pool);
+    return mesh_tiles(solid, [&](std::uint32_t) -> const CellMask& { return all; }, pool, watch);
 }
 
 RemeshStats Surface::update(const Solid& solid, const Changes& changes, WorkerPool& pool) {

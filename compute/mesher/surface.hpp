@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/length_unit.hpp"
+#include "base/work_watch.hpp"
 #include "base/worker_pool.hpp"
 #include "compute/mesher/dirty_cells.hpp"
 #include "compute/mesher/tile_mesher.hpp"
@@ -29,8 +30,8 @@ public:
     explicit Surface(const Lattice& lattice)
         : lattice_(lattice), grid_(lattice), dirty_(lattice), tiles_(grid_.count()) {}
 
-    // Meshes all tiles from scratch.
-    RemeshStats mesh_all(const Solid& solid, WorkerPool& pool);
+    // Meshes all tiles from scratch. Where the watch wants no more the tiles that are left stay empty.
+    RemeshStats mesh_all(const Solid& solid, WorkerPool& pool, WorkWatch* watch = nullptr);
     // Updates the surface after the changes; re-meshes only the cells whose data changed. The result equals that of
     // mesh_all bit for bit.
     RemeshStats update(const Solid& solid, const Changes& changes, WorkerPool& pool);
@@ -61,7 +62,7 @@ public:
 
 private:
     template <typename MaskOf>
-    RemeshStats mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool);
+    RemeshStats mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool, WorkWatch* watch = nullptr);
 
     Lattice lattice_;
     TileGrid grid_;

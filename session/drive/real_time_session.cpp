@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "devices/trackers/tracker.hpp"
@@ -11,7 +12,9 @@
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
 #include "session/live/first_time.hpp"
+#include "session/live/opened_room.hpp"
 #include "session/live/session_watch.hpp"
+#include "session/opening/opening.hpp"
 #include "session/present/display_watch.hpp"
 #include "session/state/option_bounds.hpp"
 #include "session/state/session_tracker.hpp"
@@ -218,6 +221,18 @@ SculptOptions as_displayed(SculptOptions options, const SessionWall& wall, Prese
     return options;
 }
 
+// Makes the workpiece while the window shows it; nothing where its user has ended that.
+Result<std::optional<sculpt::MadeWorkpiece>> open_workpiece(Presenter& presenter, const SculptOptions& options,
+                                                            const SessionWall& wall) {
+    presenter.name_windows(std::filesystem::path(options.workpiece.source).filename().string());
+    auto made = open_before_eyes(presenter, options, wall, [&options](OpeningSight& sight) {
+        return make_in_sight(options.workpiece, options.engine, options.threads, sight);
+    });
+    if (made && !*made && !options.live.record.empty())
+        std::fprintf(stderr, "burin: ended while it was opened: %s was not begun\n", options.live.record.c_str());
+    return made;
+}
+
 // Says what a session file holds now.
 void tell_of(const SessionRecording& recording) {
     const SessionRecording::Progress done = recording.progress();
@@ -241,7 +256,14 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     const SculptOptions options = as_displayed(given, wall, *presenter);
     const auto wake = [&to = *presenter] { to.wake(); };
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
-    auto opened = LiveSession::create(options, wall, clock, machine_pace);
+    std::optional<sculpt::MadeWorkpiece> made;
+    if (run.opens_before_eyes && wall.desk && presenter->has_windows() && has_workpiece(options)) {
+        auto opening = open_workpiece(*presenter, options, wall);
+        if (!opening) return std::unexpected(opening.error());
+        if (!*opening) return SessionRecord{};
+        made = std::move(*opening);
+    }
+    auto opened = LiveSession::create(options, wall, clock, machine_pace, std::move(made));
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
     presenter->name_windows(session.document_name());

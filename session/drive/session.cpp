@@ -177,7 +177,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     if (log && options.live.record.empty())
         return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
     const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
-                                      {.facts = facts});
+                                      {.facts = facts, .opens_before_eyes = !log});
     return run ? Result<void>{} : std::unexpected(run.error());
 }
 

@@ -63,7 +63,8 @@ struct RealTimeRun {
     std::optional<double>
         machine_pace{};  // haptics::WorkSettings::pace; none: it is measured before the session begins
     DirectDriver driver = direct_driver();
-    SessionFacts facts{};  // of a session file
+    SessionFacts facts{};            // of a session file
+    bool opens_before_eyes = false;  // a window shows the workpiece while it is made (session/opening/)
 };
 // Returns the pace that was asked for, without rest where ticks are missed by somebody: an activity, whose clock and
 // figures go by them, or a person who feels a device.
@@ -71,7 +72,8 @@ struct RealTimeRun {
 // Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
 // late as the display allows. Input comes from a user, or from a log in the user's place. Where options.live.record
 // asks for it, it is recorded once the session has found out what the recording's first line has to hold. SIGINT and
-// SIGTERM end the session as closing its window does; a second signal ends the program at once. (real_time_session.cpp)
+// SIGTERM end the session as closing its window does; a second signal ends the program at once. Where its user ends it
+// while the workpiece is still made, the record is empty. (real_time_session.cpp)
 [[nodiscard]] Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall,
                                                      InputSource input, RealTimeRun run = {});
 

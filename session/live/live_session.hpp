@@ -13,10 +13,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sculpt/made_workpiece.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/asked_files.hpp"
 #include "session/live/hand_side.hpp"
@@ -35,10 +37,12 @@ public:
     // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the
     // clock must outlive the session. pace: how much slower than the reference core the machine is
     // (haptics::WorkSettings); as measured where time is real (session/timing/machine_pace.hpp), as recorded in a
-    // replay, and 1 where results must depend on no machine.
+    // replay, and 1 where results must depend on no machine. made: the workpiece of the options, where it is ready
+    // already.
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
                                                                      const SessionWall& wall, Clock& clock,
-                                                                     double pace = 1.0);
+                                                                     double pace = 1.0,
+                                                                     std::optional<sculpt::MadeWorkpiece> made = {});
 
     // Applies one frame's input. `output` is the main screen's output, `tools` the tools as the frame draws them, one
     // of each part of the hands. Orders to the scene's parts are passed to `give`. panel_output: size of the panel's
@@ -149,8 +153,9 @@ public:
 
 private:
     LiveSession(Clock& clock, const SculptOptions& options, double pace);
-    [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
-    [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
+    [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall,
+                                    std::optional<sculpt::MadeWorkpiece> made);
+    [[nodiscard]] Result<void> take_workpiece(const SculptOptions& options, std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
@@ -168,7 +173,7 @@ private:
 
     Clock& clock_;
     Nanoseconds start_ns_ = 0;
-    WorkerPool pool_;
+    std::unique_ptr<WorkerPool> pool_;  // of the workpiece; null without one
     HandSide hands_;
     ActivitySide activity_;
     SceneSide scene_{hands_.all()};  // after what its parts refer to

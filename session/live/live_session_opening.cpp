@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "base/text.hpp"
-#include "sculpt/workpiece.hpp"
 #include "session/live/live_session.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/record/session_recording.hpp"
@@ -24,49 +23,30 @@ std::size_t ring_for(const std::string& recording) {
     return is_session_file(recording) ? record::kRingTicks : kTicksToLog;
 }
 
-Vec3 across(const wall::Screen& screen) { return screen.lower_right_world - screen.lower_left_world; }
-
-// The share of a desktop window's picture beside the panel, in the mode that the session begins with.
-double free_width_at_first(const LiveOptions& live, const Room& room) {
-    if (!room.wall.desk || room.wall.has_panel_window()) return 1.0;
-    const auto mode = live.stereo.empty() ? wall::StereoMode::mono
-                                          : wall::parse_stereo_mode(live.stereo).value_or(wall::StereoMode::mono);
-    const ImageSize size{static_cast<std::uint32_t>(live.width), static_cast<std::uint32_t>(live.height)};
-    return beside_panel(room, wall::eye_size(mode, size), size);
-}
-
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
-    : clock_(clock),
-      pool_(options.threads),
-      hands_(ring_for(options.live.record), pace),
-      activity_(options.activity),
-      files_(options, log_) {}
+    : clock_(clock), hands_(ring_for(options.live.record), pace), activity_(options.activity), files_(options, log_) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
-                                                         Clock& clock, double pace) {
+                                                         Clock& clock, double pace,
+                                                         std::optional<sculpt::MadeWorkpiece> made) {
     auto session = std::unique_ptr<LiveSession>(new LiveSession(clock, options, pace));
-    if (const auto loaded = session->load(options, wall); !loaded) return std::unexpected(loaded.error());
+    if (const auto loaded = session->load(options, wall, std::move(made)); !loaded)
+        return std::unexpected(loaded.error());
     if (const auto taken = session->take_up_tool(options); !taken) return std::unexpected(taken.error());
     return session;
 }
 
-Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
+Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall,
+                               std::optional<sculpt::MadeWorkpiece> made) {
     Result<OpenedRoom> opened = open_room(options, wall);
     if (!opened) return std::unexpected(opened.error());
     room_ = std::move(opened->room);
-    room_.panel_scale = options.live.panel_scale.value_or(1.0);
-    room_.first_steps = options.live.first_steps;
-    room_.free_width = free_width_at_first(options.live, room_);
-    // Before the middle of what the panel leaves free, so that nothing there is seen aslant.
-    if (room_.wall.desk && room_.mouse == MouseMode::surface)
-        room_.desk.home_head_world.position_m -= 0.5 * (1.0 - room_.free_width) * across(room_.screen());
     hands_.use(std::move(opened->handles));
-    const bool has_world = options.scene || !options.world.empty();
-    if (!options.no_workpiece || !has_world)
-        if (const auto loaded = load_workpiece(options); !loaded) return loaded;
-    if (has_world)
+    if (has_workpiece(options))
+        if (const auto taken = take_workpiece(options, std::move(made)); !taken) return taken;
+    if (has_world(options))
         if (const auto loaded = load_world(options); !loaded) return loaded;
     const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
     tool_options_ = options.tool;
@@ -79,23 +59,26 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     return {};
 }
 
-Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
-    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool_);
-    if (!workpiece) return std::unexpected(workpiece.error());
-    std::fprintf(stderr, "burin: %s\n", workpiece->size.c_str());
-    if (!workpiece->closed.empty()) notify(workpiece->closed);
-    unit_ = workpiece->unit;
-    holes_closed_ = !workpiece->closed.empty();
-    room_.workpiece_object = workpiece->bounds_object;
+Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::optional<sculpt::MadeWorkpiece> made) {
+    if (!made) {
+        auto own = sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
+        if (!own) return std::unexpected(own.error());
+        made = std::move(*own);
+    }
+    const sculpt::LoadedWorkpiece& workpiece = made->loaded;
+    std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
+    if (!workpiece.closed.empty()) notify(workpiece.closed);
+    unit_ = workpiece.unit;
+    holes_closed_ = !workpiece.closed.empty();
+    room_.workpiece_object = workpiece.bounds_object;
     room_.carved_object = room_.workpiece_object;
-    room_.lattice_object = sculpt::lattice_bounds(workpiece->solid.lattice);
-    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
-    if (!chosen) return std::unexpected(chosen.error());
-    scene_.take(std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_));
+    room_.lattice_object = sculpt::lattice_bounds(made->lattice);
+    pool_ = std::move(made->pool);
+    scene_.take(std::move(made->carving));
     seen_ = SeenSurface(scene_.workpiece()->surface().lattice());
     workpiece_ = {
         .name = std::filesystem::path(options.workpiece.source).filename().string(),
-        .size = in_millimetres(workpiece->size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};
+        .size = in_millimetres(workpiece.size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};
     return {};
 }
 
@@ -123,13 +106,8 @@ Result<void> LiveSession::load_world(const SculptOptions& options) {
 }
 
 Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
-    wall::OutputSettings output = room_.wall.screens[room_.wall.main].shown;
-    output.swap_eyes = output.swap_eyes != options.live.swap_eyes;
-    if (!options.live.stereo.empty()) {
-        const auto mode = wall::parse_stereo_mode(options.live.stereo);
-        if (!mode) return std::unexpected(mode.error());
-        output.mode = *mode;
-    }
+    const Result<wall::OutputSettings> output = first_output(room_, options.live);
+    if (!output) return std::unexpected(output.error());
     const auto tool = sculpt::parse_tool_settings(tool_options_);
     if (!tool) return std::unexpected(tool.error());
     auto meshes = std::make_shared<ToolMeshes>();
@@ -140,7 +118,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (!feel) return std::unexpected(feel.error());
     std::vector<std::string> names;
     for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
-    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), hands_.handles(), names);
+    state_ = begin_session(room_, *tool, *feel, *output, std::move(meshes), hands_.handles(), names);
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = scene_.workpiece() != nullptr;
     state_.mirror = options.mirror;

@@ -9,6 +9,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/live/live_panel.hpp"
 #include "session/record/recordings.hpp"
 #include "session/state/activity.hpp"
 
@@ -43,7 +44,41 @@ void use_glove(HandRoom& room) {
                             glm::angleAxis(-0.5 * std::numbers::pi - kDown_rad, Vec3(1.0, 0.0, 0.0));
 }
 
+Vec3 across(const wall::Screen& screen) { return screen.lower_right_world - screen.lower_left_world; }
+
+// The share of a desktop window's picture beside the panel, in the mode that the session begins with.
+double free_width_at_first(const LiveOptions& live, const Room& room) {
+    if (!room.wall.desk || room.wall.has_panel_window()) return 1.0;
+    const auto mode = live.stereo.empty() ? wall::StereoMode::mono
+                                          : wall::parse_stereo_mode(live.stereo).value_or(wall::StereoMode::mono);
+    const ImageSize size{static_cast<std::uint32_t>(live.width), static_cast<std::uint32_t>(live.height)};
+    return beside_panel(room, wall::eye_size(mode, size), size);
+}
+
+// Says how large the panel is and which share of the picture it leaves free.
+void place_panel(Room& room, const LiveOptions& live) {
+    room.panel_scale = live.panel_scale.value_or(1.0);
+    room.first_steps = live.first_steps;
+    room.free_width = free_width_at_first(live, room);
+    // Before the middle of what the panel leaves free, so that nothing there is seen aslant.
+    if (room.wall.desk && room.mouse == MouseMode::surface)
+        room.desk.home_head_world.position_m -= 0.5 * (1.0 - room.free_width) * across(room.screen());
+}
+
 }  // namespace
+
+bool has_world(const SculptOptions& options) { return options.scene || !options.world.empty(); }
+bool has_workpiece(const SculptOptions& options) { return !options.no_workpiece || !has_world(options); }
+
+Result<wall::OutputSettings> first_output(const Room& room, const LiveOptions& live) {
+    wall::OutputSettings output = room.wall.screens[room.wall.main].shown;
+    output.swap_eyes = output.swap_eyes != live.swap_eyes;
+    if (live.stereo.empty()) return output;
+    const auto mode = wall::parse_stereo_mode(live.stereo);
+    if (!mode) return std::unexpected(mode.error());
+    output.mode = *mode;
+    return output;
+}
 
 Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wall) {
     OpenedRoom opened{room_of(wall), {}};
@@ -75,6 +110,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
         if (!points) return std::unexpected(points.error());
         opened.handles[i] = std::make_shared<const HeldHandle>(std::move(*nature->handle), std::move(*points));
     }
+    place_panel(opened.room, options.live);
     return opened;
 }
 

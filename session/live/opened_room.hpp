@@ -11,13 +11,20 @@
 
 namespace burin::session {
 
+// Returns whether the options name a world, and a workpiece.
+[[nodiscard]] bool has_world(const SculptOptions& options);
+[[nodiscard]] bool has_workpiece(const SculptOptions& options);
+
 struct OpenedRoom {
     Room room;
     std::vector<std::shared_ptr<const HeldHandle>> handles;  // of each hand; null: a stylus, or one that holds a tool
 };
 
-// Fits a room to the devices of all hands, and makes the handles ready whose points touch. Fails where there is no such
-// device, where its description cannot be read, and where that has not the points.
+// Fits a room to the devices of all hands and to the panel, and makes the handles ready whose points touch. Fails where
+// there is no such device, where its description cannot be read, and where that has not the points.
 [[nodiscard]] Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wall);
+
+// Returns how the main screen is shown at first. Fails on an unknown stereo mode.
+[[nodiscard]] Result<wall::OutputSettings> first_output(const Room& room, const LiveOptions& live);
 
 }  // namespace burin::session

@@ -138,7 +138,7 @@ public:
         model_ = model;
         const Current current(context_);
         learn_letters(model);
-        const bool over_picture = !is_empty(picture_) && (!model.notes.empty() || model.first_steps);
+        const bool over_picture = !is_empty(picture_) && (!model.notes.empty() || model.first_steps || model.opening);
         const ImageSize size_before = frame_.size;
         frame_.parts.clear();
         frame_.changes_ns.reset();
@@ -237,10 +237,12 @@ private:
     // Shows messages, the card of first steps and a tool-tip, which move nothing that lies below.
     void show_over_all(const PanelModel& model, Nanoseconds time_ns) {
         const ImVec2 screen = ImGui::GetIO().DisplaySize;
-        panel::Area free{{0.0f, 0.0f}, {model.visible ? left() : screen.x, screen.y}};
+        const bool has_column = model.visible || (model.opening && left() > static_cast<float>(size_.width));
+        panel::Area free{{0.0f, 0.0f}, {has_column ? left() : screen.x, screen.y}};
         if (is_empty(picture_)) free = {{0.0f, 0.0f}, {screen.x, column_bottom_}};
         kit_.visible_lo = {0.0f, 0.0f};
         kit_.visible_hi = screen;
+        if (model.opening) return panel::show_opening(kit_, *model.opening, free);
         if (model.first_steps && !is_empty(picture_)) {
             panel::show_first_steps(kit_, model, free);
             const auto card = kit_.places.find("first-steps");

@@ -121,6 +121,15 @@ struct PanelNote {
     bool operator==(const PanelNote&) const = default;
 };
 
+// What is opened before there is anything to work on.
+struct PanelOpening {
+    std::string name, step;  // "part.stl", "reading the file"
+    int percent = 0;         // done of all
+    int seconds = 0;         // since it began
+
+    bool operator==(const PanelOpening&) const = default;
+};
+
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
     bool show_devices = false;                                     // F3: the page of devices, in place of the sections
@@ -129,6 +138,7 @@ struct PanelModel {
     bool may_be_hidden = true;
     bool page_alone = false;  // of the activity, for the person who is not to see the rest
     std::string title = "Burin";
+    std::optional<PanelOpening> opening;  // in place of all else
     PanelWorkpiece workpiece;
 
     std::optional<ActivityPanel> activity;  // none: the session has no activity

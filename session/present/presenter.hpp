@@ -26,6 +26,13 @@
 
 namespace burin::session {
 
+// The main screen's picture where there is no session yet.
+struct StillPicture {
+    std::optional<renderer::Scene> scene;  // none: it is dark
+    wall::OutputSettings output;
+    std::optional<PanelPicture> panel;
+};
+
 class Presenter {
 public:
     // The wall must outlive it.
@@ -72,6 +79,10 @@ public:
     [[nodiscard]] bool owes_full_picture() const { return burin::session::owes_full_picture(detail_); }
     // Draws one frame, if anything is new; returns whether it was. frame_ns: when it is to be seen, in session time.
     [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns);
+    // Draws a picture in the main screen's window, if it differs from the one before; returns whether it was shown. A
+    // stereo mode that the window cannot have is left for the session to refuse.
+    [[nodiscard]] Result<bool> draw_still(const StillPicture& still);
+    void hide_windows();
     // Returns whether eyes are shown by turns, which needs a picture at each refresh.
     [[nodiscard]] bool takes_turns(const LiveSession& session) const;
     // Has coarser levels of the surface computed in the background; call between frames. resting: nothing has happened
@@ -119,6 +130,7 @@ private:
     }
     [[nodiscard]] static std::vector<Input> right_eyes_inputs(const ScreenStage& screen);
     [[nodiscard]] static std::vector<Input> panels_inputs(const ScreenStage& screen, double wait_s);
+    [[nodiscard]] Result<bool> paint_still(ScreenStage& screen, const StillPicture& still);
     // ---- presenter_drawing.cpp
     [[nodiscard]] Result<void> fit_modes(LiveSession& session);
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen in a

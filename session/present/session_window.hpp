@@ -32,6 +32,7 @@ public:
     [[nodiscard]] double refresh_Hz() const override;
     void exchange_full_screen() override;
     void name(const std::string& title) { window_.set_title(title); }
+    void hide() { window_.set_visible(false); }
     [[nodiscard]] double scale() const { return window_.display_scale(); }
 
 private:

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/made_workpiece.hpp"
+
+#include <utility>
+
+namespace burin::sculpt {
+
+Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoice engine, unsigned threads,
+                                     const LoadWatch& watch) {
+    auto pool = std::make_unique<WorkerPool>(threads);
+    Result<LoadedWorkpiece> loaded = load_workpiece(options, *pool, watch);
+    if (!loaded) return std::unexpected(loaded.error());
+    const compute::Lattice lattice = loaded->solid.lattice;
+    Result<ChosenEngine> chosen = choose_engine(engine, std::move(loaded->solid), *pool);
+    if (!chosen) return std::unexpected(chosen.error());
+    begin_step(watch.work, "meshing the surface", meshing_from(options), 1.0);
+    auto carving = std::make_unique<Sculpture>(std::move(chosen->engine), *pool, watch.work);
+    if (watch.work != nullptr && !watch.work->is_wanted()) return no_longer_wanted();
+    return MadeWorkpiece{std::move(pool), std::move(*loaded), lattice, std::move(carving)};
+}
+
+}  // namespace burin::sculpt
