@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "compute/rays/set_algebra.hpp"
+#include "document/document_file.hpp"
 #include "session/state/session_options.hpp"
 
 namespace burin::app {
@@ -24,7 +25,8 @@ namespace burin::app {
 // Whether --record is of a stroke that a simulated hand feels, which sculpt() records, and not of a live session.
 [[nodiscard]] bool records_a_felt_stroke(const session::SculptOptions& options);
 
-// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's size and health. Of a session file:
+// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's size and health. A document likewise
+// (document_command.hpp). Of a session file:
 // burin convert FILE.session [OUT] --to csv|npy|hdf5|mat|bids|log (session_command.hpp).
 struct ConvertOptions {
     std::string in, out;
@@ -38,6 +40,7 @@ struct ConvertOptions {
     std::string subject = "01", task = "touch";  // labels of a BIDS data set
 
     [[nodiscard]] bool is_of_session() const { return !to.empty(); }
+    [[nodiscard]] bool is_of_document() const { return document::is_document_name(in); }
     [[nodiscard]] bool is_misused() const { return out.empty() && to.empty(); }
 };
 [[nodiscard]] Result<void> convert(const ConvertOptions& options);

@@ -41,6 +41,9 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
                    "A new file for all that the session depends on; with --input that log is played in real time. "
                    "FILE.session keeps every tick as well (burin session info FILE), any other name is a log as text. "
                    "With a --stroke that a simulated hand feels: a session file, whatever its name");
+    command.option("--journal", options.journal,
+                   "A folder in which strokes are kept until they are saved, none for no such folder; else the usual "
+                   "one, and none with --input");
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");

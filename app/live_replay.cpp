@@ -216,7 +216,9 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     return facts;
 }
 
-Result<void> run_recorded_session(const session::SculptOptions& options, const std::string& command) {
+Result<void> run_recorded_session(const session::SculptOptions& given, const std::string& command) {
+    session::SculptOptions options = given;
+    options.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
     if (!session::is_session_file(options.live.record)) return session::run_session(options);
     if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
     return session::run_session(options, facts_of_live(options, command));

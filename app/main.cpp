@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/demo_command.hpp"
 #include "app/devices_command.hpp"
+#include "app/document_command.hpp"
 #include "app/glove_command.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
@@ -36,7 +37,8 @@ constexpr const char* kWeldHelp =
 void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
         .option("WORKPIECE,--workpiece", options.workpiece.source,
-                "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z from the origin on, or ball:R about it, in metres")
+                "FILE (STL, OBJ, PLY, OFF, or a document .burin), block:X,Y,Z from the origin on, or ball:R about it, "
+                "in metres")
         .show_default();
     command.option(
         "--world", options.world,
@@ -197,8 +199,9 @@ int run(int argc, char** argv) {
     ConvertOptions convert_options;
     Command convert = app.subcommand(
         "convert",
-        "Convert a mesh file to STL, PLY or OBJ and print its health, or a session file to what other programs read");
-    convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF; with --to a session file").required();
+        "Convert a mesh file or a document to STL, PLY or OBJ, or a session file to what other programs read");
+    convert.option("IN", convert_options.in, "STL, OBJ, PLY, OFF, or a document (.burin); with --to a session file")
+        .required();
     convert.option("OUT", convert_options.out,
                    ".stl, .ply or .obj; with --to any name, - for standard output, or none: IN with another ending");
     convert
@@ -224,6 +227,10 @@ int run(int argc, char** argv) {
                    "as far as the file's numbers are precise");
     convert.option("--simplify", convert_options.simplify_m,
                    "Fewer triangles: the surface moves at most this far, in metres");
+
+    InfoOptions info_options;
+    Command info = app.subcommand("info", "What is in a document, and from where it came");
+    add_info_options(info, info_options);
 
     CombineOptions combine_options;
     Command combine = app.subcommand("combine", "Unite, subtract or intersect two closed meshes");
@@ -292,8 +299,10 @@ int run(int argc, char** argv) {
         return 2;
     }
     if (convert.parsed())
-        return finish(convert_options.is_of_session() ? convert_session(convert_options)
-                                                      : app::convert(convert_options));
+        return finish(convert_options.is_of_session()    ? convert_session(convert_options)
+                      : convert_options.is_of_document() ? convert_document(convert_options)
+                                                         : app::convert(convert_options));
+    if (info.parsed()) return finish(document_info(info_options));
     if (combine.parsed()) return finish(combine_files(combine_options));
     std::fputs(line.help().c_str(), stdout);
     return 2;

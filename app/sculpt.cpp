@@ -15,6 +15,7 @@
 #include "sculpt/stroke_file.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/document/opened_work.hpp"
 #include "session/felt/felt_stroke.hpp"
 #include "session/input/desk_input.hpp"
 #include "session/picture/pictures.hpp"
@@ -211,8 +212,10 @@ Result<void> sculpt(const session::SculptOptions& options) {
         stroke = std::move(*read);
     }
     WorkerPool pool(options.threads);
-    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool);
-    if (!workpiece) return std::unexpected(workpiece.error());
+    Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
+    if (!opened) return std::unexpected(opened.error());
+    sculpt::LoadedWorkpiece* const workpiece = &opened->workpiece;
+    if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
     for (const std::string& path : options.exports) {
         if (const auto ok = sculpt::check_precision(path, workpiece->solid.lattice); !ok) return ok;
     }
@@ -319,8 +322,9 @@ Result<void> record_again(const session::SculptOptions& options) {
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
     if (!stroke) return std::unexpected(stroke.error());
     WorkerPool pool(options.threads);
-    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool);
-    if (!workpiece) return std::unexpected(workpiece.error());
+    Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
+    if (!opened) return std::unexpected(opened.error());
+    sculpt::LoadedWorkpiece* const workpiece = &opened->workpiece;
     Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
     if (const auto taken = take_up(*workpiece, *chosen_tool); !taken) return std::unexpected(taken.error());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "record/block.hpp"
 
-#include <zstd.h>
-
 #include <bit>
 #include <cstring>
+#include <utility>
 
+#include "record/compressed.hpp"
 #include "record/crc32c.hpp"
 
 namespace burin::record {
@@ -67,14 +67,9 @@ Result<PackedBlock> pack(const Block& block, BlockHeader header) {
     std::vector<std::byte> raw;
     raw.reserve(block.rows_ * row_bytes(block.types_));
     for (const std::vector<std::byte>& column : block.columns_) raw.insert(raw.end(), column.begin(), column.end());
-    PackedBlock packed{header, 0, std::vector<std::byte>(ZSTD_compressBound(raw.size()))};
-    const std::size_t size =
-        ZSTD_compress(packed.data.data(), packed.data.size(), raw.data(), raw.size(), kCompressionLevel);
-    if (ZSTD_isError(size) != 0)
-        return fail("recording", std::string("a block cannot be compressed: ") + ZSTD_getErrorName(size),
-                    "free some memory");
-    packed.data.resize(size);
-    packed.data.shrink_to_fit();
+    Result<std::vector<std::byte>> data = compressed(raw);
+    if (!data) return std::unexpected(data.error());
+    PackedBlock packed{header, 0, std::move(*data)};
     packed.crc = crc_of(header, packed.data);
     return packed;
 }
@@ -86,14 +81,11 @@ Result<Block> unpack(const PackedBlock& packed, std::span<const ColumnType> type
     if (rows == 0 || rows > kMostBlockRows || types.empty() || types.size() > kMostColumns || size > kMostBlockBytes)
         return fail(where, "claims " + std::to_string(rows) + " rows of " + std::to_string(each) + " bytes",
                     kDamagedRemedy);
-    if (ZSTD_getFrameContentSize(packed.data.data(), packed.data.size()) != size)
-        return fail(where, "its data do not have the size of its rows", kDamagedRemedy);
-    std::vector<std::byte> raw(size);
-    const std::size_t got = ZSTD_decompress(raw.data(), raw.size(), packed.data.data(), packed.data.size());
-    if (ZSTD_isError(got) != 0 || got != size) return fail(where, "its data cannot be decompressed", kDamagedRemedy);
+    const Result<std::vector<std::byte>> raw = decompressed(packed.data, size, where, kDamagedRemedy);
+    if (!raw) return std::unexpected(raw.error());
     Block block(std::vector<ColumnType>(types.begin(), types.end()));
     block.rows_ = rows;
-    auto from = raw.cbegin();
+    auto from = raw->cbegin();
     for (std::size_t c = 0; c < types.size(); ++c) {
         const auto to = from + static_cast<std::ptrdiff_t>(rows * size_of(types[c]));
         block.columns_[c].assign(from, to);

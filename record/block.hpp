@@ -24,7 +24,6 @@ namespace burin::record {
 inline constexpr std::uint32_t kMostBlockRows = 1u << 14;              // 16 s of ticks
 inline constexpr std::size_t kMostColumns = 1024;                      // of a hand
 inline constexpr std::size_t kMostBlockBytes = std::size_t{64} << 20;  // uncompressed
-inline constexpr int kCompressionLevel = 3;
 
 struct BlockHeader {
     std::uint32_t hand = 0;

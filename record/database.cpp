@@ -40,23 +40,22 @@ CREATE TABLE object(part TEXT NOT NULL, number INTEGER NOT NULL, name TEXT NOT N
 )";
 }
 
-Error database_error(sqlite3* database, int code, const std::string& path) {
+Error database_error(sqlite3* database, int code, const std::string& path, const FileWords& words_of_kind) {
     const std::string words = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
     switch (code & 0xff) {
-        case SQLITE_FULL: return {"the disk is full", path, "free some space or record to another disk"};
+        case SQLITE_FULL: return {"the disk is full", path, words_of_kind.full_disk};
         case SQLITE_BUSY:
         case SQLITE_LOCKED: return {"is in use by another program", path, "wait until that has ended, or end it"};
         case SQLITE_READONLY:
             return {"cannot be written: it is read-only", path, "choose a folder that you may write to"};
         case SQLITE_CANTOPEN: return {"cannot be opened: " + words, path, "check the path and its permissions"};
-        case SQLITE_NOTADB: return {"is not an SQLite file", path, "name a file that --record has written"};
+        case SQLITE_NOTADB: return {"is not an SQLite file", path, words_of_kind.wrong_file};
         case SQLITE_CORRUPT: return {"is damaged: " + words, path, "sqlite3 FILE .recover saves what can be saved"};
         case SQLITE_INTERRUPT:
-            return {"takes too long to read: it is damaged or not what it claims", path,
-                    "name a file that --record has written"};
+            return {"takes too long to read: it is damaged or not what it claims", path, words_of_kind.wrong_file};
         case SQLITE_IOERR: return {"cannot be read or written: " + words, path, "check the disk"};
         case SQLITE_NOMEM: return {"there is not enough memory for it", path, "end other programs"};
-        default: return {words, path, "name a file that --record has written"};
+        default: return {words, path, words_of_kind.wrong_file};
     }
 }
 
@@ -80,7 +79,7 @@ Result<bool> Statement::step() {
     const int code = sqlite3_step(statement_.get());
     if (code == SQLITE_ROW) return true;
     if (code == SQLITE_DONE) return false;
-    return std::unexpected(database_error(sqlite3_db_handle(statement_.get()), code, path_));
+    return std::unexpected(database_error(sqlite3_db_handle(statement_.get()), code, path_, words_));
 }
 
 Result<void> Statement::run() {
@@ -118,8 +117,9 @@ std::span<const std::byte> Statement::blob(int column) const {
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
-Result<Database> Database::open(const std::string& path, Use use, const std::string& vfs) {
+Result<Database> Database::open(const std::string& path, Use use, const std::string& vfs, const FileWords& words) {
     Database opened;
+    opened.words_ = words;
     opened.path_ = path;
     opened.limit_ = std::make_unique<StepLimit>();
     sqlite3* raw = nullptr;
@@ -128,7 +128,7 @@ Result<Database> Database::open(const std::string& path, Use use, const std::str
     const std::string plain = path.starts_with('/') ? path : "./" + path;
     const int code = sqlite3_open_v2(plain.c_str(), &raw, flags, vfs.empty() ? nullptr : vfs.c_str());
     opened.database_.reset(raw);
-    if (code != SQLITE_OK) return std::unexpected(database_error(raw, code, path));
+    if (code != SQLITE_OK) return std::unexpected(database_error(raw, code, path, words));
     sqlite3_extended_result_codes(raw, 1);
     sqlite3_busy_timeout(raw, busy_wait_ms(use));
     sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMostValueBytes);
@@ -143,7 +143,7 @@ Result<Database> Database::open(const std::string& path, Use use, const std::str
 Result<void> Database::run(const std::string& sql) {
     limit_->left = limit_->most;
     const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
-    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_));
+    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_, words_));
     return {};
 }
 
@@ -151,10 +151,11 @@ Result<Statement> Database::prepare(const std::string& sql) {
     limit_->left = limit_->most;
     Statement made;
     made.path_ = path_;
+    made.words_ = words_;
     sqlite3_stmt* raw = nullptr;
     const int code = sqlite3_prepare_v2(database_.get(), sql.c_str(), static_cast<int>(sql.size()), &raw, nullptr);
     made.statement_.reset(raw);
-    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_));
+    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_, words_));
     return made;
 }
 
@@ -186,9 +187,19 @@ void Database::limit_steps(std::int64_t steps) {
 
 Result<void> Database::close() {
     const int code = sqlite3_close(database_.get());
-    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_));
+    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_, words_));
     static_cast<void>(database_.release());
     return {};
+}
+
+Result<bool> Database::has_table(const char* name) {
+    Result<Statement> find =
+        prepare("SELECT count(*) FROM sqlite_schema WHERE name = ? AND type = 'table' AND rootpage > 0");
+    if (!find) return std::unexpected(find.error());
+    find->bind(1, std::string_view(name));
+    const Result<bool> row = find->step();
+    if (!row) return std::unexpected(row.error());
+    return *row && find->integer(0) == 1;
 }
 
 bool Database::in_transaction() const { return sqlite3_get_autocommit(database_.get()) == 0; }

@@ -25,6 +25,13 @@ inline constexpr std::int32_t kStoreVersion = 1;
 // The statements that make the tables.
 [[nodiscard]] const char* store_tables();
 
+// What failures advise, for the kind of file that is opened.
+struct FileWords {
+    const char* wrong_file = "name a file that --record has written";
+    const char* full_disk = "free some space or record to another disk";
+    const char* no_log = "record to a disk of this machine";
+};
+
 // A prepared statement: bind, step, read. Valid as long as its database.
 class Statement {
 public:
@@ -54,6 +61,7 @@ private:
     };
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
     std::string path_;
+    FileWords words_;
 };
 
 class Database {
@@ -61,7 +69,8 @@ public:
     enum class Use { write, read };
 
     // Opens an existing file; vfs: the name of one of SQLite's file systems, empty for the usual one.
-    [[nodiscard]] static Result<Database> open(const std::string& path, Use use, const std::string& vfs = {});
+    [[nodiscard]] static Result<Database> open(const std::string& path, Use use, const std::string& vfs = {},
+                                               const FileWords& words = {});
 
     // Runs statements without results.
     [[nodiscard]] Result<void> run(const std::string& sql);
@@ -74,6 +83,8 @@ public:
     // Closes now instead of at the end; fails where the last of the data cannot be brought to the file.
     [[nodiscard]] Result<void> close();
     [[nodiscard]] bool in_transaction() const;
+    // Whether it has a plain table of this name: a view could compute for ever, a virtual table call other code.
+    [[nodiscard]] Result<bool> has_table(const char* name);
 
 private:
     struct Close {
@@ -85,9 +96,10 @@ private:
     std::unique_ptr<StepLimit> limit_;  // outlives the connection that points to it
     std::unique_ptr<sqlite3, Close> database_;
     std::string path_;
+    FileWords words_;
 };
 
 // Returns the last failure in words: what and remedy for the codes that users meet.
-[[nodiscard]] Error database_error(sqlite3* database, int code, const std::string& path);
+[[nodiscard]] Error database_error(sqlite3* database, int code, const std::string& path, const FileWords& words = {});
 
 }  // namespace burin::record

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "record/record_reader.hpp"
 #include "record/row_walk.hpp"
+#include "record/store_file.hpp"
 
 #include <sys/stat.h>
 
@@ -78,34 +79,12 @@ Result<RecordReader> RecordReader::open(const std::string& path) {
 
 Result<void> RecordReader::check_marks() {
     if (const auto set = database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"); !set) return set;
-    const Result<std::int64_t> mark = database_->integer("PRAGMA application_id");
-    if (!mark) return std::unexpected(mark.error());
-    if (*mark != kApplicationId) return fail(path_, "is an SQLite file of another program", kRemedy);
-    const Result<std::int64_t> version = database_->integer("PRAGMA user_version");
-    if (!version) return std::unexpected(version.error());
-    if (*version > kStoreVersion)
-        return fail(path_,
-                    "has version " + std::to_string(*version) + " of the format, and this program knows up to " +
-                        std::to_string(kStoreVersion),
-                    "read it with a newer Burin; its tables can be read with any SQLite");
-    if (*version < 1) return fail(path_, "has no version of the format", kRemedy);
-    return {};
-}
-
-// A view could compute for ever, a virtual table could call other code: all must be plain tables.
-Result<bool> RecordReader::has_table(const char* name) {
-    Result<Statement> find =
-        database_->prepare("SELECT count(*) FROM sqlite_schema WHERE name = ? AND type = 'table' AND rootpage > 0");
-    if (!find) return std::unexpected(find.error());
-    find->bind(1, std::string_view(name));
-    const Result<bool> row = find->step();
-    if (!row) return std::unexpected(row.error());
-    return *row && find->integer(0) == 1;
+    return burin::record::check_marks(*database_, path_, kRecordingKind);
 }
 
 Result<void> RecordReader::check_tables() {
     for (const char* name : {"meta", "hand", "column", "block", "line", "trial", "event", "clock", "derived"}) {
-        const Result<bool> there = has_table(name);
+        const Result<bool> there = database_->has_table(name);
         if (!there) return std::unexpected(there.error());
         if (!*there) return fail(path_, "has no table " + std::string(name), kRemedy);
     }
@@ -215,7 +194,7 @@ Result<void> RecordReader::read_derived() {
 
 // Recordings from before there were names of objects have no table of them.
 Result<void> RecordReader::read_objects() {
-    const Result<bool> there = has_table("object");
+    const Result<bool> there = database_->has_table("object");
     if (!there) return std::unexpected(there.error());
     if (!*there) return {};
     Result<Statement> read = database_->prepare(

@@ -113,7 +113,6 @@ private:
     [[nodiscard]] Result<void> read_places();
     [[nodiscard]] Result<void> read_derived();
     [[nodiscard]] Result<void> read_objects();
-    [[nodiscard]] Result<bool> has_table(const char* name);
 
     std::string path_;
     std::optional<Database> database_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "record/record_store.hpp"
 
-#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,41 +20,10 @@ std::int64_t utc_ns() {
     return static_cast<std::int64_t>(t.tv_sec) * kNanosecondsPerSecond + t.tv_nsec;
 }
 
-std::unexpected<Error> cannot_make(const std::string& path, int code) {
-    const std::string why = std::generic_category().message(code);
-    switch (code) {
-        case EEXIST: return fail(path, "exists, and a recording never overwrites a file", "choose another name");
-        case ENOENT: return fail(path, "cannot be made: " + why, "create the folder first");
-        case ENOSPC:
-        case EDQUOT: return fail(path, "the disk is full", "free some space or record to another disk");
-        default: return fail(path, "cannot be made: " + why, "choose a folder that you may write to");
-    }
-}
-
-// A folder's entry is on the disk only when the folder is.
-void flush_folder_of(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path();
-    const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd < 0) return;  // a file system that cannot flush folders loses only that guarantee
-    static_cast<void>(::fsync(fd));
-    ::close(fd);
-}
-
 std::vector<ColumnType> types_of(const std::vector<Column>& columns) {
     std::vector<ColumnType> types;
     for (const Column& column : columns) types.push_back(column.type);
     return types;
-}
-
-// Fails where a log lies there without its file.
-Result<void> check_no_log_of(const std::string& path) {
-    for (const char* ending : {"-wal", "-journal", "-shm"}) {
-        std::error_code ignored;
-        if (fs::exists(path + ending, ignored))
-            return fail(path + ending, "belongs to another recording, whose file has been taken away",
-                        "choose another name; with its own file beside it, it can still be read");
-    }
-    return {};
 }
 
 }  // namespace
@@ -62,10 +31,11 @@ Result<void> check_no_log_of(const std::string& path) {
 Result<void> check_new_place(const std::string& path) {
     if (path.empty()) return {};
     struct stat there{};
-    if (::lstat(path.c_str(), &there) == 0) return cannot_make(path, EEXIST);
-    if (errno != ENOENT) return cannot_make(path, errno);
+    if (::lstat(path.c_str(), &there) == 0) return cannot_make(path, EEXIST, kRecordingKind);
+    if (errno != ENOENT) return cannot_make(path, errno, kRecordingKind);
     const fs::path folder = fs::path(path).parent_path();
-    if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) return cannot_make(path, errno);
+    if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+        return cannot_make(path, errno, kRecordingKind);
     return check_no_log_of(path);
 }
 
@@ -83,49 +53,21 @@ RecordStore::RecordStore(std::string path, std::vector<RecordedHand> hands, Writ
     }
 }
 
-RecordStore::~RecordStore() {
-    if (place_ >= 0) ::close(place_);
-}
-
 // ---- The file
 
 Result<void> RecordStore::make() {
-    if (const auto made = make_file(); !made) return made;
-    Result<void> ready = open();
-    if (ready) ready = fill_tables();
-    if (ready) {
-        flush_folder_of(path_);
-        committed_ns_ = clock_.now_ns();
-        return {};
-    }
-    database_.reset();
-    std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-journal"}) fs::remove(path_ + ending, ignored);
-    return ready;
-}
-
-Result<void> RecordStore::make_file() {
-    if (const auto ok = check_no_log_of(path_); !ok) return ok;
-    const int fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0) return cannot_make(path_, errno);
-    ::close(fd);
-    place_ = ::open(path_.c_str(), O_PATH | O_CLOEXEC);
-    if (place_ < 0 || ::fstat(place_, &made_) != 0) return cannot_make(path_, errno);
+    Result<StoreFile> made = StoreFile::make(
+        path_, kRecordingKind,
+        [this](Database& database) {
+            database_ = &database;
+            return fill_tables();
+        },
+        options_.vfs);
+    if (!made) return std::unexpected(made.error());
+    file_.emplace(std::move(*made));
+    database_ = &file_->database();
+    committed_ns_ = clock_.now_ns();
     return {};
-}
-
-Result<void> RecordStore::open() {
-    Result<Database> opened = Database::open(path_, Database::Use::write, options_.vfs);
-    if (!opened) return std::unexpected(opened.error());
-    database_.emplace(std::move(*opened));
-    // Exclusive before WAL: the connection keeps the lock and needs no memory shared with other programs.
-    if (const auto set = database_->run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
-    const Result<std::string> mode = database_->text("PRAGMA journal_mode = WAL");
-    if (!mode) return std::unexpected(mode.error());
-    if (*mode != "wal")
-        return fail(path_, "its file system takes no write-ahead log", "record to a disk of this machine");
-    return database_->run("PRAGMA synchronous = FULL; PRAGMA application_id = " + std::to_string(kApplicationId) +
-                          "; PRAGMA user_version = " + std::to_string(kStoreVersion));
 }
 
 Result<void> RecordStore::fill_tables() {
@@ -336,11 +278,9 @@ Result<void> RecordStore::insert_clock() {
 // ---- What can go wrong, and the end
 
 Result<void> RecordStore::check_place() {
-    struct stat now{};
-    const bool there = ::stat(path_.c_str(), &now) == 0;
-    if (there && now.st_dev == made_.st_dev && now.st_ino == made_.st_ino) return {};
+    if (file_->is_in_place()) return {};
     Error why{"the file was taken away while it was recorded", path_, "leave the file where it is until the end"};
-    if (::fstat(place_, &now) == 0 && now.st_nlink == 0) save_elsewhere(why);
+    if (file_->is_deleted()) save_elsewhere(why);
     give_up(std::move(why));
     return std::unexpected(*failure_);
 }
@@ -400,11 +340,11 @@ void RecordStore::end(std::uint64_t notes_lost) {
         static_cast<void>(write_facts_of_end(notes_lost));  // where the disk takes it again
         if (database_->in_transaction()) static_cast<void>(database_->run("ROLLBACK"));
     }
-    // All into the one file, and no log beside it: then it can be read where nothing can be written.
-    if (ended) ended = database_->run("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
+    const Result<void> closed = file_->close();
+    if (ended) ended = closed;
     if (!ended && !failure_) give_up(ended.error());
-    static_cast<void>(database_->close());
-    database_.reset();
+    file_.reset();
+    database_ = nullptr;
 }
 
 }  // namespace burin::record

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the writer's thread works on: the connection, the block that each hand's ticks go into, and what waits for the
+// What the writer's thread works on: the file, the block that each hand's ticks go into, and what waits for the
 // next transaction. One thread at a time; record_writer.hpp says what it promises.
 #pragma once
-
-#include <sys/stat.h>
 
 #include <deque>
 #include <optional>
@@ -13,8 +11,8 @@
 #include "haptics/histogram.hpp"
 #include "record/block.hpp"
 #include "record/chain.hpp"
-#include "record/database.hpp"
 #include "record/record_writer.hpp"
+#include "record/store_file.hpp"
 
 namespace burin::record {
 
@@ -32,7 +30,6 @@ struct StoreNote {
 class RecordStore {
 public:
     RecordStore(std::string path, std::vector<RecordedHand> hands, WriterOptions options);
-    ~RecordStore();
     RecordStore(const RecordStore&) = delete;
     RecordStore& operator=(const RecordStore&) = delete;
 
@@ -66,8 +63,6 @@ private:
         std::uint64_t never_run = 0;  // ticks that were due and that the loop skipped
     };
 
-    [[nodiscard]] Result<void> make_file();
-    [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> fill_tables();
     [[nodiscard]] Result<void> fill_columns();
     [[nodiscard]] Result<void> put_fact(const std::string& key, const std::string& value);
@@ -88,9 +83,8 @@ private:
     std::string path_;
     WriterOptions options_;
     std::vector<Part> parts_;
-    std::optional<Database> database_;
-    int place_ = -1;      // keeps the file's identity; O_PATH, so that closing it drops no lock
-    struct stat made_{};  // the file as it was made
+    std::optional<StoreFile> file_;
+    Database* database_ = nullptr;  // the file's
     std::deque<PackedBlock> sealed_;
     std::vector<StoreNote> notes_;
     ChainWriter chain_;

@@ -19,6 +19,7 @@
 #include "geometry/contact/local_surface.hpp"
 #include "haptics/channels.hpp"
 #include "scene/contact_events.hpp"
+#include "scene/pages.hpp"
 #include "scene/scene_changes.hpp"
 
 namespace burin::scene {
@@ -67,6 +68,12 @@ public:
     [[nodiscard]] virtual Nanoseconds period_ns() const = 0;
     // Waits for all work that goes on elsewhere.
     virtual void finish() {}
+    // Puts what a document keeps of the part into the pages, in the middle of no update: all, or what has changed since
+    // the last call, as they ask. Fails where the part cannot be saved, with the reason. What was saved is loaded by
+    // whoever makes the part.
+    [[nodiscard]] virtual Result<void> save(Pages& /*pages*/) {
+        return fail("a part of the scene", "cannot be saved yet", "export it, or save a session without it");
+    }
 };
 
 }  // namespace burin::scene

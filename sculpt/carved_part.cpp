@@ -50,7 +50,10 @@ CarvedPart::CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_N
     if (undo_bytes) sculpture_.keep_history(*undo_bytes);
 }
 
-CarvedPart::~CarvedPart() { CarvedPart::finish(); }
+CarvedPart::~CarvedPart() {
+    journal_ = nullptr;  // who takes it may be gone
+    CarvedPart::finish();
+}
 
 // ---- Updates
 
@@ -74,7 +77,21 @@ Result<void> CarvedPart::update(Nanoseconds now_ns, const scene::PartSeen* recor
     for (Carver& carver : carvers_)
         if (const auto carved = carve(carver); !carved) return carved;
     carry_out_waiting(now_ns);
+    if (!pressed() || now_ns - journal_told_ns_ >= kJournal_ns) {
+        tell_journal();
+        journal_told_ns_ = now_ns;
+    }
     return {};
+}
+
+void CarvedPart::keep_journal(TakeChange take) {
+    sculpture_.note_changes();
+    journal_ = std::move(take);
+}
+
+void CarvedPart::tell_journal() {
+    scene::Pages change{.whole = false};
+    if (journal_ && sculpture_.take_change(change)) journal_(std::move(change));
 }
 
 Result<void> CarvedPart::carve(Carver& carver) {
@@ -176,7 +193,8 @@ std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
 
 void CarvedPart::order(const SculptOrder& order) {
     const bool walks = std::holds_alternative<UndoStroke>(order) || std::holds_alternative<RedoStroke>(order);
-    const bool follows = !waiting_.empty() && std::holds_alternative<ExportSurface>(order);
+    const bool writes = std::holds_alternative<ExportSurface>(order) || std::holds_alternative<SaveScene>(order);
+    const bool follows = !waiting_.empty() && writes;
     if (follows || (walks && (pressed() || !waiting_.empty()))) {
         waiting_.push_back(order);
         return;
@@ -243,6 +261,12 @@ void CarvedPart::carry_out(const ExportSurface& wanted) {
                                               wanted] { return export_surface(surface, solid, wanted); });
 }
 
+// A save that fails leaves the journal with all that it should have saved.
+void CarvedPart::carry_out(const SaveScene& wanted) {
+    tell_journal();
+    if (wanted.save) wanted.save();
+}
+
 void CarvedPart::carry_out(const LightFrom& from) {
     if (const auto kept = sculpture_.keep_light(from.lamp_object); !kept) notify(kept.error().line());
 }
@@ -254,6 +278,7 @@ bool CarvedPart::export_is_done() const {
 }
 
 void CarvedPart::finish() {
+    tell_journal();
     if (!export_.valid()) return;
     exports_.push_back(export_.get());
     status_changed_ = true;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -45,7 +46,11 @@ struct ExportSurface {
 struct LightFrom {
     compute::Lamp lamp_object;
 };
-using SculptOrder = std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ExportSurface, LightFrom>;
+// Has the scene saved as it is between two orders: after the undo that was asked for before.
+struct SaveScene {
+    std::function<void()> save;
+};
+using SculptOrder = std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ExportSurface, LightFrom, SaveScene>;
 
 struct TileUpdate {
     std::uint32_t tile = 0;
@@ -87,6 +92,8 @@ public:
     static constexpr Nanoseconds kMostWait_ns = 500'000'000;
     // Between updates while something changes, and at rest.
     static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;
+    // Longest time for which what a stroke that goes on has changed is told to nobody.
+    static constexpr Nanoseconds kJournal_ns = 500'000'000;
 
     // sculpture must outlive the part. `hand` is the first that carves; another does once it has been given a tool.
     // With `undo_bytes` the part has the sculpture keep a history within that much memory, and passes its notices on;
@@ -95,9 +102,14 @@ public:
                std::size_t hand = 0);
     ~CarvedPart() override;
 
+    // Tells what has changed, as pages (sculpt/saved_solid.hpp), when a stroke ends, when one is undone, and meanwhile
+    // every kJournal_ns. Before the first update.
+    using TakeChange = std::function<void(scene::Pages)>;
+    void keep_journal(TakeChange take);
+
     // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update. A hand
     // comes after the cursor: undo and redo that are asked for while a button is still down wait for the stroke's end,
-    // up to kMostWait_ns, and so does an export behind them.
+    // up to kMostWait_ns, and so do an export and a save behind them.
     void order(const SculptOrder& order);
     // Gives a hand a tool, likewise.
     void order(const UseTool& use, std::size_t hand);
@@ -115,6 +127,7 @@ public:
     void after_publication() override;
     [[nodiscard]] Nanoseconds period_ns() const override { return busy_ ? kBusy_ns : kResting_ns; }
     void finish() override;
+    [[nodiscard]] Result<void> save(scene::Pages& pages) override { return sculpture_.save(pages); }
 
     // As a CarvedChange.
     void take_changes(scene::SceneChanges& changes) override;
@@ -139,6 +152,8 @@ private:
     void carry_out(const RedoStroke&);
     void carry_out(const ExportSurface& wanted);
     void carry_out(const LightFrom& from);
+    void carry_out(const SaveScene& wanted);
+    void tell_journal();
     void use_tool(Carver& carver, const UseTool& use);
     [[nodiscard]] Result<void> carve(Carver& carver);
     void note_border(Carver& carver, std::span<const compute::ToolSweep> sweeps);
@@ -157,6 +172,8 @@ private:
     bool busy_ = true;                  // there was something to report after the last update
     std::vector<SculptOrder> waiting_;  // for the end of a stroke
     std::optional<Nanoseconds> waiting_since_ns_;
+    TakeChange journal_;  // null: nobody keeps one
+    Nanoseconds journal_told_ns_ = 0;
     std::future<ExportOutcome> export_;
     std::vector<std::string> messages_;
     std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of

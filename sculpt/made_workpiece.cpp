@@ -10,13 +10,18 @@ Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoi
     auto pool = std::make_unique<WorkerPool>(threads);
     Result<LoadedWorkpiece> loaded = load_workpiece(options, *pool, watch);
     if (!loaded) return std::unexpected(loaded.error());
-    const compute::Lattice lattice = loaded->solid.lattice;
-    Result<ChosenEngine> chosen = choose_engine(engine, std::move(loaded->solid), *pool);
+    return ready_to_carve(std::move(*loaded), engine, std::move(pool), watch, meshing_from(options));
+}
+
+Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, EngineChoice engine, std::unique_ptr<WorkerPool> pool,
+                                     const LoadWatch& watch, double from) {
+    const compute::Lattice lattice = loaded.solid.lattice;
+    Result<ChosenEngine> chosen = choose_engine(engine, std::move(loaded.solid), *pool);
     if (!chosen) return std::unexpected(chosen.error());
-    begin_step(watch.work, "meshing the surface", meshing_from(options), 1.0);
+    begin_step(watch.work, "meshing the surface", from, 1.0);
     auto carving = std::make_unique<Sculpture>(std::move(chosen->engine), *pool, watch.work);
     if (watch.work != nullptr && !watch.work->is_wanted()) return no_longer_wanted();
-    return MadeWorkpiece{std::move(pool), std::move(*loaded), lattice, std::move(carving)};
+    return MadeWorkpiece{std::move(pool), std::move(loaded), lattice, std::move(carving)};
 }
 
 }  // namespace burin::sculpt

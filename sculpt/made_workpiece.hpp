@@ -18,8 +18,13 @@ struct MadeWorkpiece {
     std::unique_ptr<Sculpture> carving;
 };
 
-// Makes the workpiece ready; threads: of the pool, as WorkerPool counts them.
+// Loads the workpiece and makes it ready; threads: of the pool, as WorkerPool counts them.
 [[nodiscard]] Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoice engine,
                                                    unsigned threads, const LoadWatch& watch = {});
+
+// Makes a workpiece that is there ready; the pool is the one that it was loaded with, or another.
+[[nodiscard]] Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, EngineChoice engine,
+                                                   std::unique_ptr<WorkerPool> pool, const LoadWatch& watch = {},
+                                                   double from = 0.0);
 
 }  // namespace burin::sculpt

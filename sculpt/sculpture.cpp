@@ -28,7 +28,8 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
       pool_(pool),
       surface_(engine_->solid().lattice),
       mirror_(middle_of(engine_->solid().lattice)),
-      tile_changed_(surface_.tile_count(), true) {
+      tile_changed_(surface_.tile_count(), true),
+      unsaved_(engine_->solid().lattice) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
     surface_.mesh_all(engine_->solid(), pool_, watch);
@@ -57,6 +58,8 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
     const compute::RemeshStats remeshed = surface_.update(engine_->solid(), changes, pool_);
     const Nanoseconds meshed_ns = clock.now_ns();
     if (history_) history_->record(changes);
+    unsaved_.note(changes);
+    if (noted_) noted_->note(changes);
     note_changed_tiles();
     ++figures_.updates;
     figures_.sweeps += sweeps.size();
@@ -76,7 +79,7 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
 Result<void> Sculpture::mesh_on_device() {
     auto* vulkan = dynamic_cast<compute::VulkanEngine*>(engine_.get());
     // A device without this layout still carves, and the host meshes.
-    if (vulkan == nullptr || history_ || !vulkan->device().capabilities().scalar_block_layout) return {};
+    if (vulkan == nullptr || history_ || noted_ || !vulkan->device().capabilities().scalar_block_layout) return {};
     auto made = compute::DeviceSurface::create(*vulkan);
     if (!made) return std::unexpected(made.error());
     on_device_ = std::move(*made);
@@ -159,8 +162,31 @@ Result<std::size_t> Sculpture::walk_history(std::size_t strokes, HistoryStep ste
 }
 
 void Sculpture::follow_engine() {
-    surface_.update(engine_->solid(), engine_->take_changes(), pool_);
+    const compute::Changes changes = engine_->take_changes();
+    surface_.update(engine_->solid(), changes, pool_);
+    unsaved_.note(changes);
+    if (noted_) noted_->note(changes);
     note_changed_tiles();
+}
+
+void Sculpture::copy(scene::Pages& pages) const {
+    save_solid(engine_->solid(), ChangedPages(engine_->solid().lattice), pages);
+}
+
+bool Sculpture::take_change(scene::Pages& pages) {
+    if (!has_noted()) return false;
+    noted_->take(engine_->solid(), pages);
+    return true;
+}
+
+Result<void> Sculpture::save(scene::Pages& pages) {
+    end_stroke();
+    if (on_device_) unsaved_.note_all();  // the device tells of no single rays
+    if (const auto read = read_back(); !read) return read;
+    if (pages.whole) unsaved_.note_all();
+    save_solid(engine_->solid(), unsaved_, pages);
+    unsaved_.clear();
+    return {};
 }
 
 // ---- Light and changed tiles

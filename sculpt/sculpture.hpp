@@ -20,6 +20,7 @@
 #include "compute/tools/apply.hpp"
 #include "compute/vulkan/device_surface.hpp"
 #include "sculpt/mirror.hpp"
+#include "sculpt/saved_solid.hpp"
 
 namespace burin::sculpt {
 
@@ -70,6 +71,16 @@ public:
     // Undoes or repeats up to `strokes` strokes, the last first; returns how many there were.
     [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);
     [[nodiscard]] Result<std::size_t> redo(std::size_t strokes);
+    // Puts the solid into the pages: all of it, or what has changed since the last call, as they ask
+    // (sculpt/saved_solid.hpp). Ends the stroke that is open, so that undo goes to what was saved.
+    [[nodiscard]] Result<void> save(scene::Pages& pages);
+    // Puts all of the solid into the pages; what save() gives next is the same as without.
+    void copy(scene::Pages& pages) const;
+    // Notes which rays change, for a journal, from the next update on. Has the host mesh.
+    void note_changes() { noted_.emplace(engine_->solid().lattice); }
+    // Puts what has changed since the last call into the pages; returns whether there was anything.
+    [[nodiscard]] bool take_change(scene::Pages& pages);
+    [[nodiscard]] bool has_noted() const { return noted_ && !noted_->empty(); }
     // Returns null without keep_history().
     [[nodiscard]] compute::History* history() { return history_ ? &*history_ : nullptr; }
 
@@ -111,6 +122,8 @@ private:
     std::optional<compute::History> history_;
     std::optional<compute::SurfaceLight> light_;
     std::vector<bool> tile_changed_;
+    ChangedPages unsaved_;
+    std::optional<ChangedRays> noted_;
     SculptFigures figures_;
     double initial_volume_m3_ = 0.0;
     double first_mesh_ms_ = 0.0;

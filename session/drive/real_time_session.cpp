@@ -257,7 +257,9 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     const auto wake = [&to = *presenter] { to.wake(); };
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
     std::optional<sculpt::MadeWorkpiece> made;
-    if (run.opens_before_eyes && wall.desk && presenter->has_windows() && has_workpiece(options)) {
+    // A document is there at once: nothing has to be read, checked and converted.
+    const bool takes_long = has_workpiece(options) && !is_document(options.workpiece);
+    if (run.opens_before_eyes && wall.desk && presenter->has_windows() && takes_long) {
         auto opening = open_workpiece(*presenter, options, wall);
         if (!opening) return std::unexpected(opening.error());
         if (!*opening) return SessionRecord{};

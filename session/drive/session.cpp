@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "devices/registry/device_registry.hpp"
+#include "session/document/journal_folder.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/live/first_time.hpp"
 #include "session/picture/pictures.hpp"
@@ -166,6 +167,9 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
         options.live.tools_of_input = tools_in(*read);
         log = std::move(*read);
     }
+    if (!log && options.live.journal.empty()) options.live.journal = usual_journal_folder();
+    if (options.live.journal == kNoJournal) options.live.journal.clear();
+    if (const auto taken = take_settings_of_document(options); !taken) return taken;
     if (const auto settled = settle_mouse(options); !settled) return settled;
     if (!log) options.workpiece.close_small_holes = true;
     settle_room(options, true);

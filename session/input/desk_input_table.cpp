@@ -50,7 +50,7 @@ constexpr std::array kShortCuts = {
     ShortCut{Key::f11, kNone, Action::toggle_full_screen, false, "Full screen or window"},
     ShortCut{Key::f12, kNone, Action::take_screenshot, false, "Save a picture of the screen"},
     ShortCut{Key::e, kCtrl, Action::export_mesh, false, "Export the mesh"},
-    ShortCut{Key::s, kCtrl, Action::save_session, false, "Save the session"},
+    ShortCut{Key::s, kCtrl, Action::save_session, false, "Save the work"},
     ShortCut{Key::q, kCtrl, Action::quit, false, "Quit"},
 };
 

@@ -45,6 +45,30 @@ void AskedFiles::tell(const sculpt::ExportOutcome& ended) {
     }
 }
 
+Result<AskedFiles::DocumentPlace> AskedFiles::place_document(const std::string& name, const std::string& current) {
+    const bool of_log = outputs_.are_of_log();
+    // A user's own document is an input as well, and yet what is saved goes there.
+    if (!of_log && !outputs_.refuse_meshes() && is_same_file(name, current))
+        return DocumentPlace{current, outputs_.shown(name, current), true, true};
+    Result<std::filesystem::path> place = outputs_.place_of(name, OutputKind::document);
+    if (!place) return std::unexpected(place.error());
+    const bool is_current = is_same_file(*place, current);
+    if (!is_current) place = outputs_.new_place_of(name, OutputKind::document);
+    if (!place) return std::unexpected(place.error());
+    return DocumentPlace{place->string(), outputs_.shown(name, *place), is_current, of_log};
+}
+
+void AskedFiles::tell(const document::SaveOutcome& ended) {
+    if (ended.saved) {
+        const std::string message = "saved " + ended.name;
+        log_.notify_of_event(message, MessageKind::info, {{}, where_it_lies(message, ended.path, false)});
+    } else if (outputs_.refuse_meshes()) {
+        log_.notify_of_event(ended.saved.error().line());
+    } else {
+        log_.notify_of_event(ended.saved.error().line(), MessageKind::error, {failed_on(ended.asked_by), {}});
+    }
+}
+
 void AskedFiles::keep_picture(const Asked& wanted, const Result<Image>& image) {
     const auto place = image ? outputs_.new_place_of(wanted.text, OutputKind::picture) : std::unexpected(image.error());
     std::error_code ignored;

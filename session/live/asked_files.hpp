@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files that a session is asked for: meshes and pictures, where they go, and what became of them. Counts what is
-// missing of what a log asked for, so that a script fails where it did not get all.
+// The files that a session is asked for: meshes, documents and pictures, where they go, and what became of them. Counts
+// what is missing of what a log asked for, so that a script fails where it did not get all.
 // Thread: the frame's.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/image.hpp"
+#include "document/document_writer.hpp"
 #include "sculpt/carved_part.hpp"
 #include "session/live/message_log.hpp"
 #include "session/record/log_outputs.hpp"
@@ -36,6 +37,15 @@ public:
     // Says where a mesh goes; one that is refused is ordered as well, since a recording counts the orders.
     void place(sculpt::ExportSurface& wanted);
     void tell(const sculpt::ExportOutcome& ended);
+
+    struct DocumentPlace {
+        std::string path, shown;
+        bool is_current = false;  // it is the document that the session has
+        bool replaces = false;    // a file that is there may go
+    };
+    // Says where a document of this name goes; current: the path of the one that there is, empty for none.
+    [[nodiscard]] Result<DocumentPlace> place_document(const std::string& name, const std::string& current);
+    void tell(const document::SaveOutcome& ended);
 
     // Pictures of the next frame, by their names.
     void ask_for_pictures(std::vector<Asked> wanted);

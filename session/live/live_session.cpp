@@ -131,6 +131,7 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
         if (wanted != nullptr) files_.place(*wanted);
         give(scene_.carving(std::move(order), state_.hand));
     }
+    for (const Asked& wanted : orders.saves) save(wanted, give);
     for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
     for (HoldOrder& order : orders.holds) give(scene_.holding(std::move(order)));
     if (const auto lamp = scene_.carved() != nullptr ? lamp_.look(state_, last_step_ns_) : std::nullopt)
@@ -147,12 +148,35 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
 }
 
+void LiveSession::save(const Asked& wanted, const Give& give) {
+    if (!files_.write()) return;
+    give(scene_.saving(document_.request(wanted, files_, options_, saved_content()), document_.writer()));
+}
+
+document::Content LiveSession::saved_content() const {
+    return {.facts = saved_facts(settled(options_), state_, *room_.carved_object), .commands = saved_commands(state_)};
+}
+
+// Before the scene's thread starts.
+void LiveSession::keep_journal(const std::string& folder) {
+    document::Content beginning = saved_content();
+    scene_.workpiece()->copy(beginning.parts.emplace_back());
+    if (const auto kept = document_.keep_journal(folder, options_, opened_, std::move(beginning)); !kept)
+        return notify(kept.error().line());
+    scene_.carved()->keep_journal(
+        [&writer = document_.writer()](scene::Pages change) { writer.note({.part = 0, .pages = std::move(change)}); });
+}
+
 void LiveSession::watch_misfit(const sculpt::Tool& tool) {
     const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
     if (const auto misfit = misfit_.look(state_.tool, tool, longest_m, scene_.spacing_m())) notify(*misfit);
 }
 
 void LiveSession::watch(Nanoseconds time_ns) {
+    for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
+    const bool keeps_journal = !options_.live.journal.empty();
+    if (const auto why = keeps_journal ? document_.writer().take_journal_failure() : std::nullopt)
+        log_.notify_of_event("strokes are no longer kept until they are saved: " + why->line(), MessageKind::error);
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
     if (const auto change = wand_.look(state_.wands)) notify(*change);
@@ -201,6 +225,10 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
 
 void LiveSession::finish_scene() {
     scene_.service().finish();
+    document_.finish();
+    for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
+    if (const std::string kept = document_.end_journal(state_.discards); !kept.empty())
+        notify("what was not saved is kept: burin sculpt " + kept);
     collect({});
     take_news(UINT64_MAX);
     // What the activity orders now has nobody to carry it out, but for its words.

@@ -21,6 +21,7 @@
 #include "sculpt/made_workpiece.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/asked_files.hpp"
+#include "session/live/document_side.hpp"
 #include "session/live/hand_side.hpp"
 #include "session/live/live_panel.hpp"
 #include "session/live/message_log.hpp"
@@ -156,6 +157,7 @@ private:
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall,
                                     std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> take_workpiece(const SculptOptions& options, std::optional<sculpt::MadeWorkpiece> made);
+    [[nodiscard]] Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
@@ -163,6 +165,9 @@ private:
     void fit_into_mode(SessionOrders& orders);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
+    void save(const Asked& wanted, const Give& give);
+    [[nodiscard]] document::Content saved_content() const;
+    void keep_journal(const std::string& folder);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void switch_amplifiers(const AskedAmplifiers& asked);
     void take(sculpt::SurfaceUpdate news);
@@ -196,6 +201,9 @@ private:
     LivePanel panel_;
     MessageLog log_;
     AskedFiles files_;
+    DocumentSide document_;
+    OpenedWork opened_;      // without its solid, once that is carved
+    SculptOptions options_;  // as the session began, for documents
     SessionTimes times_{clock_};
     ComfortWatch comfort_;
     TrackerWatch tracker_;

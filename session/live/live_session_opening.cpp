@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Opens a session: workpiece, world, tool, hands and the scene that they touch.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "base/text.hpp"
+#include "session/document/journal_folder.hpp"
 #include "session/live/live_session.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/record/session_recording.hpp"
@@ -26,7 +28,11 @@ std::size_t ring_for(const std::string& recording) {
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
-    : clock_(clock), hands_(ring_for(options.live.record), pace), activity_(options.activity), files_(options, log_) {}
+    : clock_(clock),
+      hands_(ring_for(options.live.record), pace),
+      activity_(options.activity),
+      files_(options, log_),
+      options_(options) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
                                                          Clock& clock, double pace,
@@ -59,12 +65,31 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     return {};
 }
 
+// Opens a document, or makes the workpiece of a file or a shape.
+Result<sculpt::MadeWorkpiece> LiveSession::make_workpiece(const SculptOptions& options) {
+    if (!is_document(options.workpiece))
+        return sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
+    auto pool = std::make_unique<WorkerPool>(options.threads);
+    Result<OpenedWork> opened = open_work_and_journal(options.workpiece, options.live.journal, *pool);
+    if (!opened) return std::unexpected(opened.error());
+    opened_ = std::move(*opened);
+    if (!opened_.lost.empty()) notify(opened_.lost, MessageKind::error);
+    if (!opened_.recovered.empty()) notify_of_event(opened_.recovered, MessageKind::warning);
+    document_.came_from(opened_.origin);
+    // A log's session leaves the file that it began with as it is.
+    if (opened_.version && options.live.input.empty()) document_.opened(opened_.document, *opened_.version);
+    return sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
+}
+
 Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::optional<sculpt::MadeWorkpiece> made) {
     if (!made) {
-        auto own = sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
+        auto own = make_workpiece(options);
         if (!own) return std::unexpected(own.error());
         made = std::move(*own);
     }
+    document_.began_with(options.workpiece.source);
+    if (!is_document(options.workpiece))
+        for (const std::string& line : unsaved_work_in(options.live.journal)) notify_of_event(line);
     const sculpt::LoadedWorkpiece& workpiece = made->loaded;
     std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     if (!workpiece.closed.empty()) notify(workpiece.closed);
@@ -73,12 +98,14 @@ Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::opti
     room_.workpiece_object = workpiece.bounds_object;
     room_.carved_object = room_.workpiece_object;
     room_.lattice_object = sculpt::lattice_bounds(made->lattice);
+    const double cells = sculpt::longest_side_m(workpiece.bounds_object) / made->lattice.spacing_m;
+    const auto resolution =
+        is_document(options.workpiece) ? static_cast<int>(std::lround(cells)) : options.workpiece.resolution;
     pool_ = std::move(made->pool);
     scene_.take(std::move(made->carving));
     seen_ = SeenSurface(scene_.workpiece()->surface().lattice());
-    workpiece_ = {
-        .name = std::filesystem::path(options.workpiece.source).filename().string(),
-        .size = in_millimetres(workpiece.size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};
+    workpiece_ = {.name = std::filesystem::path(options.workpiece.source).filename().string(),
+                  .size = in_millimetres(workpiece.size_m) + ", " + std::to_string(resolution) + " cells"};
     return {};
 }
 
@@ -122,6 +149,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = scene_.workpiece() != nullptr;
     state_.mirror = options.mirror;
+    if (opened_.view) state_.world_from_object = *opened_.view;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
@@ -135,6 +163,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
                      activity_.scene_part(), activity_.tap(), start_ns_);
     if (begun && scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
+    if (begun && scene_.carved() != nullptr && !options.live.journal.empty()) keep_journal(options.live.journal);
     return begun;
 }
 

@@ -19,6 +19,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
         parts.push_back(&world_->part());
     }
     if (brought != nullptr) parts.push_back(brought);
+    saved_parts_ = parts;
     if (tap != nullptr) parts.push_back(tap);
     for (const Beginning& hand : hands) spreads_m_.push_back(hand.spread_m);
     std::vector<scene::SceneHand> touched;
@@ -44,6 +45,20 @@ SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand)
         for (std::size_t part = first; part < first + parts; ++part)
             service_->use_probe(part, tools_around_m_[hand] + spread_m);
     };
+}
+
+SceneSide::Order SceneSide::saving(document::SaveRequest request, document::DocumentWriter& writer) {
+    auto wanted = std::make_shared<document::SaveRequest>(std::move(request));
+    sculpt::SaveScene save{[this, wanted, &writer] {
+        for (scene::ScenePart* part : saved_parts_) {
+            scene::Pages pages{.whole = !wanted->changed_alone};
+            const Result<void> saved = part->save(pages);
+            if (!saved && !wanted->refused) wanted->refused = saved.error();
+            wanted->content.parts.push_back(std::move(pages));
+        }
+        writer.save(std::move(*wanted));
+    }};
+    return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };
 }
 
 SceneSide::Order SceneSide::editing(WorldOrder order) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "document/document_writer.hpp"
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_part.hpp"
 #include "session/hands/session_hands.hpp"
@@ -46,6 +47,8 @@ public:
 
     // Orders for the scene's thread. A tool is the one of the hand in use.
     [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);
+    // Takes the pages of all parts and has them saved; one that cannot be saved has nothing saved.
+    [[nodiscard]] Order saving(document::SaveRequest request, document::DocumentWriter& writer);
     [[nodiscard]] Order editing(WorldOrder order);
     [[nodiscard]] Order holding(HoldOrder order);
     // Has what is known around a hand's first point reach its others, at this distance, where that is new.
@@ -70,6 +73,7 @@ private:
     std::unique_ptr<sculpt::Sculpture> carving_;
     std::optional<sculpt::CarvedPart> carved_;  // with carving_
     std::unique_ptr<WorldSide> world_;
+    std::vector<scene::ScenePart*> saved_parts_;  // that a document has to hold
     std::optional<scene::SceneService> service_;
     SceneNews news_;
     std::vector<double> spreads_m_;       // of each hand, as the scene's thread has been told

@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "document/document_file.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "session/input/input_words.hpp"
 #include "session/record/input_files.hpp"
@@ -20,10 +22,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStayBelow = "name it relative to the session's --outputs folder, such as ";
 
-const char* example_of(OutputKind kind) { return kind == OutputKind::picture ? "cut.png" : "part.stl"; }
+const char* example_of(OutputKind kind) {
+    constexpr std::array kExamples{"cut.png", "part.stl", "bust.burin"};
+    return kExamples.at(static_cast<std::size_t>(kind));
+}
 
 bool has_extension_of(const fs::path& name, OutputKind kind) {
     if (kind == OutputKind::picture) return name.extension() == ".png";
+    if (kind == OutputKind::document) return document::is_document_name(name.string());
     const auto format = geometry::mesh_format_of(name);
     return format && *format != geometry::MeshFormat::off;
 }
@@ -58,6 +64,8 @@ struct AskedFile {
 // Returns the file that a command names.
 std::optional<AskedFile> file_of(const SessionCommand& command) {
     if (const auto* mesh = std::get_if<ExportTo>(&command)) return AskedFile{mesh->path, OutputKind::mesh};
+    const auto* saved = std::get_if<SaveTo>(&command);
+    if (saved != nullptr && !saved->path.empty()) return AskedFile{saved->path, OutputKind::document};
     if (const auto* picture = std::get_if<ScreenshotTo>(&command)) return AskedFile{picture->path, OutputKind::picture};
     return std::nullopt;
 }
@@ -123,6 +131,7 @@ Result<void> check_output_name(const std::string& name, OutputKind kind) {
     if (std::ranges::any_of(name, control)) return fail(where, "holds control characters", below);
     if (has_extension_of(path, kind)) return {};
     if (kind == OutputKind::picture) return fail(where, "is no name of a picture", "name it .png");
+    if (kind == OutputKind::document) return fail(where, "is no name of a document", "name it .burin");
     return fail(where, "has no extension that Burin exports", "name it .stl, .ply or .obj");
 }
 
@@ -196,8 +205,10 @@ Result<void> SessionOutputs::prepare(const InputLog& log, const std::string& nam
 }
 
 Result<fs::path> SessionOutputs::place_of(const std::string& name, OutputKind kind) const {
-    if (kind == OutputKind::mesh && refuses_meshes_)
-        return fail(as_word(name), "is not exported by a replay that compares",
+    if (kind != OutputKind::picture && refuses_meshes_)
+        return fail(as_word(name),
+                    kind == OutputKind::mesh ? "is not exported by a replay that compares"
+                                             : "is not saved by a replay that compares",
                     "replay it by --input to have it written");
     Result<fs::path> place = place_in_folder(name, kind);
     if (!place) return place;

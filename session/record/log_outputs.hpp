@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Decides what the commands of a log may write. A script or a recording can come from anybody; so its files go below
-// one folder, that the session's user names, and are pictures and meshes alone.
+// one folder, that the session's user names, and are pictures, meshes and documents alone.
 //
-//   names     relative, without "..", with the extension of a picture or of a mesh: check_output_name()
+//   names     relative, without "..", with the extension of a picture, mesh or document: check_output_name()
 //   commands  all that a log holds are checked before its session begins: check_commands()
 //   places    no symbolic link leads out of the folder; looked at right before a file is written: SessionOutputs
 //   inputs    nobody's file takes the place of one that the session reads: SessionOutputs
@@ -24,7 +24,7 @@
 
 namespace burin::session {
 
-enum class OutputKind : std::uint8_t { picture, mesh };
+enum class OutputKind : std::uint8_t { picture, mesh, document };
 
 // Checks a file name that a log gives; looks at no file.
 [[nodiscard]] Result<void> check_output_name(const std::string& name, OutputKind kind);
@@ -46,7 +46,9 @@ public:
 
     // Returns whether files are written at all.
     [[nodiscard]] bool write() const { return rule_ != Rule::nothing; }
-    // Returns whether meshes are refused, whatever they are called (LiveOptions::refuses_exports).
+    // Returns whether they are a log's, below one folder, where a file takes the place of the run's before.
+    [[nodiscard]] bool are_of_log() const { return rule_ == Rule::in_folder; }
+    // Returns whether meshes and documents are refused, whatever they are called (LiveOptions::refuses_exports).
     [[nodiscard]] bool refuse_meshes() const { return refuses_meshes_; }
     // Makes the folders that the log's commands need, and checks that files can be written there.
     [[nodiscard]] Result<void> prepare(const InputLog& log, const std::string& name) const;

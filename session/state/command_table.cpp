@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "document/document_file.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/input_words.hpp"
 
@@ -172,6 +173,21 @@ Parsed parse_export(Arguments words) {
     return ExportTo{std::move(*path)};
 }
 
+Parsed parse_save(Arguments words) {
+    if (words.empty()) return SaveTo{};
+    auto path = parse_path("save", words[0], "bust.burin");
+    if (!path) return std::unexpected(path.error());
+    if (!document::is_document_name(*path))
+        return fail("command save " + *path, "is no name of a document", "name it .burin; export FILE writes a mesh");
+    return SaveTo{std::move(*path)};
+}
+
+Parsed parse_quit(Arguments words) {
+    if (words.empty()) return RunAction{Action::quit};
+    if (words[0] == "discard") return QuitDiscard{};
+    return no_argument("quit", words[0], "write quit, or quit discard, which forgets what was not saved");
+}
+
 Parsed parse_screenshot(Arguments words) {
     auto path = parse_path("screenshot", words[0], "wall.png");
     if (!path) return std::unexpected(path.error());
@@ -296,6 +312,9 @@ const std::vector<Entry>& entries() {
         {{"calibrate", "[reset]", "Take the wand, now in its jig, for being where that is; or take that back"},
          parse_calibrate},
         {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
+        {{"save", "[FILE]", "Save the work as a document, FILE.burin; without a name into the one that it has"},
+         parse_save},
+        {{"quit", "[discard]", "Quit; what was not saved is kept for the next session, or discarded"}, parse_quit},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
         {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},
     };
@@ -310,14 +329,16 @@ std::string_view help_of(Action action) {
     return cut == short_cuts().end() ? std::string_view{} : cut->description;
 }
 
-// Lists commands with arguments and actions. swap-eyes is an action that also takes an argument, and is listed once.
+// Lists commands with arguments and actions. swap-eyes and quit are actions that also take an argument, and are listed
+// once.
 const std::vector<CommandSpec>& all_commands() {
     static const std::vector<CommandSpec> all = [] {
         std::vector<CommandSpec> list;
         for (const Entry& entry : entries()) list.push_back(entry.spec);
         for (std::size_t i = 0; i < kActions; ++i) {
             const auto action = static_cast<Action>(i);
-            if (action != Action::swap_eyes) list.push_back({name_of(action), "", std::string(help_of(action))});
+            if (action != Action::swap_eyes && action != Action::quit)
+                list.push_back({name_of(action), "", std::string(help_of(action))});
         }
         return list;
     }();

@@ -116,6 +116,15 @@ struct ExportTo {
     std::string path;
     bool operator==(const ExportTo&) const = default;
 };
+// Ends the session; what was not saved is not wanted.
+struct QuitDiscard {
+    bool operator==(const QuitDiscard&) const = default;
+};
+// Saves the work as a document; an empty path: the one that it has.
+struct SaveTo {
+    std::string path;
+    bool operator==(const SaveTo&) const = default;
+};
 struct ScreenshotTo {
     std::string path;
     bool operator==(const ScreenshotTo&) const = default;
@@ -156,10 +165,10 @@ struct SetMouse {
     bool operator==(const SetMouse&) const = default;
 };
 
-using SessionCommand =
-    std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
-                 SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
-                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse, SetMirror>;
+using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
+                                    SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
+                                    ExportTo, ScreenshotTo, EditObject, SelectObject, DoAct, CalibrateHandle,
+                                    SetAmplifiers, LeadHand, SetMouse, SetMirror, SaveTo, QuitDiscard>;
 
 struct SessionState;
 

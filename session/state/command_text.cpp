@@ -45,6 +45,10 @@ struct Printer {
     CommandInput operator()(const SetForce& c) const { return {"force", {on_off(c.on)}}; }
     CommandInput operator()(const SetAmplifiers& c) const { return {"amplifiers", {on_off(c.on)}}; }
     CommandInput operator()(const ExportTo& c) const { return {"export", {c.path}}; }
+    CommandInput operator()(const QuitDiscard&) const { return {"quit", {"discard"}}; }
+    CommandInput operator()(const SaveTo& c) const {
+        return {"save", c.path.empty() ? std::vector<std::string>{} : std::vector<std::string>{c.path}};
+    }
     CommandInput operator()(const ScreenshotTo& c) const { return {"screenshot", {c.path}}; }
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
     CommandInput operator()(const DoAct& c) const { return {"do", c.words}; }

@@ -75,6 +75,16 @@ public:
         state_.export_path = wanted.path;
         return export_to(wanted.path);
     }
+    Result<void> operator()(const QuitDiscard&) {
+        state_.quit = state_.discards = true;
+        return {};
+    }
+    Result<void> operator()(const SaveTo& wanted) {
+        if (!state_.carves)
+            return fail("the world", "cannot be saved yet", "sculpt a workpiece by itself: burin sculpt FILE");
+        orders_.saves.push_back({wanted.path, orders_.line});
+        return {};
+    }
     Result<void> operator()(const SelectObject& wanted) {
         const WorldObjects none;
         const Result<scene::ObjectId> id = object_named(state_.world ? *state_.world : none, wanted.object);
@@ -244,8 +254,7 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::toggle_full_screen: orders_.full_screen = true; return {};
         case Action::take_screenshot: orders_.screenshots.push_back({kScreenshotName, orders_.line}); return {};
         case Action::export_mesh: return export_to(state_.export_path);
-        case Action::save_session:
-            return fail("save-session", "sessions cannot be saved yet", "export the mesh (export FILE, Ctrl+E)");
+        case Action::save_session: return (*this)(SaveTo{});
         case Action::reset_view:
             if (const auto may = may_turn(); !may) return may;
             state_.world_from_object = state_.home_world_from_object;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/registry/device_registry.hpp"
@@ -42,8 +43,10 @@ struct LiveOptions {
     std::string input;  // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
     std::vector<sculpt::ToolSpec> tools_of_input;  // that the input takes up; no option of the command line
     std::string record;                            // path of the input recording; empty: none
-    bool offscreen = false;                        // no window; needs an input
-    std::string stereo;                            // a mode's name; empty: mono in a window
+    // Folder for a journal of what is not saved; empty: the usual one of a person, none with an input; "none".
+    std::string journal;
+    bool offscreen = false;  // no window; needs an input
+    std::string stereo;      // a mode's name; empty: mono in a window
     bool swap_eyes = false;
     std::string wall;  // wall file with screens, eyes and tracker; empty: one desktop window
     // A tracker's address, "udp:PORT", a file that describes one, or "none"; empty: the wall's, or keys fly the head.
@@ -118,6 +121,8 @@ struct SculptOptions {
     // is said of sizes that do not fit. No option of the command line.
     bool from_before_units = false;
     std::shared_ptr<Activity> activity;  // null: none; no option of the command line
+    // Facts of the program, for documents: version, compiler. No option of the command line.
+    std::vector<std::pair<std::string, std::string>> provenance;
     LiveOptions live;
 };
 

@@ -61,6 +61,7 @@ struct SessionState : HandState {
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
     bool quit = false;
+    bool discards = false;  // what was not saved is not wanted
 };
 
 [[nodiscard]] inline std::size_t hands_of(const SessionState& state) {
@@ -104,6 +105,7 @@ struct SessionOrders {
     std::vector<AskedAmplifiers> amplifiers;
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
+    std::vector<Asked> saves;        // names of documents; empty: the one that there is
     bool full_screen = false;        // toggle between window and full screen
     bool put_away = false;           // the messages that are shown
     std::vector<Asked> messages;     // for the user: why a command was not carried out; with the line of one in a log

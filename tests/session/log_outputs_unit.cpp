@@ -59,7 +59,9 @@ TEST(LogCommands, AreCheckedWithFileLineAndRemedyBeforeTheSession) {
         Wrong{"amplifiers", "lacks its argument", "amplifiers on|off"},
         Wrong{"tool box:0.01,0,0.01", "has no size", "above zero"},
         Wrong{"tool mesh:no/such/file.stl", "no/such/file.stl", "check the path"},
-        Wrong{"save-session", "cannot be saved", "export"},
+        Wrong{"save part.stl", "no name of a document", ".burin"},
+        Wrong{"save ../a.burin", "\"..\"", "--outputs"},
+        Wrong{"save /tmp/a.burin", "absolute path", "--outputs"},
     };
     for (const Wrong& wrong : wrongs) {
         const std::string said = complaint_about("0.1 mouse 1 1\n# a comment\n0.2 command " +
@@ -74,7 +76,8 @@ TEST(LogCommands, ThatMakeSenseAreTaken) {
     EXPECT_EQ(complaint_about("0 command screenshot a.png\n0.1 command screenshot views/of/it..png\n"
                               "0.2 command export a.STL\n0.3 command export \"two words.ply\"\n"
                               "0.4 command export b.obj\n0.5 command undo\n0.6 command tool ball:0.01\n"
-                              "0.7 command smaller-radius\n0.8 command operation smooth\n0.9 command export-mesh\n"
+                              "0.7 command smaller-radius\n0.75 command save a.burin\n0.76 command save\n0.8 command "
+                              "operation smooth\n0.9 command export-mesh\n"
                               "1 command quit\n"),
               "");
 }

@@ -35,7 +35,7 @@ sculpt::ToolSpec any_tool() {
 }
 
 SessionCommand any_command() {
-    switch (*rc::gen::inRange(0, 18)) {
+    switch (*rc::gen::inRange(0, 21)) {
         case 0: return RunAction{static_cast<Action>(*rc::gen::inRange<std::size_t>(0, action_names().size()))};
         case 1: return SetTool{any_tool()};
         case 2: return SetOperation{any_of(sculpt::operations()).operation};
@@ -59,6 +59,9 @@ SessionCommand any_command() {
         case 12: return SetCatchDrill{*rc::gen::arbitrary<bool>()};
         case 11: return SetForceShown{*rc::gen::arbitrary<bool>()};
         case 10: return ExportTo{"a \"part\" # " + std::to_string(*rc::gen::inRange(0, 1000)) + ".stl"};
+        case 17: return SaveTo{};
+        case 18: return SaveTo{"two words.burin"};
+        case 19: return QuitDiscard{};
         default: return ScreenshotTo{"wall.png"};
     }
 }

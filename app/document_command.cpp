@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "app/document_command.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "app/output_files.hpp"
+#include "document/document_reader.hpp"
+#include "sculpt/finishing.hpp"
+#include "session/document/opened_work.hpp"
+
+namespace burin::app {
+namespace {
+
+std::string kilobytes(std::uint64_t bytes) { return std::to_string((bytes + 999) / 1000) + " kB"; }
+
+// Refuses what only a mesh file can be asked for.
+Result<void> check_for_a_document(const ConvertOptions& options) {
+    constexpr const char* kRemedy = "leave it out: a document's solid is closed, and its unit is known";
+    if (options.units) return fail("--units", "is for mesh files", kRemedy);
+    if (options.close_holes) return fail("--close-holes", "is for mesh files", kRemedy);
+    if (options.weld_m) return fail("--weld", "is for mesh files", kRemedy);
+    return {};
+}
+
+Json part_json(const document::PartPlace& part, const scene::Pages& pages) {
+    Json json{{"kind", part.kind}, {"pages", part.pages}, {"bytes", part.bytes}, {"bytes_in_file", part.data_bytes}};
+    json["damaged"] = Json::array();
+    for (const scene::PageName& name : pages.damaged)
+        json["damaged"].push_back({{"kind", name.kind}, {"number", name.number}});
+    return json;
+}
+
+void print_part(const document::PartPlace& part, const scene::Pages& pages) {
+    std::printf("%s: %zu pages, %s, %s in the file\n", part.kind.c_str(), static_cast<std::size_t>(part.pages),
+                kilobytes(part.bytes).c_str(), kilobytes(part.data_bytes).c_str());
+    for (const scene::PageName& name : pages.damaged)
+        std::printf("  page %lld of %s is damaged\n", static_cast<long long>(name.number), name.kind.c_str());
+}
+
+}  // namespace
+
+void add_info_options(Command command, InfoOptions& options) {
+    command.option("FILE", options.file, "A document that burin has saved, .burin").required();
+    command.option("--json", options.json, "A file for all of it; - for standard output");
+}
+
+Result<void> document_info(const InfoOptions& options) {
+    if (const auto ok = check_places(std::array{options.json}, std::array{options.file}); !ok) return ok;
+    Result<document::DocumentReader> reader = document::DocumentReader::open(options.file);
+    if (!reader) return std::unexpected(reader.error());
+    const bool prints = options.json != kStandardOutput;
+    Json json{{"file", options.file}, {"facts", Json::object()}, {"commands", reader->commands()}};
+    for (const auto& [key, value] : reader->facts()) json["facts"][key] = value;
+    if (prints) std::printf("%s: a document\n", options.file.c_str());
+    for (const auto& [key, value] : reader->facts())
+        if (prints) std::printf("  %-20s %s\n", key.c_str(), value.c_str());
+    for (const std::string& command : reader->commands())
+        if (prints) std::printf("  %-20s %s\n", "command", command.c_str());
+    std::size_t damaged = 0;
+    for (const document::PartPlace& part : reader->parts()) {
+        const Result<scene::Pages> pages = reader->pages(part);
+        if (!pages) return std::unexpected(pages.error());
+        damaged += pages->damaged.size();
+        json["parts"].push_back(part_json(part, *pages));
+        if (prints) print_part(part, *pages);
+    }
+    if (!options.json.empty())
+        if (const auto written = write_output(options.json, json_text(json)); !written) return written;
+    if (damaged == 0) return {};
+    std::fflush(stdout);
+    return fail(options.file, std::to_string(damaged) + (damaged == 1 ? " page is" : " pages are") + " damaged",
+                "the rest opens; an earlier copy has them");
+}
+
+Result<void> convert_document(const ConvertOptions& options) {
+    if (const auto ok = check_for_a_document(options); !ok) return ok;
+    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
+    const std::array inputs{options.in};
+    if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
+    if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
+    WorkerPool pool;
+    const Result<session::OpenedWork> opened = session::open_work({.source = options.in}, pool);
+    if (!opened) return std::unexpected(opened.error());
+    const compute::Solid& solid = opened->workpiece.solid;
+    std::printf("%s\n", opened->workpiece.size.c_str());
+    if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
+    if (const auto ok = sculpt::check_precision(options.out, solid.lattice); !ok) return ok;
+    compute::Surface surface(solid.lattice);
+    surface.mesh_all(solid, pool);
+    const LengthUnit unit = options.export_units.value_or(opened->workpiece.unit);
+    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(surface, solid, unit, options.simplify_m, pool);
+    if (!finished) return std::unexpected(finished.error());
+    if (finished->mesh.triangles.empty())
+        return fail(options.in,
+                    finished->too_thin.empty() ? "has been carved away altogether, so there is nothing to convert"
+                                               : "has nothing to convert: " + finished->too_thin,
+                    "open it, and undo some strokes");
+    if (const auto written = sculpt::export_finished(*finished, options.out); !written) return written;
+    std::printf("%s: %zu triangles, in %s\n", options.out.c_str(), finished->mesh.triangles.size(),
+                descriptor_of(unit).plural);
+    return {};
+}
+
+}  // namespace burin::app

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "document/document_reader.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+
+#include "record/compressed.hpp"
+
+namespace burin::document {
+namespace {
+
+using record::Database, record::Statement;
+
+// SQLite's steps for a statement: the list of kMostPages pages takes some 20 a page.
+constexpr std::int64_t kMostSteps = 200'000'000;
+constexpr const char* kRemedy = kDocumentKind.words.wrong_file;
+
+Result<void> check_kind(const std::string& path) {
+    struct stat info{};
+    if (::stat(path.c_str(), &info) != 0)
+        return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
+    if (!S_ISREG(info.st_mode)) return fail(path, "is not a regular file", kRemedy);
+    if (info.st_size == 0) return fail(path, "is empty", kRemedy);
+    return {};
+}
+
+}  // namespace
+
+Result<DocumentReader> DocumentReader::open(const std::string& path) {
+    if (const auto ok = check_kind(path); !ok) return std::unexpected(ok.error());
+    DocumentReader reader;
+    reader.path_ = path;
+    Result<Database> opened = Database::open(path, Database::Use::read, {}, kDocumentKind.words);
+    if (!opened) return std::unexpected(opened.error());
+    reader.database_.emplace(std::move(*opened));
+    reader.database_->limit_steps(kMostSteps);
+    if (const auto set = reader.database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"); !set)
+        return std::unexpected(set.error());
+    if (const auto ok = record::check_marks(*reader.database_, path, kDocumentKind); !ok)
+        return std::unexpected(ok.error());
+    for (const auto step : {&DocumentReader::check_tables, &DocumentReader::read_facts, &DocumentReader::read_commands,
+                            &DocumentReader::read_parts, &DocumentReader::count_changes})
+        if (const auto done = (reader.*step)(); !done) return std::unexpected(done.error());
+    return reader;
+}
+
+Result<void> DocumentReader::check_tables() {
+    for (const char* name : {"meta", "part", "page", "command"}) {
+        const Result<bool> there = database_->has_table(name);
+        if (!there) return std::unexpected(there.error());
+        if (!*there) return fail(path_, "has no table " + std::string(name), kRemedy);
+    }
+    return {};
+}
+
+Result<void> DocumentReader::read_facts() {
+    Result<Statement> read = database_->prepare(
+        "SELECT key, value FROM meta WHERE length(key) + length(value) <= " + std::to_string(kMostTextBytes) +
+        " LIMIT " + std::to_string(kMostFacts));
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) facts_[read->text(0)] = read->text(1);
+    if (!row) return std::unexpected(row.error());
+    return {};
+}
+
+Result<void> DocumentReader::read_commands() {
+    Result<Statement> read = database_->prepare(
+        "SELECT text FROM command WHERE length(text) <= 4096 ORDER BY at LIMIT " + std::to_string(kMostFacts));
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) commands_.push_back(read->text(0));
+    if (!row) return std::unexpected(row.error());
+    return {};
+}
+
+Result<void> DocumentReader::read_parts() {
+    Result<Statement> read = database_->prepare(
+        "SELECT part, kind FROM part WHERE length(kind) <= 1000 ORDER BY part LIMIT " + std::to_string(kMostParts));
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) parts_.push_back({.number = read->integer(0), .kind = read->text(1)});
+    if (!row) return std::unexpected(row.error());
+    for (PartPlace& part : parts_) {
+        Result<Statement> sum =
+            database_->prepare("SELECT count(*), sum(bytes), sum(length(data)) FROM page WHERE part = ?");
+        if (!sum) return std::unexpected(sum.error());
+        sum->bind(1, part.number);
+        // A damaged table has no sums; its pages are looked for one by one.
+        if (const Result<bool> found = sum->step(); !found || !*found) continue;
+        part.pages = static_cast<std::uint64_t>(sum->integer(0));
+        part.bytes = static_cast<std::uint64_t>(sum->integer(1));
+        part.data_bytes = static_cast<std::uint64_t>(sum->integer(2));
+    }
+    return {};
+}
+
+std::string DocumentReader::fact(const std::string& key) const {
+    const auto at = facts_.find(key);
+    return at != facts_.end() ? at->second : std::string();
+}
+
+std::int64_t DocumentReader::number(const std::string& key) const {
+    const std::string text = fact(key);
+    std::int64_t number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+Version DocumentReader::version() const { return {fact(kIdFact), number(kSavesFact)}; }
+
+// Names come from the index of the table, so that a page which SQLite cannot read takes no other along.
+Result<scene::Pages> DocumentReader::pages(const PartPlace& part) {
+    Result<Statement> read = database_->prepare(
+        "SELECT kind, number FROM page WHERE part = ? AND length(kind) <= 1000 ORDER BY kind, number LIMIT " +
+        std::to_string(kMostPages));
+    if (!read) return std::unexpected(read.error());
+    read->bind(1, part.number);
+    std::vector<scene::PageName> names;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) names.push_back({read->text(0), read->integer(1)});
+    if (!row) return std::unexpected(row.error());
+    scene::Pages pages{.part = part.kind};
+    for (scene::PageName& name : names) {
+        Result<std::vector<std::byte>> bytes = page("page", part.number, name);
+        if (bytes)
+            pages.pages.emplace(std::move(name), std::move(*bytes));
+        else
+            pages.damaged.push_back(std::move(name));
+    }
+    return pages;
+}
+
+Result<std::vector<std::byte>> DocumentReader::page(const char* table, std::int64_t part, const scene::PageName& name) {
+    const std::string where = path_ + ": " + table + " " + std::to_string(name.number) + " of " + name.kind;
+    Result<Statement> read = database_->prepare("SELECT bytes, crc, data FROM " + std::string(table) +
+                                                " WHERE part = ? AND kind = ? AND number = ?");
+    if (!read) return std::unexpected(read.error());
+    read->bind(1, part);
+    read->bind(2, std::string_view(name.kind));
+    read->bind(3, name.number);
+    const Result<bool> row = read->step();
+    if (!row) return std::unexpected(row.error());
+    if (!*row) return fail(where, "is not there");
+    const std::int64_t bytes = read->integer(0);
+    const std::span<const std::byte> data = read->blob(2);
+    if (bytes < 0 || static_cast<std::uint64_t>(bytes) > kMostPageBytes)
+        return fail(where, "claims " + std::to_string(bytes) + " bytes");
+    const auto size = static_cast<std::size_t>(bytes);
+    if (std::int64_t{crc_of(part, name, size, data)} != read->integer(1))
+        return fail(where, "its check sum is wrong", "the other pages can still be read");
+    return record::decompressed(data, size, where, "the other pages can still be read");
+}
+
+Result<void> DocumentReader::count_changes() {
+    const Result<bool> there = database_->has_table("change");
+    if (!there) return std::unexpected(there.error());
+    if (!*there) return {};
+    const Result<std::int64_t> last = database_->integer("SELECT max(number) FROM change");
+    if (!last) return std::unexpected(last.error());
+    changes_ = *last;
+    return {};
+}
+
+Result<scene::Pages> DocumentReader::change(const PartPlace& part, std::int64_t number) {
+    Result<Statement> read =
+        database_->prepare("SELECT kind FROM change WHERE part = ? AND number = ? AND length(kind) <= 1000 LIMIT 1000");
+    if (!read) return std::unexpected(read.error());
+    read->bind(1, part.number);
+    read->bind(2, number);
+    std::vector<std::string> kinds;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) kinds.push_back(read->text(0));
+    if (!row) return std::unexpected(row.error());
+    scene::Pages pages{.part = part.kind, .whole = false};
+    for (std::string& kind : kinds) {
+        Result<std::vector<std::byte>> bytes = page("change", part.number, {kind, number});
+        if (!bytes) return std::unexpected(bytes.error());
+        pages.pages[{std::move(kind), 0}] = std::move(*bytes);
+    }
+    return pages;
+}
+
+Result<scene::Pages> DocumentReader::pages_of(std::string_view kind) {
+    const auto at = std::ranges::find(parts_, kind, &PartPlace::kind);
+    if (at == parts_.end())
+        return fail(path_, "holds no " + std::string(kind), "open it with the program that has saved it");
+    return pages(*at);
+}
+
+}  // namespace burin::document

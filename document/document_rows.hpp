@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Rows of a document's tables, as documents and journals write them. Within a transaction of the caller's. One thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "document/document_file.hpp"
+#include "document/document_store.hpp"
+
+namespace burin::document {
+
+enum class Table : std::uint8_t { page, change };
+
+// Puts facts, commands and pages in the place of those that are there; what the content does not name stays.
+[[nodiscard]] Result<void> put_content(record::Database& database, const Content& content, Saved& saved);
+// Compresses and puts one page, or one page of a change.
+[[nodiscard]] Result<void> put_page(record::Database& database, Table table, std::int64_t part,
+                                    const scene::PageName& name, const std::vector<std::byte>& bytes, Saved& saved);
+[[nodiscard]] Result<void> put_fact(record::Database& database, const std::string& key, const std::string& value);
+
+}  // namespace burin::document

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "document/document_store.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <random>
+#include <system_error>
+
+#include "document/document_rows.hpp"
+
+namespace burin::document {
+namespace {
+
+namespace fs = std::filesystem;
+using record::Database, record::StoreFile;
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+std::string new_id() {
+    constexpr const char* kDigits = "0123456789abcdef";
+    std::random_device random;
+    std::string id;
+    for (int i = 0; i < 4; ++i)
+        for (unsigned bits = random(), digit = 0; digit < 8; ++digit, bits >>= 4) id += kDigits[bits & 15];
+    return id;
+}
+
+// Writes the content within a transaction, which commits.
+Result<void> put_all(Database& database, const Content& content, Saved& saved) {
+    if (const auto done = put_content(database, content, saved); !done) return done;
+    if (const auto done = put_fact(database, kIdFact, saved.version.id); !done) return done;
+    if (const auto done = put_fact(database, kSavesFact, std::to_string(saved.version.saves)); !done) return done;
+    if (const auto done = put_fact(database, kSavedFact, utc_now()); !done) return done;
+    return database.run("COMMIT");
+}
+
+Result<Version> version_in(Database& database) {
+    Result<std::string> id = database.text("SELECT value FROM meta WHERE key = '" + std::string(kIdFact) + "'");
+    if (!id) return std::unexpected(id.error());
+    const auto saves = database.integer("SELECT value FROM meta WHERE key = '" + std::string(kSavesFact) + "'");
+    if (!saves) return std::unexpected(saves.error());
+    return Version{std::move(*id), *saves};
+}
+
+// A name beside the place that nobody has; the process' number keeps two of them apart.
+std::string beside(const std::string& path) { return path + ".saving-" + std::to_string(::getpid()); }
+
+// Gives the file its name; a place that must hold nothing is not overwritten, whoever comes between.
+Result<void> rename_to(const std::string& from, const std::string& to, Place place) {
+    if (place == Place::replaced) {
+        if (std::rename(from.c_str(), to.c_str()) == 0) return {};
+        return record::cannot_make(to, errno, kDocumentKind);
+    }
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
+    if (errno != EINVAL && errno != ENOSYS) return record::cannot_make(to, errno, kDocumentKind);
+    if (::link(from.c_str(), to.c_str()) != 0) return record::cannot_make(to, errno, kDocumentKind);
+    ::unlink(from.c_str());
+    return {};
+}
+
+Result<void> check_replaceable(const std::string& path) {
+    struct stat there{};
+    if (::lstat(path.c_str(), &there) != 0 || S_ISREG(there.st_mode)) return record::check_no_log_of(path);
+    return fail(path, "is not a regular file", "choose another name");
+}
+
+}  // namespace
+
+Result<Saved> write_document(const std::string& path, const Content& content, Place place, const std::string& vfs) {
+    std::error_code ignored;
+    Saved saved{.version = {new_id(), 1}, .replaced = fs::exists(path, ignored)};
+    if (place == Place::nothing && saved.replaced) return record::cannot_make(path, EEXIST, kDocumentKind);
+    if (const auto ok = check_replaceable(path); !ok) return std::unexpected(ok.error());
+    const std::string made_as = beside(path);
+    const auto name_the_place = [&](Error error) {
+        if (error.where == made_as) error.where = path;
+        fs::remove(made_as, ignored);
+        return std::unexpected(std::move(error));
+    };
+    Result<StoreFile> file = StoreFile::make(
+        made_as, kDocumentKind,
+        [&](Database& database) -> Result<void> {
+            if (const auto begun = database.run("BEGIN IMMEDIATE"); !begun) return begun;
+            if (const auto made = database.run(document_tables()); !made) return made;
+            return put_all(database, content, saved);
+        },
+        vfs);
+    if (!file) return name_the_place(file.error());
+    if (const auto closed = file->close(); !closed) return name_the_place(closed.error());
+    if (const auto named = rename_to(made_as, path, place); !named) return name_the_place(named.error());
+    record::flush_folder_of(path);
+    return saved;
+}
+
+Result<Saved> update_document(const std::string& path, const Content& changed, const Version& known,
+                              const std::string& vfs) {
+    Result<StoreFile> file = StoreFile::open(path, kDocumentKind, vfs);
+    if (!file) return std::unexpected(file.error());
+    Database& database = file->database();
+    if (const auto begun = database.run("BEGIN IMMEDIATE"); !begun) return std::unexpected(begun.error());
+    Result<Version> there = version_in(database);
+    if (!there) return std::unexpected(there.error());
+    if (*there != known)
+        return fail(path, "was saved by another window or program meanwhile",
+                    "save this one under another name, so that both are kept");
+    Saved saved{.version = {known.id, known.saves + 1}, .replaced = true};
+    if (const auto put = put_all(database, changed, saved); !put) {
+        if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
+        return std::unexpected(put.error());
+    }
+    // What is committed is safe; a log that cannot be brought in now is by the next who opens the file.
+    static_cast<void>(file->close());
+    return saved;
+}
+
+}  // namespace burin::document

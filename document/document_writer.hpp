@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Saves the document of a session and keeps its journal on a thread of its own: neither a frame nor a tick waits for
+// the disk.
+//
+// Data flow: what is to be saved, taken from the scene's parts between two updates -> a queue -> this thread, which
+// compresses and writes (document_store.hpp) -> what became of it, taken by the frame. Changes go the same way, in the
+// same order, into the journal (journal.hpp); a save takes their place there once it is on the disk.
+// What could not be written is owed: it goes along with the next save to the same place, so that no page is missing
+// there. Failure: in the outcome, never thrown. Threads: save() and the rest on any, but the haptic one.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "document/document_store.hpp"
+#include "document/journal.hpp"
+
+namespace burin::document {
+
+struct SaveRequest {
+    std::string path;
+    std::string name;  // what messages call it
+    Content content;
+    // The parts' pages are those that have changed since the request before, which was to the same path, or since it
+    // was opened (have()). Else they are all.
+    bool changed_alone = false;
+    Place place = Place::nothing;    // of a new file
+    std::size_t asked_by = 0;        // comes back with the outcome; whoever asks knows what it means
+    std::optional<Error> refused{};  // why nothing is written
+};
+
+struct SaveOutcome {
+    std::string path, name;
+    std::size_t asked_by = 0;
+    Result<Saved> saved;
+};
+
+class DocumentWriter {
+public:
+    // vfs: the name of one of SQLite's file systems, for tests.
+    explicit DocumentWriter(std::string vfs = {});
+    ~DocumentWriter();  // saves what waits
+    DocumentWriter(const DocumentWriter&) = delete;
+    DocumentWriter& operator=(const DocumentWriter&) = delete;
+
+    // Tells which document was opened: saves to this path go into it, as long as it is of this version.
+    void have(std::string path, Version version);
+    // Waits for no disk.
+    void save(SaveRequest request);
+    // Begins a journal at this path; beginning: all as it is now. replaces: an earlier journal that goes then.
+    void keep_journal(std::string path, Content beginning, std::string replaces = {});
+    // Notes a change of a part for the journal; nothing where there is none.
+    void note(Change change);
+    // Returns how many changes have been noted, and how many of these are on the disk. Any thread.
+    [[nodiscard]] std::int64_t noted() const { return noted_.load(std::memory_order_relaxed); }
+    // acquire: whoever sees the number sees a file that holds it.
+    [[nodiscard]] std::int64_t safe_up_to() const { return safe_.load(std::memory_order_acquire); }
+    // Returns why nothing is noted any more, once.
+    [[nodiscard]] std::optional<Error> take_journal_failure();
+    // Ends the journal, once all is done: it goes, but where it holds what was saved nowhere else and is not discarded.
+    // Returns its path then, else nothing.
+    [[nodiscard]] std::string end_journal(bool discards);
+    // Returns what has become of the requests since the last call, in their order.
+    [[nodiscard]] std::vector<SaveOutcome> take_outcomes();
+    // Returns whether a save is under way.
+    [[nodiscard]] bool busy() const;
+    // Returns when all that was asked for has been written or has failed.
+    void finish();
+
+private:
+    struct JournalBeginning {
+        std::string path;
+        Content content;
+        std::string replaces;
+    };
+    using Work = std::variant<SaveRequest, Change, JournalBeginning>;
+    void run();
+    void put(Work work);
+    void carry_out(SaveRequest& request);
+    void carry_out(JournalBeginning& begin);
+    void add_to_journal(std::vector<Change> changes);
+    [[nodiscard]] Result<Saved> write(SaveRequest& request);
+    void fail_journal(const Error& why);
+
+    const std::string vfs_;
+    // The thread's own while it writes; set by have() before the first save.
+    std::string path_;                // of the document that there is
+    std::optional<Version> version_;  // none: it has not been written yet
+    Content owed_;
+    std::optional<Journal> journal_;
+    std::string journal_path_;
+    std::atomic<std::int64_t> noted_{0}, safe_{0};
+    mutable std::mutex mutex_;  // guards what follows
+    std::condition_variable wake_, done_;
+    std::deque<Work> waiting_;
+    std::optional<Error> journal_failure_;
+    std::vector<SaveOutcome> outcomes_;
+    bool writing_ = false, ending_ = false;
+    std::thread thread_;
+};
+
+}  // namespace burin::document

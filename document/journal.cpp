@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "document/journal.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "document/document_reader.hpp"
+#include "document/document_rows.hpp"
+
+namespace burin::document {
+namespace {
+
+namespace fs = std::filesystem;
+using record::Database, record::StoreFile;
+
+void remove_with_log(const std::string& path) {
+    std::error_code ignored;
+    for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
+}
+
+// Runs a transaction whole or not at all.
+template <typename Write>
+Result<void> in_transaction(Database& database, Write write) {
+    if (const auto begun = database.run("BEGIN IMMEDIATE"); !begun) return begun;
+    Result<void> done = write();
+    if (done) done = database.run("COMMIT");
+    if (!done && database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
+    return done;
+}
+
+}  // namespace
+
+Result<Journal> Journal::begin(const std::string& path, const Content& beginning, const std::string& vfs) {
+    Saved ignored;
+    Result<StoreFile> file = StoreFile::make(
+        path, kDocumentKind,
+        [&](Database& database) -> Result<void> {
+            if (const auto made = database.run(document_tables()); !made) return made;
+            return in_transaction(database, [&] { return put_content(database, beginning, ignored); });
+        },
+        vfs);
+    if (!file) return std::unexpected(file.error());
+    Journal journal(path, std::move(*file));
+    journal.needed_ = beginning.facts.contains(kUnsavedFact);
+    return journal;
+}
+
+Result<void> Journal::add(const std::vector<Change>& changes) {
+    Database& database = file_.database();
+    std::int64_t number = changes_;
+    const Result<void> done = in_transaction(database, [&]() -> Result<void> {
+        for (const Change& change : changes) {
+            ++number;
+            Saved ignored;
+            for (const auto& [name, bytes] : change.pages.pages)
+                if (const auto put =
+                        put_page(database, Table::change, change.part, {name.kind, number}, bytes, ignored);
+                    !put)
+                    return put;
+        }
+        return {};
+    });
+    if (!done) return done;
+    changes_ = number;
+    needed_ = true;
+    return {};
+}
+
+Result<void> Journal::take_over(const Content& saved) {
+    Database& database = file_.database();
+    const Result<void> done = in_transaction(database, [&]() -> Result<void> {
+        if (const auto gone =
+                database.run("DELETE FROM change; DELETE FROM meta WHERE key = '" + std::string(kUnsavedFact) + "'");
+            !gone)
+            return gone;
+        Saved ignored;
+        return put_content(database, saved, ignored);
+    });
+    if (!done) return done;
+    needed_ = false;
+    changes_ = 0;
+    return {};
+}
+
+void Journal::end() {
+    static_cast<void>(file_.close());
+    if (!needed_) remove_with_log(path_);
+}
+
+std::vector<LeftJournal> left_journals(const std::string& folder) {
+    std::vector<LeftJournal> left;
+    std::error_code failed;
+    std::vector<std::string> paths;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed))
+        if (is_document_name(entry.path().string())) paths.push_back(entry.path().string());
+    std::ranges::sort(paths);
+    for (const std::string& path : paths) {
+        const Result<DocumentReader> reader = DocumentReader::open(path);
+        // A living session's cannot be read; others have been put there.
+        if (!reader || !reader->facts().contains(kJournalNameFact)) continue;
+        if (reader->changes() == 0 && !reader->facts().contains(kUnsavedFact)) {
+            remove_with_log(path);
+            continue;
+        }
+        left.push_back({path, reader->fact(kJournalOfFact), reader->fact(kJournalNameFact), reader->fact(kBaseIdFact),
+                        reader->number(kBaseSavesFact)});
+    }
+    return left;
+}
+
+}  // namespace burin::document

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The journal of a session: what has changed since the work was saved, change by change, on the disk within a moment.
+//
+// A journal is a document of its own, with all pages as they were when it began and a table of what changed since. So
+// work without a name is kept as well, and whatever becomes of the document that the work came from, the journal opens
+// by itself: burin sculpt JOURNAL.burin.
+// The file is open, and locked, as long as the session lives: one that can be read belongs to a session that is dead.
+// Thread: one, the writer's (document/document_writer.hpp). Failures are Errors that name the file and the remedy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "document/document_file.hpp"
+
+namespace burin::document {
+
+// A change: what pages of one part hold after it.
+struct Change {
+    std::int64_t part = 0;
+    scene::Pages pages = {};
+};
+
+class Journal {
+public:
+    // Makes the file; beginning: all as it is now. vfs: the name of one of SQLite's file systems, for tests.
+    [[nodiscard]] static Result<Journal> begin(const std::string& path, const Content& beginning,
+                                               const std::string& vfs = {});
+
+    // Adds changes in one transaction; when it returns they are on the disk.
+    [[nodiscard]] Result<void> add(const std::vector<Change>& changes);
+    // Takes over what was saved elsewhere: its pages take the place of the changes so far.
+    [[nodiscard]] Result<void> take_over(const Content& saved);
+    // Returns how many changes follow its pages.
+    [[nodiscard]] std::int64_t changes() const { return changes_; }
+    // Returns whether it holds something that was not saved elsewhere.
+    [[nodiscard]] bool is_needed() const { return needed_; }
+    // What it holds is not wanted.
+    void discard() { needed_ = false; }
+    // Closes the file so that it can be read; removes it unless it is needed.
+    void end();
+
+private:
+    Journal(std::string path, record::StoreFile file) : path_(std::move(path)), file_(std::move(file)) {}
+
+    std::string path_;
+    record::StoreFile file_;
+    std::int64_t changes_ = 0;
+    bool needed_ = false;
+};
+
+// A journal that a dead session has left.
+struct LeftJournal {
+    std::string path;
+    std::string of;       // the document's path; empty: the work had no name
+    std::string name;     // what the work was called
+    std::string base_id;  // the document that it goes on from, and its count of saves
+    std::int64_t base_saves = 0;
+};
+// Returns those in a folder that hold unsaved work; removes the others that nobody has open.
+[[nodiscard]] std::vector<LeftJournal> left_journals(const std::string& folder);
+
+// Facts of a journal.
+inline constexpr const char *kJournalOfFact = "journal of", *kJournalNameFact = "journal name",
+                            *kBaseIdFact = "journal base", *kBaseSavesFact = "journal base saves",
+                            *kUnsavedFact = "unsaved";
+
+}  // namespace burin::document

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "record/store_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace burin::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> use_log(Database& database, const std::string& path, const StoreKind& kind) {
+    // Exclusive before WAL: the connection keeps the lock and needs no memory shared with other programs.
+    if (const auto set = database.run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
+    const Result<std::string> mode = database.text("PRAGMA journal_mode = WAL");
+    if (!mode) return std::unexpected(mode.error());
+    if (*mode != "wal") return fail(path, "its file system takes no write-ahead log", kind.words.no_log);
+    return database.run("PRAGMA synchronous = FULL");
+}
+
+}  // namespace
+
+std::unexpected<Error> cannot_make(const std::string& path, int code, const StoreKind& kind) {
+    const std::string why = std::generic_category().message(code);
+    switch (code) {
+        case EEXIST:
+            return fail(path, "exists, and " + std::string(kind.name) + " never overwrites a file",
+                        "choose another name");
+        case ENOENT: return fail(path, "cannot be made: " + why, "create the folder first");
+        case ENOSPC:
+        case EDQUOT: return fail(path, "the disk is full", kind.words.full_disk);
+        default: return fail(path, "cannot be made: " + why, "choose a folder that you may write to");
+    }
+}
+
+void flush_folder_of(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) return;  // a file system that cannot flush folders loses only that guarantee
+    static_cast<void>(::fsync(fd));
+    ::close(fd);
+}
+
+Result<void> check_no_log_of(const std::string& path) {
+    for (const char* ending : {"-wal", "-journal", "-shm"}) {
+        std::error_code ignored;
+        if (fs::exists(path + ending, ignored))
+            return fail(path + ending, "belongs to another recording, whose file has been taken away",
+                        "choose another name; with its own file beside it, it can still be read");
+    }
+    return {};
+}
+
+Result<void> check_marks(Database& database, const std::string& path, const StoreKind& kind) {
+    const Result<std::int64_t> mark = database.integer("PRAGMA application_id");
+    if (!mark) return std::unexpected(mark.error());
+    if (*mark != kind.application_id) return fail(path, "is an SQLite file of another program", kind.words.wrong_file);
+    const Result<std::int64_t> version = database.integer("PRAGMA user_version");
+    if (!version) return std::unexpected(version.error());
+    if (*version > kind.version)
+        return fail(path,
+                    "has version " + std::to_string(*version) + " of the format, and this program knows up to " +
+                        std::to_string(kind.version),
+                    "read it with a newer Burin; its tables can be read with any SQLite");
+    if (*version < 1) return fail(path, "has no version of the format", kind.words.wrong_file);
+    return {};
+}
+
+// ---- StoreFile
+
+StoreFile::StoreFile(StoreFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      place_(std::exchange(other.place_, -1)),
+      made_(other.made_),
+      database_(std::move(other.database_)) {
+    other.database_.reset();
+}
+
+StoreFile::~StoreFile() {
+    database_.reset();
+    if (place_ >= 0) ::close(place_);
+}
+
+Result<void> StoreFile::hold() {
+    place_ = ::open(path_.c_str(), O_PATH | O_CLOEXEC);
+    if (place_ >= 0 && ::fstat(place_, &made_) == 0) return {};
+    return fail(path_, "cannot be opened: " + std::generic_category().message(errno),
+                "check the path and its permissions");
+}
+
+Result<void> StoreFile::connect(const StoreKind& kind, const std::string& vfs) {
+    Result<Database> opened = Database::open(path_, Database::Use::write, vfs, kind.words);
+    if (!opened) return std::unexpected(opened.error());
+    database_.emplace(std::move(*opened));
+    return {};
+}
+
+Result<StoreFile> StoreFile::make(const std::string& path, const StoreKind& kind, const Fill& fill,
+                                  const std::string& vfs) {
+    if (const auto ok = check_no_log_of(path); !ok) return std::unexpected(ok.error());
+    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0) return cannot_make(path, errno, kind);
+    ::close(fd);
+    StoreFile file(path);
+    Result<void> ready = file.hold();
+    if (ready) ready = file.connect(kind, vfs);
+    if (ready) ready = use_log(*file.database_, path, kind);
+    if (ready)
+        ready = file.database_->run("PRAGMA application_id = " + std::to_string(kind.application_id) +
+                                    "; PRAGMA user_version = " + std::to_string(kind.version));
+    if (ready) ready = fill(*file.database_);
+    if (ready) {
+        flush_folder_of(path);
+        return file;
+    }
+    file.database_.reset();
+    std::error_code ignored;
+    for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
+    return std::unexpected(ready.error());
+}
+
+Result<StoreFile> StoreFile::open(const std::string& path, const StoreKind& kind, const std::string& vfs) {
+    StoreFile file(path);
+    Result<void> ready = file.hold();
+    if (ready) ready = file.connect(kind, vfs);
+    if (ready) ready = check_marks(*file.database_, path, kind);
+    if (ready) ready = use_log(*file.database_, path, kind);
+    return ready ? Result<StoreFile>(std::move(file)) : std::unexpected(ready.error());
+}
+
+bool StoreFile::is_in_place() const {
+    struct stat now{};
+    return ::stat(path_.c_str(), &now) == 0 && now.st_dev == made_.st_dev && now.st_ino == made_.st_ino;
+}
+
+bool StoreFile::is_deleted() const {
+    struct stat now{};
+    return ::fstat(place_, &now) == 0 && now.st_nlink == 0;
+}
+
+Result<void> StoreFile::close() {
+    if (!database_) return {};
+    // Then it can be read where nothing can be written.
+    Result<void> ended = database_->run("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
+    const Result<void> closed = database_->close();
+    database_.reset();
+    return ended ? closed : ended;
+}
+
+}  // namespace burin::record

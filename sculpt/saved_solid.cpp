@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/saved_solid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <span>
+
+#include "base/json.hpp"
+#include "base/length_unit.hpp"
+#include "compute/rays/memory_need.hpp"
+#include "compute/rays/normal_code.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+using compute::DexelSet;
+using shared::DexelEnd;
+
+static_assert(std::endian::native == std::endian::little, "ends are copied as they lie in memory");
+
+const geometry::Material kLostMaterial{"lost and made again", {200, 40, 40}};
+constexpr std::array<const char*, 3> kRaysAlong{"rays x", "rays y", "rays z"};
+constexpr const char *kHead = "head", *kRays = "rays";
+
+int columns_of(const compute::Lattice& lattice, int axis) { return (lattice.rays_u(axis) + kPageSide - 1) / kPageSide; }
+
+std::size_t pages_of(const compute::Lattice& lattice, int axis) {
+    const int rows = (lattice.rays_v(axis) + kPageSide - 1) / kPageSide;
+    return static_cast<std::size_t>(columns_of(lattice, axis)) * static_cast<std::size_t>(rows);
+}
+
+// The rays of a page: from .. to, excluding to.
+struct PageRays {
+    int u_from = 0, u_to = 0, v_from = 0, v_to = 0;
+    [[nodiscard]] std::size_t count() const {
+        return static_cast<std::size_t>(u_to - u_from) * static_cast<std::size_t>(v_to - v_from);
+    }
+};
+
+PageRays rays_of(const compute::Lattice& lattice, int axis, std::size_t page) {
+    const auto columns = static_cast<std::size_t>(columns_of(lattice, axis));
+    const int u = static_cast<int>(page % columns) * kPageSide, v = static_cast<int>(page / columns) * kPageSide;
+    return {u, std::min(u + kPageSide, lattice.rays_u(axis)), v, std::min(v + kPageSide, lattice.rays_v(axis))};
+}
+
+template <typename Visit>
+void each_ray(const PageRays& rays, Visit visit) {
+    for (int v = rays.v_from; v < rays.v_to; ++v)
+        for (int u = rays.u_from; u < rays.u_to; ++u) visit(u, v);
+}
+
+// ---- To bytes
+
+std::vector<std::byte> page_bytes(const DexelSet& set, const PageRays& rays) {
+    std::size_t ends = 0;
+    each_ray(rays, [&](int u, int v) { ends += set.ends(u, v).size(); });
+    std::vector<std::byte> bytes(4 * (rays.count() + 2 * ends));
+    std::byte *count = bytes.data(), *depth = count + 4 * rays.count(), *normal = depth + 4 * ends;
+    const auto put = [](std::byte*& to, std::uint32_t value) {
+        std::memcpy(to, &value, sizeof value);
+        to += sizeof value;
+    };
+    each_ray(rays, [&](int u, int v) {
+        const std::span<const DexelEnd> held = set.ends(u, v);
+        put(count, static_cast<std::uint32_t>(held.size()));
+        for (const DexelEnd& end : held) {
+            put(depth, end.depth_material);
+            put(normal, end.normal);
+        }
+    });
+    return bytes;
+}
+
+std::vector<std::byte> head_bytes(const compute::Solid& solid) {
+    const compute::Lattice& lattice = solid.lattice;
+    const Vec3& origin = lattice.origin_object;
+    Json materials = Json::array();
+    for (const geometry::Material& material : solid.materials)
+        materials.push_back(
+            {{"name", material.name}, {"colour", {material.colour[0], material.colour[1], material.colour[2]}}});
+    const Json head = {{"origin_m", Json::array({origin.x, origin.y, origin.z})},
+                       {"spacing_m", lattice.spacing_m},
+                       {"cells", Json::array({lattice.cells[0], lattice.cells[1], lattice.cells[2]})},
+                       {"units_per_cell", shared::kUnitsPerCell},
+                       {"page_side", kPageSide},
+                       {"materials", materials}};
+    const std::string text = json_text(head);
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+// ---- From bytes
+
+bool is_number(const Json& json) { return json.is_number() && std::isfinite(json.get<double>()); }
+
+bool are_numbers(const Json* list, std::size_t count) {
+    return list != nullptr && list->is_array() && list->size() == count && std::ranges::all_of(*list, is_number);
+}
+
+std::optional<compute::Lattice> lattice_in(const Json& head) {
+    const Json *origin = find_value(head, "/origin_m"), *cells = find_value(head, "/cells"),
+               *spacing = find_value(head, "/spacing_m");
+    if (!are_numbers(origin, 3) || !are_numbers(cells, 3) || spacing == nullptr || !is_number(*spacing)) return {};
+    compute::Lattice lattice;
+    lattice.spacing_m = spacing->get<double>();
+    if (!(lattice.spacing_m > 0.0)) return {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        lattice.origin_object[static_cast<int>(axis)] = (*origin)[axis].get<double>();
+        const double along = (*cells)[axis].get<double>();
+        if (!(along >= 1.0 && along <= shared::kMaxCells)) return {};
+        lattice.cells[axis] = static_cast<int>(along);
+    }
+    return lattice;
+}
+
+std::optional<std::vector<geometry::Material>> materials_in(const Json& head) {
+    const Json* list = find_value(head, "/materials");
+    if (list == nullptr || !list->is_array() || list->size() > 255) return {};
+    std::vector<geometry::Material> materials;
+    for (const Json& one : *list) {
+        const Json *name = find_value(one, "/name"), *colour = find_value(one, "/colour");
+        if (name == nullptr || !name->is_string() || !are_numbers(colour, 3)) return {};
+        geometry::Material material{name->get<std::string>()};
+        for (std::size_t k = 0; k < 3; ++k)
+            material.colour[k] = static_cast<std::uint8_t>(std::clamp((*colour)[k].get<double>(), 0.0, 255.0));
+        materials.push_back(std::move(material));
+    }
+    return materials;
+}
+
+Result<compute::Solid> empty_solid(const scene::Pages& pages, const std::string& where) {
+    const auto damaged = [&] {
+        return fail(where, "what it says of the whole solid is damaged", "open an earlier copy of the file");
+    };
+    const std::vector<std::byte>* bytes = pages.find({kHead, 0});
+    if (bytes == nullptr) return damaged();
+    const auto* text = reinterpret_cast<const char*>(bytes->data());
+    const Json head = Json::parse(text, text + bytes->size(), nullptr, false);
+    if (head.is_discarded()) return damaged();
+    const auto lattice = lattice_in(head);
+    auto materials = materials_in(head);
+    const Json* side = find_value(head, "/page_side");
+    if (!lattice || !materials || side == nullptr || *side != kPageSide) return damaged();
+    if (const auto fits = compute::check_memory(*lattice, compute::memory_available()); !fits)
+        return std::unexpected(fits.error());
+    compute::Solid solid{*lattice, {}, std::move(*materials)};
+    for (int axis = 0; axis < 3; ++axis)
+        solid.sets[static_cast<std::size_t>(axis)] = DexelSet(lattice->rays_u(axis), lattice->rays_v(axis));
+    return solid;
+}
+
+bool is_sound(std::span<const DexelEnd> ends, int most_depth, std::size_t materials) {
+    int previous = -1;
+    for (const DexelEnd& end : ends) {
+        if (shared::depth_of(end) <= previous || shared::material_of(end) >= materials) return false;
+        previous = shared::depth_of(end);
+    }
+    return ends.size() % 2 == 0 && previous <= most_depth;
+}
+
+// Puts a page's rays into the solid; returns false, and changes nothing, where the bytes are no such page.
+bool put_page(std::span<const std::byte> bytes, int axis, const PageRays& rays, compute::Solid& solid) {
+    if (bytes.size() % 4 != 0 || bytes.size() < 4 * rays.count()) return false;
+    const auto at = [&](std::size_t index) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + 4 * index, sizeof value);
+        return value;
+    };
+    std::uint64_t ends = 0;
+    for (std::size_t ray = 0; ray < rays.count(); ++ray) ends += at(ray);
+    if (4 * (rays.count() + 2 * ends) != bytes.size()) return false;
+    std::vector<DexelEnd> all(ends);
+    for (std::size_t end = 0; end < ends; ++end) all[end] = {at(rays.count() + end), at(rays.count() + ends + end)};
+    const auto a = static_cast<std::size_t>(axis);
+    const int most_depth = solid.lattice.cells[a] * shared::kUnitsPerCell;
+    std::size_t first = 0;
+    for (std::size_t ray = 0; ray < rays.count(); first += at(ray++))
+        if (!is_sound(std::span(all).subspan(first, at(ray)), most_depth, solid.materials.size())) return false;
+    std::size_t ray = 0;
+    first = 0;
+    each_ray(rays, [&](int u, int v) {
+        const std::size_t count = at(ray++);
+        solid.sets[a].replace(u, v, std::span(all).subspan(first, count));
+        first += count;
+    });
+    return true;
+}
+
+// Reads the rays of a change; nothing where the bytes are none of this lattice.
+std::optional<compute::RayBatch> batch_in(std::span<const std::byte> bytes, const compute::Lattice& lattice,
+                                          std::size_t materials) {
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), 4 * words.size());
+    if (words.empty() || bytes.size() % 4 != 0) return {};
+    const std::uint64_t rays = words[0];
+    if (words.size() < 1 + 2 * rays) return {};
+    const auto counts = std::span(words).subspan(1 + rays, rays);
+    std::uint64_t all = 0;
+    for (const std::uint32_t count : counts) all += count;
+    if (words.size() != 1 + 2 * rays + 2 * all) return {};
+    compute::RayBatch batch;
+    std::size_t at = 1 + 2 * rays;
+    std::vector<DexelEnd> ends;
+    for (std::size_t ray = 0; ray < rays; ++ray) {
+        const compute::RayPlace place = compute::place_of(words[1 + ray]);
+        if (place.axis < 0 || place.axis > 2 || place.u < 0 || place.v < 0 || place.u >= lattice.rays_u(place.axis) ||
+            place.v >= lattice.rays_v(place.axis))
+            return {};
+        ends.clear();
+        for (std::uint32_t end = 0; end < counts[ray]; ++end, ++at) ends.push_back({words[at], words[at + all]});
+        const int most_depth = lattice.cells[static_cast<std::size_t>(place.axis)] * shared::kUnitsPerCell;
+        if (!is_sound(ends, most_depth, materials)) return {};
+        batch.add(words[1 + ray], ends);
+    }
+    return batch;
+}
+
+// ---- What is lost
+
+// By axis and page.
+using LostPages = std::array<std::vector<bool>, 3>;
+
+std::size_t page_of(const compute::Lattice& lattice, int axis, int u, int v) {
+    return static_cast<std::size_t>(u / kPageSide + v / kPageSide * columns_of(lattice, axis));
+}
+
+// Returns whether a node is inside as the rays of another set say; nothing where they are lost as well.
+std::optional<bool> inside(const compute::Solid& solid, const std::array<int, 3>& node, int not_axis,
+                           const LostPages& lost) {
+    for (int axis = 2; axis >= 0; --axis) {
+        const auto s = static_cast<std::size_t>(axis);
+        const int u = node[(s + 1) % 3], v = node[(s + 2) % 3];
+        if (axis == not_axis || lost[s][page_of(solid.lattice, axis, u, v)]) continue;
+        bool in = false;
+        for (const DexelEnd& end : solid.sets[s].ends(u, v)) {
+            if (shared::depth_of(end) > node[s] * shared::kUnitsPerCell) break;
+            in = !in;
+        }
+        return in;
+    }
+    return std::nullopt;
+}
+
+// Makes a ray of which nodes are inside: its ends lie in the middle between two nodes.
+std::vector<DexelEnd> ray_through(const compute::Solid& solid, int axis, int u, int v, const LostPages& lost,
+                                  std::uint32_t material) {
+    const auto s = static_cast<std::size_t>(axis);
+    std::vector<DexelEnd> ends;
+    std::array<int, 3> node{};
+    node[(s + 1) % 3] = u;
+    node[(s + 2) % 3] = v;
+    bool before = false;
+    for (int along = 0; along <= solid.lattice.cells[s]; ++along) {
+        node[s] = along;
+        const bool now = inside(solid, node, axis, lost).value_or(false);
+        const int between = along * shared::kUnitsPerCell - shared::kUnitsPerCell / 2;
+        if (now != before)
+            ends.push_back(shared::make_end(std::max(between, 0), material, shared::axis_normal(axis, before)));
+        before = now;
+    }
+    if (before)
+        ends.push_back(shared::make_end(solid.lattice.cells[s] * shared::kUnitsPerCell, material,
+                                        shared::axis_normal(axis, true)));
+    return ends;
+}
+
+// Makes the rays of a lost page again from those of the other sets; the box takes in where their ends are.
+void make_again(compute::Solid& solid, int axis, std::size_t page, const LostPages& lost, std::uint32_t material,
+                Box& where) {
+    const auto s = static_cast<std::size_t>(axis);
+    each_ray(rays_of(solid.lattice, axis, page), [&](int u, int v) {
+        const std::vector<DexelEnd> ends = ray_through(solid, axis, u, v, lost, material);
+        solid.sets[s].replace(u, v, ends);
+        for (const DexelEnd& end : ends) {
+            Vec3 units(0.0);
+            units[axis] = shared::depth_of(end);
+            units[(axis + 1) % 3] = u * shared::kUnitsPerCell;
+            units[(axis + 2) % 3] = v * shared::kUnitsPerCell;
+            where.include(solid.lattice.object_from_units(units));
+        }
+    });
+}
+
+// Makes all that is lost again; says in words what that is.
+std::string make_again(compute::Solid& solid, const LostPages& lost) {
+    const std::uint32_t material = compute::add_material(solid, kLostMaterial).value_or(0);
+    Box where;
+    std::size_t count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t page = 0; page < pages_of(solid.lattice, axis); ++page) {
+            if (!lost[static_cast<std::size_t>(axis)][page]) continue;
+            make_again(solid, axis, page, lost, material, where);
+            ++count;
+        }
+    }
+    const std::string pages = std::to_string(count) + (count == 1 ? " page is" : " pages are");
+    if (where.empty()) return pages + " damaged, where there was no surface";
+    return pages + " damaged: the surface there, about " + in_millimetres(where.extent()) +
+           ", was made again, exact to " + in_millimetres(solid.lattice.spacing_m) + ", and is red";
+}
+
+}  // namespace
+
+// ---- ChangedPages
+
+ChangedPages::ChangedPages(const compute::Lattice& lattice) {
+    for (int axis = 0; axis < 3; ++axis) {
+        columns_[static_cast<std::size_t>(axis)] = columns_of(lattice, axis);
+        changed_[static_cast<std::size_t>(axis)].assign(pages_of(lattice, axis), true);
+    }
+}
+
+void ChangedPages::note(const compute::Changes& changes) {
+    for (const shared::ChangedRay& ray : changes.rays) {
+        const compute::RayPlace place = compute::place_of(ray.ray);
+        const auto axis = static_cast<std::size_t>(place.axis);
+        changed_[axis][static_cast<std::size_t>(place.u / kPageSide + place.v / kPageSide * columns_[axis])] = true;
+    }
+}
+
+void ChangedPages::note_all() {
+    for (std::vector<bool>& of_axis : changed_) of_axis.assign(of_axis.size(), true);
+}
+
+void ChangedPages::clear() {
+    for (std::vector<bool>& of_axis : changed_) of_axis.assign(of_axis.size(), false);
+}
+
+// ---- ChangedRays
+
+ChangedRays::ChangedRays(const compute::Lattice& lattice) : lattice_(lattice) {
+    for (int axis = 0; axis < 3; ++axis) changed_[static_cast<std::size_t>(axis)].assign(lattice.rays(axis), false);
+}
+
+void ChangedRays::note(const compute::Changes& changes) {
+    for (const shared::ChangedRay& ray : changes.rays) {
+        const compute::RayPlace place = compute::place_of(ray.ray);
+        auto changed = changed_[static_cast<std::size_t>(place.axis)][place.index(lattice_)];
+        if (!changed) codes_.push_back(ray.ray);
+        changed = true;
+    }
+}
+
+void ChangedRays::take(const compute::Solid& solid, scene::Pages& pages) {
+    std::vector<std::uint32_t> words{static_cast<std::uint32_t>(codes_.size())}, depths, normals;
+    words.insert(words.end(), codes_.begin(), codes_.end());
+    for (const std::uint32_t code : codes_) {
+        const compute::RayPlace place = compute::place_of(code);
+        const auto axis = static_cast<std::size_t>(place.axis);
+        const std::span<const DexelEnd> ends = solid.sets[axis].ends(place.u, place.v);
+        words.push_back(static_cast<std::uint32_t>(ends.size()));
+        for (const DexelEnd& end : ends) {
+            depths.push_back(end.depth_material);
+            normals.push_back(end.normal);
+        }
+        changed_[axis][place.index(lattice_)] = false;
+    }
+    words.insert(words.end(), depths.begin(), depths.end());
+    words.insert(words.end(), normals.begin(), normals.end());
+    codes_.clear();
+    const auto bytes = std::as_bytes(std::span(words));
+    pages.part = kSolidPart;
+    pages.pages[{kHead, 0}] = head_bytes(solid);
+    pages.pages[{kRays, 0}] = {bytes.begin(), bytes.end()};
+}
+
+Result<void> apply_change(compute::Solid& solid, const scene::Pages& change, const std::string& where) {
+    const auto damaged = [&] { return fail(where, "a change is damaged", "what came before it is there"); };
+    const std::vector<std::byte>*head = change.find({kHead, 0}), *rays = change.find({kRays, 0});
+    if (head == nullptr || rays == nullptr) return damaged();
+    const auto* text = reinterpret_cast<const char*>(head->data());
+    const Json json = Json::parse(text, text + head->size(), nullptr, false);
+    if (json.is_discarded() || lattice_in(json) != solid.lattice) return damaged();
+    auto materials = materials_in(json);
+    if (!materials || materials->size() < solid.materials.size()) return damaged();
+    const std::optional<compute::RayBatch> batch = batch_in(*rays, solid.lattice, materials->size());
+    if (!batch) return damaged();
+    solid.materials = std::move(*materials);
+    for (const compute::RayBatch::Ray& ray : batch->rays) {
+        const compute::RayPlace place = compute::place_of(ray.code);
+        solid.sets[static_cast<std::size_t>(place.axis)].replace(place.u, place.v, batch->ends_of(ray));
+    }
+    return {};
+}
+
+// ---- Saving and loading
+
+void save_solid(const compute::Solid& solid, const ChangedPages& changed, scene::Pages& pages) {
+    pages.part = kSolidPart;
+    pages.pages[{kHead, 0}] = head_bytes(solid);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        for (std::size_t page = 0; page < pages_of(solid.lattice, axis); ++page)
+            if (changed.has(axis, page))
+                pages.pages[{kRaysAlong[a], static_cast<std::int64_t>(page)}] =
+                    page_bytes(solid.sets[a], rays_of(solid.lattice, axis, page));
+    }
+}
+
+Result<LoadedSolid> load_solid(const scene::Pages& pages, const std::string& where) {
+    Result<compute::Solid> solid = empty_solid(pages, where);
+    if (!solid) return std::unexpected(solid.error());
+    LostPages lost;
+    std::size_t missing = 0, all = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        for (std::size_t page = 0; page < pages_of(solid->lattice, axis); ++page, ++all) {
+            const auto* bytes = pages.find({kRaysAlong[a], static_cast<std::int64_t>(page)});
+            lost[a].push_back(bytes == nullptr || !put_page(*bytes, axis, rays_of(solid->lattice, axis, page), *solid));
+            missing += lost[a].back() ? 1 : 0;
+        }
+    }
+    if (missing == 0) return LoadedSolid{std::move(*solid)};
+    if (missing == all) return fail(where, "none of its pages can be read", "open an earlier copy of the file");
+    std::string told = make_again(*solid, lost);
+    return LoadedSolid{std::move(*solid), std::move(told)};
+}
+
+}  // namespace burin::sculpt

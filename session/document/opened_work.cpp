@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "session/document/opened_work.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "document/journal.hpp"
+#include "sculpt/saved_solid.hpp"
+#include "session/input/input_words.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_settings.hpp"
+
+namespace burin::session {
+namespace {
+
+constexpr const char *kUnit = "unit", *kBounds = "workpiece bounds m", *kView = "view", *kSource = "source",
+                     *kSettings = "settings";
+
+// Writes numbers so that they read back to the same bits.
+std::string exact(std::span<const double> numbers) {
+    std::string text;
+    for (const double number : numbers) {
+        std::array<char, 32> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+        text += (text.empty() ? "" : ",") + std::string(digits.data(), end.ptr);
+    }
+    return text;
+}
+
+std::optional<Similarity> view_in(const std::string& text) {
+    const auto n = sculpt::parse_numbers(text, 8, kView);
+    if (!n || !((*n)[7] > 0.0)) return std::nullopt;
+    const Quat turned((*n)[3], (*n)[4], (*n)[5], (*n)[6]);
+    if (!(glm::length(turned) > 0.0)) return std::nullopt;
+    return Similarity{{(*n)[0], (*n)[1], (*n)[2]}, turned, (*n)[7]};
+}
+
+Box bounds_in(const std::string& text, const compute::Lattice& lattice) {
+    const auto n = sculpt::parse_numbers(text, 6, kBounds);
+    if (!n) return sculpt::workpiece_bounds(lattice);
+    return {{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+}
+
+// Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
+Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened) {
+    const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
+    for (std::int64_t number = 1; number <= reader.changes(); ++number) {
+        const Result<scene::Pages> change = reader.change(*part, number);
+        if (!change) return std::unexpected(change.error());
+        if (const auto done = sculpt::apply_change(opened.workpiece.solid, *change, reader.path()); !done) return done;
+        opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
+    }
+    return {};
+}
+
+// Work from a journal goes where the work went that it is of.
+void say_where_it_goes(const document::DocumentReader& reader, OpenedWork& opened) {
+    const auto& facts = reader.facts();
+    if (!facts.contains(document::kJournalNameFact)) {
+        opened.document = reader.path();
+        opened.version = reader.version();
+        return;
+    }
+    opened.journal = reader.path();
+    opened.name = reader.fact(document::kJournalNameFact);
+    opened.recovered = "what was not saved has come back from " + reader.path() +
+                       (opened.recovered.empty() ? std::string() : ": " + opened.recovered);
+    const std::string of = reader.fact(document::kJournalOfFact);
+    if (of.empty()) return;
+    opened.document = of;
+    opened.version = document::Version{reader.fact(document::kBaseIdFact), reader.number(document::kBaseSavesFact)};
+}
+
+Result<OpenedWork> open_document(const std::string& path) {
+    Result<document::DocumentReader> reader = document::DocumentReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    const Result<scene::Pages> pages = reader->pages_of(sculpt::kSolidPart);
+    if (!pages) return std::unexpected(pages.error());
+    Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, path);
+    if (!loaded) return std::unexpected(loaded.error());
+    OpenedWork opened{.workpiece = {.solid = std::move(loaded->solid), .report = {}}};
+    if (const auto changed = apply_changes(*reader, opened); !changed)
+        loaded->lost += (loaded->lost.empty() ? "" : "; ") + changed.error().what;
+    say_where_it_goes(*reader, opened);
+    sculpt::LoadedWorkpiece& workpiece = opened.workpiece;
+    workpiece.unit = length_unit(reader->fact(kUnit)).value_or(LengthUnit::m);
+    workpiece.bounds_object = bounds_in(reader->fact(kBounds), workpiece.solid.lattice);
+    workpiece.size_m = workpiece.bounds_object.extent();
+    workpiece.size = path + ": " + in_millimetres(workpiece.size_m) + ", saved from " + reader->fact(kSource);
+    workpiece.report = {{"source", path}, {"size", workpiece.size}, {"made_from", reader->fact(kSource)}};
+    if (!loaded->lost.empty()) {
+        opened.lost = path + ": " + loaded->lost;
+        workpiece.report["lost"] = loaded->lost;
+    }
+    opened.view = view_in(reader->fact(kView));
+    for (const char* fact : {kSource, document::kSourceDigestFact, kSettings})
+        if (reader->facts().contains(fact)) opened.origin[fact] = reader->fact(fact);
+    return opened;
+}
+
+std::string number_in(double value) { return exact(std::array{value}); }
+
+// Puts what a command sets into the options; commands that set something else change nothing.
+struct IntoOptions {
+    SculptOptions& options;
+    bool keeps_tool;  // that the options have
+
+    void operator()(const SetTool& set) const {
+        if (!keeps_tool) options.tool.shape = sculpt::text_of(set.tool);
+    }
+    void operator()(const SetOperation& set) const {
+        if (!keeps_tool) options.tool.operation = set.operation;
+    }
+    void operator()(const SetColour& set) const {
+        if (!keeps_tool && options.tool.material.empty()) options.tool.material = exact(set.srgb);
+    }
+    void operator()(const SetMaterial& set) const {
+        if (options.feel.hardness == sculpt::FeelOptions{}.hardness)
+            options.feel.hardness = sculpt::feel_presets()[static_cast<std::size_t>(set.preset)].name;
+    }
+    void operator()(const SetQuantity& set) const {
+        if (set.quantity == Quantity::hardness)
+            options.feel.hardness = number_in(set.value / sculpt::kHardnessUnit_Ns_per_m3);
+        if (set.quantity == Quantity::stiffness && !options.feel.stiffness_N_per_m)
+            options.feel.stiffness_N_per_m = set.value;
+        if (set.quantity == Quantity::friction && !options.feel.friction) options.feel.friction = set.value;
+    }
+    void operator()(const SetMirror& set) const {
+        if (!options.mirror.any()) options.mirror = set.mirror;
+    }
+    void operator()(const auto&) const {}
+};
+
+std::string line_of(const SessionCommand& command) {
+    const CommandInput input = as_input(command);
+    std::string line = input.name;
+    for (const std::string& argument : input.arguments) line += " " + as_word(argument);
+    return line;
+}
+
+}  // namespace
+
+bool is_document(const sculpt::WorkpieceOptions& options) { return document::is_document_name(options.source); }
+
+Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool) {
+    if (is_document(options)) return open_document(options.source);
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options, pool);
+    if (!workpiece) return std::unexpected(workpiece.error());
+    return OpenedWork{.workpiece = std::move(*workpiece), .version = {}};
+}
+
+Result<void> take_settings_of_document(SculptOptions& options) {
+    if (options.no_workpiece || !is_document(options.workpiece)) return {};
+    const Result<document::DocumentReader> reader = document::DocumentReader::open(options.workpiece.source);
+    if (!reader) return std::unexpected(reader.error());
+    const IntoOptions into{options, !options.tool.shape.empty()};
+    // A command that this program does not know is left out: what it set is not there either.
+    for (const std::string& line : reader->commands())
+        if (const Result<SessionCommand> command = parse_command_line(line)) std::visit(into, *command);
+    return {};
+}
+
+std::vector<std::string> saved_commands(const SessionState& state) {
+    std::vector<SessionCommand> commands{SetTool{state.tool.shape}, SetOperation{state.tool.operation}};
+    if (state.tool.colour) {
+        SetColour colour;
+        for (std::size_t k = 0; k < 3; ++k) colour.srgb[k] = (*state.tool.colour)[k] / 255.0;
+        commands.emplace_back(colour);
+    }
+    commands.emplace_back(SetMaterial{state.feel.preset});
+    const auto add = [&](bool given, Quantity quantity) {
+        if (given) commands.emplace_back(SetQuantity{quantity, descriptor_of(quantity).value(state)});
+    };
+    add(state.feel.hardness_kPa_per_mm_s.has_value(), Quantity::hardness);
+    add(state.feel.friction.has_value(), Quantity::friction);
+    add(state.feel.stiffness_N_per_m.has_value(), Quantity::stiffness);
+    if (state.mirror.any()) commands.emplace_back(SetMirror{state.mirror});
+    std::vector<std::string> lines;
+    for (const SessionCommand& command : commands) lines.push_back(line_of(command));
+    return lines;
+}
+
+std::map<std::string, std::string> saved_facts(const SculptOptions& options, const SessionState& state,
+                                               const Box& workpiece_object) {
+    std::map<std::string, std::string> facts(options.provenance.begin(), options.provenance.end());
+    const Similarity& view = state.world_from_object;
+    facts[kUnit] = name_of(state.export_unit);
+    facts[kBounds] = exact(std::array{workpiece_object.lo.x, workpiece_object.lo.y, workpiece_object.lo.z,
+                                      workpiece_object.hi.x, workpiece_object.hi.y, workpiece_object.hi.z});
+    facts[kView] = exact(std::array{view.position_m.x, view.position_m.y, view.position_m.z, view.orientation.w,
+                                    view.orientation.x, view.orientation.y, view.orientation.z, view.scale});
+    if (is_document(options.workpiece)) return facts;  // whose source is known already
+    facts[kSource] = options.workpiece.source;
+    facts[kSettings] = settings_line(options);
+    return facts;
+}
+
+}  // namespace burin::session

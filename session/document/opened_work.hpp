@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What a session begins with that was saved before, and what it leaves: a document's solid, tool, settings and view.
+// Frames: object, metres; the view is world_from_object. Any thread.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "document/document_reader.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/state/session_options.hpp"
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+
+struct OpenedWork {
+    sculpt::LoadedWorkpiece workpiece;
+    std::string lost = {};                           // what of a document was damaged, in words; empty: nothing
+    std::optional<Similarity> view = {};             // of a document
+    std::string document = {};                       // where a save goes; empty: the work has no file yet
+    std::optional<document::Version> version = {};   // of that document
+    std::string journal = {};                        // that a dead session left and this is; empty: it is none
+    std::string recovered = {};                      // what was not saved and is here, in words; empty: nothing
+    std::string name = {};                           // of work from a journal; empty: that of its source
+    std::map<std::string, std::string> origin = {};  // the facts of a document that say from where it came
+};
+
+// Returns whether the source of a workpiece is a document.
+[[nodiscard]] bool is_document(const sculpt::WorkpieceOptions& options);
+
+// Opens the workpiece, whatever its source is: a document, a mesh file or a shape. A document needs no file but
+// itself.
+[[nodiscard]] Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool);
+
+// Takes over from the document, which is the options' workpiece, what it says of tool, material and mirror, where the
+// options leave it open. Changes nothing where the workpiece is no document.
+[[nodiscard]] Result<void> take_settings_of_document(SculptOptions& options);
+
+// Returns the commands that bring tool, material and mirror of a session back.
+[[nodiscard]] std::vector<std::string> saved_commands(const SessionState& state);
+// Returns the facts that a document needs besides them.
+[[nodiscard]] std::map<std::string, std::string> saved_facts(const SculptOptions& options, const SessionState& state,
+                                                             const Box& workpiece_object);
+
+}  // namespace burin::session

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The document of a live session: which file it is, what is saved into it, and what became of that.
+//
+// Data flow: a command -> request(), which finds the place -> the scene's thread takes the pages of all parts between
+// two updates -> the writer's thread -> take_outcomes() -> messages.
+// Thread: the frame's.
+#pragma once
+
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "document/document_writer.hpp"
+#include "session/document/opened_work.hpp"
+#include "session/live/asked_files.hpp"
+
+namespace burin::session {
+
+class DocumentSide {
+public:
+    // Takes the document that was opened: a save without a name goes there, where the session may write to it.
+    void opened(const std::string& path, const document::Version& version);
+    // Takes the facts of a document that say from where the work came.
+    void came_from(std::map<std::string, std::string> origin) { origin_ = std::move(origin); }
+    // Works out the SHA-256 of the file that the work began with, beside the session, for the facts; a shape has none,
+    // and a document tells its origin.
+    void began_with(const std::string& source);
+
+    // Keeps a journal of the work in the folder. beginning: all as it is now. The work is what was opened, if it was.
+    [[nodiscard]] Result<void> keep_journal(const std::string& folder, const SculptOptions& options,
+                                            const OpenedWork& opened, document::Content beginning);
+    // Ends the journal. Returns its path where it holds what was not saved; discards: that is not wanted.
+    [[nodiscard]] std::string end_journal(bool discards);
+    // Returns what to save, but for the pages of the scene, to the place that was asked for: a name, or empty for the
+    // document's own.
+    [[nodiscard]] document::SaveRequest request(const Asked& wanted, AskedFiles& files, const SculptOptions& options,
+                                                document::Content content);
+    [[nodiscard]] std::vector<document::SaveOutcome> take_outcomes();
+    // Waits until all is written.
+    void finish();
+    [[nodiscard]] document::DocumentWriter& writer();
+
+private:
+    std::unique_ptr<document::DocumentWriter> writer_;  // since the first use
+    std::string path_, name_;                           // of the document; empty: it has no name yet
+    std::map<std::string, std::string> origin_;         // facts
+    std::shared_future<std::string> source_digest_;
+};
+
+}  // namespace burin::session

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Documents as files: what is written is read, what is damaged is told, and nothing is overwritten or half written.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "document/document_reader.hpp"
+#include "document/document_writer.hpp"
+#include "tests/record/failing_disk.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::document {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::byte> bytes_of(std::string_view text, std::size_t times = 1) {
+    std::vector<std::byte> bytes;
+    for (std::size_t i = 0; i < times; ++i)
+        for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
+    return bytes;
+}
+
+Content small_work() {
+    Content content{.facts = {{"source", "ball:0.1"}}, .commands = {"tool ball:0.01", "operation fill"}};
+    content.parts.push_back({.part = "a thing"});
+    content.parts[0].pages = {{{"head", 0}, bytes_of("h")}, {{"tile", 0}, bytes_of("ab", 500)}, {{"tile", 1}, {}}};
+    return content;
+}
+
+Content changed_tile(std::string_view text) {
+    Content content;
+    content.parts.push_back({.part = "a thing"});
+    content.parts[0].pages = {{{"tile", 0}, bytes_of(text)}};
+    return content;
+}
+
+scene::Pages pages_in(const std::string& path) {
+    Result<DocumentReader> reader = DocumentReader::open(path);
+    EXPECT_TRUE(reader) << reader.error().line();
+    Result<scene::Pages> pages = reader->pages_of("a thing");
+    EXPECT_TRUE(pages) << pages.error().line();
+    return *pages;
+}
+
+std::string why_not(const std::string& path) {
+    const Result<DocumentReader> reader = DocumentReader::open(path);
+    return reader ? "" : reader.error().line();
+}
+
+// Runs SQL on a document.
+void change(const std::string& path, const std::string& sql) {
+    Result<record::Database> database = record::Database::open(path, record::Database::Use::write);
+    ASSERT_TRUE(database);
+    const auto done = database->run(sql);
+    ASSERT_TRUE(done) << done.error().line();
+}
+
+std::size_t files_in(const Workplace& at) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(at / ""), fs::directory_iterator()));
+}
+
+class Document : public testing::Test {
+protected:
+    void SetUp() override { record::test::failing_disk().reset(); }
+    void TearDown() override { record::test::failing_disk().reset(); }
+    Workplace at;
+    std::string path = (at / "work.burin").string();
+};
+
+}  // namespace
+
+TEST_F(Document, HoldsWhatWasSaved) {
+    const Content work = small_work();
+    const Result<Saved> saved = write_document(path, work, Place::nothing);
+    ASSERT_TRUE(saved) << saved.error().line();
+    EXPECT_EQ(saved->pages, 3u);
+    Result<DocumentReader> reader = DocumentReader::open(path);
+    ASSERT_TRUE(reader) << reader.error().line();
+    EXPECT_EQ(reader->fact("source"), "ball:0.1");
+    EXPECT_EQ(reader->commands(), work.commands);
+    EXPECT_EQ(reader->version(), saved->version);
+    ASSERT_EQ(reader->parts().size(), 1u);
+    EXPECT_EQ(reader->parts()[0].bytes, 1001u);
+    const Result<scene::Pages> pages = reader->pages_of("a thing");
+    ASSERT_TRUE(pages);
+    EXPECT_EQ(pages->pages, work.parts[0].pages);
+    EXPECT_TRUE(pages->damaged.empty());
+    EXPECT_EQ(files_in(at), 1u) << "one file, which travels alone";
+}
+
+TEST_F(Document, TakesWhatHasChangedAndKeepsTheRest) {
+    const Result<Saved> first = write_document(path, small_work(), Place::nothing);
+    ASSERT_TRUE(first);
+    const Result<Saved> second = update_document(path, changed_tile("new"), first->version);
+    ASSERT_TRUE(second) << second.error().line();
+    EXPECT_EQ(second->version, (Version{first->version.id, 2}));
+    auto expected = small_work().parts[0].pages;
+    expected[{"tile", 0}] = bytes_of("new");
+    EXPECT_EQ(pages_in(path).pages, expected);
+    EXPECT_EQ(files_in(at), 1u);
+}
+
+TEST_F(Document, IsNeverOverwrittenUnlessThatIsAsked) {
+    at.write("work.burin", "mine");
+    const Result<Saved> refused = write_document(path, small_work(), Place::nothing);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().line().contains("never overwrites")) << refused.error().line();
+    EXPECT_EQ(at.read("work.burin"), "mine");
+    const Result<Saved> replaced = write_document(path, small_work(), Place::replaced);
+    ASSERT_TRUE(replaced);
+    EXPECT_TRUE(replaced->replaced);
+    EXPECT_EQ(pages_in(path).pages.size(), 3u);
+}
+
+TEST_F(Document, OfTwoWindowsIsNotSavedOverTheOthersWork) {
+    const Result<Saved> first = write_document(path, small_work(), Place::nothing);
+    ASSERT_TRUE(first);
+    ASSERT_TRUE(update_document(path, changed_tile("theirs"), first->version));
+    const Result<Saved> mine = update_document(path, changed_tile("mine"), first->version);
+    ASSERT_FALSE(mine);
+    EXPECT_TRUE(mine.error().line().contains("another window")) << mine.error().line();
+    EXPECT_EQ(pages_in(path).pages.at({"tile", 0}), bytes_of("theirs"));
+}
+
+TEST_F(Document, IsRefusedKindlyWhereItIsNone) {
+    EXPECT_TRUE(why_not(path).contains("check the path")) << why_not(path);
+    at.write("work.burin", "");
+    EXPECT_TRUE(why_not(path).contains("is empty")) << why_not(path);
+    at.write("work.burin", std::string(5000, 'x'));
+    EXPECT_TRUE(why_not(path).contains("is not an SQLite file")) << why_not(path);
+    EXPECT_TRUE(why_not(path).contains("a document that burin has saved")) << why_not(path);
+    fs::remove(path);
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    change(path, "PRAGMA user_version = 2");
+    EXPECT_TRUE(why_not(path).contains("newer Burin")) << why_not(path);
+    change(path, "PRAGMA user_version = 1; PRAGMA application_id = 7");
+    EXPECT_TRUE(why_not(path).contains("another program")) << why_not(path);
+}
+
+TEST_F(Document, WhoseTableIsAViewIsRefused) {
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    change(path, "DROP TABLE command; CREATE VIEW command AS SELECT 1 AS at, 'tool ball:1' AS text");
+    EXPECT_TRUE(why_not(path).contains("no table command")) << why_not(path);
+}
+
+TEST_F(Document, ThatWasCutOffIsToldAndNotRead) {
+    Content work = small_work();
+    for (int tile = 2; tile < 200; ++tile) {
+        std::vector<std::byte> bytes;
+        for (int i = 0; i < 1000; ++i) bytes.push_back(static_cast<std::byte>((i * i * (tile + 3)) >> 5));
+        work.parts[0].pages[{"tile", tile}] = bytes;
+    }
+    ASSERT_TRUE(write_document(path, work, Place::nothing));
+    const auto whole = fs::file_size(path);
+    for (const double share : {0.9, 0.5, 0.1}) {
+        fs::resize_file(path, static_cast<std::uintmax_t>(share * static_cast<double>(whole)));
+        Result<DocumentReader> reader = DocumentReader::open(path);
+        if (!reader) continue;  // with a reason
+        const Result<scene::Pages> pages = reader->pages_of("a thing");
+        EXPECT_TRUE(!pages || !pages->damaged.empty());
+    }
+}
+
+TEST_F(Document, OpensWithoutAPageThatIsDamagedAndNamesIt) {
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    change(path, "UPDATE page SET crc = crc + 1 WHERE kind = 'tile' AND number = 0");
+    const scene::Pages pages = pages_in(path);
+    EXPECT_EQ(pages.damaged, (std::vector<scene::PageName>{{"tile", 0}}));
+    EXPECT_EQ(pages.pages.size(), 2u);
+    // One that claims more than its data hold is no reason to allocate.
+    change(path, "UPDATE page SET bytes = 60000000 WHERE kind = 'tile' AND number = 1");
+    EXPECT_EQ(pages_in(path).damaged.size(), 2u);
+}
+
+TEST_F(Document, OnAFullDiskStaysAsItWas) {
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    const Result<Saved> first = write_document(path, small_work(), Place::nothing);
+    ASSERT_TRUE(first);
+    const std::string before = at.read("work.burin");
+    disk.is_full = true;
+    const auto update = update_document(path, changed_tile("new"), first->version, disk.kName);
+    ASSERT_FALSE(update);
+    EXPECT_TRUE(update.error().line().contains("save to another disk")) << update.error().line();
+    const auto anew = write_document(path, small_work(), Place::replaced, disk.kName);
+    ASSERT_FALSE(anew);
+    EXPECT_TRUE(anew.error().line().contains("work.burin: the disk is full")) << anew.error().line();
+    disk.is_full = false;
+    EXPECT_EQ(pages_in(path).pages, small_work().parts[0].pages);
+    EXPECT_EQ(at.read("work.burin"), before);
+    EXPECT_EQ(files_in(at), 1u) << "and leaves nothing beside it";
+    ASSERT_TRUE(update_document(path, changed_tile("new"), first->version));
+}
+
+TEST_F(Document, InAFolderThatTakesNoFilesStaysAsItWas) {
+    if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write anywhere";
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    fs::permissions(at / "", fs::perms::owner_read | fs::perms::owner_exec);
+    const auto anew = write_document(path, small_work(), Place::replaced);
+    fs::permissions(at / "", fs::perms::owner_all);
+    ASSERT_FALSE(anew);
+    EXPECT_TRUE(anew.error().line().contains("may write to")) << anew.error().line();
+    EXPECT_EQ(pages_in(path).pages.size(), 3u);
+}
+
+TEST_F(Document, WhatCouldNotBeSavedGoesAlongWithTheNextSave) {
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    DocumentWriter writer(disk.kName);
+    const auto save = [&](Content content, bool changed_alone) {
+        writer.save({.path = path, .name = "work", .content = std::move(content), .changed_alone = changed_alone});
+        writer.finish();
+        return static_cast<bool>(writer.take_outcomes().at(0).saved);
+    };
+    disk.is_full = true;
+    EXPECT_FALSE(save(small_work(), false));
+    disk.is_full = false;
+    EXPECT_TRUE(save(changed_tile("second"), true));
+    EXPECT_EQ(pages_in(path).pages.size(), 3u) << "the first save's pages are there as well";
+    EXPECT_EQ(pages_in(path).pages.at({"tile", 0}), bytes_of("second"));
+    disk.is_full = true;
+    EXPECT_FALSE(save(changed_tile("third"), true));
+    disk.is_full = false;
+    Content other;
+    other.parts.push_back({.part = "a thing"});
+    EXPECT_TRUE(save(std::move(other), true));
+    EXPECT_EQ(pages_in(path).pages.at({"tile", 0}), bytes_of("third"));
+}
+
+}  // namespace burin::document

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// A journal keeps what was not saved: after a kill (SIGKILL) all that it acknowledged is there. More runs:
+// BURIN_KILL_RUNS (scripts/soak-document).
+#include "document/journal.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include "base/clock.hpp"
+#include "document/document_reader.hpp"
+#include "document/document_writer.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::document {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::byte> numbered(std::int64_t number, std::size_t size) {
+    std::vector<std::byte> bytes(size);
+    for (std::size_t i = 0; i < size; ++i)
+        bytes[i] = static_cast<std::byte>((static_cast<std::uint64_t>(number) * 2654435761u >> (i % 4 * 8)) + i / 7);
+    return bytes;
+}
+
+Content beginning() {
+    Content content{.facts = {{kJournalNameFact, "work.burin"}}};
+    content.parts.push_back({.part = "a thing"});
+    content.parts[0].pages = {{{"tile", 0}, numbered(0, 5000)}};
+    return content;
+}
+
+Change change(std::int64_t number) {
+    return {.part = 0, .pages = {.part = "a thing", .whole = false, .pages = {{{"rays", 0}, numbered(number, 3000)}}}};
+}
+
+// Counts the changes that are there, all sound and in their order; -1: one is not.
+std::int64_t sound_changes(const std::string& path) {
+    Result<DocumentReader> reader = DocumentReader::open(path);
+    if (!reader) return -1;
+    for (std::int64_t number = 1; number <= reader->changes(); ++number) {
+        const Result<scene::Pages> found = reader->change(reader->parts().at(0), number);
+        if (!found || found->pages.at({"rays", 0}) != numbered(number, 3000)) return -1;
+    }
+    return reader->changes();
+}
+
+// What the child tells of itself, in memory that both share and that outlives it.
+struct WriterProgress {
+    std::atomic<std::int64_t> noted{0}, safe{0};
+};
+
+// Notes changes until it is killed.
+[[noreturn]] void work_for_ever(const std::string& path, WriterProgress& progress) {
+    DocumentWriter writer;
+    writer.keep_journal(path, beginning());
+    for (std::int64_t number = 1;; ++number) {
+        writer.note(change(number));
+        progress.noted = number;
+        while (number - writer.safe_up_to() > 20) sched_yield();
+        progress.safe = writer.safe_up_to();
+    }
+}
+
+int journal_kill_runs() {
+    const char* wanted = std::getenv("BURIN_KILL_RUNS");
+    return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 8;
+}
+
+}  // namespace
+
+TEST(Journal, LosesNothingThatWasAcknowledgedWhenItIsKilled) {
+    auto* shared = mmap(nullptr, sizeof(WriterProgress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(shared, MAP_FAILED);
+    std::mt19937 random(48);
+    std::int64_t acknowledged_in_all = 0, unacknowledged_most = 0;
+    Nanoseconds longest_ns = 0;
+    MonotonicClock clock;
+    for (int run = 0; run < journal_kill_runs(); ++run) {
+        const Workplace at;
+        const std::string path = at / "work-1.burin";
+        auto* progress = new (shared) WriterProgress;
+        const auto until = static_cast<std::int64_t>(random() % 200);
+        const std::uint64_t spins = random() % 400'000;
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) work_for_ever(path, *progress);
+        while (progress->noted < until) sched_yield();
+        for (std::uint64_t spin = 0; spin < spins; ++spin) std::atomic_signal_fence(std::memory_order_seq_cst);
+        kill(child, SIGKILL);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
+        const std::int64_t noted = progress->noted, acknowledged = progress->safe;
+        if (acknowledged == 0) continue;  // killed before anything was promised
+        const Nanoseconds before_ns = clock.now_ns();
+        const std::int64_t found = sound_changes(path);
+        longest_ns = std::max(longest_ns, clock.now_ns() - before_ns);
+        EXPECT_GE(found, acknowledged);
+        EXPECT_LE(found, noted + 1);
+        const auto left = left_journals((at / "").string());
+        ASSERT_EQ(left.size(), 1u);
+        EXPECT_EQ(left[0].name, "work.burin");
+        acknowledged_in_all += acknowledged;
+        unacknowledged_most = std::max(unacknowledged_most, noted - std::min(noted, found));
+    }
+    EXPECT_GT(acknowledged_in_all, 0) << "else nothing was tried";
+    std::printf(
+        "%d runs, %lld changes acknowledged, none lost; at most %lld unacknowledged lost; read again in %.0f ms "
+        "at most\n",
+        journal_kill_runs(), static_cast<long long>(acknowledged_in_all), static_cast<long long>(unacknowledged_most),
+        1e-6 * static_cast<double>(longest_ns));
+    munmap(shared, sizeof(WriterProgress));
+}
+
+TEST(Journal, GoesWithASaveAndIsThereForWhatFollows) {
+    const Workplace at;
+    const std::string path = at / "journals-1.burin", work = at / "work.burin";
+    {
+        DocumentWriter writer;
+        writer.keep_journal(path, beginning());
+        for (std::int64_t number = 1; number <= 3; ++number) writer.note(change(number));
+        Content saved = beginning();
+        saved.facts.clear();
+        writer.save({.path = work, .name = "work.burin", .content = std::move(saved)});
+        writer.finish();
+        EXPECT_EQ(writer.safe_up_to(), 3);
+        EXPECT_TRUE(writer.take_outcomes().at(0).saved);
+        EXPECT_EQ(writer.end_journal(false), "") << "all is saved";
+        EXPECT_FALSE(fs::exists(path));
+    }
+    DocumentWriter writer;
+    writer.keep_journal(path, beginning());
+    writer.note(change(1));
+    Content saved = beginning();
+    saved.facts.clear();
+    writer.save({.path = work, .name = "work.burin", .content = std::move(saved), .place = Place::replaced});
+    writer.note(change(2));
+    EXPECT_EQ(writer.end_journal(false), path);
+    const auto left = left_journals((at / "").string());
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_EQ(left[0].of, work);
+    const Result<DocumentReader> reader = DocumentReader::open(work);
+    ASSERT_TRUE(reader);
+    EXPECT_EQ((Version{left[0].base_id, left[0].base_saves}), reader->version());
+    Result<DocumentReader> journal = DocumentReader::open(path);
+    ASSERT_TRUE(journal);
+    ASSERT_EQ(journal->changes(), 1) << "the one before it is saved";
+    EXPECT_EQ(journal->change(journal->parts()[0], 1)->pages.at({"rays", 0}), numbered(2, 3000));
+}
+
+TEST(Journal, WithoutAnythingUnsavedOrDiscardedIsRemoved) {
+    const Workplace at;
+    const std::string path = at / "journals-1.burin";
+    DocumentWriter writer;
+    writer.keep_journal(path, beginning());
+    writer.finish();
+    EXPECT_TRUE(fs::exists(path));
+    EXPECT_EQ(writer.end_journal(false), "");
+    EXPECT_FALSE(fs::exists(path));
+    writer.keep_journal(path, beginning());
+    writer.note(change(1));
+    EXPECT_EQ(writer.end_journal(true), "");
+    EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(Journal, ThatCannotBeWrittenSaysSoOnceAndSavesGoOn) {
+    const Workplace at;
+    DocumentWriter writer;
+    writer.keep_journal((at / "no/such/folder.burin").string(), beginning());
+    writer.note(change(1));
+    writer.save({.path = at / "work.burin", .name = "work.burin", .content = beginning()});
+    writer.finish();
+    EXPECT_TRUE(writer.take_journal_failure());
+    EXPECT_FALSE(writer.take_journal_failure());
+    EXPECT_EQ(writer.safe_up_to(), 0);
+    EXPECT_TRUE(writer.take_outcomes().at(0).saved);
+}
+
+}  // namespace burin::document

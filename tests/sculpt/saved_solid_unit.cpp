@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// A solid as pages: what is saved and loaded is the same to the bit and goes on being so; what is lost is made again.
+#include "sculpt/saved_solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sculpt/sculpture.hpp"
+#include "sculpt/tool_options.hpp"
+#include "sculpt/workpiece.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+struct SavedBall {
+    WorkerPool pool{1};
+    Sculpture carving{engine(*load_workpiece({.source = "ball:0.1", .resolution = 90, .room = 0.1}, pool)), pool};
+
+    std::unique_ptr<compute::CarvingEngine> engine(LoadedWorkpiece workpiece) {
+        return std::move(choose_engine(EngineChoice::cpu, std::move(workpiece.solid), pool)->engine);
+    }
+    void stroke(const Vec3& from, const Vec3& to) {
+        const auto material = carving.add_material({"red", {200, 10, 10}});
+        ASSERT_TRUE(material);
+        Tool tool{compute::BallTool{0.02}};
+        tool.material = *material;
+        const std::array sweeps{tool.sweep(Pose{from}, Pose{to})};
+        const auto done = carving.update(sweeps);
+        ASSERT_TRUE(done) << done.error().line();
+    }
+    [[nodiscard]] const compute::Solid& solid() const { return carving.engine().solid(); }
+};
+
+void expect_same(const compute::Solid& a, const compute::Solid& b) {
+    EXPECT_TRUE(a.same_content(b));
+    ASSERT_EQ(a.materials.size(), b.materials.size());
+    for (std::size_t i = 0; i < a.materials.size(); ++i) {
+        EXPECT_EQ(a.materials[i].name, b.materials[i].name);
+        EXPECT_EQ(a.materials[i].colour, b.materials[i].colour);
+    }
+}
+
+}  // namespace
+
+TEST(SavedSolid, IsTheSameToTheBitAndGoesOnTheSame) {
+    SavedBall ball;
+    ball.stroke({-0.1, 0.03, 0.08}, {0.1, 0.01, 0.09});
+    scene::Pages pages;
+    ASSERT_TRUE(ball.carving.save(pages));
+    Result<LoadedSolid> loaded = load_solid(pages, "ball.burin");
+    ASSERT_TRUE(loaded) << loaded.error().line();
+    EXPECT_EQ(loaded->lost, "");
+    expect_same(loaded->solid, ball.solid());
+    Sculpture opened(std::move(choose_engine(EngineChoice::cpu, std::move(loaded->solid), ball.pool)->engine),
+                     ball.pool);
+    scene::Pages again;
+    ASSERT_TRUE(opened.save(again));
+    EXPECT_EQ(again.pages, pages.pages);
+    ball.stroke({0.0, -0.1, 0.08}, {0.02, 0.1, 0.07});
+    Tool tool{compute::BallTool{0.02}};
+    tool.material = *opened.add_material({"red", {200, 10, 10}});
+    const std::array sweeps{tool.sweep(Pose{{0.0, -0.1, 0.08}}, Pose{{0.02, 0.1, 0.07}})};
+    ASSERT_TRUE(opened.update(sweeps));
+    expect_same(opened.engine().solid(), ball.solid());
+}
+
+TEST(SavedSolid, GivesThePagesThatHaveChangedAlone) {
+    SavedBall ball;
+    ball.carving.keep_history(1 << 24);
+    scene::Pages whole;
+    ASSERT_TRUE(ball.carving.save(whole));
+    ball.stroke({0.0, 0.0, 0.1}, {0.01, 0.0, 0.1});
+    scene::Pages changed{.whole = false};
+    ASSERT_TRUE(ball.carving.save(changed));
+    EXPECT_LT(changed.pages.size(), whole.pages.size() / 3);
+    scene::Pages both = whole;
+    for (const auto& [name, bytes] : changed.pages) both.pages[name] = bytes;
+    expect_same(load_solid(both, "")->solid, ball.solid());
+    scene::Pages nothing{.whole = false};
+    ASSERT_TRUE(ball.carving.save(nothing));
+    EXPECT_EQ(nothing.pages.size(), 1u) << "the head alone";
+    // Undo goes back over a save.
+    ASSERT_EQ(ball.carving.undo(1).value(), 1u);
+    scene::Pages undone{.whole = false};
+    ASSERT_TRUE(ball.carving.save(undone));
+    for (const auto& [name, bytes] : undone.pages) both.pages[name] = bytes;
+    for (const auto& [name, bytes] : whole.pages)
+        EXPECT_TRUE(name.kind == "head" || both.pages.at(name) == bytes) << name.kind << name.number;
+}
+
+TEST(SavedSolid, IsMadeAgainFromTheChangesSinceItWasSaved) {
+    SavedBall ball;
+    ball.carving.keep_history(1 << 24);
+    ball.carving.note_changes();
+    scene::Pages before, nothing;
+    ball.carving.copy(before);
+    EXPECT_FALSE(ball.carving.take_change(nothing));
+    std::vector<scene::Pages> changes;
+    const auto take = [&] { EXPECT_TRUE(ball.carving.take_change(changes.emplace_back())); };
+    ball.stroke({0.0, 0.0, 0.1}, {0.03, 0.0, 0.1});
+    take();
+    ball.stroke({0.03, 0.0, 0.1}, {0.05, 0.05, 0.08});
+    ball.stroke({0.05, 0.05, 0.08}, {0.0, 0.09, 0.0});
+    take();
+    ball.carving.end_stroke();
+    ASSERT_EQ(ball.carving.undo(1).value(), 1u);
+    take();
+    ball.stroke({-0.1, 0.0, 0.0}, {-0.1, 0.03, 0.0});
+    take();
+    compute::Solid made = load_solid(before, "")->solid;
+    for (const scene::Pages& change : changes) ASSERT_TRUE(apply_change(made, change, "journal.burin"));
+    expect_same(made, ball.solid());
+    // One that is damaged changes nothing.
+    scene::Pages torn = changes.back();
+    torn.pages.at({"rays", 0}).resize(40);
+    EXPECT_FALSE(apply_change(made, torn, "journal.burin"));
+    torn = changes.back();
+    torn.pages.at({"rays", 0})[5] ^= std::byte{0xff};
+    static_cast<void>(apply_change(made, torn, "journal.burin"));
+    EXPECT_TRUE(compute::well_formed(made));
+}
+
+TEST(SavedSolid, HasLostRaysMadeAgainToACellAndShowsWhere) {
+    SavedBall ball;
+    scene::Pages pages;
+    ASSERT_TRUE(ball.carving.save(pages));
+    for (const char* const kind : {"rays x", "rays y", "rays z"}) {
+        scene::Pages torn = pages;
+        ASSERT_EQ(torn.pages.erase({kind, 5}), 1u);
+        const Result<LoadedSolid> loaded = load_solid(torn, "ball.burin");
+        ASSERT_TRUE(loaded) << loaded.error().line();
+        EXPECT_TRUE(loaded->lost.contains("1 page is damaged") && loaded->lost.contains("red")) << loaded->lost;
+        ASSERT_TRUE(compute::well_formed(loaded->solid));
+        EXPECT_EQ(loaded->solid.materials.back().name, "lost and made again");
+        // Every node is inside as before, whichever set says so.
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            for (std::size_t ray = 0; ray < ball.solid().sets[a].ray_count(); ++ray) {
+                const auto was = ball.solid().sets[a].ends(ray), is = loaded->solid.sets[a].ends(ray);
+                ASSERT_EQ(was.size(), is.size());
+                for (std::size_t end = 0; end < was.size(); ++end)
+                    ASSERT_LE(std::abs(shared::depth_of(was[end]) - shared::depth_of(is[end])), shared::kUnitsPerCell);
+            }
+        }
+    }
+}
+
+TEST(SavedSolid, OfDamagedBytesIsToldAndNeverTaken) {
+    SavedBall ball;
+    scene::Pages pages;
+    ASSERT_TRUE(ball.carving.save(pages));
+    scene::Pages headless = pages;
+    headless.pages.erase({"head", 0});
+    EXPECT_FALSE(load_solid(headless, "ball.burin"));
+    scene::Pages alone;
+    alone.pages[{"head", 0}] = pages.pages.at({"head", 0});
+    EXPECT_FALSE(load_solid(alone, "ball.burin"));
+    for (auto& [name, bytes] : pages.pages) {
+        if (name.kind == "head" || bytes.size() < 4) continue;
+        bytes[bytes.size() / 3] ^= std::byte{0xff};
+    }
+    const auto loaded = load_solid(pages, "ball.burin");
+    EXPECT_TRUE(!loaded || compute::well_formed(loaded->solid));
+}
+
+}  // namespace burin::sculpt

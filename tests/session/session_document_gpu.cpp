@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Documents of scripted sessions: what is saved is opened, goes on as if nothing had been between, and is converted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "document/document_reader.hpp"
+#include "gpu/device.hpp"
+#include "sculpt/saved_solid.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kStroke = "0 mouse 160 90\n0.1 button press left\n0.6 mouse 175 100\n0.8 button release left\n";
+
+class DocumentOfASession : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto devices = gpu::list_devices();
+        if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
+    }
+    Workplace::Outcome play(const std::string& workpiece, const std::string& outputs, const std::string& lines) {
+        place.write("script.txt", "burin-input 1 test\n" + lines);
+        return place.run(std::string(kBurinCommand) + " sculpt " + workpiece + " --offscreen --outputs " + outputs +
+                         " --mouse surface --width 320 --height 180 --input script.txt");
+    }
+    scene::Pages pages(const std::string& name) {
+        Result<document::DocumentReader> reader = document::DocumentReader::open((place / name).string());
+        EXPECT_TRUE(reader) << reader.error().line();
+        return *reader->pages_of(sculpt::kSolidPart);
+    }
+    Workplace place;
+};
+
+const std::string kBall = "ball:0.1 --resolution 64 --tool ball:0.012";
+
+}  // namespace
+
+TEST_F(DocumentOfASession, IsOpenedSavedAgainAndConvertedAsItWas) {
+    const auto saved = play(kBall, "a",
+                            kStroke +
+                                "1.5 command mirror x\n1.6 command save work.burin\n1.7 command export part.ply\n"
+                                "2.5 command quit\n");
+    ASSERT_EQ(saved.status, 0) << saved.output;
+    EXPECT_TRUE(saved.output.contains("saved work.burin")) << saved.output;
+    const auto opened = play("a/work.burin", "b", "0.1 command save again.burin\n0.2 command export part.ply\n");
+    ASSERT_EQ(opened.status, 0) << opened.output;
+    EXPECT_EQ(pages("a/work.burin").pages, pages("b/again.burin").pages);
+    EXPECT_EQ(place.read("a/part.ply"), place.read("b/part.ply"));
+    const auto reader = document::DocumentReader::open((place / "b/again.burin").string());
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->commands(), document::DocumentReader::open((place / "a/work.burin").string())->commands());
+    EXPECT_TRUE(std::ranges::find(reader->commands(), "tool ball:0.012") != reader->commands().end());
+    EXPECT_TRUE(std::ranges::find(reader->commands(), "mirror x") != reader->commands().end());
+    EXPECT_EQ(reader->fact("source"), "ball:0.1") << "from where it came is kept";
+    const auto converted = place.run(std::string(kBurinCommand) + " convert a/work.burin part.ply");
+    ASSERT_EQ(converted.status, 0) << converted.output;
+    EXPECT_EQ(place.read("part.ply"), place.read("a/part.ply"));
+    const auto told = place.run(std::string(kBurinCommand) + " info a/work.burin");
+    ASSERT_EQ(told.status, 0) << told.output;
+    for (const char* const part : {"ball:0.1", "--resolution 64", "tri-dexel solid", "version"})
+        EXPECT_TRUE(told.output.contains(part)) << part << " in " << told.output;
+}
+
+TEST_F(DocumentOfASession, GoesOnAsIfNothingHadBeenBetween) {
+    const std::string more = "1 mouse 150 80\n1.05 button press left\n1.4 mouse 165 70\n1.5 button release left\n";
+    const auto through =
+        play(kBall, "a", kStroke + "0.9 command save first.burin\n" + more + "2.5 command save first.burin\n");
+    ASSERT_EQ(through.status, 0) << through.output;
+    const auto first = play(kBall, "b", kStroke + "0.9 command save first.burin\n2.5 command quit\n");
+    ASSERT_EQ(first.status, 0) << first.output;
+    EXPECT_NE(pages("a/first.burin").pages, pages("b/first.burin").pages) << "the second save changed it";
+    const auto saves = [&](const char* name) {
+        return document::DocumentReader::open((place / name).string())->version().saves;
+    };
+    EXPECT_EQ(saves("a/first.burin"), 2);
+    EXPECT_EQ(saves("b/first.burin"), 1);
+}
+
+TEST_F(DocumentOfASession, ThatAScriptOpensStaysAsItIs) {
+    ASSERT_EQ(play(kBall, "a", "0.1 command save work.burin\n").status, 0);
+    const std::string before = place.read("a/work.burin");
+    const auto refused = play("a/work.burin", "a", kStroke + "1 command save work.burin\n");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(refused.output.contains("would be overwritten")) << refused.output;
+    EXPECT_EQ(place.read("a/work.burin"), before);
+    EXPECT_FALSE(fs::exists(place / "a/work.burin-wal"));
+}
+
+TEST_F(DocumentOfASession, ComesBackWithWhatWasNotSaved) {
+    const std::string more = "1 mouse 150 80\n1.05 button press left\n1.4 mouse 165 70\n1.5 button release left\n";
+    const std::string save = "0.9 command save work.burin\n", later = "2.5 command export part.ply\n3 command quit";
+    const auto first = play(kBall + " --journal j", "a", kStroke + save + more + later + "\n");
+    ASSERT_EQ(first.status, 0) << first.output;
+    EXPECT_TRUE(first.output.contains("what was not saved is kept: burin sculpt j/ball-")) << first.output;
+    const auto second = play("a/work.burin --journal j", "b", "0.1 command export part.ply\n0.2 command quit\n");
+    ASSERT_EQ(second.status, 0) << second.output;
+    EXPECT_TRUE(second.output.contains("has come back")) << second.output;
+    EXPECT_EQ(place.read("b/part.ply"), place.read("a/part.ply"));
+    const auto third = play("a/work.burin --journal j", "c", "0.1 command save work.burin\n0.2 command quit\n");
+    EXPECT_TRUE(third.output.contains("has come back")) << "nobody has saved it: " << third.output;
+    const auto fourth = play("a/work.burin --journal j", "d", "0.1 command quit discard\n");
+    EXPECT_FALSE(fourth.output.contains("has come back")) << fourth.output;
+    EXPECT_TRUE(fs::is_empty(place / "j"));
+}
+
+TEST_F(DocumentOfASession, WithoutANameIsToldOfAndOpensByItsJournal) {
+    const auto first = play(kBall + " --journal j", "a", kStroke + "2 command export part.ply\n3 command quit\n");
+    ASSERT_EQ(first.status, 0) << first.output;
+    const std::string journal = fs::directory_iterator(place / "j")->path().filename().string();
+    const auto other = play(kBall + " --journal j", "b", "0.1 command quit\n");
+    EXPECT_TRUE(other.output.contains("is kept: burin sculpt j/" + journal)) << other.output;
+    const auto again = play("j/" + journal + " --journal j", "c", "0.1 command export part.ply\n0.2 command quit\n");
+    ASSERT_EQ(again.status, 0) << again.output;
+    EXPECT_EQ(place.read("c/part.ply"), place.read("a/part.ply"));
+    const auto thrown = play(kBall + " --journal k", "d", kStroke + "3 command quit discard\n");
+    EXPECT_TRUE(fs::is_empty(place / "k")) << thrown.output;
+}
+
+TEST_F(DocumentOfASession, ThatIsNoneIsRefusedInOneLine) {
+    place.write("bad.burin", std::string(3000, 'x'));
+    const auto refused = play("bad.burin", "a", "0.1 command quit\n");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(refused.output.contains("bad.burin: is not an SQLite file; name a document")) << refused.output;
+}
+
+}  // namespace burin::session
