@@ -13,6 +13,8 @@ namespace {
 constexpr double kSweepTolerance = 0.05;  // of a cell
 // What the tick looks at around a tool (haptics/forces/tool_surface.hpp), of the tool's size.
 constexpr double kSurroundings = 1.0;
+// Of a tool's size, in a tick: a hand that goes deeper by less has come down.
+constexpr double kComesDown = 0.001;
 
 }  // namespace
 
@@ -64,7 +66,14 @@ SweptSamples StrokeReader::read() {
         const bool was_pressed = std::exchange(pressed_, (tick.sample.buttons & 1u) != 0);
         swept.stroke_ended = was_pressed && !pressed_;
         const std::optional<Vec3> point = working_point(tick);
-        working_ = point.has_value();
+        working_ = point.has_value() && !is_coming_down(tick);
+        if (swept.stroke_ended && on_its_way_object_)
+            run.push_back(*on_its_way_object_);  // a click: no time to come down
+        if (!pressed_ || (tick.sample.buttons & kOverAir) != 0) {
+            is_down_ = false;
+            depth_m_.reset();
+            on_its_way_object_.reset();
+        }
         if (!working_) {
             end_run();
             continue;
@@ -75,6 +84,18 @@ SweptSamples StrokeReader::read() {
     }
     end_run();
     return swept;
+}
+
+// Returns whether the tool is to wait with its filling, because the hand is on its way down to the surface.
+bool StrokeReader::is_coming_down(const haptics::TickRecord& tick) {
+    if (tool_.operation != compute::Operation::fill || !tool_.fills_at_hand || is_down_) return false;
+    const haptics::PointRecord& point = tick.contact.points[0];
+    const double depth_m = glm::dot(point.proxy_object_m - point.hip_object_m, point.normal_object);
+    const std::optional<double> before_m = std::exchange(depth_m_, depth_m);
+    is_down_ = before_m && depth_m - *before_m < kComesDown * size_of(tool_.shape);
+    on_its_way_object_ = Pose{point.hip_object_m, tool_.turns() ? tick.motion.orientation_object : Quat{1, 0, 0, 0}};
+    if (is_down_) on_its_way_object_.reset();
+    return !is_down_;
 }
 
 // Returns where the tool works in this tick; nothing where it only moves.
@@ -88,6 +109,7 @@ std::optional<Vec3> StrokeReader::working_point(const haptics::TickRecord& tick)
             return std::nullopt;
         case compute::Operation::fill:
             if (!tool_.fills_at_hand) return tick.contact.points[0].proxy_object_m;
+            if ((tick.sample.buttons & kOverAir) != 0) return std::nullopt;
             if ((tick.flags & haptics::kTickInContact) != 0) return tick.contact.points[0].hip_object_m;
             return std::nullopt;
         case compute::Operation::paint:

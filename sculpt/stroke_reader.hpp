@@ -6,7 +6,7 @@
 //                  hardness gives way wherever the hand is
 //   fill           where the tool rests on the surface; with Tool::fills_at_hand where the hand is while it
 //                  touches: it is led along the surface, and a tool that rests on what it has just added would climb
-//                  while the hand stays
+//                  while the hand stays. It begins when the hand has come down, and leaves no lump of its way there
 //   paint          where the hand is, while it touches
 //   smooth         a ball about the place of the surface that it touches, since it would only graze what it rests on;
 //                  another tool where the hand is, while it touches
@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,6 +23,10 @@
 #include "sculpt/tool_options.hpp"
 
 namespace burin::sculpt {
+
+// Button of a hand that a mouse leads, beside the first: the cursor has left the surface within a stroke. A tool that
+// fills at the hand touches what it has just added, and would go on adding into the air.
+inline constexpr std::uint32_t kOverAir = 1u << 2;
 
 // Returns what the tick does while the tool works with this operation. Smoothing has no force of its own: its tool only
 // touches.
@@ -58,6 +63,7 @@ public:
 
 private:
     [[nodiscard]] std::optional<Vec3> working_point(const haptics::TickRecord& tick) const;
+    [[nodiscard]] bool is_coming_down(const haptics::TickRecord& tick);
 
     std::vector<haptics::TickRecord> ticks_;
     std::size_t read_ = 0;  // of ticks_
@@ -67,6 +73,11 @@ private:
     Pose last_pose_object_;  // where the tool worked last
     bool working_ = false;   // in the last sample
     bool pressed_ = false;   // in the last sample
+    // Of a stroke that fills at the hand: whether the hand has come down, how deep it was in the sample before, and
+    // where it is on its way.
+    bool is_down_ = false;
+    std::optional<double> depth_m_;
+    std::optional<Pose> on_its_way_object_;
     Nanoseconds last_worked_ns_ = 0;
 };
 

@@ -4,7 +4,8 @@
 #include "shaders/frame.glsl"
 // The faces of the haptic workspace's boxes: a clear tint, denser at grazing angles and towards the edges. The same
 // shader draws the workspace's bubble, which has no edges: there their strength, material.x, is 0. Objects through
-// which one sees are shaded, material.y is 1: darker where they turn from the light, with a highlight. Premultiplied.
+// which one sees are shaded, material.y is 1: darker where they turn from the light, with a highlight. An outline of
+// what something hides, material.y is 2, is dense where the surface turns from the eye. Premultiplied.
 
 layout(location = 0) in vec3 in_world;
 layout(location = 1) in vec3 in_normal;
@@ -24,6 +25,11 @@ void main() {
     float alpha = draw.tint.a * (0.5 + 0.7 * grazing + draw.material.x * smoothstep(0.36, 0.5, edge));
     if (draw.material.y == 0.0) {
         alpha = min(alpha, 0.6);
+        out_colour = vec4(in_colour * alpha, alpha);
+        return;
+    }
+    if (draw.material.y == 2.0) {
+        alpha = draw.tint.a + 0.6 * smoothstep(0.45, 0.9, grazing);
         out_colour = vec4(in_colour * alpha, alpha);
         return;
     }

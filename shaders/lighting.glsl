@@ -56,6 +56,16 @@ float tool_shadow(vec3 world) {
 }
 #endif
 
+#ifndef BURIN_FAR_FROM_TOOL
+// Returns the shadow of the workpiece on the plinth, 0 to 1: that of a ball of its typical size, as on the floor.
+float workpiece_shadow(vec3 world) {
+    vec3 to_ball = frame.workpiece.xyz - world;
+    float along = dot(to_ball, frame.light.xyz);
+    float miss = length(to_ball - along * frame.light.xyz);
+    return hidden_share(miss, max(2.2 * along, 0.0), max(frame.workpiece.w, 1e-6)) * step(1e-6, frame.workpiece.w);
+}
+#endif
+
 // Returns 1 for a capsule that there is and that does not stand for what is drawn, else 0.
 float casts(int capsule) {
     return step(1e-9, frame.capsule_from[capsule].w) * min(abs(draw.material.w - float(capsule + 1)), 1.0);
@@ -142,7 +152,7 @@ float highlight(vec3 n, vec3 v, vec3 l, float roughness) {
 // Blends the tool's colour into the surface near the tool: a ring that closes in on the point of contact. Its width
 // follows the tool's size.
 vec3 ringed(vec3 albedo, vec3 world) {
-    if (draw.material.z == 0.0 || frame.tool.w <= 0.0) return albedo;
+    if (draw.material.z <= 0.0 || frame.tool.w <= 0.0) return albedo;
     float distance_r = length(world - nearest_of_tool(world)) / frame.tool.w;
     float gap = distance_r - 1.0;
     float near = exp(-gap * gap * 30.0) * 0.55 * (1.0 - smoothstep(1.4, kToolNears, distance_r));
@@ -163,7 +173,8 @@ vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
 #else
     vec3 albedo = ringed(colour, world);
     float light = nl > 0.0 ? sun * (1.0 - tool_shadow(world)) : 0.0;
-    if (draw.material.z == 0.0) open *= 1.0 - 0.8 * ball_cover(world, n, frame.workpiece);
+    if (draw.material.z <= 0.0) open *= 1.0 - 0.8 * ball_cover(world, n, frame.workpiece);
+    if (draw.material.z < 0.0) light *= 1.0 - 0.7 * workpiece_shadow(world);
 #endif
     if (kCapsules && draw.material.w >= 0.0) {
         light *= 1.0 - capsule_shadow(world);

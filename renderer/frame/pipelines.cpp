@@ -61,10 +61,12 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
             break;
         case PipelineKind::glass_back:
         case PipelineKind::glass_front:
+        case PipelineKind::hidden:
             spec.name = "glass pipeline";
             spec.vertex_spirv = k_glass_vert;
             spec.fragment_spirv = k_glass_frag;
             spec.attributes = std::span(kAttributes).first(3);
+            spec.depth_test = kind != PipelineKind::hidden;
             spec.depth_write = false;
             spec.blend = true;
             spec.cull = kind == PipelineKind::glass_back ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;

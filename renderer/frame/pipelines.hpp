@@ -21,6 +21,7 @@ enum class PipelineKind : std::size_t {
     // The far faces of the workspace's boxes and bubble, drawn before glass_front. Neither writes depth.
     glass_back,
     glass_front,  // the near faces of the same
+    hidden,       // near faces of what lies behind something else: no depth is read or written
     count
 };
 

@@ -79,7 +79,7 @@ private:
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
     void begin_pass(Recording& r);
-    Result<void> draw_shapes(Recording& r);
+    Result<void> draw_shapes(Recording& r, PipelineKind kind, std::span<const Shape> shapes);
     Result<void> draw_surface(Recording& r);
     Result<void> draw_surface(Recording& r, PipelineKind kind, std::span<const DrawRange> ranges);
     Result<void> draw_room(Recording& r);
@@ -277,8 +277,11 @@ void Renderer::Implementation::upload_uniforms(gpu::Commands& commands, const Sh
 Result<void> Renderer::Implementation::draw_views(Recording& r) {
     begin_pass(r);
     // Front to back as far as the order is known: hidden fragments that come later cost little.
-    auto done = draw_shapes(r);
+    auto done = draw_shapes(r, solid_of(r.scene), r.shapes.solid);
     if (done) done = draw_surface(r);
+    // Whatever is before it: what is seen of the tool covers it afterwards, and the room where nothing is before it.
+    if (done) done = draw_shapes(r, PipelineKind::hidden, r.shapes.hidden);
+    if (done) done = draw_shapes(r, solid_of(r.scene), r.shapes.tool);
     if (done) done = draw_room(r);
     if (done) done = draw_panel(r);
     if (done) done = draw_glass(r);
@@ -311,11 +314,11 @@ void Renderer::Implementation::begin_pass(Recording& r) {
     vk().vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout(), 0, 1, &set, 0, nullptr);
 }
 
-Result<void> Renderer::Implementation::draw_shapes(Recording& r) {
-    if (r.shapes.solid.empty()) return {};
-    if (const auto done = use(r, solid_of(r.scene)); !done) return done;
-    draw_primitives(r, r.shapes.solid);
-    draw_meshes(r, r.shapes.solid);
+Result<void> Renderer::Implementation::draw_shapes(Recording& r, PipelineKind kind, std::span<const Shape> shapes) {
+    if (shapes.empty()) return {};
+    if (const auto done = use(r, kind); !done) return done;
+    draw_primitives(r, shapes);
+    draw_meshes(r, shapes);
     return {};
 }
 

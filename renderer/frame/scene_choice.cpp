@@ -64,7 +64,7 @@ ShownShapes shapes_in(const PixelRect& part, const Scene& scene, const Primitive
                       const Savings& savings) {
     ShownShapes shown{shapes_of(scene, primitives), 0};
     const PixelLength pixel(scene, size);
-    for (auto* list : {&shown.shapes.solid, &shown.shapes.glass}) {
+    for (auto* list : {&shown.shapes.solid, &shown.shapes.tool, &shown.shapes.hidden, &shown.shapes.glass}) {
         const std::size_t all = list->size();
         if (savings.cull_beside)
             std::erase_if(*list, [&](const Shape& shape) { return !meets(part, scene, size, shape); });

@@ -123,17 +123,23 @@ void add_clear_objects(Shapes& shapes, const Scene& scene) {
 
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
     if (tool.mesh) {
-        shapes.solid.push_back({{0, 0, tool.mesh->bounds},
-                                constants_of(matrix(tool.world_from_mesh), tool.colour, 1.0, 0.28, 1.0),
-                                tool.mesh});
+        shapes.tool.push_back({{0, 0, tool.mesh->bounds},
+                               constants_of(matrix(tool.world_from_mesh), tool.colour, 1.0, 0.28, 1.0),
+                               tool.mesh});
     } else {
         const Pose ball{tool.center_world, tool.stylus_world.orientation};
-        shapes.solid.push_back(
+        shapes.tool.push_back(
             {primitives.balls.back(), constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0)});
     }
+    constexpr double kFaint = 0.14, kNoEdges = 0.0, kOutlined = 2.0;  // shaders/glass.frag
+    Shape hidden = shapes.tool.back();
+    hidden.constants.tint.a = static_cast<float>(kFaint);
+    hidden.constants.material.x = static_cast<float>(kNoEdges);
+    hidden.constants.material.y = static_cast<float>(kOutlined);
+    shapes.hidden.push_back(std::move(hidden));
     const double r = stylus_radius_m(tool);
     const Mat4 shaft = matrix_of(tool.stylus_world, {r, r, stylus_length_m(tool)});
-    shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0)});
+    shapes.tool.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0)});
 }
 
 // Returns the matrix that maps +Z to a direction and scales by `size` along the local axes.
@@ -328,6 +334,7 @@ Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
         const Pose pose{p.top_center_world, Quat{1, 0, 0, 0}};
         const Vec3 size{p.radius_m, std::max(p.top_center_world.y, 0.001), p.radius_m};
         shapes.solid.push_back({primitives.plinth, constants_of(matrix_of(pose, size), p.colour, 1.0, 0.75, 0.4)});
+        shapes.solid.back().constants.material.z = -1.0f;  // the workpiece casts its shadow on it
     }
     if (scene.show_wall_frame) add_wall_frame(shapes, scene.screen, primitives);
     for (const SceneBox* box : {&scene.box, &scene.proposed_box}) {

@@ -79,6 +79,8 @@ struct Shape {
 };
 struct Shapes {
     std::vector<Shape> solid;
+    std::vector<Shape> tool;    // and its stylus, solid as well
+    std::vector<Shape> hidden;  // the tool's head once more, as an outline where it lies behind something
     // Objects through which one sees, the farthest first; then the faces of the workspace boxes, and the bubble.
     std::vector<Shape> glass;
 };

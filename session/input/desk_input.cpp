@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "sculpt/stroke_reader.hpp"
 #include "session/input/input_wand.hpp"
 #include "wall/seen_place.hpp"
 
@@ -112,6 +113,7 @@ struct Steps {
         state.on_surface = std::move(pointed.hand);
         const bool begins = pointed.tool.works && !state.in_work;
         state.in_work = pointed.tool.works;
+        state.in_air = pointed.tool.in_air;
         state.works = pointed.tool.works || !state.on_surface.pressed;
         const Similarity device_from_object = inverse(on.object_from_device);
         const Vec3 half = 0.5 * settings.workspace_m;
@@ -170,7 +172,8 @@ struct Steps {
     }
     [[nodiscard]] std::uint32_t buttons() const {
         const std::uint32_t pressed = state.buttons | clicked;
-        return view.surface && !state.works ? pressed & ~kCarve : pressed;
+        if (view.surface && !state.works) return pressed & ~kCarve;
+        return view.surface && state.in_air && (pressed & kCarve) != 0 ? pressed | sculpt::kOverAir : pressed;
     }
 
     // Modifiers come with the event or as keys of their own.

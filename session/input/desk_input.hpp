@@ -103,6 +103,7 @@ struct DeskState {
     Quat led_device{1.0, 0.0, 0.0, 0.0};  // the tool's orientation there
     bool in_work = false;                 // the tool was told to work where it is
     bool works = true;                    // false: what hides the stroke bears the tool, and its button does nothing
+    bool in_air = false;                  // the cursor has left the surface within a stroke
     bool beyond_reach = false;            // the cursor is, in the air: the tool does not get there
 };
 

@@ -36,6 +36,9 @@ constexpr std::array kShortCuts = {
     ShortCut{Key::keypad_3, kNone, Action::view_side, false, "From the right side", MouseMode::surface},
     ShortCut{Key::digit_3, kCtrl, Action::view_top, false, "From above", MouseMode::surface},
     ShortCut{Key::keypad_7, kNone, Action::view_top, false, "From above", MouseMode::surface},
+    ShortCut{Key::digit_1, kCtrlShift, Action::view_back, false, "From behind", MouseMode::surface},
+    ShortCut{Key::digit_2, kCtrlShift, Action::view_left, false, "From the left side", MouseMode::surface},
+    ShortCut{Key::digit_3, kCtrlShift, Action::view_bottom, false, "From below", MouseMode::surface},
     ShortCut{Key::left, kNone, Action::turn_left, true, "Turn the scene to the left", MouseMode::surface},
     ShortCut{Key::right, kNone, Action::turn_right, true, "Turn the scene to the right", MouseMode::surface},
     ShortCut{Key::up, kNone, Action::turn_up, true, "Turn the scene upwards", MouseMode::surface},
@@ -105,7 +108,7 @@ constexpr std::array kSurfaceGestures = {
 
 constexpr std::array<std::string_view, 2> kMouseModeNames = {"free", "surface"};
 
-constexpr std::array<std::string_view, 35> kActionNames = {"undo",
+constexpr std::array<std::string_view, 38> kActionNames = {"undo",
                                                            "redo",
                                                            "tool-1",
                                                            "tool-2",
@@ -130,6 +133,9 @@ constexpr std::array<std::string_view, 35> kActionNames = {"undo",
                                                            "view-front",
                                                            "view-side",
                                                            "view-top",
+                                                           "view-back",
+                                                           "view-left",
+                                                           "view-bottom",
                                                            "turn-left",
                                                            "turn-right",
                                                            "turn-up",

@@ -2,6 +2,7 @@
 #include "session/input/seen_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -107,6 +108,25 @@ std::optional<SurfaceHit> SeenSurface::first_hit(const Ray& ray_object) const {
     hit.distance_m = nearest_m;
     hit.place_object_m = ray_object.origin + nearest_m * ray_object.direction;
     return hit;
+}
+
+std::optional<double> SeenSurface::lowest_along_m(const Vec3& up_object) const {
+    if (!tiles_) return std::nullopt;
+    std::vector<std::pair<double, std::uint32_t>> from_below;
+    for (const std::uint32_t tile : tiles_->with_surface) {
+        const Box box = box_of(tile);
+        const Vec3 half = 0.5 * box.extent();
+        from_below.emplace_back(glm::dot(box.center(), up_object) - glm::dot(half, glm::abs(up_object)), tile);
+    }
+    std::ranges::sort(from_below);
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (const auto& [bound_m, number] : from_below) {
+        if (bound_m >= lowest_m) break;
+        for (const auto& vertex : tiles_->of_grid[number]->vertices)
+            lowest_m = std::min(lowest_m, glm::dot(Vec3(geometry::place_of(vertex)), up_object));
+    }
+    if (!std::isfinite(lowest_m)) return std::nullopt;
+    return lowest_m + glm::dot(lattice_.origin_object, up_object);
 }
 
 Vec3 SeenSurface::facing_around(const Vec3& place_object_m, double radius_m, const Vec3& towards) const {

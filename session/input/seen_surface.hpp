@@ -48,6 +48,9 @@ public:
     // it turns evenly where the place moves on. The radius counts as 1.5 cells at least and 24 at most. `towards` where
     // there is none.
     [[nodiscard]] Vec3 facing_around(const Vec3& place_object_m, double radius_m, const Vec3& towards) const;
+    // Returns how far its lowest point is along a direction from the object's origin; nothing where there is none.
+    // Looks at the vertices of the few tiles whose boxes reach down so far.
+    [[nodiscard]] std::optional<double> lowest_along_m(const Vec3& up_object) const;
 
 private:
     struct Tiles {

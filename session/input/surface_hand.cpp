@@ -85,7 +85,7 @@ PointedAt pointed_at(SurfaceHand hand, const Ray& ray, const SeenSurface& now, c
         SurfaceContact beside = hand.last.value_or(SurfaceContact{middle_object, -ray.direction});
         const double depth_m = glm::dot(beside.place_object_m - ray.origin, ray.direction);
         beside.place_object_m = ray.origin + depth_m * ray.direction;
-        pointed.tool = {standing_at(beside, clear_m, tool, object_from_screen), hand.pressed};
+        pointed.tool = {standing_at(beside, clear_m, tool, object_from_screen), hand.pressed, 0.0, hand.pressed};
     }
     pointed.hand = std::move(hand);
     return pointed;

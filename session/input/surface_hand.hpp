@@ -56,6 +56,7 @@ struct StandingTool {
     Pose object_from_tool;
     bool works = false;   // stands in the surface, or hovers within a stroke; false: takes nothing away where it is
     double sunk_m = 0.0;  // along its axis, below where it would hover
+    bool in_air = false;  // hovers within a stroke
 };
 
 // Moves the hand to where a ray points. now: the surface as it is; middle_object: what the tool is beside where it has

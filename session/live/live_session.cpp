@@ -7,6 +7,7 @@
 
 #include "session/live/session_events.hpp"
 #include "session/state/governed.hpp"
+#include "session/state/view_cube.hpp"
 
 namespace burin::session {
 
@@ -210,10 +211,12 @@ void LiveSession::take_news(std::uint64_t updates) {
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (room_.wall.is_panel(screen)) return std::nullopt;
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
+    if (scene && state_.mouse == MouseMode::surface) stand_on_plinth(*scene);
     for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands().parts(); ++part)
         if (part != hands().first_part(state_.hand))
             add_tool(*scene, state_, hands().part_of_hand(part).hand, tools_[part]);
     if (scene) add_mirror(*scene, state_, tool_in_use());
+    if (scene && screen == room_.wall.main) add_view_cube(*scene, state_, room_);
     if (scene) add_border(*scene, state_, room_, tool_in_use());
     if (scene && scene_.world() != nullptr)
         std::ranges::move(scene_.world()->drawn().in_world(state_.world_from_object),
@@ -221,6 +224,18 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (scene && activity_.draws_hands()) scene->tool.visible = false;
     if (scene) activity_.stage(*scene, screen);
     return scene;
+}
+
+// A part that was turned or cut touches its plinth with what is lowest of it now, and not with its box's corner.
+void LiveSession::stand_on_plinth(renderer::Scene& scene) const {
+    const Similarity& pose = state_.world_from_object;
+    const auto lowest_m = seen_.lowest_along_m(glm::conjugate(pose.orientation) * Vec3(0.0, 1.0, 0.0));
+    if (!lowest_m) return;
+    const PlinthPlace plinth = plinth_under(room_.workpiece_object, pose, middle_of(wall::eyes_of(scene.viewer)),
+                                            pose.position_m.y + pose.scale * *lowest_m);
+    scene.pedestal.visible = plinth.visible;
+    scene.pedestal.top_center_world = plinth.top_center_world;
+    scene.pedestal.radius_m = plinth.radius_m;
 }
 
 void LiveSession::finish_scene() {

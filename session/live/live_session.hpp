@@ -162,6 +162,7 @@ private:
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
+    void stand_on_plinth(renderer::Scene& scene) const;
     void fit_into_mode(SessionOrders& orders);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);

@@ -120,18 +120,21 @@ Similarity fitted_straight(const SeenFrom& from, const Quat& world_from_object) 
     return pose;
 }
 
-PlinthPlace plinth_under(const Box& bounds_object, const Similarity& world_from_object, const Vec3& eye_world) {
-    constexpr double kLeastHigh_m = 0.02;      // of a plinth that is one
-    constexpr double kRadius = 0.25;           // of the box's diagonal
-    constexpr double kGap = 0.002;             // likewise: the surface is not quite the box
-    constexpr double kFromViewer_m = 0.4;      // its rim, before the eye
-    constexpr double kSeenFromAbove_m = 0.05;  // the eye, above its top
+PlinthPlace plinth_under(const Box& bounds_object, const Similarity& world_from_object, const Vec3& eye_world,
+                         std::optional<double> lowest_world_m) {
+    constexpr double kLeastHigh_m = 0.02;                // of a plinth that is one
+    constexpr double kRadius = 0.25;                     // of the box's diagonal
+    const double gap = lowest_world_m ? 0.0002 : 0.002;  // likewise: the surface is not quite the box
+    constexpr double kFromViewer_m = 0.4;                // its rim, before the eye
+    constexpr double kSeenFromAbove_m = 0.05;            // the eye, above its top
     PlinthPlace plinth;
     const Vec3 middle = world_from_object * bounds_object.center();
-    double lowest_m = middle.y;
-    for (const Vec3& corner : corners_of(bounds_object)) lowest_m = std::min(lowest_m, (world_from_object * corner).y);
+    double lowest_m = lowest_world_m.value_or(middle.y);
+    if (!lowest_world_m)
+        for (const Vec3& corner : corners_of(bounds_object))
+            lowest_m = std::min(lowest_m, (world_from_object * corner).y);
     const double across_m = world_from_object.scale * glm::length(bounds_object.extent());
-    lowest_m -= kGap * across_m;
+    lowest_m -= gap * across_m;
     plinth.top_center_world = {middle.x, lowest_m, middle.z};
     plinth.radius_m = kRadius * across_m;
     const double away_m = glm::length(Vec2(eye_world.x - middle.x, eye_world.z - middle.z));

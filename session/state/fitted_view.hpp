@@ -4,6 +4,8 @@
 // Frames: world, object; metres. Pure; any thread.
 #pragma once
 
+#include <optional>
+
 #include "base/space.hpp"
 #include "wall/screen.hpp"
 
@@ -27,7 +29,8 @@ inline constexpr double kFilled = 0.74;
 // sight to the middle of the box.
 [[nodiscard]] Similarity fitted_straight(const SeenFrom& from, const Quat& world_from_object);
 
-// A round plinth under a box, however it stands: its top touches the lowest corner.
+// A round plinth under a box, however it stands: its top touches the lowest corner, or the lowest point of what is in
+// the box where that is known.
 struct PlinthPlace {
     Vec3 top_center_world{0.0};
     double radius_m = 0.0;
@@ -36,6 +39,6 @@ struct PlinthPlace {
     bool visible = false;
 };
 [[nodiscard]] PlinthPlace plinth_under(const Box& bounds_object, const Similarity& world_from_object,
-                                       const Vec3& eye_world);
+                                       const Vec3& eye_world, std::optional<double> lowest_world_m = std::nullopt);
 
 }  // namespace burin::session

@@ -263,6 +263,9 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::view_front: return show_from(0.0, Vec3(0.0, 1.0, 0.0));
         case Action::view_side: return show_from(-0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
         case Action::view_top: return show_from(0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
+        case Action::view_back: return show_from(std::numbers::pi, Vec3(0.0, 1.0, 0.0));
+        case Action::view_left: return show_from(0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
+        case Action::view_bottom: return show_from(-0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
         case Action::turn_left: return turn(-kTurnStep_rad, Vec3(0.0, 1.0, 0.0));
         case Action::turn_right: return turn(kTurnStep_rad, Vec3(0.0, 1.0, 0.0));
         case Action::turn_up: return turn(-kTurnStep_rad, Vec3(1.0, 0.0, 0.0));

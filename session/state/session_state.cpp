@@ -8,6 +8,7 @@
 
 #include "sculpt/tool_mesh.hpp"
 #include "session/state/staging.hpp"
+#include "session/state/view_cube.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
 
@@ -319,7 +320,10 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     step.led_hand = state.hand;
     state.seen_from = seen_from(state, room);
     if (state.handle) state.handle_reads_device = read_pose(view.tool);
-    DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.of(state.hand).desk);
+    const BesideCube beside = take_presses(state, room, events, view);
+    DeskView desk_view = view_of(state, room, view);
+    desk_view.mouse_captured = desk_view.mouse_captured || state.over_cube.has_value();
+    DeskStep desk = step_desk(state.desk, beside.events, view.dt_s, desk_view, room.of(state.hand).desk);
     state.desk = desk.state;
     const wall::StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
     state.head = follow_head(state.head, room.wall.setup, timing_in(room.wall.setup, mode), events, view.display_ns,
@@ -350,6 +354,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     step.orders.line = events.empty() ? 0 : events.back().line;
     if (const auto done = follow_smooth_stroke(state, step.orders, desk.strokes, view); !done)
         step.orders.messages.push_back({done.error().line(), 0});
+    for (const Action view_from : beside.views) run({std::string(name_of(view_from)), {}}, 0);
     for (const Action action : desk.actions) run({std::string(name_of(action)), {}}, 0);
     for (const InputEvent& event : events) {
         step.orders.line = event.line;

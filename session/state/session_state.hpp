@@ -58,6 +58,8 @@ struct SessionState : HandState {
     std::optional<SmoothStroke> smooth_stroke;  // while one lasts
     bool first_steps = false;                   // the card for who sees this for the first time
     SeenFrom seen_from;                         // as of the last step
+    std::optional<Action> over_cube;            // the view whose face is under the cursor (view_cube.hpp)
+    bool pressed_cube = false;                  // the left button went down on it
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
     bool quit = false;

@@ -15,8 +15,12 @@ namespace burin::session {
 struct Room;
 struct SessionState;
 
-// Panes across x, y and z. Null: the session carves nothing.
-using MirrorPanes = std::array<std::shared_ptr<const renderer::DrawnMesh>, 3>;
+// A plane, and the frame around it by which it is seen from its own edge as well. Null: the session carves nothing.
+struct MirrorPane {
+    std::shared_ptr<const renderer::DrawnMesh> pane, frame;
+};
+// Across x, y and z.
+using MirrorPanes = std::array<MirrorPane, 3>;
 // Makes panes that stand out a little beyond a workpiece with these bounds, around its middle.
 [[nodiscard]] MirrorPanes mirror_panes(const Box& workpiece_object);
 

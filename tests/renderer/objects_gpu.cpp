@@ -128,6 +128,37 @@ TEST_F(Objects, CapsulesCastTheirShadowWhereTheLampsLinesMeetAWall) {
     EXPECT_LT(glm::length(sum / weight - middle), 2.0);
 }
 
+// A tool within the workpiece or behind it could not be found.
+TEST_F(Objects, AToolBehindSomethingIsSeenAsAnOutline) {
+    const auto show = [&](double z_m, bool shown) {
+        Scene scene = before_a_wall({});
+        scene.tool.center_world = {0.0, 0.15, z_m};
+        scene.tool.radius_m = 0.02;
+        scene.tool.visible = shown;
+        scene.tool.stylus_world = {{0.0, 0.15, z_m}, glm::angleAxis(0.5 * std::numbers::pi, Vec3(-1.0, 0.0, 0.0))};
+        return render(scene).left;
+    };
+    constexpr double kBehind_m = kWallZ_m - 0.05, kFar_m = kWallZ_m - 0.2;
+    const Image without = show(kBehind_m, false), hidden = show(kBehind_m, true), seen = show(0.0, true);
+    // Along a line across its middle: what it changes of the wall is most at its rim.
+    const auto change = [&](const Image& image, double x_m, double z_m) {
+        const Scene scene = before_a_wall({});
+        const Vec2 at = wall::point_on_screen(scene.screen, scene.viewer.head_world.position_m, Vec3(x_m, 0.15, z_m));
+        const auto x = static_cast<std::uint32_t>(at.x / scene.wall.width_m * kTestSize.width);
+        const auto y = static_cast<std::uint32_t>((1.0 - at.y / scene.wall.height_m) * kTestSize.height);
+        int most = 0;
+        for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.pixel(x, y)[c] - without.pixel(x, y)[c]));
+        return most;
+    };
+    const int rim = change(hidden, 0.0185, kBehind_m), middle = change(hidden, 0.0, kBehind_m);
+    EXPECT_GT(rim, 25);
+    EXPECT_GT(middle, 3);
+    EXPECT_GT(rim, 2 * middle);
+    EXPECT_LE(change(hidden, 0.03, kBehind_m), 2) << "nothing beside it";
+    EXPECT_GT(change(seen, 0.0, 0.0), 40);
+    EXPECT_GT(change(show(kFar_m, true), 0.0185, kFar_m), 10) << "however far behind";
+}
+
 TEST_F(Objects, CapsulesKeepNoLightOffWhatTheyStandFor) {
     Scene scene = before_a_wall({{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006}});
     const auto lit = render(before_a_wall({})).left.rgba;

@@ -2,7 +2,10 @@
 // A stroke from the ring of samples to the carved solid: what is read, what an update does, and what its figures say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -52,6 +55,43 @@ TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
     EXPECT_EQ(second.sweeps[0].start.position_m, Vec3(0.05, 0.0, 0.1));
     EXPECT_TRUE(reader.pressed());
     EXPECT_EQ(reader.last_worked_ns(), 4'000'000);
+}
+
+// The bead of a mouse began with a lump: the button goes down while the hand is above the surface.
+TEST(StrokeReader, FillingAtTheHandBeginsWhenTheHandHasComeDown) {
+    Tool tool{compute::BallTool{0.004}, compute::Operation::fill, 0};
+    tool.fills_at_hand = true;
+    const auto sample = [](std::uint64_t tick, double height_m, double x_m, bool pressed) {
+        haptics::TickRecord record = sample_of(tick, {x_m, 0.0, height_m}, pressed);
+        record.contact.points[0].proxy_object_m = {x_m, 0.0, std::max(height_m, 0.004)};
+        record.contact.points[0].normal_object = {0.0, 0.0, 1.0};
+        if (height_m < 0.004) record.flags |= haptics::kTickInContact;
+        return record;
+    };
+    std::vector<haptics::TickRecord> samples;
+    std::uint64_t tick = 0;
+    for (int i = 0; i <= 40; ++i)
+        samples.push_back(
+            sample(++tick, 0.0028 + 0.0016 * (0.5 + 0.5 * std::cos(std::numbers::pi * i / 40.0)), 0.0, true));
+    for (int i = 1; i <= 20; ++i) samples.push_back(sample(++tick, 0.0028, 0.0005 * i, true));
+    samples.push_back(sample(++tick, 0.0028, 0.01, false));
+    StrokeReader reader(tool, 0.0, 0.0005);
+    reader.take(samples);
+    const SweptSamples swept = reader.read();
+    ASSERT_FALSE(swept.sweeps.empty());
+    for (const compute::ToolSweep& sweep : swept.sweeps) {
+        EXPECT_NEAR(sweep.start.position_m.z, 0.0028, 3e-5);
+        EXPECT_NEAR(sweep.end.position_m.z, 0.0028, 3e-5);
+    }
+    EXPECT_LT(swept.sweeps.front().start.position_m.x, 1e-9) << "where the button went down";
+    EXPECT_NEAR(swept.sweeps.back().end.position_m.x, 0.01, 1e-9);
+    // A click, over before the hand has come down, leaves what it touched all the same.
+    const std::vector click{sample(++tick, 0.0041, 0.0, true), sample(++tick, 0.0037, 0.0, true),
+                            sample(++tick, 0.0033, 0.0, true), sample(++tick, 0.0033, 0.0, false)};
+    reader.take(click);
+    const SweptSamples clicked = reader.read();
+    ASSERT_EQ(clicked.sweeps.size(), 1u);
+    EXPECT_EQ(clicked.sweeps[0].end.position_m.z, 0.0033);
 }
 
 TEST(StrokeReader, GoesOnBehindWhatItHasRead) {

@@ -3,6 +3,7 @@
 // its plinth.
 #include <array>
 
+#include "session/state/view_cube.hpp"
 #include "tests/session/mouse_desk.hpp"
 
 namespace burin::session {
@@ -83,6 +84,50 @@ TEST(DeskView, TopIsSeenStraightFromAbove) {
     EXPECT_LT(glm::length(towards_eye_object(desk) - Vec3(0.0, 0.0, 1.0)), 1e-3);
 }
 
+// A face of the cube in the corner shows the part from there; it turns nothing else, and is no stroke that missed.
+TEST(DeskView, APressOnAFaceOfTheCubeShowsThePartFromThere) {
+    MouseDesk desk(plate(12.0));
+    const auto cube = [&] { return view_cube(desk.session->state(), desk.session->room()); };
+    ASSERT_TRUE(cube());
+    const std::array<std::pair<Vec3, std::array<Key, 2>>, 5> faces{{{{0, 0, 1}, {Key::right, Key::down}},
+                                                                    {{1, 0, 0}, {Key::left, Key::down}},
+                                                                    {{-1, 0, 0}, {Key::right, Key::down}},
+                                                                    {{0, 1, 0}, {Key::right, Key::down}},
+                                                                    {{0, -1, 0}, {Key::right, Key::up}}}};
+    for (const auto& [face, keys] : faces) {
+        press_key(desk, Key::digit_1, {.ctrl = true});
+        for (const Key key : keys) press_key(desk, key);
+        desk.move_to(desk.px_of_world(*cube() * (0.5 * face)));
+        const std::string told =
+            desk.told_while({{MouseClick{}, 100'000'000}, {MouseClick{MouseButton::left, false, {}}, 80'000'000}});
+        EXPECT_EQ(told, "");
+        EXPECT_LT(glm::length(towards_eye_object(desk) - face), 1e-3) << face.x << face.y << face.z;
+    }
+    press_key(desk, Key::digit_1, {.shift = true, .ctrl = true});
+    EXPECT_LT(glm::length(towards_eye_object(desk) - Vec3(0.0, 0.0, -1.0)), 1e-3);
+}
+
+TEST(DeskView, TheCubeStandsAsThePartDoesAndBesideThePanel) {
+    MouseDesk desk(plate(12.0));
+    press_key(desk, Key::tab);
+    press_key(desk, Key::digit_3, {.ctrl = true});
+    const Similarity cube = view_cube(desk.session->state(), desk.session->room()).value();
+    const SessionState& state = desk.session->state();
+    const Vec3 eye = state.seen_from.eye_world;
+    EXPECT_LT(glm::length(glm::normalize(glm::conjugate(cube.orientation) * (eye - cube.position_m)) - Vec3(0, 1, 0)),
+              1e-3)
+        << "its upper face is seen straight on";
+    for (const double x : {-0.5, 0.5})
+        for (const double y : {-0.5, 0.5})
+            for (const double z : {-0.5, 0.5}) {
+                const Vec2 at = desk.px_of_world(cube * Vec3(x, y, z));
+                EXPECT_TRUE(at.x > 700.0 && at.x < 940.0 && at.y > 0.0 && at.y < 200.0) << at.x << ", " << at.y;
+            }
+    const auto scene = desk.session->scene_on(0);
+    ASSERT_TRUE(scene);
+    EXPECT_GE(scene->objects.size(), 2u);
+}
+
 // The pillar stood where the part had stood at first, and as thick: a part that was turned or enlarged sank into it.
 TEST(DeskView, ThePlinthKeepsBelowThePartHoweverItIsTurnedAndEnlarged) {
     MouseDesk desk(plate(12.0));
@@ -102,6 +147,20 @@ TEST(DeskView, ThePlinthKeepsBelowThePartHoweverItIsTurnedAndEnlarged) {
         EXPECT_NEAR(plinth->radius_m / radius_m, desk.session->state().world_from_object.scale / scale, 1e-6);
     }
     EXPECT_GT(seen, 5);
+}
+
+// The plinth's height came from the corners of the part's box: a ball that was turned floated above it.
+TEST(DeskView, ABallTouchesItsPlinthHoweverItIsTurned) {
+    MouseDesk desk("");  // of 40 mm
+    for (int turn = 0; turn < 6; ++turn) {
+        press_key(desk, turn % 2 == 0 ? Key::up : Key::right);
+        press_key(desk, Key::right);
+        const auto plinth = plinth_of(desk);
+        ASSERT_TRUE(plinth) << turn;
+        const Similarity& pose = desk.session->state().world_from_object;
+        const double lowest_m = (pose * Vec3(0.0)).y - 0.04 * pose.scale;
+        EXPECT_NEAR(plinth->top_center_world.y, lowest_m, 0.002 * pose.scale * 0.08) << turn;
+    }
 }
 
 TEST(DeskView, ThePlinthIsLeftOutWhereItWouldHideThePart) {

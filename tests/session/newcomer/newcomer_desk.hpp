@@ -108,19 +108,11 @@ public:
     void press_button(const std::string& label) {
         const std::optional<Vec2> at = found(label);
         ASSERT_TRUE(at) << "the panel has no " << label;
-        move_to(*at);
-        run({{MouseClick{}, 100'000'000}, {MouseClick{MouseButton::left, false, {}}, 80'000'000}}, 300'000'000);
+        click(*at);
     }
-    // Drags a slider of the panel to a share of its way.
-    void slide(const std::string& label, double part) {
-        const std::optional<Vec2> at = found(label);
-        ASSERT_TRUE(at) << "the panel has no " << label;
-        const PixelRect track = session->place_on_panel(label).value();
-        const Vec2 to(track.x + 6.0 + part * (track.width - 12.0), at->y);
-        move_to(*at);
-        run({{MouseClick{}, 100'000'000}});
-        drag(*at, to / px_per_window_px());
-        run({{MouseClick{MouseButton::left, false, {}}, 80'000'000}}, 300'000'000);
+    void click(const Vec2& px) {
+        move_to(px);
+        run({{MouseClick{}, 100'000'000}, {MouseClick{MouseButton::left, false, {}}, 80'000'000}}, 300'000'000);
     }
     // Takes the mouse off the part and the panel.
     void step_back() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A newcomer's first session, step by step: what each step's picture and the part itself must show.
 #include "geometry/files/mesh_import.hpp"
+#include "session/state/view_cube.hpp"
 #include "tests/session/newcomer/newcomer_desk.hpp"
 
 namespace burin::session {
@@ -84,11 +85,14 @@ void fill_above_the_top(NewcomerDesk& desk) {
     desk.stroke({{5, 10, kUpright_mm}, {5, 22, kUpright_mm}});
     desk.picture("06-fill");
     EXPECT_GT(desk.volume_mm3(), volume + 2.0 * 400.0);
-    double top = 0.0, mirrored_top = 0.0;
-    for (const Vec3& p : desk.vertices_mm())
-        (p.y < 30.0 ? top : mirrored_top) = std::max(p.y < 30.0 ? top : mirrored_top, p.z);
-    EXPECT_GT(top, kUpright_mm + 5.0);
-    EXPECT_NEAR(top, mirrored_top, 0.05);
+    // As high along all of its way, on both sides: a ball of 4 mm that is led 1.2 mm into the surface.
+    const std::vector<Vec3> vertices = desk.vertices_mm();
+    for (const double y : {10.0, 14.0, 18.0, 22.0, 38.0, 42.0, 46.0, 50.0}) {
+        double top = 0.0;
+        for (const Vec3& p : vertices)
+            if (glm::length(Vec2(p) - Vec2(5.0, y)) < 1.5 * desk.cell_mm()) top = std::max(top, p.z);
+        EXPECT_NEAR(top, kUpright_mm + 6.8, 0.15) << "at " << y;
+    }
 }
 
 void paint_a_stripe(NewcomerDesk& desk) {
@@ -127,6 +131,21 @@ void smooth_and_undo(NewcomerDesk& desk) {
         0.0);
 }
 
+// By a press on the cube's face, and then turned by hand again.
+void look_from_the_right_and_back(NewcomerDesk& desk) {
+    const auto cube = [&] { return view_cube(desk.session->state(), desk.session->room()).value(); };
+    desk.click(desk.px_of_world(cube() * Vec3(0.5, 0.1, 0.0)));
+    desk.step_back();
+    desk.picture("03-from-the-right");
+    const Vec3 right = desk.session->state().world_from_object.orientation * Vec3(1.0, 0.0, 0.0);
+    const SeenFrom& from = desk.session->state().seen_from;
+    const Vec3 middle = desk.session->state().world_from_object * desk.session->room().workpiece_object.center();
+    EXPECT_LT(glm::length(right - glm::normalize(from.eye_world - middle)), 1e-3);
+    desk.press_button("view-front");
+    desk.turn({-120.0, -110.0});
+    desk.press_button("fit-view");
+}
+
 // A user's file goes to the folder that the program was started in.
 void export_it(NewcomerDesk& desk) {
     const std::filesystem::path here = std::filesystem::current_path();
@@ -155,6 +174,8 @@ TEST_F(Newcomer, MakesAnOwnPartAnother) {
     const Extent at_first = extent_of(desk);
     EXPECT_TRUE(at_first.lo.x > 0.0 && at_first.lo.y > 0.0 && at_first.hi.x < kFree_px && at_first.hi.y < 720.0);
     EXPECT_TRUE(desk.session->place_on_panel("first-steps")) << "the card that says what a mouse does";
+    for (const char* const label : {"undo", "export", "colour 1"})
+        EXPECT_TRUE(desk.session->place_on_panel(label)) << label << " without scrolling";
 
     desk.turn({-120.0, -110.0});
     EXPECT_FALSE(desk.session->place_on_panel("first-steps")) << "the first press puts it away";
@@ -167,6 +188,7 @@ TEST_F(Newcomer, MakesAnOwnPartAnother) {
     EXPECT_TRUE(fitted.lo.x > 0.0 && fitted.lo.y > 0.0 && fitted.hi.x < kFree_px && fitted.hi.y < 720.0);
     EXPECT_GT(std::max((fitted.hi.x - fitted.lo.x) / kFree_px, (fitted.hi.y - fitted.lo.y) / 720.0), 0.6);
 
+    look_from_the_right_and_back(desk);
     desk.press_button("mirror y");
     cut_with_each_tool(desk);
     fill_above_the_top(desk);
