@@ -96,7 +96,7 @@ Result<void> combine_files(const CombineOptions& options) {
     compute::Surface surface(*lattice);
     surface.mesh_all(*result, pool);
     const LengthUnit unit = options.export_units.value_or(a->unit);
-    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(surface, *result, unit, std::nullopt, pool);
+    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(surface, *result, unit, std::nullopt, 0.0, pool);
     if (!finished) return std::unexpected(finished.error());
     const geometry::TriangleMesh& mesh = finished->mesh;
     if (mesh.triangles.empty() && !finished->too_thin.empty()) {

@@ -95,4 +95,17 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     return names;
 }
 
+void add_mirror_option(Command command, session::SculptOptions& options) {
+    command.option(
+        "--mirror",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (given.empty()) return {};
+            const auto mirror = sculpt::parse_mirror(given.back(), "--mirror " + given.back());
+            if (!mirror) return std::unexpected(mirror.error());
+            options.mirror = *mirror;
+            return {};
+        },
+        "Carve the other side as well, across planes through the workpiece's middle: x, y, z, or several such as xz");
+}
+
 }  // namespace burin::app

@@ -21,6 +21,7 @@
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
 #include "gpu/device.hpp"
+#include "sculpt/crumbs.hpp"
 #include "session/drive/session.hpp"
 
 namespace burin::app {
@@ -69,16 +70,7 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
         .option("--smooth-strength", options.tool.smooth_strength, "With --operation smooth: 0 does nothing, 1 is most")
         .within(session::kSmoothStrengthBounds)
         .show_default();
-    command.option(
-        "--mirror",
-        [&options](const std::vector<std::string>& given) -> Result<void> {
-            if (given.empty()) return {};
-            const auto mirror = sculpt::parse_mirror(given.back(), "--mirror " + given.back());
-            if (!mirror) return std::unexpected(mirror.error());
-            options.mirror = *mirror;
-            return {};
-        },
-        "Carve the other side as well, across planes through the workpiece's middle: x, y, z, or several such as xz");
+    add_mirror_option(command, options);
     command.flag("!--no-merge", options.merge_rows,
                  "One update for each row of the stroke, instead of one for a straight run of rows");
     command.option("--stroke", options.stroke, "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button");
@@ -125,6 +117,9 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
                    "Where to write the carved mesh: .stl, .ply (with colour) or .obj; may be repeated");
     command.option("--simplify", options.simplify_m,
                    "Export fewer triangles: the surface moves at most this far, in metres");
+    command.option("--crumbs", options.crumbs_m,
+                   formatted("Export no loose pieces below this size, in metres; 0 keeps all; else %g cells",
+                             sculpt::kCrumbCells));
     command.option("--pictures", options.pictures,
                    "A folder for before.png, after.png, left.png, right.png, stereo.png");
     command.option("--report", options.report, "A JSON file for all figures; plots of what was felt go beside it");

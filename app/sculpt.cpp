@@ -205,6 +205,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     if (const auto ok = check_all_outputs(options); !ok) return ok;
     if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
+    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return ok;
     sculpt::Stroke stroke;
     if (!options.stroke.empty()) {
         Result<sculpt::Stroke> read = sculpt::read_stroke(options.stroke);
@@ -271,8 +272,9 @@ Result<void> sculpt(const session::SculptOptions& options) {
     }
 
     const LengthUnit export_unit = options.export_units.value_or(workpiece->unit);
-    const Result<sculpt::FinishedMesh> finished =
-        sculpt::finish_mesh(carving.surface(), carving.engine().solid(), export_unit, options.simplify_m, pool);
+    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(
+        carving.surface(), carving.engine().solid(), export_unit, options.simplify_m,
+        options.crumbs_m.value_or(sculpt::kCrumbCells * carving.surface().lattice().spacing_m), pool);
     if (!finished) return std::unexpected(finished.error());
     const geometry::TriangleMesh& mesh = finished->mesh;
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
@@ -283,6 +285,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
     if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
     report["mesh"] = describe_mesh(mesh, export_unit);
     report["mesh"]["self_intersections"] = finished->self_intersections;
+    report["mesh"]["crumbs"] = {{"dropped", finished->crumbs.count}, {"below_m", finished->crumbs.below_m}};
+    if (finished->crumbs.count > 0) std::printf("  %s\n", sculpt::in_words(finished->crumbs).c_str());
     report["slivers"] = finished->slivers;
     if (!finished->simplification.is_null()) report["simplification"] = finished->simplification;
     if (!undone.is_null()) report["undo"] = undone;

@@ -335,6 +335,7 @@ WorldCommand::WorldCommand(Command app)
     command_.option("--tool", o.session.tool.shape,
                     sculpt::alternatives(sculpt::tool_synopses()) +
                         ", in metres; else a ball whose radius is 1.5 % of the world's longest side");
+    add_mirror_option(command_, o.session);
     command_.option("--stroke", o.exploration.stroke,
                     "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button, along which a simulated hand goes");
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
@@ -367,6 +368,8 @@ std::string WorldCommand::misuse() const {
     const bool along_a_stroke = !exploration.stroke.empty();
     if (along_a_stroke && !options_->session.workpiece.source.empty())
         return "--workpiece belongs to a session, and along a --stroke nothing is carved";
+    if (along_a_stroke && options_->session.mirror.any())
+        return "--mirror belongs to a session, and along a --stroke nothing is carved";
     if (along_a_stroke && !options_->session.tool.shape.empty())
         return "--tool belongs to a session: along a --stroke a ball touches, of --radius";
     if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";

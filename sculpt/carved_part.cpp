@@ -26,7 +26,8 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     };
     if (wanted.refused) return ended(wanted.refused->line());
     WorkerPool alone(1);
-    const Result<FinishedMesh> finished = finish_mesh(surface, solid, wanted.unit, std::nullopt, alone);
+    const Result<FinishedMesh> finished =
+        finish_mesh(surface, solid, wanted.unit, std::nullopt, wanted.crumbs_m, alone);
     if (!finished) return ended(finished.error().line());
     if (finished->mesh.triangles.empty() && !finished->too_thin.empty()) return ended(name + ": " + finished->too_thin);
     if (finished->mesh.triangles.empty()) return ended(name + ": there is nothing left to export; undo some strokes");
@@ -38,6 +39,7 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     const auto left = finished->self_intersections["left"].get<std::uint64_t>();
     return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name + ", in " +
                  descriptor_of(wanted.unit).plural +
+                 (finished->crumbs.count > 0 ? "; " + in_words(finished->crumbs) : "") +
                  (left > 0 ? "; " + std::to_string(left) + " pairs of them pass through each other" : ""));
 }
 
@@ -156,7 +158,9 @@ void CarvedPart::note_border(Carver& carver, std::span<const compute::ToolSweep>
     };
     if (carver.said_border || !std::ranges::any_of(sweeps, leaves)) return;
     carver.said_border = true;
-    notify("what is added ends at the border of the room around the workpiece; open it with more --room");
+    notify(
+        "what is added ends at the border of the room around the workpiece; for more, export it (Ctrl+E) and open that "
+        "file with --room 0.5");
 }
 
 bool CarvedPart::has_news() const {

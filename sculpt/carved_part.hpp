@@ -40,6 +40,7 @@ struct ExportSurface {
     std::string path;    // .stl, .ply or .obj
     std::string name{};  // what the message calls it; empty: its path
     LengthUnit unit = LengthUnit::m;
+    double crumbs_m = 0.0;           // loose pieces below this size are left out (crumbs.hpp)
     std::size_t asked_by = 0;        // comes back with the outcome; whoever gives the order knows what it means
     std::optional<Error> refused{};  // why nothing is written; carving takes the same course as if it were
 };

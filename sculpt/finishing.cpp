@@ -83,8 +83,8 @@ Result<SimplifiedMesh> simplify_with_progress(const geometry::TriangleMesh& numb
 }
 
 Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute::Solid& solid, LengthUnit unit,
-                                 std::optional<double> simplify_bound_m, WorkerPool& pool) {
-    FinishedMesh finished{surface.welded(unit), unit, {}, {}, {}, {}};
+                                 std::optional<double> simplify_bound_m, double crumbs_m, WorkerPool& pool) {
+    FinishedMesh finished{surface.welded(unit), unit, {}, {}, {}, {}, {}};
     const compute::RepairReport repair = compute::repair_intersections(finished.mesh, surface, solid, pool, unit);
     finished.self_intersections = describe(repair);
     if (repair.left > 0) {
@@ -102,6 +102,7 @@ Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute:
     finished.slivers = describe(slivers, solid.lattice);
     finished.too_thin = too_thin(slivers, solid.lattice);
     if (!finished.too_thin.empty()) std::printf("  %s\n", finished.too_thin.c_str());
+    finished.crumbs = drop_crumbs(finished.mesh, unit, crumbs_m);
     if (simplify_bound_m) {
         Result<SimplifiedMesh> simplified = simplify_with_progress(finished.mesh, unit, *simplify_bound_m, pool);
         if (!simplified) return std::unexpected(simplified.error());

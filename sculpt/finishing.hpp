@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finishes a carved mesh for export: brings it to the numbers that its files will hold, repairs self-intersections,
-// counts slivers and, with --simplify, decimates the triangles. Scaling to a unit and rounding to floats come first, so
-// that what is repaired and counted is what a file has. Prints a line where something cannot be repaired or shown; the
-// figures go into the report.
+// counts slivers, drops loose crumbs and, with --simplify, decimates the triangles. Scaling to a unit and rounding to
+// floats come first, so that what is repaired and counted is what a file has. Prints a line where something cannot be
+// repaired or shown; the figures go into the report.
 // Object frame; lengths in metres, but for the mesh's numbers. Thread: any.
 #pragma once
 
@@ -12,6 +12,7 @@
 #include "base/json.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/repair/decimate.hpp"
+#include "sculpt/crumbs.hpp"
 
 namespace burin::sculpt {
 
@@ -22,6 +23,7 @@ struct FinishedMesh {
     Json self_intersections;  // pairs of triangles found, repaired and left, and what the repair changed
     Json slivers;             // places thinner than the mesh can show, with the first of them
     Json simplification;      // null unless it was asked for
+    DroppedCrumbs crumbs;     // of all shells, before that
     // Says in a sentence how much is thinner than the mesh can show, and from which resolution on it does; empty where
     // nothing is.
     std::string too_thin;
@@ -30,9 +32,10 @@ struct FinishedMesh {
 // Checks the bound of --simplify, which must be a distance above zero; to be called before any long step.
 [[nodiscard]] Result<void> check_simplification(std::optional<double> bound_m);
 
-// Welds and finishes the mesh for files in the unit. The bound must have been checked.
+// Welds and finishes the mesh for files in the unit. The bound must have been checked. crumbs_m: loose pieces below
+// this size are dropped (crumbs.hpp).
 [[nodiscard]] Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute::Solid& solid,
-                                               LengthUnit unit, std::optional<double> simplify_bound_m,
+                                               LengthUnit unit, std::optional<double> simplify_bound_m, double crumbs_m,
                                                WorkerPool& pool);
 
 // Writes a finished mesh as it is.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "devices/trackers/tracker_inbox.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace burin::devices {
@@ -13,8 +14,10 @@ void TrackerInbox::push(TrackerSample sample) {
 void TrackerInbox::refuse(const std::string& why, Nanoseconds now_ns) {
     const std::lock_guard lock(mutex_);
     ++refused_;
-    if (last_message_ns_ && now_ns - *last_message_ns_ < kNanosecondsPerSecond) return;
-    last_message_ns_ = now_ns;
+    std::erase_if(reasons_, [&](const Reason& told) { return now_ns - told.told_ns >= kNanosecondsPerSecond; });
+    const bool is_told = std::ranges::find(reasons_, why, &Reason::why) != reasons_.end();
+    if (is_told || reasons_.size() >= kMostReasons) return;
+    reasons_.push_back({why, now_ns});
     note(why);
 }
 

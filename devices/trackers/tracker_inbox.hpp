@@ -4,7 +4,6 @@
 #pragma once
 
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,10 @@ public:
     static constexpr std::size_t kMostMessages = 64;
 
     void push(TrackerSample sample);
-    // Counts something that was dropped. Says why at most once a second, since a sender of nonsense sends much of it.
+    // Different reasons that are told within a second.
+    static constexpr std::size_t kMostReasons = 4;
+    // Counts something that was dropped. Says why: each reason at most once a second, and only so many, since a sender
+    // of nonsense sends much of it.
     void refuse(const std::string& why, Nanoseconds now_ns);
     void say(std::string message);
 
@@ -33,7 +35,11 @@ private:
     TrackerQueue queue_;
     std::vector<std::string> messages_;
     std::uint64_t refused_ = 0;
-    std::optional<Nanoseconds> last_message_ns_;
+    struct Reason {
+        std::string why;
+        Nanoseconds told_ns = 0;
+    };
+    std::vector<Reason> reasons_;  // told within the last second
 };
 
 }  // namespace burin::devices

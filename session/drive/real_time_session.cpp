@@ -149,8 +149,10 @@ std::vector<InputEvent> LiveFrames::take_tracker_input() {
     if (tracker_ == nullptr) return heard;
     for (devices::TrackerSample& sample : tracker_->take())
         heard.push_back({sample.time_ns - session_.start_ns(), input_of(std::move(sample.input))});
-    for (const std::string& message : tracker_->take_messages()) session_.notify_of_event(message);
-    if (const auto silent = first_word_.look(!heard.empty(), clock_.now_ns())) session_.notify_of_event(*silent);
+    for (const std::string& message : tracker_->take_messages())
+        session_.notify_of_event(message, MessageKind::warning);
+    if (const auto silent = first_word_.look(!heard.empty(), clock_.now_ns()))
+        session_.notify_of_event(*silent, MessageKind::warning);
     return heard;
 }
 

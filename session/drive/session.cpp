@@ -7,9 +7,11 @@
 #include <filesystem>
 
 #include "devices/registry/device_registry.hpp"
+#include "sculpt/crumbs.hpp"
 #include "session/document/journal_folder.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/live/first_time.hpp"
+#include "session/live/opened_room.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/log_outputs.hpp"
@@ -62,9 +64,13 @@ Result<void> check_for_a_session(const SculptOptions& options) {
 // Reports errors in the options before a window opens, also those in the file of a mesh tool.
 Result<void> check(const SculptOptions& options) {
     if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
+    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return ok;
     if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
     if (options.no_workpiece && options.world.empty() && !options.scene)
         return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");
+    if (options.mirror.any() && !has_workpiece(options))
+        return fail("--mirror", "is for a workpiece, and the world has none",
+                    "open it with a --workpiece, or leave it out");
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
         return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
@@ -173,6 +179,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     if (const auto settled = settle_mouse(options); !settled) return settled;
     if (!log) options.workpiece.close_small_holes = true;
     settle_room(options, true);
+    options.usual_crumbs = !log;
     if (const auto ok = check(options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());

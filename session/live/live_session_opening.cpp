@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.hpp"
+#include "sculpt/crumbs.hpp"
 #include "session/document/journal_folder.hpp"
 #include "session/live/live_session.hpp"
 #include "session/live/opened_room.hpp"
@@ -147,6 +148,8 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
     state_ = begin_session(room_, *tool, *feel, *output, std::move(meshes), hands_.handles(), names);
     state_.export_unit = options.export_units.value_or(unit_);
+    const double usual_m = options.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
+    state_.crumbs_m = options.crumbs_m.value_or(usual_m);
     state_.carves = scene_.workpiece() != nullptr;
     state_.mirror = options.mirror;
     if (opened_.view) state_.world_from_object = *opened_.view;
@@ -171,6 +174,7 @@ SculptOptions LiveSession::settled(SculptOptions options) const {
     options.workpiece.units = unit_;
     options.workpiece.close_holes = options.workpiece.close_holes || holes_closed_;
     options.tool = tool_options_;
+    if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
     return options;
 }
 

@@ -153,7 +153,8 @@ private:
         return {};
     }
     Result<void> export_to(const std::string& path) {
-        return order(sculpt::ExportSurface{.path = path, .unit = state_.export_unit, .asked_by = orders_.line});
+        return order(sculpt::ExportSurface{
+            .path = path, .unit = state_.export_unit, .crumbs_m = state_.crumbs_m, .asked_by = orders_.line});
     }
     Result<void> toggle(bool SessionState::* flag) {
         state_.*flag = !(state_.*flag);

@@ -114,6 +114,8 @@ struct SculptOptions {
     std::vector<std::string> exports;                       // STL, PLY, OBJ
     std::optional<LengthUnit> export_units = std::nullopt;  // none: those of the workpiece's file, metres for a shape
     std::optional<double> simplify_m;  // bound on the exported surface's motion; none: all triangles
+    std::optional<double> crumbs_m;    // size below which loose pieces are not exported; none: as usual_crumbs says
+    bool usual_crumbs = false;         // kCrumbCells; else all are kept. No option of the command line
     std::string pictures;              // a folder; empty: none
     std::string report;                // a JSON file; empty: none; plots of the felt stroke lie beside it
     unsigned threads = 0;              // 0: one per core

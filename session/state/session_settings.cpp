@@ -31,6 +31,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--weld", o.workpiece.weld_m);
     visit("--resolution", o.workpiece.resolution, kResolutionBounds);
     visit("--room", o.workpiece.room, kRoomBounds);
+    visit("--crumbs", o.crumbs_m);
     visit("--tool", o.tool.shape);
     visit("--operation", o.tool.operation);
     visit("--material", o.tool.material);

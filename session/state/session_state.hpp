@@ -62,6 +62,7 @@ struct SessionState : HandState {
     bool pressed_cube = false;                  // the left button went down on it
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
+    double crumbs_m = 0.0;  // size below which loose pieces are not exported
     bool quit = false;
     bool discards = false;  // what was not saved is not wanted
 };

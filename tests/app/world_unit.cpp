@@ -37,6 +37,18 @@ TEST(WorldCommand, TellsWhatIsInAWorld) {
     EXPECT_TRUE(file["faults"].empty());
 }
 
+TEST(WorldCommand, MirrorsAWorkpieceAndRefusesToWhereThereIsNone) {
+    const Workplace place;
+    place.write("w.wrl", kWorldHead + "Shape { geometry Box { size 0.1 0.2 0.3 } }");
+    place.write("s.txt", "burin-input 1 test\n0.05 command quit\n");
+    const std::string world = kWorldBurin + " world w.wrl --mirror xz --offscreen --input s.txt";
+    const auto without = place.run(world);
+    EXPECT_EQ(without.status, 1) << without.output;
+    EXPECT_TRUE(tells(without, "--mirror") && tells(without, "--workpiece")) << without.output;
+    const auto with = place.run(world + " --workpiece ball:0.03 --resolution 16");
+    EXPECT_EQ(with.status, 0) << with.output;
+}
+
 TEST(WorldCommand, TellsEveryFaultOfEveryFileAndFails) {
     const Workplace place;
     place.write("a.wrl", kWorldHead + "Shape { geometry Sphere { radius 0 } }\nUSE Nobody");

@@ -68,6 +68,15 @@ TEST_F(Opening, ShowsPicturesBeforeTheSolidIsThere) {
     EXPECT_GT((*made)->carving->surface().triangles(), 0u);
 }
 
+TEST_F(Opening, NamesTheFileInTheTitleOfItsWindow) {
+    if (!can_run("xdotool")) GTEST_SKIP() << "xdotool is not installed";
+    auto presenter = present();
+    ASSERT_TRUE(presenter) << presenter.error().line();
+    presenter->name_windows("part of mine.stl");
+    static_cast<void>(presenter->inputs(0.2));
+    EXPECT_EQ(std::system("xdotool search --name '^part of mine.stl - Burin$' >/dev/null 2>&1"), 0);
+}
+
 TEST_F(Opening, EndsAtOnceByTheEscapeKeyWithItsWindow) {
     if (!can_run("xdotool")) GTEST_SKIP() << "xdotool is not installed";
     auto presenter = present();

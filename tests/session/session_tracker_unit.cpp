@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <set>
 #include <thread>
 
 #include "devices/trackers/udp_tracker.hpp"
@@ -174,6 +175,18 @@ TEST(UdpTracker, SaysWhatItRefusesAtMostOnceASecond) {
     send_nonsense();
     EXPECT_EQ((*opened)->take_messages().size(), 1u) << "a sender that never pauses is told of again";
     EXPECT_EQ((*opened)->refused(), 12u);
+}
+
+TEST(UdpTracker, TellsEachOfSeveralBadLinesAndNotTheFirstAlone) {
+    MonotonicClock clock;
+    const auto port = open_port(clock);
+    const Sender sender(port->port());
+    sender.send("haed 0 0 0 0 0 0 1\nhead nan 0 0 0 0 0 1\ncommand quit\nhaed 0 0 0 0 0 0 1\nhead 0 1.6 2 0 0 0 1");
+    ASSERT_EQ(heard_by(*port, 1).size(), 1u);
+    EXPECT_EQ(port->refused(), 4u);
+    const auto said = port->take_messages();
+    EXPECT_EQ(said.size(), 3u) << "the same line again says nothing new";
+    EXPECT_EQ(std::set<std::string>(said.begin(), said.end()).size(), said.size());
 }
 
 TEST(FirstWordWatch, TellsOnceOfATrackerThatNeverSpeaks) {
