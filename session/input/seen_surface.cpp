@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/contact/tile_block.hpp"
+#include "geometry/mesh/triangle_tree.hpp"
 
 namespace burin::session {
 namespace {
@@ -151,6 +152,23 @@ Vec3 SeenSurface::facing_around(const Vec3& place_object_m, double radius_m, con
     }
     const double length = glm::length(sum);
     return length > 0.0 ? sum / length : towards;
+}
+
+bool SeenSurface::has_room(const Vec3& middle_object_m, double radius_m) const {
+    if (!tiles_) return true;
+    const Vec3 middle = middle_object_m - lattice_.origin_object;
+    for (const std::uint32_t number : tiles_->with_surface) {
+        const Box box = box_of(number);
+        const Vec3 outside = glm::max(glm::max(box.lo - middle, middle - box.hi), Vec3(0.0));
+        if (glm::dot(outside, outside) > radius_m * radius_m) continue;
+        const geometry::SurfaceTile& tile = *tiles_->of_grid[number];
+        for (std::size_t i = 0; i < tile.triangles(); ++i) {
+            const geometry::Triangle t = triangle_of(tile, i);
+            const Vec3 away = geometry::nearest_point({t.a, t.b, t.c}, middle) - middle;
+            if (glm::dot(away, away) < radius_m * radius_m) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace burin::session

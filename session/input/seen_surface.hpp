@@ -2,7 +2,7 @@
 // The carved surface as the frames know it, for what the mouse points at: where a ray meets it, and which way it faces
 // around there.
 //
-// Data flow: SurfaceUpdate (the tiles that changed, never to change again) -> take() -> first_hit(), facing_around(). A
+// Data flow: SurfaceUpdate (the tiles that changed, never to change again) -> take() -> first_hit() and the rest. A
 // copy shares the tiles and costs no more than a pointer: what is taken later changes the original alone. So a stroke
 // keeps the surface as it was when it began (surface_hand.hpp), and a replay, whose frames take the same updates as the
 // recorded ones did, finds the same bits.
@@ -51,6 +51,8 @@ public:
     // Returns how far its lowest point is along a direction from the object's origin; nothing where there is none.
     // Looks at the vertices of the few tiles whose boxes reach down so far.
     [[nodiscard]] std::optional<double> lowest_along_m(const Vec3& up_object) const;
+    // Returns whether no triangle is nearer to a place than the radius.
+    [[nodiscard]] bool has_room(const Vec3& middle_object_m, double radius_m) const;
 
 private:
     struct Tiles {

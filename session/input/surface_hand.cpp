@@ -19,11 +19,28 @@ constexpr double kFaces = 0.15;
 // A surface that turns from the last contact's by more than 45 degrees and is seen at less than 15 is what lies behind
 // an edge, such as a hole's wall.
 constexpr double kTurns = 0.7, kGrazes = 0.26;
+// Of the tool's half width: what is farther below the last contact's plane is a hole or a groove, which the tool enters
+// where a ball of so much of its half width has room.
+constexpr double kBelow = 0.25, kRoom = 0.8;
+
+// How far a place is above the plane of a contact.
+double above_m(const SurfaceContact& last, const Vec3& place_object_m) {
+    return glm::dot(place_object_m - last.place_object_m, last.normal_object);
+}
 
 // Whether a hit goes on with the surface of the last contact.
-bool goes_on(const SurfaceHit& hit, const SurfaceContact& last, const Ray& ray, double half_width_m) {
+bool goes_on(const SeenSurface& surface, const SurfaceHit& hit, const SurfaceContact& last, const Ray& ray,
+             double half_width_m) {
     const bool turns = glm::dot(hit.normal_object, last.normal_object) < kTurns;
     if (turns && -glm::dot(hit.normal_object, ray.direction) < kGrazes) return false;
+    const double below_m = -above_m(last, hit.place_object_m);
+    const bool is_edge = turns && below_m > 0.0;
+    // A wall that lies lower and faces back is the far one of a hole, with air before it.
+    if (is_edge && glm::dot(hit.normal_object, hit.place_object_m - last.place_object_m) < 0.0) return false;
+    if (is_edge || below_m > kBelow * half_width_m) {
+        const Vec3 facing = surface.facing_around(hit.place_object_m, half_width_m, hit.normal_object);
+        if (!surface.has_room(hit.place_object_m + half_width_m * facing, kRoom * half_width_m)) return false;
+    }
     const Vec3 to_last = last.place_object_m - ray.origin;
     const double along_m = glm::dot(to_last, ray.direction);
     const double across_m = glm::length(to_last - along_m * ray.direction);
@@ -71,9 +88,10 @@ PointedAt pointed_at(SurfaceHand hand, const Ray& ray, const SeenSurface& now, c
     const double clear_m = kClear * tool.half_width_m;
     PointedAt pointed;
     pointed.on_surface = hit.has_value();
-    const bool stays = hit && (!hand.pressed || !hand.last || goes_on(*hit, *hand.last, ray, tool.half_width_m));
-    const bool hidden =
-        hit && !stays && glm::dot(hand.last->place_object_m - ray.origin, ray.direction) > hit->distance_m;
+    const bool stays =
+        hit && (!hand.pressed || !hand.last || goes_on(surface, *hit, *hand.last, ray, tool.half_width_m));
+    const bool hidden = hit && !stays && above_m(*hand.last, hit->place_object_m) > 0.0 &&
+                        glm::dot(hand.last->place_object_m - ray.origin, ray.direction) > hit->distance_m;
     if (stays || hidden) {
         const SurfaceContact contact{hit->place_object_m,
                                      surface.facing_around(hit->place_object_m, tool.half_width_m, hit->normal_object)};

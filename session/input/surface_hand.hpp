@@ -7,9 +7,10 @@
 // the stroke cuts, and the tool's way depends on the mouse alone and not on how many frames show it
 // (docs/decisions/038-the-mouse-is-a-hand.md).
 // Hardest case: the ray leaves what the stroke is on, for the air, a hole, or something before or behind it. A stroke
-// goes on where the ray meets the surface about where the last contact's plane lets it expect; elsewhere the tool is
-// lifted. Behind, and over air, it hovers at the depth of the last contact, and the stroke goes on where it returns;
-// before it rests on what hides the stroke, without working.
+// goes on where the ray meets the surface about where the last contact's plane lets it expect, and into what lies below
+// that plane where the tool has room there and no air is in between; elsewhere the tool is lifted. Behind, over a hole
+// and over air it hovers at the depth of the last contact, and the stroke goes on where it returns; before it rests on
+// what hides the stroke, without working.
 // Frame: object, metres; pixels of the output. Pure; one thread.
 #pragma once
 

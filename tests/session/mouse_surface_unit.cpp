@@ -2,6 +2,7 @@
 // The mouse as a hand on the surface of an own part: where the tool goes, how deep a stroke is, what a stroke does
 // where the ray leaves what it was on.
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "tests/session/mouse_desk.hpp"
@@ -224,6 +225,65 @@ TEST(MouseOnSurface, AStrokeGoesOverAHoleAndOnBehindItAndCutsNothingWithin) {
     EXPECT_NEAR(left, kThick_mm - kDepth_mm, kBears_mm);
     EXPECT_NEAR(right, kThick_mm - kDepth_mm, kBears_mm);
     EXPECT_LT(within, 0.02) << "the hole's walls";
+}
+
+namespace {
+
+// A plate of 80 x 60 x 8 mm with a round hole of 8 mm through its middle.
+std::string drilled_plate() {
+    constexpr int kSides = 48;
+    Corners all;
+    const auto inner = [](int k, double z) {
+        const double turn = 2.0 * std::numbers::pi * k / kSides;
+        return Vec3(40.0 + 4.0 * std::cos(turn), 30.0 + 4.0 * std::sin(turn), z);
+    };
+    // The point of the outline in the same direction.
+    const auto outer = [&](int k, double z) {
+        const Vec3 out = inner(k, z) - Vec3(40.0, 30.0, z);
+        return Vec3(40.0, 30.0, z) +
+               out * std::min(40.0 / std::max(std::abs(out.x), 1e-9), 30.0 / std::max(std::abs(out.y), 1e-9));
+    };
+    const auto quad = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { add_quad(all, a, b, c, d); };
+    for (int k = 0; k < kSides; ++k) {
+        const int n = k + 1;
+        // The plate's corners lie between two of them.
+        const Vec3 a = outer(k, 8), b = outer(n, 8), low(0, 0, -8);
+        const bool turns = std::abs(a.x - b.x) > 1e-6 && std::abs(a.y - b.y) > 1e-6;
+        const Vec3 corner(a.x + b.x > 80.0 ? 80.0 : 0.0, a.y + b.y > 60.0 ? 60.0 : 0.0, 8.0);
+        const Vec3 middle = turns ? corner : 0.5 * (a + b);
+        quad(a, middle, b, inner(n, 8));
+        for (const Vec3& p : {a, inner(n, 8.0), inner(k, 8.0)}) all.push_back(p);
+        quad(b + low, middle + low, a + low, inner(k, 0));
+        for (const Vec3& p : {b + low, inner(k, 0.0), inner(n, 0.0)}) all.push_back(p);
+        quad(a + low, middle + low, middle, a);
+        quad(middle + low, b + low, b, middle);
+        quad(inner(n, 0), inner(k, 0), inner(k, 8), inner(n, 8));
+    }
+    return stl_of(all);
+}
+
+}  // namespace
+
+// Seen aslant the ray meets the far wall of a hole that is narrower than the tool: the ball dived in and gnawed it.
+TEST(MouseOnSurface, AStrokeOverAHoleNarrowerThanItsToolGoesStraightOnAndLeavesItsWalls) {
+    for (const double y_mm : {30.0, 33.5, 26.5}) {
+        MouseDesk desk(drilled_plate(), "ball:0.006");
+        desk.run({{MouseClick{MouseButton::right, true, {}}, 8'000'000}});
+        const Vec2 middle(640.0, 360.0);
+        desk.drag(middle, middle + Vec2(60.0, -90.0));
+        desk.run({{MouseClick{MouseButton::right, false, {}}, 8'000'000}}, 300'000'000);
+        desk.stroke({{15, y_mm, 8}, {65, y_mm, 8}});
+        double deepest = 8.0, far_off = 0.0;
+        for (const Vec3& p : desk.vertices_mm()) {
+            if (p.x < 12.0 || p.x > 68.0 || p.y < 15.0 || p.y > 45.0) continue;
+            const double from_axis = glm::length(Vec2(p) - Vec2(40.0, 30.0));
+            // What lies below the groove, above the plate's back, is the hole's wall, where it was.
+            if (p.z < 8.0 - 0.3 * 6.0 - 0.1 && p.z > 0.2) far_off = std::max(far_off, std::abs(from_axis - 4.0));
+            if (from_axis > 5.0 && std::abs(p.y - y_mm) < 1.0 && p.z > 1.0) deepest = std::min(deepest, p.z);
+        }
+        EXPECT_NEAR(deepest, 8.0 - 0.3 * 6.0, 2.0 * kBears_mm) << y_mm;
+        EXPECT_LT(far_off, 0.1) << y_mm << ": the hole's wall";
+    }
 }
 
 TEST(MouseOnSurface, BothEyesSeeTheToolWhereTheCursorIsFromBetweenThem) {
