@@ -89,7 +89,9 @@ Result<void> convert_document(const ConvertOptions& options) {
     compute::Surface surface(solid.lattice);
     surface.mesh_all(solid, pool);
     const LengthUnit unit = options.export_units.value_or(opened->workpiece.unit);
-    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(surface, solid, unit, options.simplify_m, pool);
+    constexpr double kAllCrumbs_m = 0.0;  // what a document holds is converted whole
+    const Result<sculpt::FinishedMesh> finished =
+        sculpt::finish_mesh(surface, solid, unit, options.simplify_m, kAllCrumbs_m, pool);
     if (!finished) return std::unexpected(finished.error());
     if (finished->mesh.triangles.empty())
         return fail(options.in,
