@@ -156,8 +156,10 @@ Result<Saved> DocumentWriter::write(SaveRequest& request) {
     if (request.changed_alone) {
         request.content = merged(std::exchange(owed_, {}), std::move(request.content));
     } else {
+        std::error_code ignored;
+        // All of it may go to the place that it has already, and that is there: then that is updated.
+        if (request.path != path_ || !std::filesystem::exists(path_, ignored)) version_.reset();
         path_ = request.path;
-        version_.reset();
         owed_ = {};
     }
     const Result<Saved> saved = version_ ? update_document(path_, request.content, *version_, vfs_)

@@ -24,6 +24,8 @@ static_assert(std::endian::native == std::endian::little, "ends are copied as th
 const geometry::Material kLostMaterial{"lost and made again", {200, 40, 40}};
 constexpr std::array<const char*, 3> kRaysAlong{"rays x", "rays y", "rays z"};
 constexpr const char *kHead = "head", *kRays = "rays";
+// What any workpiece has (compute/rays/lattice.cpp) lies within these.
+constexpr double kSmallestSpacing_m = 1e-14, kLargestSpacing_m = 1e9, kFarthestOrigin_cells = 0x1p40;
 
 int columns_of(const compute::Lattice& lattice, int axis) { return (lattice.rays_u(axis) + kPageSide - 1) / kPageSide; }
 
@@ -106,19 +108,21 @@ std::optional<compute::Lattice> lattice_in(const Json& head) {
     if (!are_numbers(origin, 3) || !are_numbers(cells, 3) || spacing == nullptr || !is_number(*spacing)) return {};
     compute::Lattice lattice;
     lattice.spacing_m = spacing->get<double>();
-    if (!(lattice.spacing_m > 0.0)) return {};
+    if (!(lattice.spacing_m >= kSmallestSpacing_m && lattice.spacing_m <= kLargestSpacing_m)) return {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         lattice.origin_object[static_cast<int>(axis)] = (*origin)[axis].get<double>();
         const double along = (*cells)[axis].get<double>();
         if (!(along >= 1.0 && along <= shared::kMaxCells)) return {};
         lattice.cells[axis] = static_cast<int>(along);
     }
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(lattice.origin_object[axis]) <= kFarthestOrigin_cells * lattice.spacing_m)) return {};
     return lattice;
 }
 
 std::optional<std::vector<geometry::Material>> materials_in(const Json& head) {
     const Json* list = find_value(head, "/materials");
-    if (list == nullptr || !list->is_array() || list->size() > 255) return {};
+    if (list == nullptr || !list->is_array() || list->empty() || list->size() > 255) return {};
     std::vector<geometry::Material> materials;
     for (const Json& one : *list) {
         const Json *name = find_value(one, "/name"), *colour = find_value(one, "/colour");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "document/journal.hpp"
 #include "sculpt/saved_solid.hpp"
@@ -28,18 +29,44 @@ std::string exact(std::span<const double> numbers) {
     return text;
 }
 
-std::optional<Similarity> view_in(const std::string& text) {
-    const auto n = sculpt::parse_numbers(text, 8, kView);
-    if (!n || !((*n)[7] > 0.0)) return std::nullopt;
-    const Quat turned((*n)[3], (*n)[4], (*n)[5], (*n)[6]);
-    if (!(glm::length(turned) > 0.0)) return std::nullopt;
-    return Similarity{{(*n)[0], (*n)[1], (*n)[2]}, turned, (*n)[7]};
+// What is seen of a workpiece, and from where, lies within these by far.
+constexpr double kSmallestSeen_m = 1e-9, kLargestSeen_m = 1e9, kFarthestSeen_m = 1e12, kTurnTolerance = 1e-3;
+
+void add_to(std::string& told, const std::string& more) { told += (told.empty() ? "" : "; ") + more; }
+
+// Returns the saved view of a workpiece of this size; nothing where none was saved, or it is damaged, which is told.
+std::optional<Similarity> view_in(const document::DocumentReader& reader, double size_m, std::string& lost) {
+    if (!reader.facts().contains(kView)) return std::nullopt;
+    const auto n = sculpt::parse_numbers(reader.fact(kView), 8, kView);
+    const auto is_near = [](double at_m) { return std::abs(at_m) <= kFarthestSeen_m; };
+    const auto is_sound = [&] {
+        const double turn = glm::length(Quat((*n)[3], (*n)[4], (*n)[5], (*n)[6])), seen_m = (*n)[7] * size_m;
+        return std::ranges::all_of(std::span(*n).first(3), is_near) && std::abs(turn - 1.0) <= kTurnTolerance &&
+               seen_m >= kSmallestSeen_m && seen_m <= kLargestSeen_m;
+    };
+    if (n && is_sound()) return Similarity{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5], (*n)[6]}, (*n)[7]};
+    add_to(lost, "its view is damaged: it is seen as new work is");
+    return std::nullopt;
 }
 
-Box bounds_in(const std::string& text, const compute::Lattice& lattice) {
-    const auto n = sculpt::parse_numbers(text, 6, kBounds);
-    if (!n) return sculpt::workpiece_bounds(lattice);
-    return {{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+// Returns the saved bounds of the workpiece, which lie in the lattice; where they are damaged, which is told, the
+// lattice's.
+Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& lattice, std::string& lost) {
+    if (!reader.facts().contains(kBounds)) return sculpt::workpiece_bounds(lattice);
+    const auto n = sculpt::parse_numbers(reader.fact(kBounds), 6, kBounds);
+    const Box most = sculpt::lattice_bounds(lattice);
+    const auto is_sound = [&] {
+        double longest_m = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double lo = (*n)[static_cast<std::size_t>(axis)], hi = (*n)[static_cast<std::size_t>(axis) + 3];
+            if (!(most.lo[axis] <= lo && lo <= hi && hi <= most.hi[axis])) return false;
+            longest_m = std::max(longest_m, hi - lo);
+        }
+        return longest_m >= lattice.spacing_m;
+    };
+    if (n && is_sound()) return {{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+    add_to(lost, "the workpiece's bounds are damaged: those of its lattice are taken");
+    return sculpt::workpiece_bounds(lattice);
 }
 
 // Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
@@ -80,20 +107,19 @@ Result<OpenedWork> open_document(const std::string& path) {
     Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, path);
     if (!loaded) return std::unexpected(loaded.error());
     OpenedWork opened{.workpiece = {.solid = std::move(loaded->solid), .report = {}}};
-    if (const auto changed = apply_changes(*reader, opened); !changed)
-        loaded->lost += (loaded->lost.empty() ? "" : "; ") + changed.error().what;
+    if (const auto changed = apply_changes(*reader, opened); !changed) add_to(loaded->lost, changed.error().what);
     say_where_it_goes(*reader, opened);
     sculpt::LoadedWorkpiece& workpiece = opened.workpiece;
     workpiece.unit = length_unit(reader->fact(kUnit)).value_or(LengthUnit::m);
-    workpiece.bounds_object = bounds_in(reader->fact(kBounds), workpiece.solid.lattice);
+    workpiece.bounds_object = bounds_in(*reader, workpiece.solid.lattice, loaded->lost);
     workpiece.size_m = workpiece.bounds_object.extent();
     workpiece.size = path + ": " + in_millimetres(workpiece.size_m) + ", saved from " + reader->fact(kSource);
     workpiece.report = {{"source", path}, {"size", workpiece.size}, {"made_from", reader->fact(kSource)}};
+    opened.view = view_in(*reader, sculpt::longest_side_m(workpiece.bounds_object), loaded->lost);
     if (!loaded->lost.empty()) {
         opened.lost = path + ": " + loaded->lost;
         workpiece.report["lost"] = loaded->lost;
     }
-    opened.view = view_in(reader->fact(kView));
     for (const char* fact : {kSource, document::kSourceDigestFact, kSettings})
         if (reader->facts().contains(fact)) opened.origin[fact] = reader->fact(fact);
     return opened;

@@ -27,6 +27,7 @@ document::DocumentWriter& DocumentSide::writer() {
 
 void DocumentSide::opened(const std::string& path, const document::Version& version) {
     path_ = name_ = path;
+    state_ = FileState::written;
     writer().have(path, version);
 }
 
@@ -42,7 +43,14 @@ void DocumentSide::began_with(const std::string& source) {
 
 document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& files, const SculptOptions& options,
                                             document::Content content) {
-    const std::string name = !wanted.text.empty() ? wanted.text : !name_.empty() ? name_ : name_from(options);
+    std::error_code ignored;
+    const bool is_there = std::filesystem::exists(path_, ignored);
+    // Where nothing was written and something is now, that is another's.
+    if (state_ == FileState::failed && is_there) path_.clear();
+    const bool is_gone = state_ == FileState::written && !is_there;
+    const bool is_again = wanted.text.empty() || wanted.text == asked_;
+    const std::string usual = !name_.empty() ? name_ : name_from(options);
+    const std::string name = is_again && !name_.empty() ? name_ : !wanted.text.empty() ? wanted.text : usual;
     document::SaveRequest request{.path = name, .name = name, .content = std::move(content), .asked_by = wanted.line};
     request.content.facts.insert(origin_.begin(), origin_.end());
     if (source_digest_.valid()) request.content.facts[document::kSourceDigestFact] = source_digest_.get();
@@ -51,12 +59,18 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
         request.refused = place.error();
         return request;
     }
+    const bool is_of_log = !options.live.input.empty();
     request.name = place->shown;
-    request.changed_alone = place->is_current;
+    request.changed_alone = place->is_current && !is_gone;  // else the whole, as a new file
     request.path = place->is_current ? path_ : place->path;
-    request.place = place->replaces ? document::Place::replaced : document::Place::nothing;
+    // A user's file that is there is another's, unless it was opened or written here; then it is updated.
+    request.place = place->replaces && is_of_log ? document::Place::replaced : document::Place::nothing;
+    if (!place->is_current) {
+        asked_ = wanted.text;
+        name_ = is_of_log ? name : request.path;
+    }
+    if (!request.changed_alone) state_ = FileState::asked_for;
     path_ = request.path;
-    if (!request.changed_alone) name_ = name;
     return request;
 }
 
@@ -84,7 +98,16 @@ std::string DocumentSide::end_journal(bool discards) {
 }
 
 std::vector<document::SaveOutcome> DocumentSide::take_outcomes() {
-    return writer_ ? writer_->take_outcomes() : std::vector<document::SaveOutcome>{};
+    std::vector<document::SaveOutcome> outcomes;
+    if (writer_) outcomes = writer_->take_outcomes();
+    for (const document::SaveOutcome& ended : outcomes) {
+        if (ended.path != path_) continue;
+        if (ended.saved)
+            state_ = FileState::written;
+        else if (state_ == FileState::asked_for)
+            state_ = FileState::failed;
+    }
+    return outcomes;
 }
 
 void DocumentSide::finish() {

@@ -44,9 +44,14 @@ public:
     [[nodiscard]] document::DocumentWriter& writer();
 
 private:
+    // What is known of the document at its place. failed: nothing has been written there.
+    enum class FileState : std::uint8_t { asked_for, written, failed };
+
     std::unique_ptr<document::DocumentWriter> writer_;  // since the first use
-    std::string path_, name_;                           // of the document; empty: it has no name yet
-    std::map<std::string, std::string> origin_;         // facts
+    std::string path_, name_;                           // of the document; empty: it has none yet
+    std::string asked_;                                 // the name that led to that place; empty: none was given
+    FileState state_ = FileState::asked_for;
+    std::map<std::string, std::string> origin_;  // facts
     std::shared_future<std::string> source_digest_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/json.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
@@ -142,6 +143,31 @@ TEST(SavedSolid, HasLostRaysMadeAgainToACellAndShowsWhere) {
             }
         }
     }
+}
+
+TEST(SavedSolid, WithAnImpossibleNumberInItsHeadIsRefusedAtOnce) {
+    SavedBall ball;
+    scene::Pages pages;
+    ASSERT_TRUE(ball.carving.save(pages));
+    const std::vector<std::byte> head = pages.pages.at({"head", 0});
+    const Json sound = Json::parse(std::string(reinterpret_cast<const char*>(head.data()), head.size()));
+    const auto expect_refused = [&](const std::string& place, const Json& value) {
+        Json json = sound;
+        json[Json::json_pointer(place)] = value;
+        const std::string text = json.dump();
+        const auto bytes = std::as_bytes(std::span(text));
+        pages.pages.at({"head", 0}) = {bytes.begin(), bytes.end()};
+        const auto loaded = load_solid(pages, "ball.burin");
+        ASSERT_FALSE(loaded) << place << " " << value.dump();
+        EXPECT_TRUE(loaded.error().line().contains("open an earlier copy")) << loaded.error().line();
+    };
+    for (const double spacing : {1e300, 1e100, 1e12, 1e-300, 0.0, -1.0}) expect_refused("/spacing_m", spacing);
+    for (const double origin : {1e300, -1e300, 1e30}) expect_refused("/origin_m/1", origin);
+    for (const double cells : {0.0, -3.0, 1e300, 5000.0}) expect_refused("/cells/2", cells);
+    for (const char* const place : {"/spacing_m", "/origin_m", "/cells", "/materials", "/page_side"})
+        expect_refused(place, nullptr);
+    expect_refused("/materials", Json::array());
+    expect_refused("/page_side", 1e300);
 }
 
 TEST(SavedSolid, OfDamagedBytesIsToldAndNeverTaken) {

@@ -121,6 +121,28 @@ TEST_F(DocumentOfASession, WithoutANameIsToldOfAndOpensByItsJournal) {
     EXPECT_TRUE(fs::is_empty(place / "k")) << thrown.output;
 }
 
+// The facts of a document have no check sum: a number there that no session could have saved is told, not used.
+TEST_F(DocumentOfASession, WithImpossibleBoundsOrViewIsOpenedWithTheUsualOnesAndTold) {
+    ASSERT_EQ(play(kBall, "a", "0.1 command save work.burin\n0.2 command export part.ply\n").status, 0);
+    const auto expect_told = [&](const std::string& fact, const std::string& value, const std::string& told) {
+        fs::copy_file(place / "a/work.burin", place / "bad.burin", fs::copy_options::overwrite_existing);
+        {
+            auto database = record::Database::open(place / "bad.burin", record::Database::Use::write);
+            ASSERT_TRUE(database);
+            ASSERT_TRUE(database->run("UPDATE meta SET value = '" + value + "' WHERE key = '" + fact + "'"));
+        }
+        const auto opened = play("bad.burin", "b", "0.1 command export part.ply\n0.2 command quit\n");
+        EXPECT_EQ(opened.status, 0) << value << ": " << opened.output;
+        EXPECT_TRUE(opened.output.contains(told)) << value << ": " << opened.output;
+        EXPECT_EQ(place.read("a/part.ply"), place.read("b/part.ply")) << value;
+    };
+    for (const char* const bounds : {"0,0,0,0,0,0", "1,1,1,-1,-1,-1", "-1e300,-1,-1,1e300,1,1", "nan,0,0,1,1,1", "x"})
+        expect_told("workpiece bounds m", bounds, "bounds are damaged");
+    for (const char* const view : {"0,0,0,1e200,1e200,0,0,1", "0,0,0,0,0,0,0,1", "1e300,0,0,1,0,0,0,1",
+                                   "0,0,0,1,0,0,0,0", "0,0,0,1,0,0,0,1e200", "0,0,0,1,0,0,0,-1", "x"})
+        expect_told("view", view, "view is damaged");
+}
+
 TEST_F(DocumentOfASession, ThatIsNoneIsRefusedInOneLine) {
     place.write("bad.burin", std::string(3000, 'x'));
     const auto refused = play("bad.burin", "a", "0.1 command quit\n");
