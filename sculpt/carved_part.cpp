@@ -40,7 +40,9 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name + ", in " +
                  descriptor_of(wanted.unit).plural +
                  (finished->crumbs.count > 0 ? "; " + in_words(finished->crumbs) : "") +
-                 (left > 0 ? "; " + std::to_string(left) + " pairs of them pass through each other" : ""));
+                 (left > 0 ? "; " + std::to_string(left) + " pairs of them pass through each other" : "") +
+                 (finished->too_thin.empty() ? "" : "; " + finished->too_thin) +
+                 (loses_colours(finished->mesh, wanted.path) ? "; STL keeps no colours: a .ply file does" : ""));
 }
 
 }  // namespace

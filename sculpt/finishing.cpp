@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "sculpt/finishing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "base/text.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
 #include "geometry/files/mesh_export.hpp"
+#include "geometry/files/mesh_import.hpp"
 #include "sculpt/progress.hpp"
 
 namespace burin::sculpt {
@@ -60,6 +63,14 @@ Result<void> check_precision(const std::string& path, const compute::Lattice& la
                 "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from its "
                 "origin",
                 "move the workpiece nearer to its origin, or export .obj");
+}
+
+bool loses_colours(const geometry::TriangleMesh& mesh, const std::string& path) {
+    if (geometry::mesh_format_of(path) != geometry::MeshFormat::stl) return false;
+    const auto differ = [](const auto& values) {
+        return std::ranges::adjacent_find(values, std::ranges::not_equal_to{}) != values.end();
+    };
+    return differ(mesh.colours) || differ(mesh.triangle_materials);
 }
 
 Result<void> check_simplification(std::optional<double> bound_m) {

@@ -33,6 +33,13 @@ bool looks_like_text(std::string_view text) {
     return equals_ignoring_case(scan.token(), "solid") && text.substr(0, 512).find('\0') == std::string_view::npos;
 }
 
+// Whether nothing in its first kilobyte is other than letters, signs and spaces.
+bool is_plain_text(std::string_view text) {
+    return std::ranges::all_of(text.substr(0, 1024), [](char c) {
+        return (static_cast<unsigned char>(c) >= 32 && c != 127) || c == '\n' || c == '\r' || c == '\t';
+    });
+}
+
 Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
         return fail(name, "has " + std::to_string(bytes.size()) + " bytes, too few for an STL file", kTruncatedRemedy);
@@ -40,6 +47,9 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     const std::uint64_t claimed = bytes_claimed(bytes);
     const std::uint64_t count = (claimed - kHeaderBytes) / kTriangleBytes;
     if (claimed > bytes.size()) {
+        if (is_plain_text(text_of(bytes)))
+            return fail(name, "is a text, but no STL file: that begins with the word solid",
+                        "give a mesh: .stl, .obj, .ply or .off");
         return fail(name,
                     "claims " + std::to_string(count) + " triangles (" + std::to_string(claimed) +
                         " bytes) but has only " + std::to_string(bytes.size()) + " bytes",

@@ -293,7 +293,10 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
                                  if (session.collect(ended) || ended.failed) wake();
                              });
     const haptics::RealtimeNotice notice = threads.start();
-    if (!notice.text.empty()) session.notify_of_event(notice.text);
+    // A tick that comes late disturbs a hand that feels it; who carves with a mouse reads it in the terminal alone.
+    if (!notice.text.empty() && session.hands().felt_by_person()) session.notify_of_event(notice.text);
+    if (!notice.text.empty() && !session.hands().felt_by_person())
+        std::fprintf(stderr, "burin: %s\n", notice.text.c_str());
     frames.begin();
     const Result<void> driven = drive(threads, frames);
     const Result<void> ended = frames.finish(threads);  // also after an error: it completes the recording

@@ -85,6 +85,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.tool = state.tool.shape;
     m.tool_sizes = context.tool_sizes;
     m.operation = state.tool.operation;
+    m.only_touch = state.only_touch;
     const geometry::Material material = sculpt::material_of(state.tool);
     for (std::size_t i = 0; i < 3; ++i) m.colour_srgb[i] = material.colour[i] / 255.0;
     if (!state.feel.hardness_kPa_per_mm_s) m.material = state.feel.preset;

@@ -37,11 +37,12 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     const SceneInput left = feed_panel(input);
     room_.free_width = panel_.free_width(room_, main_eye(), output_.size);
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
+    const wall::StereoMode begun_in = output_on(room_.wall.main).mode;
     SessionStep step =
         step_session(state_, room_, left.events,
                      {dt_s, input.display_ns, main_eye(), tool, left.captured, of_hands, output_, &seen_});
     state_ = std::move(step.state);
-    fit_into_mode(step.orders);
+    fit_into_mode(begun_in, step.orders);
     step.orders.line = input.events.empty() ? 0 : input.events.back().line;
     for (const CommandInput& action : panel_.actions()) {
         if (const auto done = run_command(state_, step.orders, action); !done)
@@ -61,8 +62,9 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
 }
 
 // Two pictures side by side or one above the other leave each another shape: what filled one is cut off in the other.
-void LiveSession::fit_into_mode(SessionOrders& orders) {
-    const wall::StereoMode mode = output_on(room_.wall.main).mode, before = std::exchange(framed_, mode).value_or(mode);
+// A mode that the step itself has come to is the next one's: screen and panel still have the shape of the one before.
+void LiveSession::fit_into_mode(wall::StereoMode mode, SessionOrders& orders) {
+    const wall::StereoMode before = std::exchange(framed_, mode).value_or(mode);
     const bool other_shape = wall::eye_size(mode, output_.size) != wall::eye_size(before, output_.size);
     if (other_shape && room_.wall.desk && state_.mouse == MouseMode::surface)
         static_cast<void>(run_command(state_, orders, RunAction{Action::fit_view}));

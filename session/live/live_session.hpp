@@ -163,7 +163,7 @@ private:
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
     void stand_on_plinth(renderer::Scene& scene) const;
-    void fit_into_mode(SessionOrders& orders);
+    void fit_into_mode(wall::StereoMode mode, SessionOrders& orders);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
     void save(const Asked& wanted, const Give& give);

@@ -93,7 +93,7 @@ Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::opti
         for (const std::string& line : unsaved_work_in(options.live.journal)) notify_of_event(line);
     const sculpt::LoadedWorkpiece& workpiece = made->loaded;
     std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
-    if (!workpiece.closed.empty()) notify(workpiece.closed);
+    if (!workpiece.closed.empty()) notify(workpiece.closed, MessageKind::info);
     unit_ = workpiece.unit;
     holes_closed_ = !workpiece.closed.empty();
     room_.workpiece_object = workpiece.bounds_object;

@@ -12,6 +12,7 @@
 #include "session/live/live_panel.hpp"
 #include "session/record/recordings.hpp"
 #include "session/state/activity.hpp"
+#include "session/state/session_screens.hpp"
 
 namespace burin::session {
 namespace {
@@ -46,13 +47,21 @@ void use_glove(HandRoom& room) {
 
 Vec3 across(const wall::Screen& screen) { return screen.lower_right_world - screen.lower_left_world; }
 
-// The share of a desktop window's picture beside the panel, in the mode that the session begins with.
-double free_width_at_first(const LiveOptions& live, const Room& room) {
-    if (!room.wall.desk || room.wall.has_panel_window()) return 1.0;
+ImageSize asked_window(const LiveOptions& live) {
+    return {static_cast<std::uint32_t>(live.width), static_cast<std::uint32_t>(live.height)};
+}
+
+// The picture of one eye in the mode that the session begins with.
+ImageSize eye_at_first(const LiveOptions& live) {
     const auto mode = live.stereo.empty() ? wall::StereoMode::mono
                                           : wall::parse_stereo_mode(live.stereo).value_or(wall::StereoMode::mono);
-    const ImageSize size{static_cast<std::uint32_t>(live.width), static_cast<std::uint32_t>(live.height)};
-    return beside_panel(room, wall::eye_size(mode, size), size);
+    return wall::eye_size(mode, asked_window(live));
+}
+
+// The share of a desktop window's picture beside the panel.
+double free_width_at_first(const LiveOptions& live, const Room& room) {
+    if (!room.wall.desk || room.wall.has_panel_window()) return 1.0;
+    return beside_panel(room, eye_at_first(live), asked_window(live));
 }
 
 // Says how large the panel is and which share of the picture it leaves free.
@@ -60,9 +69,10 @@ void place_panel(Room& room, const LiveOptions& live) {
     room.panel_scale = live.panel_scale.value_or(1.0);
     room.first_steps = live.first_steps;
     room.free_width = free_width_at_first(live, room);
+    if (!room.wall.desk || room.mouse != MouseMode::surface) return;
+    fit_desk_screen(room.wall, eye_at_first(live));
     // Before the middle of what the panel leaves free, so that nothing there is seen aslant.
-    if (room.wall.desk && room.mouse == MouseMode::surface)
-        room.desk.home_head_world.position_m -= 0.5 * (1.0 - room.free_width) * across(room.screen());
+    room.desk.home_head_world.position_m -= 0.5 * (1.0 - room.free_width) * across(room.screen());
 }
 
 }  // namespace

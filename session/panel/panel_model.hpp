@@ -150,6 +150,7 @@ struct PanelModel {
     sculpt::ToolSpec tool;
     ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;
+    bool only_touch = false;  // none of them works
     std::array<double, 3> colour_srgb{0.88, 0.56, 0.21};
     std::optional<sculpt::FeelPreset> material;  // none: its hardness was given as a number
     double hardness_Ns_per_m3 = 1e6;

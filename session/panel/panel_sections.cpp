@@ -196,7 +196,9 @@ void show_operations(Kit& kit, const PanelModel& model) {
     std::vector<Item> items;
     for (const sculpt::OperationDescriptor& operation : sculpt::operations())
         items.push_back(item_of("operation", operation.name, capitalised(operation.name)));
-    const auto chosen = kit.segments(items, static_cast<std::size_t>(model.operation));
+    // None is lit while the tool only touches; a press on one ends that.
+    const std::size_t lit = model.only_touch ? items.size() : static_cast<std::size_t>(model.operation);
+    const auto chosen = kit.segments(items, lit);
     if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
 }
 

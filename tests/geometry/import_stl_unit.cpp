@@ -63,6 +63,15 @@ TEST(StlImport, RefusesACountThatTheFileCannotHold) {
     }
 }
 
+// It was read as binary: "claims 1936287860 triangles".
+TEST(StlImport, SaysOfATextThatItIsNone) {
+    std::string text;
+    while (text.size() < 800) text += "this is not a mesh at all\r\n";
+    const auto result = import_bytes(bytes_of(text));
+    ASSERT_FALSE(result);
+    EXPECT_TRUE(result.error().what.contains("is a text, but no STL file")) << result.error().line();
+}
+
 TEST(StlImport, RefusesABinaryFileCutAnywhere) {
     const auto whole = binary_stl(kTwoTriangles, 2);
     for (std::size_t size = 0; size < whole.size(); ++size) {

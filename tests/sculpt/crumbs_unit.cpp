@@ -44,6 +44,20 @@ std::size_t shells_in(const geometry::TriangleMesh& mesh) { return geometry::exa
 
 }  // namespace
 
+// A painted part was exported to .stl and came back grey, without a word.
+TEST(ExportedColours, AreToldWhereTheFormatKeepsNone) {
+    const geometry::TriangleMesh painted = part_with_crumbs();
+    geometry::TriangleMesh plain = painted;
+    plain.colours.assign(plain.positions_m.size(), {1, 2, 3});
+    EXPECT_TRUE(loses_colours(painted, "part.stl"));
+    EXPECT_FALSE(loses_colours(painted, "part.ply"));
+    EXPECT_FALSE(loses_colours(plain, "part.stl"));
+    plain.triangle_materials.assign(plain.triangles.size(), 0);
+    EXPECT_FALSE(loses_colours(plain, "part.STL"));
+    plain.triangle_materials.back() = 1;
+    EXPECT_TRUE(loses_colours(plain, "part.STL"));
+}
+
 TEST(Crumbs, BelowASizeAreDroppedAndCountedWithTheirHollows) {
     geometry::TriangleMesh mesh = part_with_crumbs();
     ASSERT_EQ(shells_in(mesh), 6u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands beside the panel's title: the workpiece's name and size, and the frames a second; and what
-// stands below where there is no force.
+// What stands beside the panel's title: the workpiece's name and size, and the frames a second; what stands below
+// where there is no force; and what is lit where the tool only touches.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,6 +69,21 @@ TEST(PanelHeader, EnablesTheAmplifiersWhereTheDeviceReportsAFault) {
                                         {32'000'000, MouseClick{MouseButton::left, false, {}}}};
     panel.feed(press);
     EXPECT_EQ(panel.show(model, 32'000'000).actions, (std::vector<CommandInput>{{"amplifiers", {"on"}}}));
+}
+
+// Cut was lit, and what the tool did was touch.
+TEST(PanelOperations, AreNotLitWhileTheToolOnlyTouches) {
+    const auto look = [](compute::Operation operation, bool only_touch) {
+        PanelModel model = idle_model();
+        model.operation = operation;
+        model.only_touch = only_touch;
+        Panel panel = Panel::create({.size = {340, 1600}}).value();
+        static_cast<void>(panel.show(model, 0));
+        return panel.show(model, 16'000'000).mesh;
+    };
+    EXPECT_FALSE(look(compute::Operation::cut, false) == look(compute::Operation::smooth, false));
+    EXPECT_FALSE(look(compute::Operation::cut, true) == look(compute::Operation::cut, false));
+    EXPECT_TRUE(look(compute::Operation::cut, true) == look(compute::Operation::smooth, true)) << "none of them is";
 }
 
 }  // namespace burin::session
