@@ -21,7 +21,7 @@ constexpr double kFaces = 0.15;
 constexpr double kTurns = 0.7, kGrazes = 0.26;
 // Of the tool's half width: what is farther below the last contact's plane is a hole or a groove, which the tool enters
 // where a ball of so much of its half width has room.
-constexpr double kBelow = 0.25, kRoom = 0.8;
+constexpr double kBelow = 0.5, kRoom = 0.8;
 
 // How far a place is above the plane of a contact.
 double above_m(const SurfaceContact& last, const Vec3& place_object_m) {

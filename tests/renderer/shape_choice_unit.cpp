@@ -47,11 +47,13 @@ TEST(BallFor, LiesOffByAQuarterOfAPixelAtMost) {
 TEST(ShapesIn, AreThoseThatThePartShows) {
     const Primitives primitives = make_primitives();
     const Scene scene = scene_with_tool(0.01);
-    const std::size_t all = shapes_of(scene, primitives).solid.size();
+    const auto sum = [](const Shapes& s) { return s.solid.size() + s.tool.size() + s.hidden.size(); };
+    const std::size_t all = sum(shapes_of(scene, primitives));
+    ASSERT_GE(all, 3u) << "a ball, its stylus, and its outline";
     const auto count = [&](const PixelRect& part, const Savings& savings) {
         const ShownShapes shown = shapes_in(part, scene, primitives, kSize, savings);
-        EXPECT_EQ(shown.shapes.solid.size() + shown.left_out, all);
-        return shown.shapes.solid.size();
+        EXPECT_EQ(sum(shown.shapes) + shown.left_out, all);
+        return sum(shown.shapes);
     };
     EXPECT_EQ(count(all_of(kSize), {}), all);
     EXPECT_EQ(count({460, 140, 40, 40}, {}), all);  // about (0.1 m, 0.2 m)
@@ -66,9 +68,9 @@ TEST(ShapesIn, BallsAreTheSameWhateverThePart) {
     for (const double radius_m : {0.002, 0.01, 0.3}) {
         Scene scene = scene_with_tool(radius_m);
         scene.tool.center_world.x = 0.2;  // cut by the picture's edge
-        const PrimitiveRange whole = shapes_in(all_of(kSize), scene, primitives, kSize, {}).shapes.solid.front().range;
+        const PrimitiveRange whole = shapes_in(all_of(kSize), scene, primitives, kSize, {}).shapes.tool.front().range;
         const PrimitiveRange part =
-            shapes_in({600, 140, 40, 40}, scene, primitives, kSize, {}).shapes.solid.front().range;
+            shapes_in({600, 140, 40, 40}, scene, primitives, kSize, {}).shapes.tool.front().range;
         EXPECT_EQ(whole, part);
         EXPECT_EQ(whole == primitives.balls.back(), radius_m > 0.1);
     }
