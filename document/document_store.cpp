@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <system_error>
 
@@ -52,6 +54,22 @@ Result<Version> version_in(Database& database) {
     const auto saves = database.integer("SELECT value FROM meta WHERE key = '" + std::string(kSavesFact) + "'");
     if (!saves) return std::unexpected(saves.error());
     return Version{std::move(*id), *saves};
+}
+
+// Returns whether a file is at rest as the last who wrote it has closed it (bytes 18 and 19 of SQLite's header): then
+// it is read without leaving anything beside it.
+bool is_at_rest(const std::string& path) {
+    std::array<char, 20> header{};
+    std::ifstream in(path, std::ios::binary);
+    return in.read(header.data(), header.size()) && header[18] == 1 && header[19] == 1;
+}
+
+Result<void> check_version(Database& database, const std::string& path, const Version& known) {
+    const Result<Version> there = version_in(database);
+    if (!there) return std::unexpected(there.error());
+    if (*there == known) return {};
+    return fail(path, "was saved by another window or program meanwhile",
+                "save this one under another name, so that both are kept");
 }
 
 // A name beside the place that nobody has; the process' number keeps two of them apart.
@@ -106,19 +124,24 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
 
 Result<Saved> update_document(const std::string& path, const Content& changed, const Version& known,
                               const std::string& vfs) {
+    if (is_at_rest(path)) {  // another's is not even opened to write to it
+        Result<Database> reader = Database::open(path, Database::Use::read, vfs, kDocumentKind.words);
+        if (!reader) return std::unexpected(reader.error());
+        if (const auto marks = record::check_marks(*reader, path, kDocumentKind); !marks)
+            return std::unexpected(marks.error());
+        if (const auto same = check_version(*reader, path, known); !same) return std::unexpected(same.error());
+    }
     Result<StoreFile> file = StoreFile::open(path, kDocumentKind, vfs);
     if (!file) return std::unexpected(file.error());
     Database& database = file->database();
-    if (const auto begun = database.run("BEGIN IMMEDIATE"); !begun) return std::unexpected(begun.error());
-    Result<Version> there = version_in(database);
-    if (!there) return std::unexpected(there.error());
-    if (*there != known)
-        return fail(path, "was saved by another window or program meanwhile",
-                    "save this one under another name, so that both are kept");
     Saved saved{.version = {known.id, known.saves + 1}, .replaced = true};
-    if (const auto put = put_all(database, changed, saved); !put) {
+    Result<void> done = database.run("BEGIN IMMEDIATE");
+    if (done) done = check_version(database, path, known);
+    if (done) done = put_all(database, changed, saved);
+    if (!done) {
         if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
-        return std::unexpected(put.error());
+        static_cast<void>(file->close());  // at rest, as it was
+        return std::unexpected(done.error());
     }
     // What is committed is safe; a log that cannot be brought in now is by the next who opens the file.
     static_cast<void>(file->close());

@@ -6,6 +6,7 @@
 
 #include "document/document_reader.hpp"
 #include "document/document_rows.hpp"
+#include "document/log_check.hpp"
 
 namespace burin::document {
 namespace {
@@ -98,7 +99,8 @@ std::vector<LeftJournal> left_journals(const std::string& folder) {
         const Result<DocumentReader> reader = DocumentReader::open(path);
         // A living session's cannot be read; others have been put there.
         if (!reader || !reader->facts().contains(kJournalNameFact)) continue;
-        if (reader->changes() == 0 && !reader->facts().contains(kUnsavedFact)) {
+        const bool is_saved = reader->changes() == 0 && !reader->facts().contains(kUnsavedFact);
+        if (is_saved && !is_log_damaged(path)) {
             remove_with_log(path);
             continue;
         }

@@ -24,6 +24,7 @@ static_assert(std::endian::native == std::endian::little, "ends are copied as th
 const geometry::Material kLostMaterial{"lost and made again", {200, 40, 40}};
 constexpr std::array<const char*, 3> kRaysAlong{"rays x", "rays y", "rays z"};
 constexpr const char *kHead = "head", *kRays = "rays";
+constexpr std::size_t kMostMaterials = 255;
 // What any workpiece has (compute/rays/lattice.cpp) lies within these.
 constexpr double kSmallestSpacing_m = 1e-14, kLargestSpacing_m = 1e9, kFarthestOrigin_cells = 0x1p40;
 
@@ -122,7 +123,7 @@ std::optional<compute::Lattice> lattice_in(const Json& head) {
 
 std::optional<std::vector<geometry::Material>> materials_in(const Json& head) {
     const Json* list = find_value(head, "/materials");
-    if (list == nullptr || !list->is_array() || list->empty() || list->size() > 255) return {};
+    if (list == nullptr || !list->is_array() || list->empty() || list->size() > kMostMaterials) return {};
     std::vector<geometry::Material> materials;
     for (const Json& one : *list) {
         const Json *name = find_value(one, "/name"), *colour = find_value(one, "/colour");
@@ -248,9 +249,14 @@ std::optional<bool> inside(const compute::Solid& solid, const std::array<int, 3>
     return std::nullopt;
 }
 
+// Where lost rays were made again, and where they could not be, for no direction tells what was there.
+struct MadeAgain {
+    Box surface, unknown;
+};
+
 // Makes a ray of which nodes are inside: its ends lie in the middle between two nodes.
 std::vector<DexelEnd> ray_through(const compute::Solid& solid, int axis, int u, int v, const LostPages& lost,
-                                  std::uint32_t material) {
+                                  std::uint32_t material, MadeAgain& where) {
     const auto s = static_cast<std::size_t>(axis);
     std::vector<DexelEnd> ends;
     std::array<int, 3> node{};
@@ -259,7 +265,11 @@ std::vector<DexelEnd> ray_through(const compute::Solid& solid, int axis, int u, 
     bool before = false;
     for (int along = 0; along <= solid.lattice.cells[s]; ++along) {
         node[s] = along;
-        const bool now = inside(solid, node, axis, lost).value_or(false);
+        const std::optional<bool> told = inside(solid, node, axis, lost);
+        if (!told)
+            where.unknown.include(
+                solid.lattice.object_from_units(Vec3(node[0], node[1], node[2]) * double{shared::kUnitsPerCell}));
+        const bool now = told.value_or(false);
         const int between = along * shared::kUnitsPerCell - shared::kUnitsPerCell / 2;
         if (now != before)
             ends.push_back(shared::make_end(std::max(between, 0), material, shared::axis_normal(axis, before)));
@@ -273,17 +283,17 @@ std::vector<DexelEnd> ray_through(const compute::Solid& solid, int axis, int u, 
 
 // Makes the rays of a lost page again from those of the other sets; the box takes in where their ends are.
 void make_again(compute::Solid& solid, int axis, std::size_t page, const LostPages& lost, std::uint32_t material,
-                Box& where) {
+                MadeAgain& where) {
     const auto s = static_cast<std::size_t>(axis);
     each_ray(rays_of(solid.lattice, axis, page), [&](int u, int v) {
-        const std::vector<DexelEnd> ends = ray_through(solid, axis, u, v, lost, material);
+        const std::vector<DexelEnd> ends = ray_through(solid, axis, u, v, lost, material, where);
         solid.sets[s].replace(u, v, ends);
         for (const DexelEnd& end : ends) {
             Vec3 units(0.0);
             units[axis] = shared::depth_of(end);
             units[(axis + 1) % 3] = u * shared::kUnitsPerCell;
             units[(axis + 2) % 3] = v * shared::kUnitsPerCell;
-            where.include(solid.lattice.object_from_units(units));
+            where.surface.include(solid.lattice.object_from_units(units));
         }
     });
 }
@@ -291,7 +301,7 @@ void make_again(compute::Solid& solid, int axis, std::size_t page, const LostPag
 // Makes all that is lost again; says in words what that is.
 std::string make_again(compute::Solid& solid, const LostPages& lost) {
     const std::uint32_t material = compute::add_material(solid, kLostMaterial).value_or(0);
-    Box where;
+    MadeAgain where;
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
         for (std::size_t page = 0; page < pages_of(solid.lattice, axis); ++page) {
@@ -301,9 +311,15 @@ std::string make_again(compute::Solid& solid, const LostPages& lost) {
         }
     }
     const std::string pages = std::to_string(count) + (count == 1 ? " page is" : " pages are");
-    if (where.empty()) return pages + " damaged, where there was no surface";
-    return pages + " damaged: the surface there, about " + in_millimetres(where.extent()) +
-           ", was made again, exact to " + in_millimetres(solid.lattice.spacing_m) + ", and is red";
+    const std::string spacing = in_millimetres(solid.lattice.spacing_m);
+    std::string told = pages + " damaged";
+    if (!where.surface.empty())
+        told += ": the surface there, about " + in_millimetres(where.surface.extent()) + ", was made again, exact to " +
+                spacing + ", and is red";
+    if (!where.unknown.empty())
+        return told + (where.surface.empty() ? ": " : "; ") + "what was in about " +
+               in_millimetres(where.unknown.extent()) + " is lost, and is empty now";
+    return where.surface.empty() ? told + ", where there was no surface" : told;
 }
 
 }  // namespace
@@ -371,6 +387,47 @@ void ChangedRays::take(const compute::Solid& solid, scene::Pages& pages) {
     pages.pages[{kRays, 0}] = {bytes.begin(), bytes.end()};
 }
 
+namespace {
+
+bool is_lost_material(const geometry::Material& material) {
+    return material.name == kLostMaterial.name && material.colour == kLostMaterial.colour;
+}
+
+void replace_material(compute::Solid& solid, std::uint32_t from, std::uint32_t to) {
+    for (DexelSet& set : solid.sets) {
+        for (int v = 0; v < set.rays_v(); ++v) {
+            for (int u = 0; u < set.rays_u(); ++u) {
+                const std::span<const DexelEnd> held = set.ends(u, v);
+                const auto is_from = [&](const DexelEnd& end) { return shared::material_of(end) == from; };
+                if (std::ranges::none_of(held, is_from)) continue;
+                std::vector<DexelEnd> ends(held.begin(), held.end());
+                for (DexelEnd& end : ends)
+                    if (is_from(end)) end = {shared::make_end(shared::depth_of(end), to, 0).depth_material, end.normal};
+                set.replace(u, v, ends);
+            }
+        }
+    }
+}
+
+// Takes over the table of materials of a change, which goes on from the solid's. What was lost and made again is not
+// known there: its material, the last, goes behind those of the change. Returns false, and changes nothing, where the
+// table is none of this solid.
+bool take_materials(compute::Solid& solid, std::vector<geometry::Material> materials) {
+    std::vector<geometry::Material>& held = solid.materials;
+    const bool knows_all = materials.size() >= held.size() && (held.empty() || !is_lost_material(held.back()) ||
+                                                               is_lost_material(materials[held.size() - 1]));
+    if (!knows_all) {
+        if (held.empty() || !is_lost_material(held.back()) || materials.size() + 1 < held.size()) return false;
+        const std::size_t last = held.size() - 1, place = std::min(materials.size(), kMostMaterials - 1);
+        if (place == materials.size()) materials.push_back(kLostMaterial);
+        if (place != last) replace_material(solid, static_cast<std::uint32_t>(last), static_cast<std::uint32_t>(place));
+    }
+    held = std::move(materials);
+    return true;
+}
+
+}  // namespace
+
 Result<void> apply_change(compute::Solid& solid, const scene::Pages& change, const std::string& where) {
     const auto damaged = [&] { return fail(where, "a change is damaged", "what came before it is there"); };
     const std::vector<std::byte>*head = change.find({kHead, 0}), *rays = change.find({kRays, 0});
@@ -379,10 +436,9 @@ Result<void> apply_change(compute::Solid& solid, const scene::Pages& change, con
     const Json json = Json::parse(text, text + head->size(), nullptr, false);
     if (json.is_discarded() || lattice_in(json) != solid.lattice) return damaged();
     auto materials = materials_in(json);
-    if (!materials || materials->size() < solid.materials.size()) return damaged();
+    if (!materials) return damaged();
     const std::optional<compute::RayBatch> batch = batch_in(*rays, solid.lattice, materials->size());
-    if (!batch) return damaged();
-    solid.materials = std::move(*materials);
+    if (!batch || !take_materials(solid, std::move(*materials))) return damaged();
     for (const compute::RayBatch::Ray& ray : batch->rays) {
         const compute::RayPlace place = compute::place_of(ray.code);
         solid.sets[static_cast<std::size_t>(place.axis)].replace(place.u, place.v, batch->ends_of(ray));

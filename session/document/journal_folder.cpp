@@ -3,8 +3,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <system_error>
 
@@ -15,6 +17,32 @@ namespace burin::session {
 namespace {
 
 namespace fs = std::filesystem;
+
+// When a journal was written last: what was added last may be in its log.
+fs::file_time_type written_last(const std::string& path) {
+    std::error_code failed, ignored;
+    const auto file = fs::last_write_time(path, ignored), log = fs::last_write_time(path + "-wal", failed);
+    return failed ? file : std::max(file, log);
+}
+
+std::vector<document::LeftJournal> newest_first(std::vector<document::LeftJournal> left) {
+    std::ranges::stable_sort(left, std::greater(),
+                             [](const document::LeftJournal& one) { return written_last(one.path); });
+    return left;
+}
+
+// Returns whether a journal is of the document that was opened from this path, in whatever state: it was then at this
+// path, or where nothing is any more.
+bool is_journal_of(const document::LeftJournal& left, const OpenedWork& opened, const std::string& path) {
+    std::error_code ignored;
+    if (left.of.empty()) return false;
+    return is_same_file(left.of, path) || is_same_file(left.of, opened.document) ||
+           (opened.version && left.base_id == opened.version->id && !fs::exists(left.of, ignored));
+}
+
+std::string told_of(const document::LeftJournal& left) {
+    return "work that was not saved (" + left.name + ") is kept: burin sculpt " + left.path;
+}
 
 }  // namespace
 
@@ -45,21 +73,29 @@ Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options
                                          WorkerPool& pool) {
     Result<OpenedWork> opened = open_work(options, pool);
     if (!opened || opened->document.empty() || folder.empty()) return opened;
-    for (const document::LeftJournal& left : document::left_journals(folder)) {
-        const document::Version base{left.base_id, left.base_saves};
-        if (left.of.empty() || base != opened->version || !is_same_file(left.of, options.source)) continue;
-        Result<OpenedWork> recovered = open_work({.source = left.path}, pool);
-        if (recovered) return recovered;
+    std::vector<document::LeftJournal> left = newest_first(document::left_journals(folder));
+    const auto is_other = [&](const document::LeftJournal& one) {
+        return !is_journal_of(one, *opened, options.source) || is_same_file(one.path, options.source);
+    };
+    std::erase_if(left, is_other);
+    for (auto one = left.begin(); opened->journal.empty() && one != left.end(); ++one) {
+        if (document::Version{one->base_id, one->base_saves} != opened->version) continue;
+        Result<OpenedWork> recovered = open_work({.source = one->path}, pool);
+        if (!recovered) continue;
+        recovered->document = opened->document;  // which may have another name by now
+        opened = std::move(recovered);
+        left.erase(one);
+        break;
     }
+    for (const document::LeftJournal& one : left) opened->kept.push_back(told_of(one));
     return opened;
 }
 
 std::vector<std::string> unsaved_work_in(const std::string& folder) {
     std::vector<std::string> lines;
     if (folder.empty()) return lines;
-    for (const document::LeftJournal& left : document::left_journals(folder))
-        if (left.of.empty())
-            lines.push_back("work that was not saved (" + left.name + ") is kept: burin sculpt " + left.path);
+    for (const document::LeftJournal& one : newest_first(document::left_journals(folder)))
+        lines.push_back(told_of(one));
     return lines;
 }
 

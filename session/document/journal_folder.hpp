@@ -19,10 +19,10 @@ inline constexpr const char* kNoJournal = "none";
 [[nodiscard]] Result<std::string> new_journal(const std::string& folder, const std::string& name);
 
 // Opens the workpiece as open_work() does; a document whose last session died before it was saved comes back with what
-// its journal in the folder holds. An empty folder: there is none.
+// the newest of its journals in the folder holds, and names the others. An empty folder: there is none.
 [[nodiscard]] Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options,
                                                        const std::string& folder, WorkerPool& pool);
-// Says, in a line each, which unsaved work without a name the folder holds, and the command that opens it.
+// Says, in a line each, which unsaved work the folder holds, the newest first, and the command that opens it.
 [[nodiscard]] std::vector<std::string> unsaved_work_in(const std::string& folder);
 
 }  // namespace burin::session

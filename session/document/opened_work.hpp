@@ -23,6 +23,7 @@ struct OpenedWork {
     std::optional<document::Version> version = {};   // of that document
     std::string journal = {};                        // that a dead session left and this is; empty: it is none
     std::string recovered = {};                      // what was not saved and is here, in words; empty: nothing
+    std::vector<std::string> kept = {};              // says which other unsaved work of it there is, a line each
     std::string name = {};                           // of work from a journal; empty: that of its source
     std::map<std::string, std::string> origin = {};  // the facts of a document that say from where it came
 };

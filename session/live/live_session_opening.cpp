@@ -89,8 +89,8 @@ Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::opti
         made = std::move(*own);
     }
     document_.began_with(options.workpiece.source);
-    if (!is_document(options.workpiece))
-        for (const std::string& line : unsaved_work_in(options.live.journal)) notify_of_event(line);
+    if (!is_document(options.workpiece)) opened_.kept = unsaved_work_in(options.live.journal);
+    for (const std::string& line : opened_.kept) notify_of_event(line);
     const sculpt::LoadedWorkpiece& workpiece = made->loaded;
     std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     if (!workpiece.closed.empty()) notify(workpiece.closed, MessageKind::info);

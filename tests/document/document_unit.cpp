@@ -124,6 +124,22 @@ TEST_F(Document, OfTwoWindowsIsNotSavedOverTheOthersWork) {
     EXPECT_EQ(pages_in(path).pages.at({"tile", 0}), bytes_of("theirs"));
 }
 
+TEST_F(Document, ThatRefusesASaveStaysAsItWasToTheByte) {
+    const Result<Saved> first = write_document(path, small_work(), Place::nothing);
+    ASSERT_TRUE(first);
+    ASSERT_TRUE(update_document(path, changed_tile("theirs"), first->version));
+    const std::string before = at.read("work.burin");
+    ASSERT_FALSE(update_document(path, changed_tile("mine"), first->version));
+    EXPECT_EQ(at.read("work.burin"), before);
+    EXPECT_EQ(files_in(at), 1u);
+    // One that a kill has left with a log is brought to rest.
+    change(path, "PRAGMA journal_mode = WAL");
+    ASSERT_FALSE(update_document(path, changed_tile("mine"), first->version));
+    EXPECT_EQ(at.read("work.burin").substr(18, 2), "\1\1");
+    EXPECT_EQ(files_in(at), 1u);
+    EXPECT_EQ(pages_in(path).pages.at({"tile", 0}), bytes_of("theirs"));
+}
+
 TEST_F(Document, IsRefusedKindlyWhereItIsNone) {
     EXPECT_TRUE(why_not(path).contains("check the path")) << why_not(path);
     at.write("work.burin", "");

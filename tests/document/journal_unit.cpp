@@ -18,6 +18,7 @@
 #include "base/clock.hpp"
 #include "document/document_reader.hpp"
 #include "document/document_writer.hpp"
+#include "document/log_check.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::document {
@@ -171,6 +172,42 @@ TEST(Journal, WithoutAnythingUnsavedOrDiscardedIsRemoved) {
     writer.note(change(1));
     EXPECT_EQ(writer.end_journal(true), "");
     EXPECT_FALSE(fs::exists(path));
+}
+
+// SQLite reads a log up to the first fault: what follows would be gone without a word, and the journal with it.
+TEST(Journal, WhoseLogIsDamagedIsKeptAndTold) {
+    const Workplace at;
+    const std::string path = at / "work-1.burin", folder = at / "left", copy = folder + "/work-1.burin";
+    fs::create_directory(folder);
+    DocumentWriter writer;
+    writer.keep_journal(path, beginning());
+    for (std::int64_t number = 1; number <= 3; ++number) {
+        writer.note(change(number));
+        writer.finish();
+    }
+    const std::string file = at.read("work-1.burin"), log = at.read("work-1.burin-wal");
+    ASSERT_GT(log.size(), 20000u);
+    const auto left_with = [&](const std::string& damaged) {
+        at.write("left/work-1.burin", file);
+        at.write("left/work-1.burin-wal", damaged);
+        fs::remove(copy + "-shm");
+        return is_log_damaged(copy);
+    };
+    EXPECT_FALSE(left_with(log));
+    EXPECT_EQ(sound_changes(copy), 3);
+    for (int part = 0; part < 40; ++part) {
+        std::string damaged = log;
+        damaged[damaged.size() * static_cast<std::size_t>(part) / 40 + 11] ^= 16;
+        EXPECT_TRUE(left_with(damaged)) << part;
+        const auto reader = DocumentReader::open(copy);
+        const bool is_known = reader && reader->facts().contains(kJournalNameFact);  // else its beginning is lost
+        EXPECT_EQ(left_journals(folder).size(), is_known ? 1u : 0u) << part;
+        EXPECT_TRUE(fs::exists(copy) && fs::exists(copy + "-wal")) << part;
+    }
+    // A transaction that a kill cut off had not been ended, so that nothing that was acknowledged is missing.
+    EXPECT_FALSE(left_with(log.substr(0, log.size() - 100)));
+    EXPECT_FALSE(left_with(log.substr(0, 32)));
+    EXPECT_FALSE(left_with(""));
 }
 
 TEST(Journal, ThatCannotBeWrittenSaysSoOnceAndSavesGoOn) {

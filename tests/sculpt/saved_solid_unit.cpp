@@ -145,6 +145,54 @@ TEST(SavedSolid, HasLostRaysMadeAgainToACellAndShowsWhere) {
     }
 }
 
+TEST(SavedSolid, SaysWhatWasLostAlongAllThreeDirections) {
+    SavedBall ball;
+    scene::Pages pages;
+    ASSERT_TRUE(ball.carving.save(pages));
+    for (const char* const kind : {"rays x", "rays y", "rays z"}) ASSERT_EQ(pages.pages.erase({kind, 0}), 1u);
+    const Result<LoadedSolid> loaded = load_solid(pages, "ball.burin");
+    ASSERT_TRUE(loaded) << loaded.error().line();
+    EXPECT_TRUE(loaded->lost.contains("3 pages are damaged") && loaded->lost.contains("is lost, and is empty now"))
+        << loaded->lost;
+    EXPECT_TRUE(compute::well_formed(loaded->solid));
+}
+
+// One page of its beginning is damaged, and the changes bring in materials after the red one of what was made again.
+TEST(SavedSolid, OfADamagedJournalTakesTheChangesThatAreSound) {
+    SavedBall ball;
+    ball.carving.keep_history(1 << 24);
+    ball.carving.note_changes();
+    scene::Pages before;
+    ball.carving.copy(before);
+    std::vector<scene::Pages> changes;
+    ball.stroke({0.0, 0.0, 0.1}, {0.03, 0.0, 0.1});
+    ASSERT_TRUE(ball.carving.take_change(changes.emplace_back()));
+    ASSERT_TRUE(ball.carving.add_material({"blue", {10, 10, 200}}));
+    ball.stroke({0.03, 0.0, 0.1}, {0.05, 0.05, 0.08});
+    ASSERT_TRUE(ball.carving.take_change(changes.emplace_back()));
+    ASSERT_EQ(before.pages.erase({"rays x", 5}), 1u);
+    compute::Solid made = load_solid(before, "")->solid;
+    for (const scene::Pages& change : changes) {
+        const auto done = apply_change(made, change, "journal.burin");
+        ASSERT_TRUE(done) << done.error().line();
+        ASSERT_TRUE(compute::well_formed(made));
+    }
+    ASSERT_EQ(made.materials.size(), ball.solid().materials.size() + 1);
+    EXPECT_EQ(made.materials.back().name, "lost and made again");
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        for (std::size_t ray = 0; ray < made.sets[a].ray_count(); ++ray) {
+            const auto was = ball.solid().sets[a].ends(ray), is = made.sets[a].ends(ray);
+            ASSERT_EQ(was.size(), is.size());
+            for (std::size_t end = 0; end < was.size(); ++end) {
+                ASSERT_LE(std::abs(shared::depth_of(was[end]) - shared::depth_of(is[end])), shared::kUnitsPerCell);
+                const bool is_red = shared::material_of(is[end]) + 1 == made.materials.size();
+                ASSERT_TRUE(is_red || shared::material_of(is[end]) == shared::material_of(was[end]));
+            }
+        }
+    }
+}
+
 TEST(SavedSolid, WithAnImpossibleNumberInItsHeadIsRefusedAtOnce) {
     SavedBall ball;
     scene::Pages pages;

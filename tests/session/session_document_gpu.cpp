@@ -121,6 +121,30 @@ TEST_F(DocumentOfASession, WithoutANameIsToldOfAndOpensByItsJournal) {
     EXPECT_TRUE(fs::is_empty(place / "k")) << thrown.output;
 }
 
+TEST_F(DocumentOfASession, ComesBackWithItsNewestWorkAndNamesTheRest) {
+    ASSERT_EQ(play(kBall, "a", "0.1 command save work.burin\n").status, 0);
+    ASSERT_EQ(play("a/work.burin --journal j", "b", kStroke + "2 command quit\n").status, 0);
+    const fs::path first = fs::directory_iterator(place / "j")->path(), aside = place / "aside.burin";
+    fs::rename(first, aside);
+    ASSERT_EQ(play("a/work.burin --journal j", "b", kStroke + "2 command export part.ply\n3 command quit\n").status, 0);
+    // The older one is the first by its name.
+    const fs::path older = place / "j/a.burin";
+    fs::rename(aside, older);
+    const std::string script = "0.1 command export part.ply\n0.2 command quit\n", kept = "burin sculpt j/a.burin";
+    const auto opened = play("a/work.burin --journal j", "c", script);
+    EXPECT_TRUE(opened.output.contains("has come back")) << opened.output;
+    EXPECT_FALSE(opened.output.contains("come back from j/a.burin")) << opened.output;
+    EXPECT_TRUE(opened.output.contains(kept)) << opened.output;
+    EXPECT_EQ(place.read("b/part.ply"), place.read("c/part.ply"));
+    // A document that was renamed meanwhile has its work as well; of one that is gone other sessions tell.
+    fs::rename(place / "a/work.burin", place / "a/moved.burin");
+    const auto moved = play("a/moved.burin --journal j", "d", script);
+    EXPECT_TRUE(moved.output.contains("has come back") && moved.output.contains(kept)) << moved.output;
+    fs::remove(place / "a/moved.burin");
+    const auto other = play(kBall + " --journal j", "e", script);
+    EXPECT_TRUE(other.output.contains(kept)) << other.output;
+}
+
 // The facts of a document have no check sum: a number there that no session could have saved is told, not used.
 TEST_F(DocumentOfASession, WithImpossibleBoundsOrViewIsOpenedWithTheUsualOnesAndTold) {
     ASSERT_EQ(play(kBall, "a", "0.1 command save work.burin\n0.2 command export part.ply\n").status, 0);
