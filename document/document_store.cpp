@@ -2,11 +2,13 @@
 #include "document/document_store.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -75,6 +77,36 @@ Result<void> check_version(Database& database, const std::string& path, const Ve
 // A name beside the place that nobody has; the process' number keeps two of them apart.
 std::string beside(const std::string& path) { return path + ".saving-" + std::to_string(::getpid()); }
 
+// Whether somebody has this file locked, as whoever writes it has.
+bool is_locked(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return true;
+    struct flock lock{};
+    lock.l_type = F_WRLCK;
+    const bool is_free = ::fcntl(fd, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_UNLCK;
+    ::close(fd);
+    return !is_free;
+}
+
+// Removes what saves to this place have left whose process was killed.
+void remove_leftovers(const std::string& path) {
+    const std::string begin = fs::path(path).filename().string() + ".saving-";
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code failed;
+    std::vector<std::string> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        const std::string process = name.starts_with(begin) ? name.substr(begin.size()) : "";
+        pid_t number = 0;
+        const auto [end, wrong] = std::from_chars(process.data(), process.data() + process.size(), number);
+        if (process.empty() || wrong != std::errc() || end != process.data() + process.size() || number <= 0) continue;
+        const bool is_dead = ::kill(number, 0) != 0 && errno == ESRCH;
+        if (is_dead && !is_locked(entry.path().string())) left.push_back(entry.path().string());
+    }
+    for (const std::string& file : left)
+        for (const char* ending : {"-wal", "-shm", "-journal", ""}) fs::remove(file + ending, failed);
+}
+
 // Gives the file its name; a place that must hold nothing is not overwritten, whoever comes between.
 Result<void> rename_to(const std::string& from, const std::string& to, Place place) {
     if (place == Place::replaced) {
@@ -101,6 +133,7 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
     Saved saved{.version = {new_id(), 1}, .replaced = fs::exists(path, ignored)};
     if (place == Place::nothing && saved.replaced) return record::cannot_make(path, EEXIST, kDocumentKind);
     if (const auto ok = check_replaceable(path); !ok) return std::unexpected(ok.error());
+    remove_leftovers(path);
     const std::string made_as = beside(path);
     const auto name_the_place = [&](Error error) {
         if (error.where == made_as) error.where = path;

@@ -5,12 +5,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
 #include "sculpt/saved_solid.hpp"
 #include "session/input/input_words.hpp"
 #include "session/state/command_table.hpp"
+#include "session/state/held_tool.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {
@@ -136,7 +138,13 @@ struct IntoOptions {
     bool keeps_tool;  // that the options have
 
     void operator()(const SetTool& set) const {
-        if (!keeps_tool) options.tool.shape = sculpt::text_of(set.tool);
+        if (keeps_tool) return;
+        const std::string shape = sculpt::text_of(set.tool);
+        if (const auto read = ToolMeshes().read(set.tool); read)
+            options.tool.shape = shape;
+        else  // its file lies elsewhere now; the work is no less there
+            std::fprintf(stderr, "burin: %s: its tool %s cannot be taken up, the usual one is: %s\n",
+                         options.workpiece.source.c_str(), shape.c_str(), read.error().line().c_str());
     }
     void operator()(const SetOperation& set) const {
         if (!keeps_tool) options.tool.operation = set.operation;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Documents as files: what is written is read, what is damaged is told, and nothing is overwritten or half written.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -207,6 +209,20 @@ TEST_F(Document, OnAFullDiskStaysAsItWas) {
     EXPECT_EQ(at.read("work.burin"), before);
     EXPECT_EQ(files_in(at), 1u) << "and leaves nothing beside it";
     ASSERT_TRUE(update_document(path, changed_tile("new"), first->version));
+}
+
+TEST_F(Document, RemovesWhatAKilledSaveHasLeftAndNothingElse) {
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    const std::string dead = std::to_string(child), alive = std::to_string(::getppid());
+    for (const char* const ending : {"", "-wal", "-shm"}) at.write("work.burin.saving-" + dead + ending, "half");
+    const std::vector<std::string> others{"work.burin.saving-" + alive, "work.burin.saving-" + dead + "x",
+                                          "other.burin.saving-" + dead, "work.burin.saving-"};
+    for (const std::string& name : others) at.write(name, "mine");
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    EXPECT_EQ(files_in(at), 1 + others.size());
+    for (const std::string& name : others) EXPECT_EQ(at.read(name), "mine") << name;
 }
 
 TEST_F(Document, InAFolderThatTakesNoFilesStaysAsItWas) {

@@ -167,6 +167,20 @@ TEST_F(DocumentOfASession, WithImpossibleBoundsOrViewIsOpenedWithTheUsualOnesAnd
         expect_told("view", view, "view is damaged");
 }
 
+TEST_F(DocumentOfASession, WhoseToolIsAMeshThatIsGoneOpensWithTheUsualToolAndTells) {
+    place.write("t.obj", "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nv 0 0 0.01\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string save = "0.1 command save work.burin\n", leave = "0.2 command quit\n";
+    const auto saved = play("ball:0.1 --units m --resolution 64 --tool mesh:t.obj", "a", save + leave);
+    ASSERT_EQ(saved.status, 0) << saved.output;
+    const auto there = play("a/work.burin", "b", leave);
+    EXPECT_EQ(there.status, 0) << there.output;
+    EXPECT_FALSE(there.output.contains("the usual one")) << there.output;
+    fs::remove(place / "t.obj");
+    const auto gone = play("a/work.burin", "c", leave);
+    EXPECT_EQ(gone.status, 0) << gone.output;
+    EXPECT_TRUE(gone.output.contains("its tool mesh:t.obj cannot be taken up, the usual one is")) << gone.output;
+}
+
 TEST_F(DocumentOfASession, ThatIsNoneIsRefusedInOneLine) {
     place.write("bad.burin", std::string(3000, 'x'));
     const auto refused = play("bad.burin", "a", "0.1 command quit\n");
