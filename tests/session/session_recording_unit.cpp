@@ -97,9 +97,10 @@ TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
     ASSERT_TRUE(by_text.done) << by_text.done.error().line();
     EXPECT_EQ(by_text.found.ticks, ticks);
 
-    // Another feel tells where it first differs.
+    // Another workpiece tells where it first differs: its workspace is another, also where a busy machine left the hand
+    // no time to touch it.
     SculptOptions other = short_options("");
-    other.tool.shape = "ball:0.0121";
+    other.workpiece.source = "ball:0.12";
     const Judged changed = judged(std::move(*log), path, other);
     ASSERT_FALSE(changed.done);
     ASSERT_TRUE(changed.found.difference);
