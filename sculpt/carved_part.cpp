@@ -37,12 +37,13 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     outcome.written = true;
     outcome.replaced = was_there;
     const auto left = finished->self_intersections["left"].get<std::uint64_t>();
-    const auto thin = finished->slivers["solid"].get<std::uint64_t>() + finished->slivers["gaps"].get<std::uint64_t>();
     return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name + ", in " +
                  descriptor_of(wanted.unit).plural +
                  (finished->crumbs.count > 0 ? "; " + in_words(finished->crumbs) : "") +
                  (left > 0 ? "; " + std::to_string(left) + " pairs of them pass through each other" : "") +
-                 (thin > 0 ? "; " + std::to_string(thin) + " places are thinner than the mesh can show" : "") +
+                 (finished->thin_places > 0
+                      ? "; " + std::to_string(finished->thin_places) + " places are thinner than the mesh can show"
+                      : "") +
                  (loses_colours(finished->mesh, wanted.path) ? "; STL keeps no colours: a .ply file does" : ""));
 }
 

@@ -112,6 +112,7 @@ Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute:
     const compute::SliverReport slivers = compute::find_slivers(solid, pool);
     finished.slivers = describe(slivers, solid.lattice);
     finished.too_thin = too_thin(slivers, solid.lattice);
+    finished.thin_places = slivers.count();
     if (!finished.too_thin.empty()) std::printf("  %s\n", finished.too_thin.c_str());
     finished.crumbs = drop_crumbs(finished.mesh, unit, crumbs_m);
     if (simplify_bound_m) {

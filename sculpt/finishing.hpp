@@ -27,6 +27,7 @@ struct FinishedMesh {
     // Says in a sentence how much is thinner than the mesh can show, and from which resolution on it does; empty where
     // nothing is.
     std::string too_thin;
+    std::uint64_t thin_places = 0;
 };
 
 // Returns whether a mesh has several colours and the file's format keeps none (geometry/files/mesh_export.hpp).
