@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What long work tells of itself while another thread looks on, which may end it: the step that goes on, and the share
+// Progress of long work for another thread, which may also stop it: the name of the present step, and the share
 // of the whole that is done. Work asks go_on() often; functions that work for long take a pointer, null where nobody
 // looks on.
 // Threads: one begins steps, that and its helpers call go_on(), any other looks and stops. Never the haptic thread.
@@ -43,7 +43,7 @@ private:
     std::atomic<bool> stopped_{false};
 };
 
-// Likewise where nobody may look on.
+// The same for work that may have no watch.
 inline void begin_step(WorkWatch* watch, const char* step, double from, double to) {
     if (watch != nullptr) watch->begin(step, from, to);
 }

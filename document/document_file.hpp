@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a document is: a .burin file, SQLite with the tables of docs/formats.md, "Documents".
+// Defines the document: a .burin file, SQLite with the tables of docs/formats.md, "Documents".
 //
 // A document holds what was made and how it goes on: the pages of each part of the scene (scene/pages.hpp), the
 // commands that bring tool and settings back, and facts: versions, units, where the work came from. It knows no kind of

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "document/document_reader.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <system_error>
+#include <utility>
 
 #include "record/compressed.hpp"
+#include "record/store_reading.hpp"
 
 namespace burin::document {
 namespace {
@@ -19,19 +17,10 @@ using record::Database, record::Statement;
 constexpr std::int64_t kMostSteps = 200'000'000;
 constexpr const char* kRemedy = kDocumentKind.words.wrong_file;
 
-Result<void> check_kind(const std::string& path) {
-    struct stat info{};
-    if (::stat(path.c_str(), &info) != 0)
-        return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
-    if (!S_ISREG(info.st_mode)) return fail(path, "is not a regular file", kRemedy);
-    if (info.st_size == 0) return fail(path, "is empty", kRemedy);
-    return {};
-}
-
 }  // namespace
 
 Result<DocumentReader> DocumentReader::open(const std::string& path) {
-    if (const auto ok = check_kind(path); !ok) return std::unexpected(ok.error());
+    if (const auto ok = record::check_regular(path, "is empty", kRemedy); !ok) return std::unexpected(ok.error());
     DocumentReader reader;
     reader.path_ = path;
     Result<Database> opened = Database::open(path, Database::Use::read, {}, kDocumentKind.words);
@@ -49,22 +38,13 @@ Result<DocumentReader> DocumentReader::open(const std::string& path) {
 }
 
 Result<void> DocumentReader::check_tables() {
-    for (const char* name : {"meta", "part", "page", "command"}) {
-        const Result<bool> there = database_->has_table(name);
-        if (!there) return std::unexpected(there.error());
-        if (!*there) return fail(path_, "has no table " + std::string(name), kRemedy);
-    }
-    return {};
+    return record::check_tables(*database_, path_, {"meta", "part", "page", "command"}, kRemedy);
 }
 
 Result<void> DocumentReader::read_facts() {
-    Result<Statement> read = database_->prepare(
-        "SELECT key, value FROM meta WHERE length(key) + length(value) <= " + std::to_string(kMostTextBytes) +
-        " LIMIT " + std::to_string(kMostFacts));
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) facts_[read->text(0)] = read->text(1);
-    if (!row) return std::unexpected(row.error());
+    auto facts = record::read_facts(*database_);
+    if (!facts) return std::unexpected(facts.error());
+    facts_ = std::move(*facts);
     return {};
 }
 

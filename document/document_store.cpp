@@ -77,7 +77,7 @@ Result<void> check_version(Database& database, const std::string& path, const Ve
 // A name beside the place that nobody has; the process' number keeps two of them apart.
 std::string beside(const std::string& path) { return path + ".saving-" + std::to_string(::getpid()); }
 
-// Whether somebody has this file locked, as whoever writes it has.
+// Returns whether a process has locked this file, as the one that writes it has.
 bool is_locked(const std::string& path) {
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0) return true;
@@ -176,7 +176,7 @@ Result<Saved> update_document(const std::string& path, const Content& changed, c
         static_cast<void>(file->close());  // at rest, as it was
         return std::unexpected(done.error());
     }
-    // What is committed is safe; a log that cannot be brought in now is by the next who opens the file.
+    // The commit is on the disk. Where its log cannot be merged into the file now, the next to open it does that.
     static_cast<void>(file->close());
     return saved;
 }

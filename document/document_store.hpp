@@ -24,7 +24,7 @@ struct Version {
     bool operator==(const Version&) const = default;
 };
 
-// What may be at the place of a new file.
+// Says whether a new file may replace one that exists at its path.
 enum class Place : std::uint8_t { nothing, replaced };
 
 struct Saved {

@@ -143,7 +143,7 @@ void DocumentWriter::add_to_journal(std::vector<Change> changes) {
     safe_.fetch_add(static_cast<std::int64_t>(changes.size()), std::memory_order_release);
 }
 
-// What is in the journal stays there; what follows is in none.
+// Ends the journal after a failure: its changes stay in its file, and later changes are in no journal.
 void DocumentWriter::fail_journal(const Error& why) {
     if (journal_) journal_->end();
     journal_.reset();
@@ -157,7 +157,7 @@ Result<Saved> DocumentWriter::write(SaveRequest& request) {
         request.content = merged(std::exchange(owed_, {}), std::move(request.content));
     } else {
         std::error_code ignored;
-        // All of it may go to the place that it has already, and that is there: then that is updated.
+        // Where the whole content goes to the document's own file, and that still exists, the file is updated.
         if (request.path != path_ || !std::filesystem::exists(path_, ignored)) version_.reset();
         path_ = request.path;
         owed_ = {};

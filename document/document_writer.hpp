@@ -5,8 +5,8 @@
 // Data flow: what is to be saved, taken from the scene's parts between two updates -> a queue -> this thread, which
 // compresses and writes (document_store.hpp) -> what became of it, taken by the frame. Changes go the same way, in the
 // same order, into the journal (journal.hpp); a save takes their place there once it is on the disk.
-// What could not be written is owed: it goes along with the next save to the same place, so that no page is missing
-// there. Failure: in the outcome, never thrown. Threads: save() and the rest on any, but the haptic one.
+// Pages of a save that failed are written with the next save to the same path, so that none is missing there.
+// Failure: in the outcome, never thrown. Threads: save() and the rest on any, but the haptic one.
 #pragma once
 
 #include <atomic>

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] std::int64_t changes() const { return changes_; }
     // Returns whether it holds something that was not saved elsewhere.
     [[nodiscard]] bool is_needed() const { return needed_; }
-    // What it holds is not wanted.
+    // Marks its changes as not wanted: end() then removes the file.
     void discard() { needed_ = false; }
     // Closes the file so that it can be read; removes it unless it is needed.
     void end();

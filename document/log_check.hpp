@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether the log of SQLite beside a file (NAME-wal) was damaged. SQLite reads such a log up to the first fault and
+// Finds damage in SQLite's log beside a file (NAME-wal). SQLite reads such a log up to the first fault and
 // says nothing of what follows. Any thread.
 #pragma once
 

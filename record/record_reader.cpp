@@ -2,33 +2,19 @@
 #include "record/record_reader.hpp"
 #include "record/row_walk.hpp"
 #include "record/store_file.hpp"
-
-#include <sys/stat.h>
+#include "record/store_reading.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <limits>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
 namespace burin::record {
 namespace {
 
 // SQLite's steps for a statement: the list of kMostBlocks blocks takes some 20 a block.
 constexpr std::int64_t kMostSteps = 200'000'000;
-constexpr std::size_t kMostFacts = 10'000, kMostTextBytes = 1 << 20;
 constexpr const char* kRemedy = "name a file that --record has written";
-
-// Checks that this is a regular file, without opening it: closing it again would drop the locks that a writer in this
-// process holds on it (POSIX locks belong to a process), and opening a pipe would wait.
-Result<void> check_kind(const std::string& path) {
-    struct stat info{};
-    if (::stat(path.c_str(), &info) != 0)
-        return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
-    if (!S_ISREG(info.st_mode)) return fail(path, "is not a regular file", kRemedy);
-    if (info.st_size == 0) return fail(path, "is empty: its recording ended before it began, or it is none", kRemedy);
-    return {};
-}
 
 bool fits_u32(std::int64_t value) { return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max(); }
 
@@ -62,7 +48,9 @@ std::size_t find_column(const HandRecord& table, std::string_view name, ColumnTy
 }
 
 Result<RecordReader> RecordReader::open(const std::string& path) {
-    if (const auto ok = check_kind(path); !ok) return std::unexpected(ok.error());
+    if (const auto ok = check_regular(path, "is empty: its recording ended before it began, or it is none", kRemedy);
+        !ok)
+        return std::unexpected(ok.error());
     take_back_what_was_interrupted(path);
     RecordReader reader;
     reader.path_ = path;
@@ -83,22 +71,14 @@ Result<void> RecordReader::check_marks() {
 }
 
 Result<void> RecordReader::check_tables() {
-    for (const char* name : {"meta", "hand", "column", "block", "line", "trial", "event", "clock", "derived"}) {
-        const Result<bool> there = database_->has_table(name);
-        if (!there) return std::unexpected(there.error());
-        if (!*there) return fail(path_, "has no table " + std::string(name), kRemedy);
-    }
-    return {};
+    return burin::record::check_tables(
+        *database_, path_, {"meta", "hand", "column", "block", "line", "trial", "event", "clock", "derived"}, kRemedy);
 }
 
 Result<void> RecordReader::read_facts() {
-    Result<Statement> read = database_->prepare(
-        "SELECT key, value FROM meta WHERE length(key) + length(value) <= " + std::to_string(kMostTextBytes) +
-        " LIMIT " + std::to_string(kMostFacts));
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) facts_[read->text(0)] = read->text(1);
-    if (!row) return std::unexpected(row.error());
+    auto facts = burin::record::read_facts(*database_);
+    if (!facts) return std::unexpected(facts.error());
+    facts_ = std::move(*facts);
     return {};
 }
 

@@ -57,7 +57,7 @@ inline constexpr Nanoseconds kSharedForce_ns = 50'000'000;
 // keeps one from its steps. A cable that is pulled is seen at once.
 inline constexpr Nanoseconds kSharedDead_ns = 1'000'000'000;
 
-// How an emulator says that it lives; its layout begins with it.
+// An emulator's sign of life, at the beginning of its layout.
 struct SharedLife {
     std::atomic<std::uint64_t> magic = 0;  // the layout's word, from the first step on
     std::atomic<Nanoseconds> beat_ns = 0;  // of the newest step, CLOCK_MONOTONIC; 0: its cable is pulled

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "record/store_reading.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace burin::record {
+
+Result<void> check_regular(const std::string& path, const char* if_empty, const char* remedy) {
+    struct stat info{};
+    if (::stat(path.c_str(), &info) != 0)
+        return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
+    if (!S_ISREG(info.st_mode)) return fail(path, "is not a regular file", remedy);
+    if (info.st_size == 0) return fail(path, if_empty, remedy);
+    return {};
+}
+
+Result<void> check_tables(Database& database, const std::string& path, std::initializer_list<const char*> tables,
+                          const char* remedy) {
+    for (const char* name : tables) {
+        const Result<bool> there = database.has_table(name);
+        if (!there) return std::unexpected(there.error());
+        if (!*there) return fail(path, "has no table " + std::string(name), remedy);
+    }
+    return {};
+}
+
+Result<std::map<std::string, std::string>> read_facts(Database& database) {
+    Result<Statement> read = database.prepare("SELECT key, value FROM meta WHERE length(key) + length(value) <= " +
+                                              std::to_string(kMostTextBytes) + " LIMIT " + std::to_string(kMostFacts));
+    if (!read) return std::unexpected(read.error());
+    std::map<std::string, std::string> facts;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) facts[read->text(0)] = read->text(1);
+    if (!row) return std::unexpected(row.error());
+    return facts;
+}
+
+}  // namespace burin::record
