@@ -209,6 +209,7 @@ BenchCommand::BenchCommand(Command app)
     others_.push_back(add_bench_frame(command_));
     others_.push_back(add_bench_haptics(command_));
     others_.push_back(add_bench_record(command_));
+    others_.push_back(add_bench_document(command_));
     others_.push_back(add_bench_study(command_));
     others_.push_back(add_bench_stability(command_));
     others_.push_back(add_bench_glove(command_));

@@ -6,6 +6,7 @@
 //   burin bench stability  how stiff a wall may be before a simulated device shakes
 //   burin bench workspace  each workspace technique across the wall, in a simulated hand
 //   burin bench record     what it costs to keep every tick
+//   burin bench document   what it costs to keep the work: journal, save, open, size
 //   burin bench study      a whole simulated study against real time
 //   burin bench world      from a VRML world's text to its triangles, beside Coin
 #pragma once

@@ -99,6 +99,7 @@ struct BenchSubcommand {
 [[nodiscard]] BenchSubcommand add_bench_glove(Command bench);      // bench/glove/glove_output.hpp
 [[nodiscard]] BenchSubcommand add_bench_frame(Command bench);      // bench/frame/frame.hpp
 [[nodiscard]] BenchSubcommand add_bench_haptics(Command bench);    // bench/haptics/haptics.hpp
+[[nodiscard]] BenchSubcommand add_bench_document(Command bench);   // bench/document/document_bench.hpp
 [[nodiscard]] BenchSubcommand add_bench_record(Command bench);     // bench/recording/recording.hpp
 [[nodiscard]] BenchSubcommand add_bench_study(Command bench);      // activities/train/simulated_study.hpp
 [[nodiscard]] BenchSubcommand add_bench_stability(Command bench);  // bench/stability/stability.hpp

@@ -57,20 +57,25 @@ Result<void> document_info(const InfoOptions& options) {
         if (prints) std::printf("  %-20s %s\n", key.c_str(), value.c_str());
     for (const std::string& command : reader->commands())
         if (prints) std::printf("  %-20s %s\n", "command", command.c_str());
-    std::size_t damaged = 0;
     for (const document::PartPlace& part : reader->parts()) {
         const Result<scene::Pages> pages = reader->pages(part);
         if (!pages) return std::unexpected(pages.error());
-        damaged += pages->damaged.size();
         json["parts"].push_back(part_json(part, *pages));
         if (prints) print_part(part, *pages);
     }
+    // What is not there can be told by whoever makes work of the pages alone.
+    WorkerPool pool;
+    const Result<session::OpenedWork> opened = session::open_work({.source = options.file}, pool);
+    const std::string recovered = opened ? opened->recovered : "", lost = opened ? opened->lost : opened.error().line();
+    json["unsaved"] = recovered;
+    json["lost"] = lost;
+    if (prints && !recovered.empty()) std::printf("  %s\n", recovered.c_str());
     if (!options.json.empty())
         if (const auto written = write_output(options.json, json_text(json)); !written) return written;
-    if (damaged == 0) return {};
     std::fflush(stdout);
-    return fail(options.file, std::to_string(damaged) + (damaged == 1 ? " page is" : " pages are") + " damaged",
-                "the rest opens; an earlier copy has them");
+    if (!opened) return std::unexpected(opened.error());
+    if (lost.empty()) return {};
+    return fail(options.file, lost.substr(options.file.size() + 2), "the rest opens; an earlier copy has it");
 }
 
 Result<void> convert_document(const ConvertOptions& options) {

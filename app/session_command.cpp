@@ -12,6 +12,7 @@
 #include "record/examination.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
+#include "record/store_reading.hpp"
 #include "session/record/log_export.hpp"
 
 namespace burin::app {
@@ -164,6 +165,9 @@ Result<void> check(const std::string& path) {
     if (!changed) return std::unexpected(changed.error());
     if (!reader->is_closed())
         std::printf("%s: was not closed; ticks of the last second may be missing\n", path.c_str());
+    if (record::lacks_its_log(path))
+        return fail(path, "has no log " + path + "-wal beside it: what was recorded last is missing",
+                    "put the log, with which the file was left, beside it again");
     if (damaged == 0 && *changed > 0 && empty.empty()) {
         std::fflush(stdout);
         return fail(path, "is not as it was recorded: " + counted(*changed, "place was", "places were") + " changed",

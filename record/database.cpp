@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "record/store_reading.hpp"
+
 namespace burin::record {
 namespace {
 
@@ -13,6 +15,18 @@ namespace {
 constexpr int kMostValueBytes = 80 << 20;
 // How often SQLite asks whether it shall go on, in steps of its machine.
 constexpr int kStepsBetweenQuestions = 1000;
+
+// The name by which SQLite opens a file that nobody changes.
+std::string immutable_uri(const std::string& path) {
+    std::string uri = "file:";
+    for (const char c : path) {
+        if (c == '%' || c == '?' || c == '#')
+            uri += c == '%' ? "%25" : c == '?' ? "%3f" : "%23";
+        else
+            uri += c;
+    }
+    return uri + "?immutable=1";
+}
 
 int busy_wait_ms(Database::Use use) { return use == Database::Use::write ? 2000 : 500; }
 
@@ -123,10 +137,15 @@ Result<Database> Database::open(const std::string& path, Use use, const std::str
     opened.path_ = path;
     opened.limit_ = std::make_unique<StepLimit>();
     sqlite3* raw = nullptr;
-    const int flags = (use == Use::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) | SQLITE_OPEN_NOMUTEX;
+    // SQLite would put a new log beside a file that lacks its own, to read it, and could not where nothing may be
+    // written.
+    const bool is_alone = use == Use::read && lacks_its_log(path);
+    const int flags = (use == Use::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) | SQLITE_OPEN_NOMUTEX |
+                      (is_alone ? SQLITE_OPEN_URI : 0);
     // A name that begins with "file:" or ":memory:" would not be taken for a file's.
     const std::string plain = path.starts_with('/') ? path : "./" + path;
-    const int code = sqlite3_open_v2(plain.c_str(), &raw, flags, vfs.empty() ? nullptr : vfs.c_str());
+    const std::string name = is_alone ? immutable_uri(plain) : plain;
+    const int code = sqlite3_open_v2(name.c_str(), &raw, flags, vfs.empty() ? nullptr : vfs.c_str());
     opened.database_.reset(raw);
     if (code != SQLITE_OK) return std::unexpected(database_error(raw, code, path, words));
     sqlite3_extended_result_codes(raw, 1);

@@ -3,7 +3,9 @@
 
 #include <sys/stat.h>
 
+#include <array>
 #include <cerrno>
+#include <fstream>
 #include <system_error>
 
 namespace burin::record {
@@ -15,6 +17,17 @@ Result<void> check_regular(const std::string& path, const char* if_empty, const 
     if (!S_ISREG(info.st_mode)) return fail(path, "is not a regular file", remedy);
     if (info.st_size == 0) return fail(path, if_empty, remedy);
     return {};
+}
+
+// The version for readers in the header of SQLite's files, sqlite.org/fileformat2.html: 2 asks for a log. A file that is
+// being written has its log, and is not opened here: see check_regular().
+bool lacks_its_log(const std::string& path) {
+    struct stat log{};
+    if (::stat((path + "-wal").c_str(), &log) == 0 || errno != ENOENT) return false;
+    constexpr std::size_t kReadVersion = 19;
+    std::array<char, kReadVersion + 1> header{};
+    std::ifstream file(path, std::ios::binary);
+    return file.read(header.data(), header.size()) && header[kReadVersion] == 2;
 }
 
 Result<void> check_tables(Database& database, const std::string& path, std::initializer_list<const char*> tables,

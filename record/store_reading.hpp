@@ -18,6 +18,9 @@ inline constexpr std::size_t kMostFacts = 10'000, kMostTextBytes = std::size_t{1
 // process holds on it (POSIX locks belong to a process), and opening a pipe would wait. if_empty: what is said of an
 // empty one.
 [[nodiscard]] Result<void> check_regular(const std::string& path, const char* if_empty, const char* remedy);
+// Returns whether the file was left with a log of SQLite beside it, and that is gone: whoever has taken or copied the
+// file without FILE-wal has left behind what was written last.
+[[nodiscard]] bool lacks_its_log(const std::string& path);
 // Checks that the file has these tables.
 [[nodiscard]] Result<void> check_tables(Database& database, const std::string& path,
                                         std::initializer_list<const char*> tables, const char* remedy);

@@ -9,6 +9,7 @@
 
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
+#include "record/store_reading.hpp"
 #include "sculpt/saved_solid.hpp"
 #include "session/input/input_words.hpp"
 #include "session/state/command_table.hpp"
@@ -113,6 +114,8 @@ Result<OpenedWork> open_document(const std::string& path) {
     if (const auto changed = apply_changes(*reader, opened); !changed) add_to(loaded->lost, changed.error().what);
     if (document::is_log_damaged(path))
         add_to(loaded->lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
+    if (record::lacks_its_log(path))
+        add_to(loaded->lost, "its log " + path + "-wal is not beside it: the newest changes may be missing");
     say_where_it_goes(*reader, opened);
     sculpt::LoadedWorkpiece& workpiece = opened.workpiece;
     workpiece.unit = length_unit(reader->fact(kUnit)).value_or(LengthUnit::m);

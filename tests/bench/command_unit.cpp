@@ -54,6 +54,27 @@ TEST(BenchCommand, RecordsTicksWithoutASessionFileToPackAgain) {
     EXPECT_EQ(place.files(), 0u);
 }
 
+TEST(BenchCommand, MeasuresDocumentsOfAMeshAndLeavesNoneBehind) {
+    const Workplace place;
+    place.write("octahedron.obj",
+                "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+    const auto outcome = place.run(kBurin +
+                                   " bench document octahedron.obj --journal-resolution 24 --resolution 32 --updates 60"
+                                   " --strokes 7 --runs 2 --folder . --json -");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto report = Json::parse(outcome.output);
+    EXPECT_EQ(report["journal"]["changes"], 2) << "after half a second, and at the stroke's end";
+    EXPECT_GT(report["journal"]["updates"], 0);
+    EXPECT_GT(report["journal"]["unsafe_ms"]["p99"], 0);
+    EXPECT_EQ(report["save"]["strokes"], 7);
+    EXPECT_GT(report["save"]["changed_bytes"], 0);
+    EXPECT_GT(report["save"]["written_bytes"], report["save"]["page_bytes"]);
+    EXPECT_EQ(report["open"]["cold"]["open_ms"].size(), 2u);
+    EXPECT_GT(report["size"]["document_bytes"], 0);
+    EXPECT_EQ(place.files(), 1u);
+}
+
 TEST(BenchCommand, PrintsATableOfSweptCuts) {
     const Workplace place;
     const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 5 --tool capsule --json out.json");

@@ -9,6 +9,7 @@
 
 #include "document/document_reader.hpp"
 #include "document/document_writer.hpp"
+#include "record/store_reading.hpp"
 #include "tests/record/failing_disk.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -190,6 +191,16 @@ TEST_F(Document, OpensWithoutAPageThatIsDamagedAndNamesIt) {
     // One that claims more than its data hold is no reason to allocate.
     change(path, "UPDATE page SET bytes = 60000000 WHERE kind = 'tile' AND number = 1");
     EXPECT_EQ(pages_in(path).damaged.size(), 2u);
+}
+
+TEST_F(Document, WhoseLogWasTakenAwayIsReadAloneAndThatIsTold) {
+    path = (at / "50%41?a#b.burin").string();
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    EXPECT_FALSE(record::lacks_its_log(path));
+    change(path, "PRAGMA journal_mode = WAL");  // and SQLite takes the log away at the end
+    EXPECT_TRUE(record::lacks_its_log(path));
+    EXPECT_EQ(pages_in(path).pages, small_work().parts[0].pages);
+    EXPECT_EQ(files_in(at), 1u) << "no log and no memory of one is left beside it";
 }
 
 TEST_F(Document, OnAFullDiskStaysAsItWas) {

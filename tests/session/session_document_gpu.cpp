@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "document/document_reader.hpp"
 #include "gpu/device.hpp"
+#include "record/database.hpp"
 #include "sculpt/saved_solid.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
@@ -89,6 +91,32 @@ TEST_F(DocumentOfASession, ThatAScriptOpensStaysAsItIs) {
     EXPECT_TRUE(refused.output.contains("would be overwritten")) << refused.output;
     EXPECT_EQ(place.read("a/work.burin"), before);
     EXPECT_FALSE(fs::exists(place / "a/work.burin-wal"));
+}
+
+TEST_F(DocumentOfASession, WithoutSomeOfItsRowsOrItsLogIsToldByInfo) {
+    ASSERT_EQ(play(kBall, "a", "0.1 command save work.burin\n").status, 0);
+    const std::string path = (place / "a/work.burin").string(), whole = place.read("a/work.burin");
+    const auto told_after = [&](const std::string& sql) {
+        place.write("a/work.burin", whole);
+        Result<record::Database> database = record::Database::open(path, record::Database::Use::write);
+        EXPECT_TRUE(database && database->run(sql)) << sql;
+        if (database) {
+            EXPECT_TRUE(database->close());
+        }
+        return place.run(std::string(kBurinCommand) + " info a/work.burin");
+    };
+    EXPECT_EQ(told_after("VACUUM").status, 0);
+    for (const auto& [sql, words] :
+         {std::pair{"DELETE FROM page WHERE kind = 'rays x' AND number = 0", "1 page is damaged"},
+          std::pair{"DELETE FROM page WHERE kind = 'head'", "what it says of the whole solid"},
+          std::pair{"DELETE FROM part", "holds no tri-dexel solid"},
+          std::pair{"DELETE FROM page WHERE kind LIKE 'rays%'", "none of its pages"},
+          std::pair{"PRAGMA journal_mode = WAL", "-wal is not beside it"}}) {
+        const auto told = told_after(sql);
+        EXPECT_EQ(told.status, 1) << sql << told.output;
+        EXPECT_TRUE(told.output.contains("a/work.burin: ")) << told.output;
+        EXPECT_TRUE(told.output.contains(words)) << sql << ": " << told.output;
+    }
 }
 
 TEST_F(DocumentOfASession, ComesBackWithWhatWasNotSaved) {
