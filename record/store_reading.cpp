@@ -19,8 +19,8 @@ Result<void> check_regular(const std::string& path, const char* if_empty, const 
     return {};
 }
 
-// The version for readers in the header of SQLite's files, sqlite.org/fileformat2.html: 2 asks for a log. A file that is
-// being written has its log, and is not opened here: see check_regular().
+// The version for readers in the header of SQLite's files, sqlite.org/fileformat2.html: 2 asks for a log. A file that
+// is being written has its log, and is not opened here: see check_regular().
 bool lacks_its_log(const std::string& path) {
     struct stat log{};
     if (::stat((path + "-wal").c_str(), &log) == 0 || errno != ENOENT) return false;
