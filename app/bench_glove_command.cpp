@@ -8,6 +8,7 @@
 #include "activities/grasp/grasp_options.hpp"
 #include "app/commands.hpp"
 #include "app/output_files.hpp"
+#include "base/assets.hpp"
 #include "bench/glove/glove_output.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/gloves/glove_link.hpp"
@@ -19,7 +20,7 @@ constexpr int kFinerSkins = 2;  // so that the skin's own facets are not felt
 constexpr double kListen_s = 3.0;
 
 struct GloveBench {
-    std::string hand = "assets/hands/right.glb";
+    std::string hand = asset_path("hands/right.glb");
     std::string svg, json;
     bool without_line = false;
 };

@@ -37,7 +37,7 @@ BenchSubcommand add_bench_world(Command bench) {
     const auto options = std::make_shared<WorldBench>();
     std::error_code ignored;
     options->task.folder = std::filesystem::temp_directory_path(ignored).string();
-    command.option("FILE", options->task.world, "A world (.wrl); else one is made");
+    command.option("FILE", options->task.world, "A world (.wrl); else one is made").asset(AssetRoom::worlds);
     command.option("--objects", options->task.objects, "Named nodes of the made world")
         .within(1, 100'000)
         .show_default();

@@ -7,9 +7,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -74,6 +76,36 @@ void narrow(CLI::Option* option, Number least, Number most) {
                        " - " + shortest(most) + "]");
 }
 
+// ---- Names of assets
+
+// Returns whether an option of that room takes other words too, such as a tool's shape or a device.
+bool takes_other_words(AssetRoom room) {
+    return room == AssetRoom::tools || room == AssetRoom::devices || room == AssetRoom::trackers;
+}
+
+std::string unknown_asset(AssetRoom room, const std::string& name) {
+    std::string known;
+    for (const std::string& one : asset_names(room)) known += (known.empty() ? ": " : ", ") + one;
+    return "'" + name + "' is no file, and not among the " + room_folder(room) + known + " (assets: " + assets_line() +
+           ")";
+}
+
+// Puts the path of an asset in the place of its name. Returns why the name can be none; empty where it may.
+std::string resolve_asset(AssetRoom room, std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    const bool has_kind = room == AssetRoom::tools || room == AssetRoom::devices;
+    const std::size_t begin = has_kind && colon != std::string::npos ? colon + 1 : 0;
+    const std::string name = text.substr(begin);
+    if (const std::string path = asset_named(room, name); !path.empty()) {
+        text.replace(begin, std::string::npos, path);
+        return {};
+    }
+    const bool is_word = !name.empty() && name.find_first_of("/.:-") == std::string::npos;
+    std::error_code ignored;
+    if (!is_word || takes_other_words(room) || std::filesystem::exists(name, ignored)) return {};
+    return unknown_asset(room, name);
+}
+
 }  // namespace
 
 CommandOption CommandOption::required() {
@@ -112,6 +144,12 @@ CommandOption CommandOption::one_of(std::span<const char* const> words) {
 
 CommandOption CommandOption::one_of(std::initializer_list<int> numbers) {
     option_->check(CLI::IsMember(std::vector<int>(numbers)));
+    return *this;
+}
+
+CommandOption CommandOption::asset(AssetRoom room) {
+    option_->transform(
+        CLI::Validator([room](std::string& text) { return resolve_asset(room, text); }, "", room_folder(room)));
     return *this;
 }
 
@@ -235,5 +273,7 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
 }
 
 std::string CommandLine::help() const { return app_->help(); }
+
+std::vector<ManualFile> CommandLine::manual(const std::string& version) const { return manual_files(*app_, version); }
 
 }  // namespace burin::app

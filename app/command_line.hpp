@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/command_manual.hpp"
+#include "base/assets.hpp"
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "session/state/option_bounds.hpp"
@@ -45,6 +47,10 @@ public:
     CommandOption one_of(std::span<const char* const> words);
     CommandOption one_of(std::initializer_list<const char*> words);
     CommandOption one_of(std::initializer_list<int> numbers);
+    // The value names a file, or one of the room's that come with the program (base/assets.hpp), whose path the
+    // variable then holds: "garden", and "mesh:hex-bar" of a tool or "simulated-wand:short-wand" of a device. A single
+    // word that is neither is wrong usage where the option takes nothing but files; any other name goes on as it is.
+    CommandOption asset(AssetRoom room);
 
 private:
     CLI::Option* option_;
@@ -113,6 +119,8 @@ public:
     // which it reports in one line on standard error.
     [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
     [[nodiscard]] std::string help() const;
+    // Returns the manual's pages and the shell's completion of all commands that have been added (command_manual.hpp).
+    [[nodiscard]] std::vector<ManualFile> manual(const std::string& version) const;
 
 private:
     std::unique_ptr<CLI::App> app_;

@@ -85,6 +85,7 @@ struct HandSession {
     std::string grasp;  // a scripted hand that closes so; empty: none
     activities::GraspOptions options;
 };
+void prepare_hand(HandSession& hand);  // its world, glove and tool, as they are where no option says else
 void add_hand_options(Command command, HandSession& hand);
 [[nodiscard]] Result<void> hand(const HandSession& options);
 

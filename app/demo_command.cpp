@@ -10,8 +10,13 @@
 
 #include "activities/wand/cube_test.hpp"
 #include "activities/wand/wand_view.hpp"
+#include "app/commands.hpp"
 #include "app/output_files.hpp"
 #include "app/picture_folder.hpp"
+#include "app/sculpt_options.hpp"
+#include "app/study_command.hpp"
+#include "app/world_explore.hpp"
+#include "base/assets.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "scene/vrml_world.hpp"
 #include "session/picture/pictures.hpp"
@@ -128,20 +133,104 @@ Result<void> write_figures(const std::filesystem::path& folder, const activities
 }  // namespace
 
 struct DemoCommand::Options {
-    std::string out, world = "assets/worlds/wand-cube.wrl", wand;
+    session::SculptOptions sculpt;
+    std::string sculpt_out = "out/demo";
+    std::string world_out = "out/demo-world", study_out = "out/demo-study", hand_out = "out/demo-hand";
+    std::string out, world = asset_path("worlds/wand-cube.wrl"), wand;
     double radius_m = 0.004;
     bool no_pictures = false;
+
+    [[nodiscard]] Result<void> carve() const;
+    [[nodiscard]] Result<void> explore() const;
+    [[nodiscard]] Result<void> take_study() const;
+    [[nodiscard]] Result<void> grasp() const;
+    [[nodiscard]] Result<void> press_cube() const;
 };
 
+namespace {
+
+// Returns what the demonstration carves where the command line says nothing else: an ornament in a soccer ball.
+session::SculptOptions ornament() {
+    session::SculptOptions options;
+    options.workpiece.source = asset_path("workpieces/soccer_ball.obj");
+    options.workpiece.resolution = 512;
+    options.tool.shape = "ball:0.003";
+    options.stroke = asset_path("strokes/ornament.csv");
+    options.hand = session::HandChoice::simulated;
+    options.feel.hardness = "medium";
+    options.feel.press_N = 1.5;
+    options.feel.grip_N_per_m = 1000.0;
+    return options;
+}
+
+}  // namespace
+
+Result<void> DemoCommand::Options::carve() const {
+    session::SculptOptions options = sculpt;
+    const std::filesystem::path folder = sculpt_out;
+    if (const auto made = session::make_picture_folder(sculpt_out, "--out"); !made) return made;
+    for (const char* part : {"part.stl", "part.ply"}) options.exports.push_back((folder / part).string());
+    if (options.pictures.empty()) options.pictures = sculpt_out;
+    if (options.report.empty()) options.report = (folder / "report.json").string();
+    session::settle_room(options, false);
+    if (const auto carved = app::sculpt(options); !carved) return carved;
+    std::printf("left in %s\n", sculpt_out.c_str());
+    return {};
+}
+
+Result<void> DemoCommand::Options::explore() const {
+    WorldExploration exploration;
+    exploration.world = asset_path("worlds/garden.toml");
+    exploration.stroke = asset_path("strokes/garden.csv");
+    exploration.pictures = world_out;
+    exploration.report = (std::filesystem::path(world_out) / "report.json").string();
+    if (const auto made = session::make_picture_folder(world_out, "--out"); !made) return made;
+    return explore_world(exploration);
+}
+
+Result<void> DemoCommand::Options::take_study() const {
+    StudyInitOptions init;
+    init.places = {"kinesthetic-path", study_out};
+    init.seed = 1;
+    if (const auto made = study_init(init); !made) return made;
+    StudyRunOptions run;
+    run.study = study_out;
+    run.simulated = true;
+    if (const auto ran = study_run(run, {}); !ran) return ran;
+    return study_report(study_out);
+}
+
+Result<void> DemoCommand::Options::grasp() const {
+    HandSession session;
+    prepare_hand(session);
+    session.grasp = "whole";
+    session.session.live.outputs = hand_out;
+    if (const auto made = session::make_picture_folder(hand_out, "--out"); !made) return made;
+    return hand(session);
+}
+
 DemoCommand::DemoCommand(Command app)
-    : options_(std::make_unique<Options>()), command_(app.subcommand("demo", "Runs that show what a device does")) {
-    command_.require_subcommand();
+    : options_(std::make_unique<Options>()),
+      command_(
+          app.subcommand("demo", "Carve an ornament into a ball with a simulated hand; other runs that show much")) {
+    options_->sculpt = ornament();
+    command_.option("--out", options_->sculpt_out, "A folder for pictures, meshes and report").show_default();
+    add_carving_options(command_, options_->sculpt);
+    world_ = command_.subcommand("world", "A simulated hand feels the objects of a garden");
+    world_.option("--out", options_->world_out, "A folder for pictures and report").show_default();
+    study_ = command_.subcommand("study", "A study of simulated learners, from its protocol to its report");
+    study_.option("--out", options_->study_out, "A new folder for it").show_default();
+    hand_ = command_.subcommand("hand", "A drawn hand grasps a ball, carries it and lets it go");
+    hand_.option("--out", options_->hand_out, "A folder for pictures").show_default();
     Command wand = command_.subcommand(
         "wand", "Press a wand's ends against a cube: forces, torques and their signs, with pictures and plots");
     Options& o = *options_;
     wand.option("--out", o.out, "A folder for pictures, figures, table and report").required();
-    wand.option("--world", o.world, "A world whose first object that is felt is the cube").show_default();
-    wand.option("--wand", o.wand, "A wand's description (TOML); else the Quanser wand's");
+    wand.option("--world", o.world, "A world whose first object that is felt is the cube")
+        .asset(AssetRoom::worlds)
+        .show_default();
+    wand.option("--wand", o.wand, "A wand's description (TOML); else the Quanser wand's").asset(AssetRoom::devices);
+    wand_ = wand;
     wand.option("--radius", o.radius_m, "Radius of the balls that touch, in metres").within(1e-4, 0.02).show_default();
     wand.flag("--no-pictures", o.no_pictures, "Leave out the pictures, which need a Vulkan device");
 }
@@ -152,18 +241,26 @@ bool DemoCommand::parsed() const { return command_.parsed(); }
 
 Result<void> DemoCommand::run() const {
     const Options& o = *options_;
-    const Result<devices::WandDescription> wand =
+    if (world_.parsed()) return o.explore();
+    if (study_.parsed()) return o.take_study();
+    if (hand_.parsed()) return o.grasp();
+    return wand_.parsed() ? o.press_cube() : o.carve();
+}
+
+Result<void> DemoCommand::Options::press_cube() const {
+    const Options& o = *this;
+    const Result<devices::WandDescription> described =
         o.wand.empty() ? devices::WandDescription{} : devices::read_wand(o.wand);
-    if (!wand) return std::unexpected(wand.error());
-    CubeWorld world;
-    if (const auto opened = open_cube(world, o.world); !opened) return opened;
+    if (!described) return std::unexpected(described.error());
+    CubeWorld cube;
+    if (const auto opened = open_cube(cube, o.world); !opened) return opened;
     if (const auto made = session::make_picture_folder(o.out, "--out"); !made) return made;
     const Result<activities::CubeTest> test =
-        activities::run_cube_test(*world.part, world.materials, world.cube_scene_m, *wand, o.radius_m);
+        activities::run_cube_test(*cube.part, cube.materials, cube.cube_scene_m, *described, o.radius_m);
     if (!test) return std::unexpected(test.error());
     if (const auto written = write_figures(o.out, *test, o.world); !written) return written;
     if (!o.no_pictures)
-        if (const auto drawn = draw_cases(o.out, world, *test, *wand, o.radius_m); !drawn) return drawn;
+        if (const auto drawn = draw_cases(o.out, cube, *test, *described, o.radius_m); !drawn) return drawn;
     print_findings(*test);
     if (test->holds()) return {};
     std::fflush(stdout);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// burin demo: carves an ornament into a ball by a simulated hand, without a device or a display, from files that come
+// with the program, in any working folder; burin demo world, study, hand likewise.
 // burin demo wand --out DIR: the cube test of the wand thesis, with pictures, plots and a table; exit status 1 where a
 // force or a torque has another sign than the thesis says (activities/wand/cube_test.hpp).
 #pragma once
@@ -24,7 +26,7 @@ public:
 private:
     struct Options;
     std::unique_ptr<Options> options_;
-    Command command_;
+    Command command_, world_, study_, hand_, wand_;
 };
 
 }  // namespace burin::app

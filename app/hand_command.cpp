@@ -8,17 +8,22 @@
 #include "app/commands.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
+#include "base/assets.hpp"
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
 
 namespace burin::app {
 namespace {
 
-constexpr const char* kWorld = "assets/worlds/hand.toml";
-// Scripts of what the arm does; the fingers close by the glove, or by the first button.
-constexpr const char* kScripts = "assets/sessions/hand-";
+std::string scripted_world() { return asset_path("worlds/hand.toml"); }
+// Returns a script of what the arm does; the fingers close by the glove, or by the first button.
+std::string arm_script(const std::string& grasp) { return asset_path("sessions/hand-" + grasp + ".txt"); }
+
+// Returns whether the scripts were written for that world. Its file may be another copy of it.
+bool is_scripted_world(const std::string& world) { return session::is_same_file(world, scripted_world()); }
 
 std::string seconds_text(Nanoseconds from_ns, Nanoseconds to_ns) {
     return formatted("%.1f s", seconds(to_ns - from_ns));
@@ -37,11 +42,16 @@ void print_grasps(const activities::Grasp& hand) {
 
 }  // namespace
 
-void add_hand_options(Command command, HandSession& hand) {
-    hand.session.world = kWorld;
+void prepare_hand(HandSession& hand) {
+    hand.session.world = scripted_world();
     hand.session.live.device = devices::kSimulatedGlove;
     hand.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+}
+
+void add_hand_options(Command command, HandSession& hand) {
+    prepare_hand(hand);
     command.option("FILE", hand.session.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+        .asset(AssetRoom::worlds)
         .show_default();
     command
         .option("--grasp", hand.grasp,
@@ -79,12 +89,12 @@ Result<void> hand(const HandSession& options) {
         if (!live.input.empty())
             return fail("--grasp " + options.grasp, "leads the hand by a script, and --input names another",
                         "leave one of them out");
-        if (session.world != kWorld)
+        if (!is_scripted_world(session.world))
             return fail("--grasp " + options.grasp,
-                        "goes by a script for " + std::string(kWorld) + ", and " + session.world + " is another world",
+                        "goes by a script for " + scripted_world() + ", and " + session.world + " is another world",
                         "lead the hand there with --input");
         live.device = std::string(devices::kSimulatedGlove) + ":" + options.grasp;
-        live.input = kScripts + options.grasp + ".txt";
+        live.input = arm_script(options.grasp);
         live.offscreen = true;
     }
     const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
@@ -97,13 +107,12 @@ Result<void> hand(const HandSession& options) {
         return fail("--rendering local", "needs a glove's controller, and " + live.device + " has none",
                     "name --device glove:PORT, or leave it out");
     // A glove whose arm nobody leads grasps by a script; a simulated one closes by its script's buttons.
-    if (live.offscreen && live.input.empty() && session.world != kWorld)
+    if (live.offscreen && live.input.empty() && !is_scripted_world(session.world))
         return fail(
             "--offscreen",
-            "has the arm go by a script for " + std::string(kWorld) + ", and " + session.world + " is another world",
+            "has the arm go by a script for " + scripted_world() + ", and " + session.world + " is another world",
             "lead the hand there with --input");
-    if (live.offscreen && live.input.empty())
-        live.input = std::string(kScripts) + (has_line ? "glove" : "whole") + ".txt";
+    if (live.offscreen && live.input.empty()) live.input = arm_script(has_line ? "glove" : "whole");
     const auto activity = std::make_shared<activities::Grasp>(options.options);
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "hand");

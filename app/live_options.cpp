@@ -36,7 +36,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     const std::size_t before = command.options().size();
     command.flag("--live", options.live,
                  "Open a window; also without this when neither a stroke nor an output is given");
-    command.option("--input", options.input, input_help);
+    command.option("--input", options.input, input_help).asset(AssetRoom::sessions);
     command.option("--record", options.record,
                    "A new file for all that the session depends on; with --input that log is played in real time. "
                    "FILE.session keeps every tick as well (burin session info FILE), any other name is a log as text. "
@@ -47,17 +47,24 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
-    command.option("--wall", options.wall,
-                   "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
-    command.option("--tracker", options.tracker,
-                   "Where head and wands are heard, else as the wall file says (none: nowhere): FILE.toml, a tracker's "
-                   "description; " +
-                       devices::tracker_usage());
-    command.option(
-        "--device", [&options](const std::vector<std::string>& given) { return session::set_devices(options, given); },
-        "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +
-            "; several hands have one each: --device right=simulated --device left=simulated-wand. There are " +
-            devices::haptic_usage() + device_help);
+    command
+        .option("--wall", options.wall,
+                "A wall file: its screens, each on its monitor or display, its eyes and its tracker")
+        .asset(AssetRoom::walls);
+    command
+        .option("--tracker", options.tracker,
+                "Where head and wands are heard, else as the wall file says (none: nowhere): FILE.toml, a tracker's "
+                "description; " +
+                    devices::tracker_usage())
+        .asset(AssetRoom::trackers);
+    command
+        .option(
+            "--device",
+            [&options](const std::vector<std::string>& given) { return session::set_devices(options, given); },
+            "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +
+                "; several hands have one each: --device right=simulated --device left=simulated-wand. There are " +
+                devices::haptic_usage() + device_help)
+        .asset(AssetRoom::devices);
     add_mouse_option(command, options);
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");

@@ -7,6 +7,7 @@
 #include "app/live_options.hpp"
 #include "app/output_files.hpp"
 #include "app/profile.hpp"
+#include "base/assets.hpp"
 #include "compute/rays/lattice.hpp"
 #include "session/drive/session.hpp"
 #include "session/record/input_files.hpp"
@@ -29,7 +30,7 @@ session::SculptOptions first_carve() {
     session::SculptOptions options;
     options.workpiece.source = "ball:0.1";
     options.tool.shape = "ball:0.01";
-    options.live.input = "assets/sessions/first-carve.txt";
+    options.live.input = asset_path("sessions/first-carve.txt");
     return options;
 }
 
@@ -70,12 +71,15 @@ ProfileCommand::ProfileCommand(Command app)
     o.sculpt = first_carve();
     session::SculptOptions& s = o.sculpt;
     command_.option("--input", s.live.input, "A recorded or written log of a session's input; it leaves no files")
+        .asset(AssetRoom::sessions)
         .show_default();
     command_.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
     command_.flag("--simulated-hand", o.simulated_hand,
                   "Ticks as a session without a device has them, which may rest; else as a device's user needs them");
-    command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it").show_default();
-    command_.option("--tool", s.tool.shape, "As burin sculpt has it").show_default();
+    command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it")
+        .asset(AssetRoom::workpieces)
+        .show_default();
+    command_.option("--tool", s.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
     command_.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
     command_.option("--weld", s.workpiece.weld_m, "As burin sculpt has it");
     command_.unit("--units", s.workpiece.units, "As burin sculpt has it");
@@ -83,7 +87,7 @@ ProfileCommand::ProfileCommand(Command app)
         .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     command_.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
-    command_.option("--wall", s.live.wall, "A wall file: all its screens");
+    command_.option("--wall", s.live.wall, "A wall file: all its screens").asset(AssetRoom::walls);
     command_.flag("--windowed", s.live.windowed, "With --wall and --window: its screens in windows on the desktop");
     command_.option("--width", s.live.width, "Of the picture, in pixels")
         .within(session::kPictureBounds)

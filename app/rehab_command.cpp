@@ -12,6 +12,7 @@
 #include "app/output_files.hpp"
 #include "app/rehab_results.hpp"
 #include "app/temporary_folder.hpp"
+#include "base/assets.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
@@ -53,7 +54,7 @@ Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const Exercise
     if (live.device != devices::kSimulatedGlove)
         return fail("--hand scripted", "is a simulated hand, and --device names " + live.device,
                     "leave one of them out");
-    const Result<std::string> script = read_text_file(kind.script);
+    const Result<std::string> script = read_text_file(asset_path(kind.script));
     if (!script) return std::unexpected(script.error());
     Result<TemporaryFolder> folder = TemporaryFolder::create();
     if (!folder) return std::unexpected(folder.error());
@@ -119,7 +120,7 @@ RehabCommand::RehabCommand(Command app)
         exercises_.push_back(std::make_unique<Of>(kind, command_.subcommand(kind.name, kind.help)));
         Of& of = *exercises_.back();
         Command& command = of.command;
-        of.session.world = kind.world;
+        of.session.world = asset_path(kind.world);
         of.session.no_workpiece = true;
         of.session.live.device = devices::kSimulatedGlove;
         of.session.tool.shape = "ball:0.006";  // around a fingertip's patch
@@ -173,7 +174,7 @@ Result<void> RehabCommand::run(const Of& of) const {
         if (!made) return std::unexpected(made.error());
         folder.emplace(std::move(*made));
     }
-    if (live.offscreen && live.input.empty()) live.input = of.kind.script;
+    if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
     if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
     if (const auto ready = prepare_results(of.results); !ready) return ready;

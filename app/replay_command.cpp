@@ -156,9 +156,9 @@ ReplayCommand::ReplayCommand(Command app)
     command_.option("FILE", o.file, "A session file, which --record has written").required();
     command_.option("--from", o.from, "The first tick that is compared; with --through the first that is felt");
     command_.option("--to", o.to, "The last tick; they are counted from 1");
-    command_.option("--world", o.world, "Where the recorded world's file is now");
-    command_.option("--stroke", o.stroke, "Where the stroke's file is now");
-    command_.option("--workpiece", o.workpiece, "Where the workpiece's file is now");
+    command_.option("--world", o.world, "Where the recorded world's file is now").asset(AssetRoom::worlds);
+    command_.option("--stroke", o.stroke, "Where the stroke's file is now").asset(AssetRoom::strokes);
+    command_.option("--workpiece", o.workpiece, "Where the workpiece's file is now").asset(AssetRoom::workpieces);
     command_.option(
         "--set", o.sets,
         "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
@@ -167,9 +167,11 @@ ReplayCommand::ReplayCommand(Command app)
     command_.option("--every", o.every_s, "With --pictures: seconds of the session from one to the next")
         .within(0.001, 1e6)
         .show_default();
-    command_.option("--through", o.through,
-                    "A world (.toml, .wrl) in which the recorded motion is felt: adds a table of proxies, forces and "
-                    "deviations to FILE");
+    command_
+        .option("--through", o.through,
+                "A world (.toml, .wrl) in which the recorded motion is felt: adds a table of proxies, forces and "
+                "deviations to FILE")
+        .asset(AssetRoom::worlds);
     command_.option("--radius", o.radius_m, "With --through: of the ball that touches, in metres; else as recorded");
     command_.option("--stiffness", o.materials.stiffness_N_per_m, "With --through: of all objects, N/m");
     command_.option("--damping", o.materials.damping_Ns_per_m, "With --through: of all objects, N s/m");

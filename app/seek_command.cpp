@@ -13,6 +13,7 @@ namespace burin::app {
 
 void add_seek_options(Command command, SeekSession& seek) {
     command.option("FILE", seek.session.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+        .asset(AssetRoom::worlds)
         .required();
     command.option("--targets", seek.targets, "How many objects are sought; 0: each that is seen and felt, once")
         .show_default();

@@ -84,19 +84,20 @@ WallCommand::WallCommand(Command app)
     command_.require_subcommand();
     Options& o = *options_;
     show_ = command_.subcommand("show", "Its screens in metres, degrees and pixels");
-    show_.option("FILE", o.file, "A wall file, see docs/formats.md").required();
+    show_.option("FILE", o.file, "A wall file, see docs/formats.md").asset(AssetRoom::walls).required();
     show_.option("--svg", o.svg, "A file for a drawing, plan and side view; - for standard output");
     show_.flag("--print-config", o.print_config,
                "Print the file with every setting, its tracker's description written out, and do no more");
-    show_.option("--tracker", o.tracker, "With --print-config: a tracker as sessions take it, in place of the file's");
+    show_.option("--tracker", o.tracker, "With --print-config: a tracker as sessions take it, in place of the file's")
+        .asset(AssetRoom::trackers);
     show_.option("--json", o.json, "A file for all figures; - for standard output");
 
     check_ = command_.subcommand("check", "What is wrong with it; exit status 1 when there is an error");
-    check_.option("FILE", o.file, "A wall file").required();
+    check_.option("FILE", o.file, "A wall file").asset(AssetRoom::walls).required();
 
     Command calibrate = command_.subcommand("calibrate", "A screen's corners from touches with a tracked wand");
     WallCalibrationOptions& c = o.calibration;
-    calibrate.option("--wall", c.wall, "The wall file as it is").required();
+    calibrate.option("--wall", c.wall, "The wall file as it is").asset(AssetRoom::walls).required();
     calibrate
         .option("--samples", c.samples,
                 "CSV with place,x,y,z in the wall's unit and the tracker's frame; - for standard input, with a "

@@ -326,18 +326,25 @@ WorldCommand::WorldCommand(Command app)
       command_(app.subcommand("world", "Explore a world by touch, and check worlds")) {
     Options& o = *options_;
     o.session.workpiece.source.clear();
-    command_.option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)");
-    command_.option("--workpiece", o.session.workpiece.source,
-                    "A workpiece that stands in the world and is carved: FILE, block:X,Y,Z or ball:R; else none");
+    command_.option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+        .asset(AssetRoom::worlds);
+    command_
+        .option("--workpiece", o.session.workpiece.source,
+                "A workpiece that stands in the world and is carved: FILE, block:X,Y,Z or ball:R; else none")
+        .asset(AssetRoom::workpieces);
     command_.option("--resolution", o.session.workpiece.resolution, "Of the workpiece: cells along its longest side")
         .within(session::kResolutionBounds)
         .show_default();
-    command_.option("--tool", o.session.tool.shape,
-                    sculpt::alternatives(sculpt::tool_synopses()) +
-                        ", in metres; else a ball whose radius is 1.5 % of the world's longest side");
+    command_
+        .option("--tool", o.session.tool.shape,
+                sculpt::alternatives(sculpt::tool_synopses()) +
+                    ", in metres; else a ball whose radius is 1.5 % of the world's longest side")
+        .asset(AssetRoom::tools);
     add_mirror_option(command_, o.session);
-    command_.option("--stroke", o.exploration.stroke,
-                    "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button, along which a simulated hand goes");
+    command_
+        .option("--stroke", o.exploration.stroke,
+                "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button, along which a simulated hand goes")
+        .asset(AssetRoom::strokes);
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
         .within(1e-5, 1.0)
         .show_default();
@@ -352,7 +359,9 @@ WorldCommand::WorldCommand(Command app)
                     "A JSON file for what was felt of each object; plots lie beside it");
     add_live_options(command_, o.session.live);
     check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
-    check_.option("FILE", o.files, "Worlds (.toml, .wrl for VRML 2.0, or a mesh), see docs/formats.md").required();
+    check_.option("FILE", o.files, "Worlds (.toml, .wrl for VRML 2.0, or a mesh), see docs/formats.md")
+        .asset(AssetRoom::worlds)
+        .required();
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
 }
 

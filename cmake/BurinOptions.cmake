@@ -21,14 +21,16 @@ endif()
 
 # Carried by every Burin target.
 add_library(burin_options INTERFACE)
-target_include_directories(burin_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(burin_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
+# Who links an installed library keeps the rules of arithmetic, and has warnings of their own.
+target_compile_features(burin_options INTERFACE cxx_std_23)
 target_compile_options(burin_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wconversion
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wpedantic> $<BUILD_INTERFACE:-Wconversion>
   # One rounding a written operation, on every machine: results must not depend on the compiler's choice to fuse.
   -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees overlapping copies in "literal" + std::string where there are none (its bug 105651, fixed in 13).
-  target_compile_options(burin_options INTERFACE -Wno-restrict)
+  target_compile_options(burin_options INTERFACE $<BUILD_INTERFACE:-Wno-restrict>)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 at -O2 turns dvec3(vec3(x)) into x: its SLP vectorizer forgets that the way through float rounds.
@@ -40,7 +42,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   target_compile_options(burin_options INTERFACE -Wno-deprecated-declarations)
 endif()
 if(BURIN_WARNINGS_ARE_ERRORS)
-  target_compile_options(burin_options INTERFACE -Werror)
+  target_compile_options(burin_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(BURIN_SANITIZE)
   target_compile_options(burin_options INTERFACE -fsanitize=${BURIN_SANITIZE} -fno-omit-frame-pointer

@@ -10,7 +10,7 @@ option(BURIN_ROOM_BUILDS "Compile the sources of a room as one" ON)
 if(BURIN_ROOM_BUILDS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # It sees through std::variant's moves in so long a text, and then takes them for reads of other alternatives. Preset
   # dev keeps the warning.
-  target_compile_options(burin_options INTERFACE -Wno-maybe-uninitialized)
+  target_compile_options(burin_options INTERFACE $<BUILD_INTERFACE:-Wno-maybe-uninitialized>)
 endif()
 
 # A text includes sources of at most so many bytes together. Short ones are compiled anew quickly when one source

@@ -18,13 +18,12 @@ constexpr std::string_view kPrefix = "rehab ";
 
 std::span<const ExerciseKind> all_kinds() {
     static const std::array kinds{
-        ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "assets/worlds/hand.toml",
-                     "assets/sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball},
-        ExerciseKind{"game", "Throw a ball at a wall above a line, and catch it", "assets/worlds/game.toml",
-                     "assets/sessions/rehab-game.txt", Game::setting_kinds(), Game::make, scripted_game},
-        ExerciseKind{"putty", "Knead putty that keeps its dents, pinched or in the whole hand",
-                     "assets/worlds/putty.toml", "assets/sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make,
-                     scripted_putty, Putty::grip},
+        ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "worlds/hand.toml",
+                     "sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball},
+        ExerciseKind{"game", "Throw a ball at a wall above a line, and catch it", "worlds/game.toml",
+                     "sessions/rehab-game.txt", Game::setting_kinds(), Game::make, scripted_game},
+        ExerciseKind{"putty", "Knead putty that keeps its dents, pinched or in the whole hand", "worlds/putty.toml",
+                     "sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make, scripted_putty, Putty::grip},
     };
     return kinds;
 }

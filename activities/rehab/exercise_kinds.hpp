@@ -17,7 +17,7 @@ namespace burin::activities {
 struct ExerciseKind {
     const char* name = "";  // "ball"
     const char* help = "";
-    const char* world = "";   // a file; it stands among the assets
+    const char* world = "";   // a file among the assets (base/assets.hpp), named by its room and its name
     const char* script = "";  // how a simulated hand does it, likewise
     std::span<const SettingKind> settings;
     // Requires sound values.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/assets.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/haptics/touch_run.hpp"
@@ -18,12 +19,12 @@
 namespace burin::bench {
 namespace {
 
-const char* const kTube = "assets/worlds/tube.wrl";
-const char* const kThroughTube = "assets/strokes/tube.csv";
+std::string tube_file() { return asset_path("worlds/tube.wrl"); }
+std::string stroke_through_tube() { return asset_path("strokes/tube.csv"); }
 constexpr double kEnd_m = 0.02, kEndBall_m = 0.004;  // as assets/devices/short-wand.toml, and burin world's --radius
 
 Result<geometry::TriangleMesh> tube_wall() {
-    const auto file = geometry::read_vrml_file(kTube);
+    const auto file = geometry::read_vrml_file(tube_file());
     if (!file) return std::unexpected(file.error());
     const auto world = geometry::shapes_of(*file);
     if (!world) return std::unexpected(world.error().front());
@@ -33,7 +34,7 @@ Result<geometry::TriangleMesh> tube_wall() {
         for (Vec3& p : mesh.positions_m) p = Vec3(shape.world_from_shape * glm::dvec4(p, 1.0));
         return mesh;
     }
-    return fail(kTube, "holds no Tube", "take the file that comes with the program");
+    return fail(tube_file(), "holds no Tube", "take the file that comes with the program");
 }
 
 haptics::Probe ends(bool top, bool bottom) {
@@ -101,15 +102,14 @@ private:
 }  // namespace
 
 Result<void> measure_wand(Haptics& all, const Tell& notify) {
-    if (!std::filesystem::exists(kTube) || !std::filesystem::exists(kThroughTube)) {
-        all.notes.push_back(std::string(kTube) +
-                            " is not here: run in the repository's folder to touch it with a wand");
+    if (!std::filesystem::exists(tube_file()) || !std::filesystem::exists(stroke_through_tube())) {
+        all.notes.push_back(tube_file() + " is not here: set BURIN_ASSETS to touch it with a wand");
         return {};
     }
     notify("a wand in the tube");
     Result<geometry::TriangleMesh> mesh = tube_wall();
     if (!mesh) return std::unexpected(mesh.error());
-    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(kThroughTube);
+    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(stroke_through_tube());
     if (!stroke) return std::unexpected(stroke.error());
     auto wall = geometry::TouchMesh::create(*mesh);
     if (!wall) return std::unexpected(wall.error());

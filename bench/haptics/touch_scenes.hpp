@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/assets.hpp"
 #include "base/error.hpp"
 #include "bench/haptics/surface_walk.hpp"
 #include "geometry/contact/local_surface.hpp"
@@ -34,7 +35,7 @@ struct TouchSceneOptions {
     std::vector<std::size_t> spheres = {};  // approximate triangle counts
     std::size_t rough_triangles = 200'000;
     std::uint32_t sides = 64, needles = 40;
-    std::string workpiece = "assets/workpieces/soccer_ball.obj";
+    std::string workpiece = asset_path("workpieces/soccer_ball.obj");
     std::string models = {};  // a folder; empty: none
 };
 

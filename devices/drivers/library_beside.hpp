@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the emulated libraries of devices' makers are: beside the program, or in the folder above it.
+// Where the emulated libraries of devices' makers are: beside the program, in the folder above it (of tests), or in
+// PREFIX/lib/burin/emulators of a program that is installed as PREFIX/bin/burin.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +10,11 @@
 
 namespace burin::devices {
 
-// Returns the path of a library there; its name alone where it is in neither place.
+// Returns the path of a library there; its name alone where it is in none of these places.
 [[nodiscard]] inline std::string library_beside(const char* name) {
     std::error_code ignored;
     const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (const std::filesystem::path& at : {folder, folder.parent_path()})
+    for (const std::filesystem::path& at : {folder, folder.parent_path(), folder.parent_path() / "lib/burin/emulators"})
         if (std::filesystem::exists(at / name, ignored)) return (at / name).string();
     return name;
 }
@@ -31,7 +32,9 @@ namespace burin::devices {
     std::string beside = library_beside(emulated);
     if (beside == emulated)
         return fail(where, "the emulated library " + beside + " is not beside the program",
-                    "build it too, and keep it in the program's folder or the one above: no maker's library is needed");
+                    "build it too, and keep it in the program's folder, the one above or its lib/burin/emulators: no "
+                    "maker's library "
+                    "is needed");
     return beside;
 }
 

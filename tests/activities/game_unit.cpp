@@ -12,6 +12,7 @@
 #include "activities/rehab/game/game.hpp"
 #include "activities/rehab/game/scripted_throws.hpp"
 #include "activities/rehab/rehab.hpp"
+#include "base/assets.hpp"
 #include "base/file_io.hpp"
 #include "scene/vrml_world.hpp"
 #include "tests/activities/foretold_throws.hpp"
@@ -98,7 +99,7 @@ TEST(ScriptedThrows, AreAsManyAsAreAskedForAndGoAsAnIndependentBallDoes) {
 
 TEST(ScriptedThrows, AreLinesInTheOrderOfTheirTimesWhateverTheirNumber) {
     const ExerciseKind& kind = *exercise_named("game");
-    const auto script = read_text_file(kind.script);
+    const auto script = read_text_file(asset_path(kind.script));
     ASSERT_TRUE(script);
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const std::string text = kind.scripted(SettingValues(kind.settings), seed, *script);
@@ -117,7 +118,7 @@ TEST(ScriptedThrows, AreLinesInTheOrderOfTheirTimesWhateverTheirNumber) {
 
 TEST(ScriptedThrows, EndWithTheTimeLimit) {
     const ExerciseKind& kind = *exercise_named("game");
-    const auto script = read_text_file(kind.script);
+    const auto script = read_text_file(asset_path(kind.script));
     ASSERT_TRUE(script);
     SettingValues values(kind.settings);
     values.set("throws", 1000.0);

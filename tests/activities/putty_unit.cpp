@@ -11,6 +11,7 @@
 #include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/putty/putty.hpp"
 #include "activities/rehab/putty/scripted_kneads.hpp"
+#include "base/assets.hpp"
 #include "base/file_io.hpp"
 
 namespace burin::activities {
@@ -171,7 +172,7 @@ TEST(ScriptedKneads, AreAsManyAsAreAskedForWhateverTheSeed) {
 }
 
 TEST(ScriptedKneads, BringAWholeHandLessFarThanAPinch) {
-    const auto script = read_text_file(exercise_named("putty")->script);
+    const auto script = read_text_file(asset_path(exercise_named("putty")->script));
     ASSERT_TRUE(script);
     SettingValues values(Putty::setting_kinds());
     const std::string pinch = scripted_putty(values, 1, *script);

@@ -158,7 +158,7 @@ TEST(ProfileReport, ComparesTheDriversThreads) {
 
 TEST(ProfileCommand, NamesTheInputThatIsNotThere) {
     const Workplace place;
-    const auto outcome = place.run(std::string(kBurinCommand) + " profile");
+    const auto outcome = place.run("BURIN_ASSETS=/nowhere " + std::string(kBurinCommand) + " profile");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.output.find("first-carve.txt"), std::string::npos) << outcome.output;
     const auto wrong = place.run(std::string(kBurinCommand) + " profile --width 3");
