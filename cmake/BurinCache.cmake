@@ -13,6 +13,12 @@ if(BURIN_CACHE AND BURIN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env LC_ALL=C.UTF-8
     CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
     CCACHE_SLOPPINESS=include_file_mtime,include_file_ctime,pch_defines,time_macros ${BURIN_CCACHE})
+elseif(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # What the cache does by its base_dir: a program names no folder in which it was built (__FILE__), and is the same,
+  # byte for byte, whether it came from the cache or not.
+  file(RELATIVE_PATH sources ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
+  string(REGEX REPLACE "/$" "" sources ${sources})
+  add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}=${sources})
 endif()
 
 find_program(BURIN_MOLD mold)

@@ -15,7 +15,7 @@ inline constexpr const char* kUdevRules = "70-burin-devices.rules";
 // Returns what to do where a device may not be opened: where the rules are installed, as the package does it, they let
 // the person at the machine and the group plugdev open it; else they have to be installed.
 [[nodiscard]] inline std::string udev_remedy() {
-    for (const char* folder : {"/etc/udev/rules.d/", "/lib/udev/rules.d/", "/usr/lib/udev/rules.d/"}) {
+    for (const char* folder : {"/etc/udev/rules.d/", "/usr/lib/udev/rules.d/", "/lib/udev/rules.d/"}) {
         std::error_code ignored;
         if (std::filesystem::exists(std::string(folder) + kUdevRules, ignored))
             return std::string(folder) + kUdevRules +

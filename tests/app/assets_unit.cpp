@@ -71,4 +71,14 @@ TEST(Assets, AToolAndAWandAreFoundBehindTheirKind) {
     EXPECT_TRUE(pressed.output.contains("one end alone cannot touch a face of that height")) << pressed.output;
 }
 
+TEST(Version, SaysWhatAReportOfAFaultNeeds) {
+    const Workplace place;
+    const auto version = place.run(burin_command("--version"));
+    EXPECT_EQ(version.status, 0);
+    EXPECT_TRUE(version.output.starts_with("burin 0.")) << version.output;
+    for (const char* part : {"\nassets: /", "\nengines: cpu", "\ndrivers: simulated ", " falcon ", "\nlibraries: GLFW ",
+                             "SQLite 3.", "libusb 1.", "Vulkan"})
+        EXPECT_TRUE(version.output.contains(part)) << part << " in\n" << version.output;
+}
+
 }  // namespace burin::app
