@@ -122,7 +122,8 @@ void DocumentWriter::carry_out(SaveRequest& request) {
         if (const auto taken = journal_->take_over(request.content); !taken) fail_journal(taken.error());
     }
     const std::lock_guard lock(mutex_);
-    outcomes_.push_back({std::move(request.path), std::move(request.name), request.asked_by, std::move(saved)});
+    outcomes_.push_back(
+        {std::move(request.path), std::move(request.name), request.asked_by, request.state, std::move(saved)});
 }
 
 void DocumentWriter::carry_out(JournalBeginning& begin) {

@@ -33,12 +33,14 @@ struct SaveRequest {
     bool changed_alone = false;
     Place place = Place::nothing;    // of a new file
     std::size_t asked_by = 0;        // comes back with the outcome; whoever asks knows what it means
+    std::uint64_t state = 0;         // of the work, likewise
     std::optional<Error> refused{};  // why nothing is written
 };
 
 struct SaveOutcome {
     std::string path, name;
     std::size_t asked_by = 0;
+    std::uint64_t state = 0;
     Result<Saved> saved;
 };
 

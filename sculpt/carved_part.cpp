@@ -95,6 +95,8 @@ void CarvedPart::keep_journal(TakeChange take) {
     journal_ = std::move(take);
 }
 
+std::uint64_t CarvedPart::state() const { return sculpture_.history() != nullptr ? sculpture_.history()->state() : 0; }
+
 void CarvedPart::tell_journal() {
     scene::Pages change{.whole = false};
     if (journal_ && sculpture_.take_change(change)) journal_(std::move(change));
@@ -190,6 +192,7 @@ std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
     if (const compute::History* history = sculpture_.history()) {
         update.undoable = history->undoable();
         update.redoable = history->redoable();
+        update.state = history->state();
     }
     update.exporting = export_.valid();
     update.messages = std::exchange(messages_, {});
@@ -315,6 +318,7 @@ void merge(SurfaceUpdate& into, SurfaceUpdate later) {
     into.cut_ns = std::max(into.cut_ns, later.cut_ns);
     into.undoable = later.undoable;
     into.redoable = later.redoable;
+    into.state = later.state;
     into.exporting = later.exporting;
     std::ranges::move(later.messages, std::back_inserter(into.messages));
     std::ranges::move(later.exports, std::back_inserter(into.exports));

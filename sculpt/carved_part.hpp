@@ -73,6 +73,7 @@ struct SurfaceUpdate {
     std::vector<Box> inner_boxes_object;  // boxes that now lie wholly inside the material
     Nanoseconds cut_ns = 0;               // time at which the tool worked last
     std::size_t undoable = 0, redoable = 0;
+    std::uint64_t state = 0;             // of the work (compute::History::state)
     bool exporting = false;              // an export is under way
     std::vector<std::string> messages;   // for the user
     std::vector<ExportOutcome> exports;  // that have ended, for the user as well
@@ -107,6 +108,8 @@ public:
     // every kJournal_ns. Before the first update.
     using TakeChange = std::function<void(scene::Pages)>;
     void keep_journal(TakeChange take);
+    // Returns which state the work is in (compute::History::state); 0 without a history.
+    [[nodiscard]] std::uint64_t state() const;
 
     // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update. A hand
     // comes after the cursor: undo and redo that are asked for while a button is still down wait for the stroke's end,

@@ -4,6 +4,14 @@
 #include <utility>
 
 namespace burin::compute {
+namespace {
+
+void move_last(std::deque<std::uint64_t>& from, std::deque<std::uint64_t>& to) {
+    to.push_back(from.back());
+    from.pop_back();
+}
+
+}  // namespace
 
 std::size_t History::size_of(const RayBatch& stroke) {
     return sizeof(RayBatch) + stroke.rays.size() * sizeof(RayBatch::Ray) +
@@ -14,6 +22,9 @@ void History::record(const Changes& changes) {
     if (changes.empty()) return;
     for (const RayBatch& stroke : undone_) bytes_ -= size_of(stroke);
     undone_.clear();
+    undone_states_.clear();
+    if (!open_.rays.empty()) done_states_.pop_back();
+    done_states_.push_back(++last_state_);
     bytes_ -= size_of(open_);
     for (const shared::ChangedRay& change : changes.rays) {
         if (in_open_.try_emplace(change.ray, 0u).second) open_.add(change.ray, changes.before_of(change));
@@ -36,6 +47,8 @@ void History::keep_within_budget() {
     while (bytes_ > budget_bytes_ && !done_.empty()) {
         bytes_ -= size_of(done_.front());
         done_.pop_front();
+        oldest_state_ = done_states_.front();
+        done_states_.pop_front();
         ++dropped_strokes_;
         ++dropped_since_notice_;
     }
@@ -43,12 +56,16 @@ void History::keep_within_budget() {
 
 Result<bool> History::undo(CarvingEngine& engine) {
     end_stroke();
-    return exchange(done_, undone_, engine);
+    const Result<bool> undone = exchange(done_, undone_, engine);
+    if (undone && *undone) move_last(done_states_, undone_states_);
+    return undone;
 }
 
 Result<bool> History::redo(CarvingEngine& engine) {
     end_stroke();
-    return exchange(undone_, done_, engine);
+    const Result<bool> redone = exchange(undone_, done_, engine);
+    if (redone && *redone) move_last(undone_states_, done_states_);
+    return redone;
 }
 
 Result<bool> History::exchange(std::deque<RayBatch>& from, std::deque<RayBatch>& to, CarvingEngine& engine) {

@@ -9,6 +9,7 @@
 // Thread: one.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <unordered_map>
@@ -32,6 +33,8 @@ public:
 
     [[nodiscard]] std::size_t undoable() const { return done_.size() + (open_.rays.empty() ? 0 : 1); }
     [[nodiscard]] std::size_t redoable() const { return undone_.size(); }
+    // Tells the states of the solid apart that the strokes lead to: the same number again after undo, and no other's.
+    [[nodiscard]] std::uint64_t state() const { return done_states_.empty() ? oldest_state_ : done_states_.back(); }
     // undo() takes back the last stroke, after closing an open one; redo() repeats the stroke that was undone last. The
     // changes that the engine reports for this must not be recorded. Both return false, with no effect, when there is
     // no such stroke, and fail when the engine does; the stroke is then kept.
@@ -50,7 +53,10 @@ private:
     void keep_within_budget();
 
     std::size_t budget_bytes_, bytes_ = sizeof(RayBatch), dropped_strokes_ = 0, dropped_since_notice_ = 0;
-    std::deque<RayBatch> done_, undone_;                        // rays with the ends that undo or redo assigns to them
+    std::deque<RayBatch> done_, undone_;  // rays with the ends that undo or redo assigns to them
+    // After each stroke of done_ and of the open one, and of undone_ once it is redone; before the oldest of done_.
+    std::deque<std::uint64_t> done_states_, undone_states_;
+    std::uint64_t oldest_state_ = 0, last_state_ = 0;
     RayBatch open_;                                             // the stroke that has not ended
     std::unordered_map<std::uint32_t, std::uint32_t> in_open_;  // codes of the rays in open_
 };

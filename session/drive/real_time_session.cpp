@@ -23,6 +23,8 @@
 namespace burin::session {
 namespace {
 
+// Between two looks at what the disk has got, while nothing else happens.
+constexpr Nanoseconds kLooksForDisk_ns = 50'000'000;
 // Longest sleep while nothing happens.
 constexpr Nanoseconds kRest_ns = 1'000'000'000;
 // Time after the last change for which frames follow the display's refresh.
@@ -79,6 +81,7 @@ private:
     Moment lasted_;               // from the beginning to the end of the last frame
     Moment rested_;               // spent in turns without anything new, once the session had settled
     Nanoseconds changed_ns_ = 0;  // when something new was drawn last
+    std::string named_;           // what the windows' titles say of the document
 };
 
 std::optional<FrameInput> LiveFrames::next_input() {
@@ -95,6 +98,8 @@ std::optional<FrameInput> LiveFrames::next_input() {
         input_.push(event.time_ns, std::move(event.input));
     for (std::string& command : session_.hands().take_commands())
         input_.push(clock_.now_ns() - session_.start_ns(), CommandInput{std::move(command), {}}, true);
+    for (CommandInput& told : session_.take_told())
+        input_.push(clock_.now_ns() - session_.start_ns(), std::move(told), true);
     recorder_.outside();
     const auto frame =
         input_.begin_frame(clock_.now_ns() - session_.start_ns(), plan_.display_ns - session_.start_ns());
@@ -113,6 +118,7 @@ std::vector<InputEvent> LiveFrames::wait_for_frame() {
     if (active) return wait_for_refresh();
     Nanoseconds until_ns = clock_.now_ns() + kRest_ns;
     if (const auto event_ns = input_.next_event_ns()) until_ns = std::min(until_ns, session_.start_ns() + *event_ns);
+    if (session_.waits_for_the_disk()) until_ns = std::min(until_ns, clock_.now_ns() + kLooksForDisk_ns);
     if (const auto change_ns = session_.changes_ns()) until_ns = std::min(until_ns, session_.start_ns() + *change_ns);
     std::vector<InputEvent> happened = wait_for_input(until_ns);
     plan_ = display_.plan(clock_.now_ns());
@@ -159,6 +165,10 @@ std::vector<InputEvent> LiveFrames::take_tracker_input() {
 void LiveFrames::stepped() {
     if (presenter_.shows() && session_.wants_full_screen_exchanged()) presenter_.exchange_full_screen();
     for (const std::string& message : presenter_.take_messages()) session_.notify_of_event(message);
+    if (const auto& told = session_.state().asked.told) {
+        std::string name = short_name(*told) + " \u2014 " + state_text(*told);
+        if (std::exchange(named_, name) != name) presenter_.name_windows(name);
+    }
     session_.times().reached(FrameStage::step);
 }
 

@@ -54,6 +54,7 @@ constexpr std::array kShortCuts = {
     ShortCut{Key::f12, kNone, Action::take_screenshot, false, "Save a picture of the screen"},
     ShortCut{Key::e, kCtrl, Action::export_mesh, false, "Export the mesh"},
     ShortCut{Key::s, kCtrl, Action::save_session, false, "Save the work"},
+    ShortCut{Key::s, kCtrlShift, Action::save_as, false, "Save the work under another name"},
     ShortCut{Key::q, kCtrl, Action::quit, false, "Quit"},
 };
 
@@ -108,7 +109,7 @@ constexpr std::array kSurfaceGestures = {
 
 constexpr std::array<std::string_view, 2> kMouseModeNames = {"free", "surface"};
 
-constexpr std::array<std::string_view, 38> kActionNames = {"undo",
+constexpr std::array<std::string_view, 39> kActionNames = {"undo",
                                                            "redo",
                                                            "tool-1",
                                                            "tool-2",
@@ -128,6 +129,7 @@ constexpr std::array<std::string_view, 38> kActionNames = {"undo",
                                                            "take-screenshot",
                                                            "export-mesh",
                                                            "save-session",
+                                                           "save-as",
                                                            "reset-view",
                                                            "fit-view",
                                                            "view-front",

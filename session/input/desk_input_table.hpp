@@ -18,7 +18,8 @@ enum class Action : std::uint8_t {
     undo, redo, tool_1, tool_2, tool_3, tool_4, tool_5, smaller_radius, larger_radius, next_stereo_mode, swap_eyes,
     next_workspace_technique, toggle_panel, toggle_help, toggle_frame_figures, toggle_devices,
     toggle_full_screen, take_screenshot,
-    export_mesh, save_session, reset_view, fit_view, view_front, view_side, view_top, view_back, view_left, view_bottom,
+    export_mesh, save_session, save_as,
+    reset_view, fit_view, view_front, view_side, view_top, view_back, view_left, view_bottom,
     turn_left, turn_right, turn_up, turn_down, roll_left, roll_right, next_hand, put_away, first_steps, quit,
     // clang-format on
 };

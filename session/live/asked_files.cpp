@@ -45,17 +45,28 @@ void AskedFiles::tell(const sculpt::ExportOutcome& ended) {
     }
 }
 
-Result<AskedFiles::DocumentPlace> AskedFiles::place_document(const std::string& name, const std::string& current) {
+Result<AskedFiles::DocumentPlace> AskedFiles::place_document(const std::string& asked, const std::string& current,
+                                                             bool replaces) {
     const bool of_log = outputs_.are_of_log();
+    // A name that a user has typed may lead anywhere; when the recording of that is done again it stays in the folder.
+    const bool leads_out = of_log && !check_output_name(asked, OutputKind::document);
+    const std::string name = leads_out ? std::filesystem::path(asked).filename().string() : asked;
     // A user's own document is an input as well, and yet what is saved goes there.
     if (!of_log && !outputs_.refuse_meshes() && is_same_file(name, current))
         return DocumentPlace{current, outputs_.shown(name, current), true, true};
     Result<std::filesystem::path> place = outputs_.place_of(name, OutputKind::document);
     if (!place) return std::unexpected(place.error());
     const bool is_current = is_same_file(*place, current);
-    if (!is_current) place = outputs_.new_place_of(name, OutputKind::document);
+    if (!is_current && !replaces) place = outputs_.new_place_of(name, OutputKind::document);
     if (!place) return std::unexpected(place.error());
-    return DocumentPlace{place->string(), outputs_.shown(name, *place), is_current, of_log};
+    return DocumentPlace{place->string(), outputs_.shown(name, *place), is_current, of_log || replaces};
+}
+
+bool AskedFiles::is_taken(const std::string& name, const std::string& current) const {
+    if (outputs_.are_of_log() || is_same_file(name, current)) return false;
+    const Result<std::filesystem::path> place = outputs_.place_of(name, OutputKind::document);
+    std::error_code ignored;
+    return place && std::filesystem::exists(*place, ignored);
 }
 
 void AskedFiles::tell(const document::SaveOutcome& ended) {

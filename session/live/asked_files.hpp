@@ -43,8 +43,12 @@ public:
         bool is_current = false;  // it is the document that the session has
         bool replaces = false;    // a file that is there may go
     };
-    // Says where a document of this name goes; current: the path of the one that there is, empty for none.
-    [[nodiscard]] Result<DocumentPlace> place_document(const std::string& name, const std::string& current);
+    // Says where a document of this name goes; current: the path of the one that there is, empty for none. replaces: a
+    // user's file that is there may go.
+    [[nodiscard]] Result<DocumentPlace> place_document(const std::string& name, const std::string& current,
+                                                       bool replaces = false);
+    // Returns whether a user's file has this name, that is not the document itself.
+    [[nodiscard]] bool is_taken(const std::string& name, const std::string& current) const;
     void tell(const document::SaveOutcome& ended);
 
     // Pictures of the next frame, by their names.

@@ -54,7 +54,7 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
     document::SaveRequest request{.path = name, .name = name, .content = std::move(content), .asked_by = wanted.line};
     request.content.facts.insert(origin_.begin(), origin_.end());
     if (source_digest_.valid()) request.content.facts[document::kSourceDigestFact] = source_digest_.get();
-    const Result<AskedFiles::DocumentPlace> place = files.place_document(name, path_);
+    const Result<AskedFiles::DocumentPlace> place = files.place_document(name, path_, wanted.replaces);
     if (!place) {
         request.refused = place.error();
         return request;
@@ -64,7 +64,8 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
     request.changed_alone = place->is_current && !is_gone;  // else the whole, as a new file
     request.path = place->is_current ? path_ : place->path;
     // A user's file that is there is another's, unless it was opened or written here; then it is updated.
-    request.place = place->replaces && is_of_log ? document::Place::replaced : document::Place::nothing;
+    request.place =
+        place->replaces && (is_of_log || !place->is_current) ? document::Place::replaced : document::Place::nothing;
     if (!place->is_current) {
         asked_ = wanted.text;
         name_ = is_of_log ? name : request.path;
@@ -73,6 +74,12 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
     path_ = request.path;
     return request;
 }
+
+std::string DocumentSide::name(const SculptOptions& options) const {
+    return !name_.empty() ? name_ : name_from(options);
+}
+
+bool DocumentSide::has_file() const { return !path_.empty() && state_ != FileState::failed; }
 
 Result<void> DocumentSide::keep_journal(const std::string& folder, const SculptOptions& options,
                                         const OpenedWork& opened, document::Content beginning) {

@@ -29,6 +29,14 @@ public:
     // and a document tells its origin.
     void began_with(const std::string& source);
 
+    // Returns the name of the document's file, or of work that has none the one that it would get.
+    [[nodiscard]] std::string name(const SculptOptions& options) const;
+    [[nodiscard]] bool has_file() const;  // or is about to have it
+    // Returns whether another file has this name, which the document is to get.
+    [[nodiscard]] bool is_taken(const std::string& name, const AskedFiles& files) const {
+        return files.is_taken(name, path_);
+    }
+
     // Keeps a journal of the work in the folder. beginning: all as it is now. The work is what was opened, if it was.
     [[nodiscard]] Result<void> keep_journal(const std::string& folder, const SculptOptions& options,
                                             const OpenedWork& opened, document::Content beginning);
@@ -42,6 +50,9 @@ public:
     // Waits until all is written.
     void finish();
     [[nodiscard]] document::DocumentWriter& writer();
+    // See DocumentWriter; 0 before its first use.
+    [[nodiscard]] std::int64_t safe_up_to() const { return writer_ ? writer_->safe_up_to() : 0; }
+    [[nodiscard]] std::int64_t noted() const { return writer_ ? writer_->noted() : 0; }
 
 private:
     // What is known of the document at its place. failed: nothing has been written there.

@@ -57,6 +57,24 @@ void add_objects(PanelModel& m, const SessionState& state) {
     for (std::size_t i = 0; i < 3; ++i) m.object->colour_srgb.at(i) = object.colour.at(i) / 255.0;
 }
 
+// Fills in what is known of the document, and what the user is asked about it.
+void add_document(PanelModel& m, const AskedClose& asked) {
+    if (!asked.told) return;
+    const DocumentTold& told = *asked.told;
+    const std::string name = short_name(told);
+    m.document = PanelDocument{name, state_text(told), kept_text(told), told.is == DocumentIs::saving, told.keeps};
+    using What = PanelQuestion::What;
+    if (asked.naming)
+        m.question = PanelQuestion{asked.naming->is == NameIs::taken ? What::replace : What::name,
+                                   name,
+                                   {},
+                                   asked.naming->name,
+                                   told.has_file};
+    else if (asked.closing != Closing::no)
+        m.question = PanelQuestion{
+            asked.closing == Closing::asked ? What::close : What::saving, name, kept_text(told), {}, told.has_file};
+}
+
 PanelNote note_of(const Message& message) { return {message.text, message.kind, message.count, message.time_ns}; }
 
 }  // namespace
@@ -112,6 +130,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.export_path = state.export_path;
     m.exporting = context.exporting;
     m.activity = context.activity;
+    add_document(m, state.asked);
     for (const Message& message : log.all()) {
         m.log.push_back(note_of(message));
         if (log.is_shown(message)) m.notes.push_back(note_of(message));
@@ -185,10 +204,11 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
     feed_times(input, context);
     const ImageSize eye = context.eye();
     const bool stands = !context.room.wall.desk, in_window = context.room.wall.has_panel_window();
+    const bool asks = context.state.asked.naming || context.state.asked.closing != Closing::no;
     const std::uint32_t width = in_window || stands ? static_cast<std::uint32_t>(kPanelWidth_px)
                                                     : std::max(panel_width(context.room, eye, context.output.size), 1u);
     const bool has_column = in_window ? !is_empty(context.panel_output)
-                            : stands  ? context.state.panel && eye.height > 0
+                            : stands  ? (context.state.panel || asks) && eye.height > 0
                                       : context.state.panel && panel_width(context.room, eye, context.output.size) > 0;
     const bool has_place = has_column || (!in_window && !stands && !is_empty(eye));
     column_shown_ = has_column;
@@ -211,7 +231,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
             if (!told_notice_.empty()) log.notify(told_notice_, MessageKind::info);
         }
         actions_ = layout_->actions;
-        left.captured = {layout_->wants_mouse && !in_window, layout_->wants_keyboard};
+        left.captured = {(layout_->wants_mouse && !in_window) || asks, layout_->wants_keyboard};
     } else {
         const OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
         pointer_ = {.mouse_px = on.pointer.mouse_px};

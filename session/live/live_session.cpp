@@ -135,6 +135,8 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
         give(scene_.carving(std::move(order), state_.hand));
     }
     for (const Asked& wanted : orders.saves) save(wanted, give);
+    for (const Asked& wanted : orders.names)
+        news_of_document_.name_looked_at(wanted.text, document_.is_taken(wanted.text, files_));
     for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
     for (HoldOrder& order : orders.holds) give(scene_.holding(std::move(order)));
     if (const auto lamp = scene_.carved() != nullptr ? lamp_.look(state_, last_step_ns_) : std::nullopt)
@@ -153,6 +155,7 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
 
 void LiveSession::save(const Asked& wanted, const Give& give) {
     if (!files_.write()) return;
+    news_of_document_.save_ordered();
     give(scene_.saving(document_.request(wanted, files_, options_, saved_content()), document_.writer()));
 }
 
@@ -164,11 +167,20 @@ document::Content LiveSession::saved_content() const {
 void LiveSession::keep_journal(const std::string& folder) {
     document::Content beginning = saved_content();
     scene_.workpiece()->copy(beginning.parts.emplace_back());
-    if (const auto kept = document_.keep_journal(folder, options_, opened_, std::move(beginning)); !kept)
+    if (const auto kept = document_.keep_journal(folder, options_, opened_, std::move(beginning)); !kept) {
+        news_of_document_.journal_failed();
         return notify(kept.error().line());
+    }
     scene_.carved()->keep_journal(
         [&writer = document_.writer()](scene::Pages change) { writer.note({.part = 0, .pages = std::move(change)}); });
 }
+
+std::vector<CommandInput> LiveSession::take_told() {
+    const bool works = (tool_in_use().buttons & 1u) != 0;
+    return news_of_document_.take(document_.name(options_), document_.has_file(), document_.safe_up_to(), works);
+}
+
+bool LiveSession::waits_for_the_disk() const { return news_of_document_.waits(document_.safe_up_to()); }
 
 void LiveSession::watch_misfit(const sculpt::Tool& tool) {
     const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
@@ -176,10 +188,15 @@ void LiveSession::watch_misfit(const sculpt::Tool& tool) {
 }
 
 void LiveSession::watch(Nanoseconds time_ns) {
-    for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
+    for (const document::SaveOutcome& ended : document_.take_outcomes()) {
+        files_.tell(ended);
+        news_of_document_.save_ended(ended);
+    }
     const bool keeps_journal = !options_.live.journal.empty();
-    if (const auto why = keeps_journal ? document_.writer().take_journal_failure() : std::nullopt)
+    if (const auto why = keeps_journal ? document_.writer().take_journal_failure() : std::nullopt) {
         log_.notify_of_event("strokes are no longer kept until they are saved: " + why->line(), MessageKind::error);
+        news_of_document_.journal_failed();
+    }
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
     if (const auto change = wand_.look(state_.wands)) notify(*change);
@@ -262,6 +279,7 @@ void LiveSession::take(sculpt::SurfaceUpdate news) {
     undoable_ = news.undoable;
     redoable_ = news.redoable;
     exporting_ = news.exporting;
+    if (news_of_document_.tells()) news_of_document_.work_is(news.state, news.undoable, document_.noted());
     times_.cut(news.cut_ns);
     seen_.take(news);
     strokes_.take(news);

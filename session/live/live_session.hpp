@@ -21,6 +21,7 @@
 #include "sculpt/made_workpiece.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/asked_files.hpp"
+#include "session/live/document_news.hpp"
 #include "session/live/document_side.hpp"
 #include "session/live/hand_side.hpp"
 #include "session/live/live_panel.hpp"
@@ -112,6 +113,11 @@ public:
     [[nodiscard]] const std::string& document_name() const { return workpiece_.name; }
     [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
     [[nodiscard]] bool wants_full_screen_exchanged() { return std::exchange(exchange_full_screen_, false); }
+    // Returns what the session is to be told of its document since the last call, as inputs of the next step; nothing
+    // where an input takes a user's place.
+    [[nodiscard]] std::vector<CommandInput> take_told();
+    // Returns whether there will be something to tell soon.
+    [[nodiscard]] bool waits_for_the_disk() const;
     // See MessageLog.
     void hear_nothing_from_outside() { log_.hear_nothing_from_outside(); }
     void notify(const std::string& message, MessageKind kind = MessageKind::warning) { log_.notify(message, kind); }
@@ -203,6 +209,7 @@ private:
     MessageLog log_;
     AskedFiles files_;
     DocumentSide document_;
+    DocumentNews news_of_document_;
     OpenedWork opened_;      // without its solid, once that is carved
     SculptOptions options_;  // as the session began, for documents
     SessionTimes times_{clock_};

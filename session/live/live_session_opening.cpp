@@ -166,7 +166,10 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
                      activity_.scene_part(), activity_.tap(), start_ns_);
     if (begun && scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
-    if (begun && scene_.carved() != nullptr && !options.live.journal.empty()) keep_journal(options.live.journal);
+    const bool keeps_journal = !options.live.journal.empty();
+    if (scene_.carved() != nullptr && options.live.input.empty() && !activity_.is_there())
+        news_of_document_.begin(keeps_journal, !opened_.recovered.empty());
+    if (begun && scene_.carved() != nullptr && keeps_journal) keep_journal(options.live.journal);
     return begun;
 }
 

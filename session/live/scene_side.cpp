@@ -56,6 +56,7 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
             if (!saved && !wanted->refused) wanted->refused = saved.error();
             wanted->content.parts.push_back(std::move(pages));
         }
+        wanted->state = carved_ ? carved_->state() : 0;
         writer.save(std::move(*wanted));
     }};
     return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };

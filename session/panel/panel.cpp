@@ -110,9 +110,11 @@ public:
         const auto learn = [&](std::string_view text) {
             for (const std::uint32_t letter : panel::letters_beyond_latin(text)) letters_.insert(letter);
         };
-        const std::array<const std::string*, 5> texts{&model.workpiece.name, &model.export_path, &model.tool.file,
-                                                      &kit_.memory.path, &kit_.memory.field};
+        const std::array<const std::string*, 6> texts{&model.workpiece.name, &model.export_path, &model.tool.file,
+                                                      &kit_.memory.path,     &kit_.memory.field, &kit_.memory.name};
         for (const std::string* text : texts) learn(*text);
+        if (model.document) learn(model.document->name + model.document->state);
+        if (model.question) learn(model.question->name + model.question->path + "\u2026");
         for (const std::string& name : model.object_names) learn(name);
         for (const PanelNote& note : model.log) learn(note.text);
         for (const PanelSource& source : model.sources) learn(source.detail);
@@ -138,7 +140,8 @@ public:
         model_ = model;
         const Current current(context_);
         learn_letters(model);
-        const bool over_picture = !is_empty(picture_) && (!model.notes.empty() || model.first_steps || model.opening);
+        const bool over_picture =
+            !is_empty(picture_) && (!model.notes.empty() || model.first_steps || model.opening || model.question);
         const ImageSize size_before = frame_.size;
         frame_.parts.clear();
         frame_.changes_ns.reset();
@@ -221,6 +224,7 @@ private:
         } while (!events_.empty() || kit_.again);
         frame_.wants_mouse = ImGui::GetIO().WantCaptureMouse;
         frame_.wants_keyboard = ImGui::GetIO().WantTextInput;
+        if (model.question) frame_.wants_mouse = frame_.wants_keyboard = true;
         return taken(model.visible);
     }
 
@@ -249,6 +253,8 @@ private:
             if (card != kit_.places.end()) free.hi.y = static_cast<float>(card->second.y);
         }
         panel::show_notes(kit_, model, free);
+        if (model.question) return panel::show_question(kit_, *model.question, free);
+        kit_.memory.question.clear();
         if (kit_.hovered != tip_for_) {
             tip_for_ = kit_.hovered;
             tip_from_ns_ = time_ns;

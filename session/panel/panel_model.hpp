@@ -130,6 +130,27 @@ struct PanelOpening {
     bool operator==(const PanelOpening&) const = default;
 };
 
+// What is known of the document.
+struct PanelDocument {
+    std::string name, state, kept;  // "bracket.burin", "changed", "kept: all 12 strokes"
+    bool saving = false, keeps = true;
+
+    bool operator==(const PanelDocument&) const = default;
+};
+
+// What the user is asked about the document before anything else goes on.
+struct PanelQuestion {
+    // The session is to end with unsaved work; it ends once that is saved; the name of a file is wanted; that file is
+    // another's.
+    enum class What : std::uint8_t { close, saving, name, replace };
+    What what = What::close;
+    std::string name, kept;  // of the document
+    std::string path;        // that typing begins with, or that is there
+    bool has_file = false;   // the document has
+
+    bool operator==(const PanelQuestion&) const = default;
+};
+
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
     bool show_devices = false;                                     // F3: the page of devices, in place of the sections
@@ -175,10 +196,12 @@ struct PanelModel {
 
     std::uint32_t undo_count = 0, redo_count = 0;
     std::string export_path = "part.stl";
-    bool exporting = false;        // an export is running
-    std::vector<PanelNote> notes;  // that lie over the picture now, the oldest first
-    std::vector<PanelNote> log;    // all that are kept, the oldest first
-    bool first_steps = false;      // the card for who sees this for the first time
+    bool exporting = false;                 // an export is running
+    std::optional<PanelDocument> document;  // none: nothing is told of it
+    std::optional<PanelQuestion> question;  // before all else
+    std::vector<PanelNote> notes;           // that lie over the picture now, the oldest first
+    std::vector<PanelNote> log;             // all that are kept, the oldest first
+    bool first_steps = false;               // the card for who sees this for the first time
 
     PanelTouch touch;
     std::vector<PanelSource> sources;   // device, tracker

@@ -380,6 +380,17 @@ void show_view(Kit& kit, const PanelModel& model) {
 
 namespace {
 
+void show_document(Kit& kit, const PanelDocument& document) {
+    const float half = 0.5f * (kit.width() - kit.px(6.0f));
+    if (document.saving) kit.off("The work is being saved.");
+    if (kit.button("save-session", document.saving ? "Saving" : "Save", half))
+        kit.give(RunAction{Action::save_session});
+    ImGui::SameLine(0.0f, kit.px(6.0f));
+    if (kit.button("save-as", "Save as\u2026", half)) kit.give(RunAction{Action::save_as});
+    kit.off({});
+    kit.figure(document.state, document.kept, document.keeps ? kText : kWarning);
+}
+
 void show_path(Kit& kit, const PanelModel& model) {
     Memory& memory = kit.memory;
     if (memory.model_path != model.export_path) memory.path = memory.model_path = model.export_path;
@@ -419,6 +430,7 @@ void show_history(Kit& kit, const PanelModel& model) {
             kit.give(RunAction{Action::redo});
         }
         kit.off({});
+        if (model.document) show_document(kit, *model.document);
         show_path(kit, model);
     }
     kit.end_card();

@@ -47,6 +47,8 @@ void show_first_steps(Kit& kit, const PanelModel& model, const Area& free);
 void show_tip(Kit& kit, const std::string& label, float left);
 // What is opened, how far that is, and for how long it goes on.
 void show_opening(Kit& kit, const PanelOpening& opening, const Area& free);
+// Asks about the document, over all else; in the middle of the free area where there is room.
+void show_question(Kit& kit, const PanelQuestion& question, const Area& free);
 // Returns what the command of a label does, and the keys that do it too; empty where the label is no command's.
 [[nodiscard]] std::string tip_of(std::string_view label);
 

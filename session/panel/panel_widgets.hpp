@@ -28,6 +28,11 @@ struct Memory {
     std::string open_list;  // the label of the list that is open
     std::string asking;     // the label of the activity's button whose question stands there
     std::string field;      // text of the activity's field
+    // The question about the document: what it was when it was shown last, the answer that Enter gives, the name that
+    // is typed, the one with which typing began, and one that is not to be replaced.
+    std::string question;
+    std::size_t answer = 0;
+    std::string name, asked_name, refused_name;
 };
 
 struct Item {

@@ -203,7 +203,7 @@ std::vector<wall::OutputPlace> Presenter::places() const {
 void Presenter::name_windows(const std::string& document) {
     if (document.empty()) return;
     for (ScreenStage& screen : screens_) {
-        if (screen.window != nullptr) screen.window->name(document + " - " + screen.title);
+        if (screen.window != nullptr) screen.window->name(document + " \u2014 " + screen.title);
     }
 }
 

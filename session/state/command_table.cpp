@@ -2,6 +2,7 @@
 #include "session/state/command_table.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "base/text.hpp"
 #include "document/document_file.hpp"
@@ -173,19 +174,67 @@ Parsed parse_export(Arguments words) {
     return ExportTo{std::move(*path)};
 }
 
+Result<void> check_document_name(const std::string& command, const std::string& path) {
+    if (document::is_document_name(path)) return {};
+    return fail("command " + command + " " + path, "is no name of a document",
+                "name it .burin; export FILE writes a mesh");
+}
+
 Parsed parse_save(Arguments words) {
     if (words.empty()) return SaveTo{};
     auto path = parse_path("save", words[0], "bust.burin");
     if (!path) return std::unexpected(path.error());
-    if (!document::is_document_name(*path))
-        return fail("command save " + *path, "is no name of a document", "name it .burin; export FILE writes a mesh");
+    if (const auto named = check_document_name("save", *path); !named) return std::unexpected(named.error());
     return SaveTo{std::move(*path)};
+}
+
+Parsed parse_save_as(Arguments words) {
+    if (words.empty()) return RunAction{Action::save_as};
+    auto path = parse_path("save-as", words[0], "bust.burin");
+    if (!path) return std::unexpected(path.error());
+    if (const auto named = check_document_name("save-as", *path); !named) return std::unexpected(named.error());
+    if (words.size() == 1) return SaveAs{std::move(*path)};
+    const auto is = choice("save-as " + words[0], words[1], name_states());
+    if (!is) return std::unexpected(is.error());
+    return SaveAs{std::move(*path), static_cast<NameIs>(*is)};
+}
+
+Result<std::size_t> parse_count(std::string_view word, const std::string& where) {
+    std::size_t count = 0;
+    const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (failed == std::errc{} && end == word.data() + word.size()) return count;
+    return fail(where, "is not a count", "write a whole number, such as 3");
+}
+
+Parsed parse_document(Arguments words) {
+    const auto is = choice("document", words[0], document_states());
+    if (!is) return std::unexpected(is.error());
+    DocumentTold told{.is = static_cast<DocumentIs>(*is), .name = words[1]};
+    const auto place = choice("document", words[2], std::array<std::string_view, 2>{"new", "file"});
+    if (!place) return std::unexpected(place.error());
+    told.has_file = *place == 1;
+    const std::string& kept = words[3];
+    const std::size_t slash = kept.find('/');
+    told.keeps = kept != "none";
+    if (told.keeps && slash == std::string::npos)
+        return no_argument("document", kept, "write how many of how many strokes are kept, such as 3/4, or none");
+    const auto first = parse_count(told.keeps ? kept.substr(0, slash) : "0", "command document " + kept);
+    const auto of = parse_count(told.keeps ? kept.substr(slash + 1) : "0", "command document " + kept);
+    const auto saves = parse_count(words[4], "command document " + words[4]);
+    for (const auto* const count : {&first, &of, &saves})
+        if (!*count) return std::unexpected(count->error());
+    told.kept = *first;
+    told.strokes = *of;
+    told.saves = *saves;
+    return TellDocument{std::move(told)};
 }
 
 Parsed parse_quit(Arguments words) {
     if (words.empty()) return RunAction{Action::quit};
     if (words[0] == "discard") return QuitDiscard{};
-    return no_argument("quit", words[0], "write quit, or quit discard, which forgets what was not saved");
+    if (words[0] == "save") return QuitSave{};
+    if (words[0] == "stay") return QuitStay{};
+    return no_argument("quit", words[0], "write quit, quit save, or quit discard, which forgets what was not saved");
 }
 
 Parsed parse_screenshot(Arguments words) {
@@ -314,7 +363,14 @@ const std::vector<Entry>& entries() {
         {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
         {{"save", "[FILE]", "Save the work as a document, FILE.burin; without a name into the one that it has"},
          parse_save},
-        {{"quit", "[discard]", "Quit; what was not saved is kept for the next session, or discarded"}, parse_quit},
+        {{"save-as", "[FILE] [given|free|taken|replaced]",
+          "Ask for the name of a file, or save the work under one: what is known of it stands behind"},
+         parse_save_as},
+        {{"document", "STATE NAME PLACE KEPT SAVES", "What the program tells of the document, for a replay"},
+         parse_document},
+        {{"quit", "[save|discard|stay]",
+          "Quit; what was not saved is asked about, or else kept for the next session, saved or discarded"},
+         parse_quit},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
         {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},
     };
@@ -329,15 +385,15 @@ std::string_view help_of(Action action) {
     return cut == short_cuts().end() ? std::string_view{} : cut->description;
 }
 
-// Lists commands with arguments and actions. swap-eyes and quit are actions that also take an argument, and are listed
-// once.
+// Lists commands with arguments and actions. swap-eyes, save-as and quit are actions that also take an argument, and
+// are listed once.
 const std::vector<CommandSpec>& all_commands() {
     static const std::vector<CommandSpec> all = [] {
         std::vector<CommandSpec> list;
         for (const Entry& entry : entries()) list.push_back(entry.spec);
         for (std::size_t i = 0; i < kActions; ++i) {
             const auto action = static_cast<Action>(i);
-            if (action != Action::swap_eyes && action != Action::quit)
+            if (action != Action::swap_eyes && action != Action::save_as && action != Action::quit)
                 list.push_back({name_of(action), "", std::string(help_of(action))});
         }
         return list;

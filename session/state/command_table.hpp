@@ -20,6 +20,7 @@
 #include "sculpt/tool_kinds.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
+#include "session/state/asked_close.hpp"
 #include "session/state/world_objects.hpp"
 #include "wall/stereo_mode.hpp"
 
@@ -120,10 +121,28 @@ struct ExportTo {
 struct QuitDiscard {
     bool operator==(const QuitDiscard&) const = default;
 };
+// Saves the work and ends the session; goes on with it after all.
+struct QuitSave {
+    bool operator==(const QuitSave&) const = default;
+};
+struct QuitStay {
+    bool operator==(const QuitStay&) const = default;
+};
 // Saves the work as a document; an empty path: the one that it has.
 struct SaveTo {
     std::string path;
     bool operator==(const SaveTo&) const = default;
+};
+// Saves the work under a name, once it is known whether there is a file of that name (session/state/asked_close.hpp).
+struct SaveAs {
+    std::string path;
+    NameIs is = NameIs::given;
+    bool operator==(const SaveAs&) const = default;
+};
+// Tells what is known of the document.
+struct TellDocument {
+    DocumentTold told;
+    bool operator==(const TellDocument&) const = default;
 };
 struct ScreenshotTo {
     std::string path;
@@ -165,10 +184,11 @@ struct SetMouse {
     bool operator==(const SetMouse&) const = default;
 };
 
-using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
-                                    SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
-                                    ExportTo, ScreenshotTo, EditObject, SelectObject, DoAct, CalibrateHandle,
-                                    SetAmplifiers, LeadHand, SetMouse, SetMirror, SaveTo, QuitDiscard>;
+using SessionCommand =
+    std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
+                 SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
+                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse, SetMirror, SaveTo,
+                 QuitDiscard, QuitSave, QuitStay, SaveAs, TellDocument>;
 
 struct SessionState;
 

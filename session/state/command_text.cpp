@@ -49,6 +49,20 @@ struct Printer {
     CommandInput operator()(const SaveTo& c) const {
         return {"save", c.path.empty() ? std::vector<std::string>{} : std::vector<std::string>{c.path}};
     }
+    CommandInput operator()(const QuitSave&) const { return {"quit", {"save"}}; }
+    CommandInput operator()(const QuitStay&) const { return {"quit", {"stay"}}; }
+    CommandInput operator()(const SaveAs& c) const {
+        CommandInput input{"save-as", {c.path}};
+        if (c.is != NameIs::given) input.arguments.emplace_back(name_states()[static_cast<std::size_t>(c.is)]);
+        return input;
+    }
+    CommandInput operator()(const TellDocument& c) const {
+        const DocumentTold& t = c.told;
+        const std::string kept = std::to_string(t.kept) + "/" + std::to_string(t.strokes);
+        return {"document",
+                {std::string(document_states()[static_cast<std::size_t>(t.is)]), t.name, t.has_file ? "file" : "new",
+                 t.keeps ? kept : "none", std::to_string(t.saves)}};
+    }
     CommandInput operator()(const ScreenshotTo& c) const { return {"screenshot", {c.path}}; }
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
     CommandInput operator()(const DoAct& c) const { return {"do", c.words}; }

@@ -79,10 +79,30 @@ public:
         state_.quit = state_.discards = true;
         return {};
     }
+    Result<void> operator()(const QuitSave&) {
+        if (const auto may = may_save(); !may) return may;
+        save_and_quit(state_, orders_);
+        return {};
+    }
+    Result<void> operator()(const QuitStay&) {
+        stay(state_);
+        return {};
+    }
     Result<void> operator()(const SaveTo& wanted) {
-        if (!state_.carves)
-            return fail("the world", "cannot be saved yet", "sculpt a workpiece by itself: burin sculpt FILE");
-        orders_.saves.push_back({wanted.path, orders_.line});
+        if (const auto may = may_save(); !may) return may;
+        if (wanted.path.empty())
+            save_or_name(state_, orders_);
+        else
+            order_save(state_, orders_, wanted.path, false);
+        return {};
+    }
+    Result<void> operator()(const SaveAs& wanted) {
+        if (const auto may = may_save(); !may) return may;
+        save_as(state_, orders_, wanted.path, wanted.is);
+        return {};
+    }
+    Result<void> operator()(const TellDocument& is) {
+        take_told(state_, is.told);
         return {};
     }
     Result<void> operator()(const SelectObject& wanted) {
@@ -122,6 +142,10 @@ public:
     }
 
 private:
+    [[nodiscard]] Result<void> may_save() const {
+        if (state_.carves) return {};
+        return fail("the world", "cannot be saved yet", "sculpt a workpiece by itself: burin sculpt FILE");
+    }
     // Changes the tool, after checking the result; keeps the old one when something is wrong with it.
     Result<void> change_tool(const std::function<void(SessionState&)>& change) {
         SessionState changed = state_;
@@ -256,6 +280,11 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::take_screenshot: orders_.screenshots.push_back({kScreenshotName, orders_.line}); return {};
         case Action::export_mesh: return export_to(state_.export_path);
         case Action::save_session: return (*this)(SaveTo{});
+        case Action::save_as:
+            if (const auto may = may_save(); !may) return may;
+            if (!state_.asked.told) return fail("save-as", "has nobody to ask for a name", "write save-as FILE.burin");
+            open_or_close_naming(state_);
+            return {};
         case Action::reset_view:
             if (const auto may = may_turn(); !may) return may;
             state_.world_from_object = state_.home_world_from_object;
@@ -282,7 +311,7 @@ Result<void> Runner::operator()(const RunAction& run) {
             orders_.put_away = true;
             return {};
         case Action::first_steps: state_.help = false; return toggle(&SessionState::first_steps);
-        case Action::quit: state_.quit = true; return {};
+        case Action::quit: ask_or_quit(state_); return {};
     }
     return {};
 }

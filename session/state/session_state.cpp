@@ -217,10 +217,6 @@ Vec3 tool_colour(const HandState& hand) {
     return Vec3(c[0], c[1], c[2]) / 255.0;
 }
 
-}  // namespace
-
-namespace {
-
 // Where a hand of several stands beside the others at the start, as a share of its workspace's width.
 constexpr double kBeside = 0.22;
 
@@ -318,6 +314,8 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
                          const SessionView& view) {
     SessionStep step;
     step.led_hand = state.hand;
+    const bool works = ((view.tool.buttons | state.desk.buttons) & 1u) != 0;
+    state.asked.rests_s = works ? 0.0 : state.asked.rests_s + view.dt_s;
     state.seen_from = seen_from(state, room);
     if (state.handle) state.handle_reads_device = read_pose(view.tool);
     const BesideCube beside = take_presses(state, room, events, view);
@@ -361,9 +359,9 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
         const auto* click = std::get_if<MouseClick>(&event.input);
         if (click != nullptr && click->pressed) state.first_steps = false;
         if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command, event.line);
-        if (std::holds_alternative<WindowClose>(event.input)) state.quit = true;
+        if (std::holds_alternative<WindowClose>(event.input)) ask_or_quit(state);
     }
-    // Once a step, however often a slider has changed the tool in it. A tool that a command accepted can be made.
+    // Once a step; a tool that a command accepted can be made.
     if (const auto taken = take_up(state); !taken) step.orders.messages.push_back({taken.error().line(), 0});
     step.state = std::move(state);
     return step;

@@ -18,6 +18,7 @@
 #include "session/input/desk_input.hpp"
 #include "session/input/input_event.hpp"
 #include "session/input/input_wand.hpp"
+#include "session/state/asked_close.hpp"
 #include "session/state/command_table.hpp"
 #include "session/state/fitted_view.hpp"
 #include "session/state/hand_state.hpp"
@@ -63,6 +64,7 @@ struct SessionState : HandState {
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
     double crumbs_m = 0.0;  // size below which loose pieces are not exported
+    AskedClose asked;       // about the document
     bool quit = false;
     bool discards = false;  // what was not saved is not wanted
 };
@@ -84,6 +86,7 @@ struct Asked {
     std::string text;
     std::size_t line = 0;  // of the log that asked; 0: none
     MessageKind kind = MessageKind::warning;
+    bool replaces = false;  // a file that is there may go
 };
 
 // What the activity is told by a command.
@@ -109,6 +112,7 @@ struct SessionOrders {
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
     std::vector<Asked> saves;        // names of documents; empty: the one that there is
+    std::vector<Asked> names;        // of documents whose places are to be looked at before they are saved there
     bool full_screen = false;        // toggle between window and full screen
     bool put_away = false;           // the messages that are shown
     std::vector<Asked> messages;     // for the user: why a command was not carried out; with the line of one in a log

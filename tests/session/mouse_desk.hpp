@@ -138,7 +138,8 @@ public:
 
     SculptOptions options;
     wall::OutputPlace output{.size = kWindow};
-    bool draws = true;  // the frames take what has changed of the surface
+    bool draws = true;   // the frames take what has changed of the surface
+    bool tells = false;  // the session is told of its document, as a window's is
     SimulatedClock clock;
     std::unique_ptr<LiveSession> session;
 
@@ -169,6 +170,8 @@ private:
         }
         std::vector<InputEvent> now;
         while (taken_ < events_.size() && events_[taken_].time_ns <= next_ns_) now.push_back(events_[taken_++]);
+        if (tells)
+            for (CommandInput& told : session->take_told()) now.push_back({next_ns_, std::move(told)});
         tool_ = session->newest_tool();
         session->step({next_ns_, next_ns_, now}, output, tool_, [this](const scene::SceneThread::Order& order) {
             order();

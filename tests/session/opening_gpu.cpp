@@ -74,7 +74,7 @@ TEST_F(Opening, NamesTheFileInTheTitleOfItsWindow) {
     ASSERT_TRUE(presenter) << presenter.error().line();
     presenter->name_windows("part of mine.stl");
     static_cast<void>(presenter->inputs(0.2));
-    EXPECT_EQ(std::system("xdotool search --name '^part of mine.stl - Burin$' >/dev/null 2>&1"), 0);
+    EXPECT_EQ(std::system("xdotool search --name '^part of mine.stl \u2014 Burin$' >/dev/null 2>&1"), 0);
 }
 
 TEST_F(Opening, EndsAtOnceByTheEscapeKeyWithItsWindow) {

@@ -35,7 +35,7 @@ sculpt::ToolSpec any_tool() {
 }
 
 SessionCommand any_command() {
-    switch (*rc::gen::inRange(0, 21)) {
+    switch (*rc::gen::inRange(0, 26)) {
         case 0: return RunAction{static_cast<Action>(*rc::gen::inRange<std::size_t>(0, action_names().size()))};
         case 1: return SetTool{any_tool()};
         case 2: return SetOperation{any_of(sculpt::operations()).operation};
@@ -62,6 +62,17 @@ SessionCommand any_command() {
         case 17: return SaveTo{};
         case 18: return SaveTo{"two words.burin"};
         case 19: return QuitDiscard{};
+        case 20: return QuitSave{};
+        case 21: return QuitStay{};
+        case 22: return SaveAs{"two words.burin", static_cast<NameIs>(*rc::gen::inRange(0, 4))};
+        case 23:
+            return TellDocument{{.is = static_cast<DocumentIs>(*rc::gen::inRange(0, 4)),
+                                 .name = "two words.burin",
+                                 .has_file = *rc::gen::arbitrary<bool>(),
+                                 .strokes = *rc::gen::inRange<std::size_t>(0, 100),
+                                 .kept = *rc::gen::inRange<std::size_t>(0, 100),
+                                 .saves = *rc::gen::inRange<std::size_t>(0, 100)}};
+        case 24: return TellDocument{{.keeps = false}};
         default: return ScreenshotTo{"wall.png"};
     }
 }
@@ -159,6 +170,11 @@ TEST(Commands, TellWhatIsWrongAndWhatWouldBeRight) {
         Wrong{"object Tube stiffness soft", "object Tube stiffness soft", "in N/m"},
         Wrong{"object Tube position 1,2", "object Tube position 1,2", "X,Y,Z"},
         Wrong{"object Tube seen maybe", "object Tube seen maybe", "on"},
+        Wrong{"quit now", "quit now", "quit discard"},
+        Wrong{"save-as part.stl", "save-as part.stl", ".burin"},
+        Wrong{"save-as part.burin fre", "fre", "did you mean free"},
+        Wrong{"document changd a.burin new 0/0 0", "changd", "did you mean changed"},
+        Wrong{"document changed a.burin new all 0", "document all", "3/4"},
         Wrong{"", "command", "F1"},
     };
     for (const Wrong& wrong : wrongs) {
