@@ -100,7 +100,7 @@ std::string resolve_asset(AssetRoom room, std::string& text) {
         text.replace(begin, std::string::npos, path);
         return {};
     }
-    const bool is_word = !name.empty() && name.find_first_of("/.:-") == std::string::npos;
+    const bool is_word = !name.empty() && name[0] != '-' && name.find_first_of("/.:") == std::string::npos;
     std::error_code ignored;
     if (!is_word || takes_other_words(room) || std::filesystem::exists(name, ignored)) return {};
     return unknown_asset(room, name);

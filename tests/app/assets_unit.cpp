@@ -48,6 +48,13 @@ TEST(Assets, AMisspeltNameIsToldWithTheNamesThatThereAre) {
         EXPECT_TRUE(refused.output.contains(part)) << part << " in " << refused.output;
 }
 
+TEST(Assets, AMisspeltNameWithAHyphenIsToldToo) {
+    const Workplace place;
+    const auto refused = place.run(burin_command("sculpt ball:0.1 --input first-carv --offscreen"));
+    EXPECT_EQ(refused.status, 2) << refused.output;
+    EXPECT_TRUE(refused.output.contains("first-carve")) << refused.output;
+}
+
 TEST(Assets, AnotherFolderOfAssetsIsNamedByTheEnvironment) {
     const Workplace place;
     std::filesystem::create_directories(place / "mine/walls");
