@@ -31,6 +31,13 @@ void DocumentSide::opened(const std::string& path, const document::Version& vers
     writer().have(path, version);
 }
 
+std::optional<DocumentHolder> DocumentSide::hold(const std::string& folder, const std::string& path) {
+    lock_folder_ = folder;
+    std::optional<DocumentHolder> holder = lock_.take(folder, path);
+    if (holder) name_ = path;
+    return holder;
+}
+
 void DocumentSide::began_with(const std::string& source) {
     std::error_code ignored;
     if (document::is_document_name(source) || !std::filesystem::is_regular_file(source, ignored)) return;
@@ -109,6 +116,7 @@ std::vector<document::SaveOutcome> DocumentSide::take_outcomes() {
     if (writer_) outcomes = writer_->take_outcomes();
     for (const document::SaveOutcome& ended : outcomes) {
         if (ended.path != path_) continue;
+        if (ended.saved) static_cast<void>(lock_.take(lock_folder_, path_));
         if (ended.saved)
             state_ = FileState::written;
         else if (state_ == FileState::asked_for)

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "document/document_writer.hpp"
+#include "session/document/document_lock.hpp"
 #include "session/document/opened_work.hpp"
 #include "session/live/asked_files.hpp"
 
@@ -23,6 +24,9 @@ class DocumentSide {
 public:
     // Takes the document that was opened: a save without a name goes there, where the session may write to it.
     void opened(const std::string& path, const document::Version& version);
+    // Takes a document for this session, as far as its user's other sessions are concerned. Returns who has it already:
+    // then it is only read, and a save wants another name.
+    [[nodiscard]] std::optional<DocumentHolder> hold(const std::string& folder, const std::string& path);
     // Takes the facts of a document that say from where the work came.
     void came_from(std::map<std::string, std::string> origin) { origin_ = std::move(origin); }
     // Works out the SHA-256 of the file that the work began with, beside the session, for the facts; a shape has none,
@@ -64,6 +68,8 @@ private:
     FileState state_ = FileState::asked_for;
     std::map<std::string, std::string> origin_;  // facts
     std::shared_future<std::string> source_digest_;
+    DocumentLock lock_;
+    std::string lock_folder_;  // empty: nobody is told who has the document
 };
 
 }  // namespace burin::session

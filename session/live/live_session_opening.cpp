@@ -78,7 +78,14 @@ Result<sculpt::MadeWorkpiece> LiveSession::make_workpiece(const SculptOptions& o
     if (!opened_.recovered.empty()) notify_of_event(opened_.recovered, MessageKind::warning);
     document_.came_from(opened_.origin);
     // A log's session leaves the file that it began with as it is.
-    if (opened_.version && options.live.input.empty()) document_.opened(opened_.document, *opened_.version);
+    if (!opened_.version || !options.live.input.empty())
+        return sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
+    if (const auto holder = document_.hold(options.live.journal, opened_.document))
+        notify_of_event(opened_.document + " is open in another window, " + text_of(*holder) +
+                            ": it can be read here, and is saved under another name",
+                        MessageKind::warning);
+    else
+        document_.opened(opened_.document, *opened_.version);
     return sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
 }
 

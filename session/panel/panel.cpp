@@ -113,7 +113,7 @@ public:
         const std::array<const std::string*, 6> texts{&model.workpiece.name, &model.export_path, &model.tool.file,
                                                       &kit_.memory.path,     &kit_.memory.field, &kit_.memory.name};
         for (const std::string* text : texts) learn(*text);
-        if (model.document) learn(model.document->name + model.document->state);
+        if (model.document) learn(model.document->name + "\u2026");  // of its buttons
         if (model.question) learn(model.question->name + model.question->path + "\u2026");
         for (const std::string& name : model.object_names) learn(name);
         for (const PanelNote& note : model.log) learn(note.text);

@@ -415,7 +415,7 @@ void show_path(Kit& kit, const PanelModel& model) {
 
 void show_history(Kit& kit, const PanelModel& model) {
     if (!model.carves) return;  // there is nothing to undo or to export
-    if (kit.begin_card("History and export")) {
+    if (kit.begin_card("History and export", model.document ? std::string_view(model.document->name) : "")) {
         const float half = 0.5f * (kit.width() - kit.px(6.0f));
         const auto counted = [](const char* name, std::uint32_t count) {
             return count > 0 ? std::string(name) + "  " + std::to_string(count) : std::string(name);

@@ -110,6 +110,17 @@ TEST(PanelQuestion, OfANameTakesWhatIsTypedAndAddsTheEnding) {
     EXPECT_EQ(desk.key(Key::escape), (Given{{"save-as", {}}}));
 }
 
+TEST(PanelQuestion, ComesFromButtonsWhoseTitlesAreWhole) {
+    const auto atlases_of = [](bool has_document) {
+        Panel panel = std::move(Panel::create({.size = {340, 900}}).value());
+        PanelModel model = idle_model();
+        if (has_document) model.document = PanelDocument{"bracket.burin", "saved", "all of it is saved"};
+        static_cast<void>(panel.show(model, 0));
+        return panel.atlases();
+    };
+    EXPECT_GT(atlases_of(true), atlases_of(false)) << "the dots of \"Save as\" are no letter of Latin 1";
+}
+
 TEST(PanelQuestion, IsAskedWherePanelIsHidden) {
     AskingPanel desk(What::close, {1280, 720});
     desk.model.visible = false;
