@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <optional>
 
 #include "app/output_files.hpp"
 #include "document/document_reader.hpp"
@@ -38,6 +39,17 @@ void print_part(const document::PartPlace& part, const scene::Pages& pages) {
         std::printf("  page %lld of %s is damaged\n", static_cast<long long>(name.number), name.kind.c_str());
 }
 
+// Adds how many strokes undo takes back and redo repeats.
+void tell_steps(document::DocumentReader& reader, const document::PartPlace& part, bool prints, Json& json) {
+    const Result<std::optional<scene::Steps>> steps = reader.steps(part);
+    if (!steps || !*steps) return;
+    const std::int64_t back = (*steps)->done + 1 - (*steps)->first, forward = (*steps)->last - (*steps)->done;
+    json["undo"] = {{"back", back}, {"forward", forward}};
+    if (!prints) return;
+    std::printf("  undo: %lld %s back, %lld forward\n", static_cast<long long>(back), back == 1 ? "stroke" : "strokes",
+                static_cast<long long>(forward));
+}
+
 }  // namespace
 
 void add_info_options(Command command, InfoOptions& options) {
@@ -60,12 +72,14 @@ Result<void> document_info(const InfoOptions& options) {
     for (const document::PartPlace& part : reader->parts()) {
         const Result<scene::Pages> pages = reader->pages(part);
         if (!pages) return std::unexpected(pages.error());
-        json["parts"].push_back(part_json(part, *pages));
         if (prints) print_part(part, *pages);
+        Json& told = json["parts"].emplace_back(part_json(part, *pages));
+        tell_steps(*reader, part, prints, told);
     }
     // What is not there can be told by whoever makes work of the pages alone.
     WorkerPool pool;
-    const Result<session::OpenedWork> opened = session::open_work({.source = options.file}, pool);
+    const Result<session::OpenedWork> opened =
+        session::open_work({.source = options.file}, pool, compute::History::kDefaultBudget_bytes);
     const std::string recovered = opened ? opened->recovered : "", lost = opened ? opened->lost : opened.error().line();
     json["unsaved"] = recovered;
     json["lost"] = lost;

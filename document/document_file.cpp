@@ -28,6 +28,20 @@ std::uint32_t crc_of(std::int64_t part, const scene::PageName& name, std::size_t
     return record::crc32c(data, record::crc32c(std::as_bytes(std::span(name.kind)), record::crc32c(packed)));
 }
 
+std::uint32_t crc_of(std::int64_t part, std::int64_t saves, const scene::Steps& steps) {
+    const std::array numbers{part, saves, steps.first, steps.done, steps.last};
+    return record::crc32c(std::as_bytes(std::span(numbers)));
+}
+
+const char* history_tables() {
+    return R"(
+CREATE TABLE IF NOT EXISTS history(part INTEGER PRIMARY KEY, saves INTEGER NOT NULL, first INTEGER NOT NULL,
+    done INTEGER NOT NULL, last INTEGER NOT NULL, crc INTEGER NOT NULL);
+CREATE TABLE IF NOT EXISTS step(part INTEGER NOT NULL, kind TEXT NOT NULL, number INTEGER NOT NULL,
+    bytes INTEGER NOT NULL, crc INTEGER NOT NULL, data BLOB NOT NULL, PRIMARY KEY(part, number, kind));
+)";
+}
+
 const char* document_tables() {
     return R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;

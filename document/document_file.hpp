@@ -54,7 +54,12 @@ struct Content {
 [[nodiscard]] std::uint32_t crc_of(std::int64_t part, const scene::PageName& name, std::size_t bytes,
                                    std::span<const std::byte> data);
 
-// The statements that make the tables.
+// The check sum of a row of the table of histories: CRC-32C of part, saves, first, done and last, each i64
+// little-endian.
+[[nodiscard]] std::uint32_t crc_of(std::int64_t part, std::int64_t saves, const scene::Steps& steps);
+
+// The statements that make the tables; those of histories are no part of older documents.
 [[nodiscard]] const char* document_tables();
+[[nodiscard]] const char* history_tables();
 
 }  // namespace burin::document

@@ -15,6 +15,8 @@ using record::Database, record::Statement;
 
 // SQLite's steps for a statement: the list of kMostPages pages takes some 20 a page.
 constexpr std::int64_t kMostSteps = 200'000'000;
+// A step's number, up or down: more than anybody makes.
+constexpr std::int64_t kFarthestStep = std::int64_t{1} << 40;
 constexpr const char* kRemedy = kDocumentKind.words.wrong_file;
 
 }  // namespace
@@ -147,8 +149,41 @@ Result<void> DocumentReader::count_changes() {
 }
 
 Result<scene::Pages> DocumentReader::change(const PartPlace& part, std::int64_t number) {
-    Result<Statement> read =
-        database_->prepare("SELECT kind FROM change WHERE part = ? AND number = ? AND length(kind) <= 1000 LIMIT 1000");
+    return numbered("change", part, number);
+}
+
+Result<std::optional<scene::Steps>> DocumentReader::steps(const PartPlace& part) {
+    for (const char* const table : {"history", "step"}) {
+        const Result<bool> there = database_->has_table(table);
+        if (!there) return std::unexpected(there.error());
+        if (!*there) return std::nullopt;
+    }
+    Result<Statement> read = database_->prepare("SELECT saves, first, done, last, crc FROM history WHERE part = ?");
+    if (!read) return std::unexpected(read.error());
+    read->bind(1, part.number);
+    const Result<bool> row = read->step();
+    if (!row) return std::unexpected(row.error());
+    if (!*row) return std::nullopt;
+    scene::Steps steps{.first = read->integer(1), .done = read->integer(2), .last = read->integer(3)};
+    const std::int64_t saves = read->integer(0);
+    const bool is_sound = std::int64_t{crc_of(part.number, saves, steps)} == read->integer(4) &&
+                          steps.first >= -kFarthestStep && steps.first <= steps.done + 1 && steps.done <= steps.last &&
+                          steps.last <= kFarthestStep;
+    if (!is_sound) return fail(path_ + ": the history of " + part.kind, "is damaged");
+    if (saves != number(kSavesFact)) return std::nullopt;
+    return steps;
+}
+
+Result<scene::Pages> DocumentReader::step(const PartPlace& part, std::int64_t number) {
+    Result<scene::Pages> pages = numbered("step", part, number);
+    if (pages && pages->pages.empty())
+        return fail(path_ + ": step " + std::to_string(number) + " of " + part.kind, "is not there");
+    return pages;
+}
+
+Result<scene::Pages> DocumentReader::numbered(const char* table, const PartPlace& part, std::int64_t number) {
+    Result<Statement> read = database_->prepare("SELECT kind FROM " + std::string(table) +
+                                                " WHERE part = ? AND number = ? AND length(kind) <= 1000 LIMIT 1000");
     if (!read) return std::unexpected(read.error());
     read->bind(1, part.number);
     read->bind(2, number);
@@ -158,7 +193,7 @@ Result<scene::Pages> DocumentReader::change(const PartPlace& part, std::int64_t 
     if (!row) return std::unexpected(row.error());
     scene::Pages pages{.part = part.kind, .whole = false};
     for (std::string& kind : kinds) {
-        Result<std::vector<std::byte>> bytes = page("change", part.number, {kind, number});
+        Result<std::vector<std::byte>> bytes = page(table, part.number, {kind, number});
         if (!bytes) return std::unexpected(bytes.error());
         pages.pages[{std::move(kind), 0}] = std::move(*bytes);
     }

@@ -43,6 +43,11 @@ public:
     // 0; number counts from 1. Fails where a page of it is damaged.
     [[nodiscard]] std::int64_t changes() const { return changes_; }
     [[nodiscard]] Result<scene::Pages> change(const PartPlace& part, std::int64_t number);
+    // Returns which steps back and forward a part's pages have, without their pages; nothing where there are none, or
+    // where a program that knows nothing of them has saved since. Fails where that is damaged.
+    [[nodiscard]] Result<std::optional<scene::Steps>> steps(const PartPlace& part);
+    // Returns the pages of a step, each numbered 0. Fails where one of them is damaged, or there is none.
+    [[nodiscard]] Result<scene::Pages> step(const PartPlace& part, std::int64_t number);
     // Reads those of the first part of a kind.
     [[nodiscard]] Result<scene::Pages> pages_of(std::string_view kind);
 
@@ -52,6 +57,7 @@ private:
     [[nodiscard]] Result<void> read_commands();
     [[nodiscard]] Result<void> read_parts();
     [[nodiscard]] Result<void> count_changes();
+    [[nodiscard]] Result<scene::Pages> numbered(const char* table, const PartPlace& part, std::int64_t number);
     [[nodiscard]] Result<std::vector<std::byte>> page(const char* table, std::int64_t part,
                                                       const scene::PageName& name);
 

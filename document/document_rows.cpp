@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "document/document_rows.hpp"
 
+#include <initializer_list>
+#include <set>
+
 #include "record/compressed.hpp"
 
 namespace burin::document {
@@ -30,6 +33,46 @@ Result<void> put_part(Database& database, std::int64_t number, const scene::Page
     return {};
 }
 
+Result<void> run_with(Database& database, const char* text, std::initializer_list<std::int64_t> numbers) {
+    Result<Statement> run = database.prepare(text);
+    if (!run) return std::unexpected(run.error());
+    int at = 0;
+    for (const std::int64_t number : numbers) run->bind(++at, number);
+    return run->run();
+}
+
+// Says which steps there are, of which save: a program that knows nothing of them saves without, and they are void.
+Result<void> put_history(Database& database, std::int64_t part, const scene::Steps& steps, const Saved& saved) {
+    return run_with(database, "INSERT OR REPLACE INTO history VALUES(?, ?, ?, ?, ?, ?)",
+                    {part, saved.version.saves, steps.first, steps.done, steps.last,
+                     std::int64_t{crc_of(part, saved.version.saves, steps)}});
+}
+
+Result<void> put_steps(Database& database, std::int64_t part, const scene::Steps& steps, Saved& saved) {
+    if (const auto gone = run_with(database, "DELETE FROM step WHERE part = ? AND (number < ? OR number > ?)",
+                                   {part, steps.first, steps.last});
+        !gone)
+        return gone;
+    std::set<std::int64_t> renewed;
+    for (const auto& [name, bytes] : steps.pages) renewed.insert(name.number);
+    for (const std::int64_t number : renewed)
+        if (const auto gone = run_with(database, "DELETE FROM step WHERE part = ? AND number = ?", {part, number});
+            !gone)
+            return gone;
+    for (const auto& [name, bytes] : steps.pages) {
+        if (name.number < steps.first || name.number > steps.last) continue;
+        if (const auto done = put_page(database, Table::step, part, name, bytes, saved); !done) return done;
+    }
+    return put_history(database, part, steps, saved);
+}
+
+Result<void> drop_steps(Database& database, std::int64_t part) {
+    if (const auto gone = run_with(database, "DELETE FROM step WHERE part = ?", {part}); !gone) return gone;
+    return run_with(database, "DELETE FROM history WHERE part = ?", {part});
+}
+
+const char* name_of(Table table) { return table == Table::page ? "page" : table == Table::change ? "change" : "step"; }
+
 }  // namespace
 
 Result<void> put_fact(Database& database, const std::string& key, const std::string& value) {
@@ -42,7 +85,7 @@ Result<void> put_fact(Database& database, const std::string& key, const std::str
 
 Result<void> put_page(Database& database, Table table, std::int64_t part, const scene::PageName& name,
                       const std::vector<std::byte>& bytes, Saved& saved) {
-    Result<Statement> put = database.prepare("INSERT INTO " + std::string(table == Table::page ? "page" : "change") +
+    Result<Statement> put = database.prepare("INSERT INTO " + std::string(name_of(table)) +
                                              " VALUES(?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT(part, kind, number) DO "
                                              "UPDATE SET bytes = ?4, crc = ?5, data = ?6");
     if (!put) return std::unexpected(put.error());
@@ -63,9 +106,14 @@ Result<void> put_content(Database& database, const Content& content, Saved& save
     for (const auto& [key, value] : content.facts)
         if (const auto done = put_fact(database, key, value); !done) return done;
     if (const auto done = put_commands(database, content.commands); !done) return done;
-    for (std::size_t part = 0; part < content.parts.size(); ++part)
-        if (const auto done = put_part(database, static_cast<std::int64_t>(part), content.parts[part], saved); !done)
-            return done;
+    if (const auto made = database.run(history_tables()); !made) return made;
+    for (std::size_t part = 0; part < content.parts.size(); ++part) {
+        const auto number = static_cast<std::int64_t>(part);
+        const scene::Pages& pages = content.parts[part];
+        if (const auto done = put_part(database, number, pages, saved); !done) return done;
+        const auto kept = pages.steps ? put_steps(database, number, *pages.steps, saved) : drop_steps(database, number);
+        if (!kept) return kept;
+    }
     return {};
 }
 

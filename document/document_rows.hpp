@@ -10,11 +10,12 @@
 
 namespace burin::document {
 
-enum class Table : std::uint8_t { page, change };
+enum class Table : std::uint8_t { page, change, step };
 
-// Puts facts, commands and pages in the place of those that are there; what the content does not name stays.
+// Puts facts, commands, pages and steps of histories in the place of those that are there; what the content does not
+// name stays, but for the history of a part that has none. saved.version: the one that this is.
 [[nodiscard]] Result<void> put_content(record::Database& database, const Content& content, Saved& saved);
-// Compresses and puts one page, or one page of a change.
+// Compresses and puts one page, or one page of a change or of a step.
 [[nodiscard]] Result<void> put_page(record::Database& database, Table table, std::int64_t part,
                                     const scene::PageName& name, const std::vector<std::byte>& bytes, Saved& saved);
 [[nodiscard]] Result<void> put_fact(record::Database& database, const std::string& key, const std::string& value);

@@ -2,15 +2,30 @@
 #include "document/document_writer.hpp"
 
 #include <filesystem>
+#include <set>
 #include <utility>
 
 namespace burin::document {
 namespace {
 
+// Puts what a part has later over what it had; steps that are not there any more fall away.
+void put_over(scene::Pages& later, scene::Pages& earlier) {
+    later.pages.merge(std::move(earlier.pages));  // which keeps its own
+    if (!later.steps || !earlier.steps) return;
+    // A step that is new later has all of its pages there.
+    std::set<std::int64_t> renewed;
+    for (const auto& [name, bytes] : later.steps->pages) renewed.insert(name.number);
+    std::erase_if(earlier.steps->pages, [&](const auto& page) {
+        const std::int64_t number = page.first.number;
+        return renewed.contains(number) || number < later.steps->first || number > later.steps->last;
+    });
+    later.steps->pages.merge(std::move(earlier.steps->pages));
+}
+
 // Puts later pages, facts and commands over earlier ones.
 Content merged(Content earlier, Content later) {
     for (std::size_t part = 0; part < later.parts.size() && part < earlier.parts.size(); ++part)
-        later.parts[part].pages.merge(std::move(earlier.parts[part].pages));  // which keeps its own
+        put_over(later.parts[part], earlier.parts[part]);
     later.facts.merge(std::move(earlier.facts));
     return later;
 }
@@ -119,7 +134,7 @@ void DocumentWriter::carry_out(SaveRequest& request) {
         request.content.facts[kJournalOfFact] = request.path;
         request.content.facts[kBaseIdFact] = saved->version.id;
         request.content.facts[kBaseSavesFact] = std::to_string(saved->version.saves);
-        if (const auto taken = journal_->take_over(request.content); !taken) fail_journal(taken.error());
+        if (const auto taken = journal_->take_over(std::move(request.content)); !taken) fail_journal(taken.error());
     }
     const std::lock_guard lock(mutex_);
     outcomes_.push_back(

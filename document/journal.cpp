@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <utility>
 
 #include "document/document_reader.hpp"
 #include "document/document_rows.hpp"
@@ -43,6 +45,8 @@ Result<Journal> Journal::begin(const std::string& path, const Content& beginning
     if (!file) return std::unexpected(file.error());
     Journal journal(path, std::move(*file));
     journal.needed_ = beginning.facts.contains(kUnsavedFact);
+    for (const scene::Pages& part : beginning.parts)
+        journal.first_steps_.push_back(part.steps ? part.steps->first : std::numeric_limits<std::int64_t>::min());
     return journal;
 }
 
@@ -67,8 +71,13 @@ Result<void> Journal::add(const std::vector<Change>& changes) {
     return {};
 }
 
-Result<void> Journal::take_over(const Content& saved) {
+// What is saved may go back to steps that the journal never had.
+Result<void> Journal::take_over(Content saved) {
     Database& database = file_.database();
+    for (std::size_t part = 0; part < saved.parts.size() && part < first_steps_.size(); ++part) {
+        auto& steps = saved.parts[part].steps;
+        if (steps) steps->first = std::clamp(steps->first, first_steps_[part], steps->done + 1);
+    }
     const Result<void> done = in_transaction(database, [&]() -> Result<void> {
         if (const auto gone =
                 database.run("DELETE FROM change; DELETE FROM meta WHERE key = '" + std::string(kUnsavedFact) + "'");

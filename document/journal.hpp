@@ -30,7 +30,7 @@ public:
     // Adds changes in one transaction; when it returns they are on the disk.
     [[nodiscard]] Result<void> add(const std::vector<Change>& changes);
     // Takes over what was saved elsewhere: its pages take the place of the changes so far.
-    [[nodiscard]] Result<void> take_over(const Content& saved);
+    [[nodiscard]] Result<void> take_over(Content saved);
     // Returns how many changes follow its pages.
     [[nodiscard]] std::int64_t changes() const { return changes_; }
     // Returns whether it holds something that was not saved elsewhere.
@@ -47,6 +47,7 @@ private:
     record::StoreFile file_;
     std::int64_t changes_ = 0;
     bool needed_ = false;
+    std::vector<std::int64_t> first_steps_;  // by part: what came before them is not in the journal
 };
 
 // A journal that a dead session has left.

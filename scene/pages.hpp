@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,20 @@ struct PageName {
     friend auto operator<=>(const PageName&, const PageName&) = default;
 };
 
+// Steps from what a part's pages hold to what they held before, and forward again: those numbered first to done lead
+// back, the last of them first; those behind, up to last, lead forward.
+struct Steps {
+    std::int64_t first = 1, done = 0, last = 0;
+    // Of the steps that are new since the last call of save(); a page has the number of its step.
+    std::map<PageName, std::vector<std::byte>> pages = {};
+};
+
 struct Pages {
     std::string part = {};  // the kind of part that can load them: "tri-dexel solid"
     // Asked of save(): all pages, and not those alone that have changed since the last call.
     bool whole = true;
     std::map<PageName, std::vector<std::byte>> pages = {};
+    std::optional<Steps> steps = {};     // nothing: there is no way back
     std::vector<PageName> damaged = {};  // that the document has and that cannot be read
 
     // Returns null where there is no such page.

@@ -53,7 +53,7 @@ CarvedPart::CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_N
                        std::optional<std::size_t> undo_bytes, std::size_t hand)
     : sculpture_(sculpture), keeps_history_(undo_bytes.has_value()) {
     carvers_.push_back({hand, StrokeReader(tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m)});
-    if (undo_bytes) sculpture_.keep_history(*undo_bytes);
+    if (undo_bytes && sculpture_.history() == nullptr) sculpture_.keep_history(*undo_bytes);
 }
 
 CarvedPart::~CarvedPart() {
@@ -98,8 +98,8 @@ void CarvedPart::keep_journal(TakeChange take) {
 std::uint64_t CarvedPart::state() const { return sculpture_.history() != nullptr ? sculpture_.history()->state() : 0; }
 
 void CarvedPart::tell_journal() {
-    scene::Pages change{.whole = false};
-    if (journal_ && sculpture_.take_change(change)) journal_(std::move(change));
+    scene::Pages change;
+    while (journal_ && sculpture_.take_change(change)) journal_(std::move(change));
 }
 
 Result<void> CarvedPart::carve(Carver& carver) {
@@ -274,6 +274,7 @@ void CarvedPart::carry_out(const ExportSurface& wanted) {
 
 // A save that fails leaves the journal with all that it should have saved.
 void CarvedPart::carry_out(const SaveScene& wanted) {
+    sculpture_.end_stroke();
     tell_journal();
     if (wanted.save) wanted.save();
 }

@@ -8,10 +8,10 @@
 #include <optional>
 #include <span>
 
-#include "base/json.hpp"
 #include "base/length_unit.hpp"
 #include "compute/rays/memory_need.hpp"
 #include "compute/rays/normal_code.hpp"
+#include "sculpt/saved_head.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -21,12 +21,7 @@ using shared::DexelEnd;
 
 static_assert(std::endian::native == std::endian::little, "ends are copied as they lie in memory");
 
-const geometry::Material kLostMaterial{"lost and made again", {200, 40, 40}};
 constexpr std::array<const char*, 3> kRaysAlong{"rays x", "rays y", "rays z"};
-constexpr const char *kHead = "head", *kRays = "rays";
-constexpr std::size_t kMostMaterials = 255;
-// What any workpiece has (compute/rays/lattice.cpp) lies within these.
-constexpr double kSmallestSpacing_m = 1e-14, kLargestSpacing_m = 1e9, kFarthestOrigin_cells = 0x1p40;
 
 int columns_of(const compute::Lattice& lattice, int axis) { return (lattice.rays_u(axis) + kPageSide - 1) / kPageSide; }
 
@@ -77,93 +72,22 @@ std::vector<std::byte> page_bytes(const DexelSet& set, const PageRays& rays) {
     return bytes;
 }
 
-std::vector<std::byte> head_bytes(const compute::Solid& solid) {
-    const compute::Lattice& lattice = solid.lattice;
-    const Vec3& origin = lattice.origin_object;
-    Json materials = Json::array();
-    for (const geometry::Material& material : solid.materials)
-        materials.push_back(
-            {{"name", material.name}, {"colour", {material.colour[0], material.colour[1], material.colour[2]}}});
-    const Json head = {{"origin_m", Json::array({origin.x, origin.y, origin.z})},
-                       {"spacing_m", lattice.spacing_m},
-                       {"cells", Json::array({lattice.cells[0], lattice.cells[1], lattice.cells[2]})},
-                       {"units_per_cell", shared::kUnitsPerCell},
-                       {"page_side", kPageSide},
-                       {"materials", materials}};
-    const std::string text = json_text(head);
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
 // ---- From bytes
-
-bool is_number(const Json& json) { return json.is_number() && std::isfinite(json.get<double>()); }
-
-bool are_numbers(const Json* list, std::size_t count) {
-    return list != nullptr && list->is_array() && list->size() == count && std::ranges::all_of(*list, is_number);
-}
-
-std::optional<compute::Lattice> lattice_in(const Json& head) {
-    const Json *origin = find_value(head, "/origin_m"), *cells = find_value(head, "/cells"),
-               *spacing = find_value(head, "/spacing_m");
-    if (!are_numbers(origin, 3) || !are_numbers(cells, 3) || spacing == nullptr || !is_number(*spacing)) return {};
-    compute::Lattice lattice;
-    lattice.spacing_m = spacing->get<double>();
-    if (!(lattice.spacing_m >= kSmallestSpacing_m && lattice.spacing_m <= kLargestSpacing_m)) return {};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        lattice.origin_object[static_cast<int>(axis)] = (*origin)[axis].get<double>();
-        const double along = (*cells)[axis].get<double>();
-        if (!(along >= 1.0 && along <= shared::kMaxCells)) return {};
-        lattice.cells[axis] = static_cast<int>(along);
-    }
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(lattice.origin_object[axis]) <= kFarthestOrigin_cells * lattice.spacing_m)) return {};
-    return lattice;
-}
-
-std::optional<std::vector<geometry::Material>> materials_in(const Json& head) {
-    const Json* list = find_value(head, "/materials");
-    if (list == nullptr || !list->is_array() || list->empty() || list->size() > kMostMaterials) return {};
-    std::vector<geometry::Material> materials;
-    for (const Json& one : *list) {
-        const Json *name = find_value(one, "/name"), *colour = find_value(one, "/colour");
-        if (name == nullptr || !name->is_string() || !are_numbers(colour, 3)) return {};
-        geometry::Material material{name->get<std::string>()};
-        for (std::size_t k = 0; k < 3; ++k)
-            material.colour[k] = static_cast<std::uint8_t>(std::clamp((*colour)[k].get<double>(), 0.0, 255.0));
-        materials.push_back(std::move(material));
-    }
-    return materials;
-}
 
 Result<compute::Solid> empty_solid(const scene::Pages& pages, const std::string& where) {
     const auto damaged = [&] {
         return fail(where, "what it says of the whole solid is damaged", "open an earlier copy of the file");
     };
     const std::vector<std::byte>* bytes = pages.find({kHead, 0});
-    if (bytes == nullptr) return damaged();
-    const auto* text = reinterpret_cast<const char*>(bytes->data());
-    const Json head = Json::parse(text, text + bytes->size(), nullptr, false);
-    if (head.is_discarded()) return damaged();
-    const auto lattice = lattice_in(head);
-    auto materials = materials_in(head);
-    const Json* side = find_value(head, "/page_side");
-    if (!lattice || !materials || side == nullptr || *side != kPageSide) return damaged();
-    if (const auto fits = compute::check_memory(*lattice, compute::memory_available()); !fits)
+    std::optional<SavedHead> head = bytes != nullptr ? head_in(*bytes) : std::nullopt;
+    if (!head || head->page_side != kPageSide) return damaged();
+    const compute::Lattice& lattice = head->lattice;
+    if (const auto fits = compute::check_memory(lattice, compute::memory_available()); !fits)
         return std::unexpected(fits.error());
-    compute::Solid solid{*lattice, {}, std::move(*materials)};
+    compute::Solid solid{lattice, {}, std::move(head->materials)};
     for (int axis = 0; axis < 3; ++axis)
-        solid.sets[static_cast<std::size_t>(axis)] = DexelSet(lattice->rays_u(axis), lattice->rays_v(axis));
+        solid.sets[static_cast<std::size_t>(axis)] = DexelSet(lattice.rays_u(axis), lattice.rays_v(axis));
     return solid;
-}
-
-bool is_sound(std::span<const DexelEnd> ends, int most_depth, std::size_t materials) {
-    int previous = -1;
-    for (const DexelEnd& end : ends) {
-        if (shared::depth_of(end) <= previous || shared::material_of(end) >= materials) return false;
-        previous = shared::depth_of(end);
-    }
-    return ends.size() % 2 == 0 && previous <= most_depth;
 }
 
 // Puts a page's rays into the solid; returns false, and changes nothing, where the bytes are no such page.
@@ -192,35 +116,6 @@ bool put_page(std::span<const std::byte> bytes, int axis, const PageRays& rays, 
         first += count;
     });
     return true;
-}
-
-// Reads the rays of a change; nothing where the bytes are none of this lattice.
-std::optional<compute::RayBatch> batch_in(std::span<const std::byte> bytes, const compute::Lattice& lattice,
-                                          std::size_t materials) {
-    std::vector<std::uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), 4 * words.size());
-    if (words.empty() || bytes.size() % 4 != 0) return {};
-    const std::uint64_t rays = words[0];
-    if (words.size() < 1 + 2 * rays) return {};
-    const auto counts = std::span(words).subspan(1 + rays, rays);
-    std::uint64_t all = 0;
-    for (const std::uint32_t count : counts) all += count;
-    if (words.size() != 1 + 2 * rays + 2 * all) return {};
-    compute::RayBatch batch;
-    std::size_t at = 1 + 2 * rays;
-    std::vector<DexelEnd> ends;
-    for (std::size_t ray = 0; ray < rays; ++ray) {
-        const compute::RayPlace place = compute::place_of(words[1 + ray]);
-        if (place.axis < 0 || place.axis > 2 || place.u < 0 || place.v < 0 || place.u >= lattice.rays_u(place.axis) ||
-            place.v >= lattice.rays_v(place.axis))
-            return {};
-        ends.clear();
-        for (std::uint32_t end = 0; end < counts[ray]; ++end, ++at) ends.push_back({words[at], words[at + all]});
-        const int most_depth = lattice.cells[static_cast<std::size_t>(place.axis)] * shared::kUnitsPerCell;
-        if (!is_sound(ends, most_depth, materials)) return {};
-        batch.add(words[1 + ray], ends);
-    }
-    return batch;
 }
 
 // ---- What is lost
@@ -300,7 +195,7 @@ void make_again(compute::Solid& solid, int axis, std::size_t page, const LostPag
 
 // Makes all that is lost again; says in words what that is.
 std::string make_again(compute::Solid& solid, const LostPages& lost) {
-    const std::uint32_t material = compute::add_material(solid, kLostMaterial).value_or(0);
+    const std::uint32_t material = compute::add_material(solid, lost_material()).value_or(0);
     MadeAgain where;
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -349,108 +244,11 @@ void ChangedPages::clear() {
     for (std::vector<bool>& of_axis : changed_) of_axis.assign(of_axis.size(), false);
 }
 
-// ---- ChangedRays
-
-ChangedRays::ChangedRays(const compute::Lattice& lattice) : lattice_(lattice) {
-    for (int axis = 0; axis < 3; ++axis) changed_[static_cast<std::size_t>(axis)].assign(lattice.rays(axis), false);
-}
-
-void ChangedRays::note(const compute::Changes& changes) {
-    for (const shared::ChangedRay& ray : changes.rays) {
-        const compute::RayPlace place = compute::place_of(ray.ray);
-        auto changed = changed_[static_cast<std::size_t>(place.axis)][place.index(lattice_)];
-        if (!changed) codes_.push_back(ray.ray);
-        changed = true;
-    }
-}
-
-void ChangedRays::take(const compute::Solid& solid, scene::Pages& pages) {
-    std::vector<std::uint32_t> words{static_cast<std::uint32_t>(codes_.size())}, depths, normals;
-    words.insert(words.end(), codes_.begin(), codes_.end());
-    for (const std::uint32_t code : codes_) {
-        const compute::RayPlace place = compute::place_of(code);
-        const auto axis = static_cast<std::size_t>(place.axis);
-        const std::span<const DexelEnd> ends = solid.sets[axis].ends(place.u, place.v);
-        words.push_back(static_cast<std::uint32_t>(ends.size()));
-        for (const DexelEnd& end : ends) {
-            depths.push_back(end.depth_material);
-            normals.push_back(end.normal);
-        }
-        changed_[axis][place.index(lattice_)] = false;
-    }
-    words.insert(words.end(), depths.begin(), depths.end());
-    words.insert(words.end(), normals.begin(), normals.end());
-    codes_.clear();
-    const auto bytes = std::as_bytes(std::span(words));
-    pages.part = kSolidPart;
-    pages.pages[{kHead, 0}] = head_bytes(solid);
-    pages.pages[{kRays, 0}] = {bytes.begin(), bytes.end()};
-}
-
-namespace {
-
-bool is_lost_material(const geometry::Material& material) {
-    return material.name == kLostMaterial.name && material.colour == kLostMaterial.colour;
-}
-
-void replace_material(compute::Solid& solid, std::uint32_t from, std::uint32_t to) {
-    for (DexelSet& set : solid.sets) {
-        for (int v = 0; v < set.rays_v(); ++v) {
-            for (int u = 0; u < set.rays_u(); ++u) {
-                const std::span<const DexelEnd> held = set.ends(u, v);
-                const auto is_from = [&](const DexelEnd& end) { return shared::material_of(end) == from; };
-                if (std::ranges::none_of(held, is_from)) continue;
-                std::vector<DexelEnd> ends(held.begin(), held.end());
-                for (DexelEnd& end : ends)
-                    if (is_from(end)) end = {shared::make_end(shared::depth_of(end), to, 0).depth_material, end.normal};
-                set.replace(u, v, ends);
-            }
-        }
-    }
-}
-
-// Takes over the table of materials of a change, which goes on from the solid's. What was lost and made again is not
-// known there: its material, the last, goes behind those of the change. Returns false, and changes nothing, where the
-// table is none of this solid.
-bool take_materials(compute::Solid& solid, std::vector<geometry::Material> materials) {
-    std::vector<geometry::Material>& held = solid.materials;
-    const bool knows_all = materials.size() >= held.size() && (held.empty() || !is_lost_material(held.back()) ||
-                                                               is_lost_material(materials[held.size() - 1]));
-    if (!knows_all) {
-        if (held.empty() || !is_lost_material(held.back()) || materials.size() + 1 < held.size()) return false;
-        const std::size_t last = held.size() - 1, place = std::min(materials.size(), kMostMaterials - 1);
-        if (place == materials.size()) materials.push_back(kLostMaterial);
-        if (place != last) replace_material(solid, static_cast<std::uint32_t>(last), static_cast<std::uint32_t>(place));
-    }
-    held = std::move(materials);
-    return true;
-}
-
-}  // namespace
-
-Result<void> apply_change(compute::Solid& solid, const scene::Pages& change, const std::string& where) {
-    const auto damaged = [&] { return fail(where, "a change is damaged", "what came before it is there"); };
-    const std::vector<std::byte>*head = change.find({kHead, 0}), *rays = change.find({kRays, 0});
-    if (head == nullptr || rays == nullptr) return damaged();
-    const auto* text = reinterpret_cast<const char*>(head->data());
-    const Json json = Json::parse(text, text + head->size(), nullptr, false);
-    if (json.is_discarded() || lattice_in(json) != solid.lattice) return damaged();
-    auto materials = materials_in(json);
-    if (!materials) return damaged();
-    const std::optional<compute::RayBatch> batch = batch_in(*rays, solid.lattice, materials->size());
-    if (!batch || !take_materials(solid, std::move(*materials))) return damaged();
-    for (const compute::RayBatch::Ray& ray : batch->rays) {
-        const compute::RayPlace place = compute::place_of(ray.code);
-        solid.sets[static_cast<std::size_t>(place.axis)].replace(place.u, place.v, batch->ends_of(ray));
-    }
-    return {};
-}
-
 // ---- Saving and loading
 
 void save_solid(const compute::Solid& solid, const ChangedPages& changed, scene::Pages& pages) {
     pages.part = kSolidPart;
-    pages.pages[{kHead, 0}] = head_bytes(solid);
+    pages.pages[{kHead, 0}] = head_bytes(solid, kPageSide);
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         for (std::size_t page = 0; page < pages_of(solid.lattice, axis); ++page)

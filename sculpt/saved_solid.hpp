@@ -45,29 +45,6 @@ private:
     std::array<int, 3> columns_{};
 };
 
-// Which rays have changed since the last change that a journal was told.
-//
-//   head   as above
-//   rays   little-endian u32: how many rays there are; the code of each (shaders/shared/cut_job.h); the number of ends
-//          of each; then depths with materials and then normals, as in a page
-class ChangedRays {
-public:
-    explicit ChangedRays(const compute::Lattice& lattice);
-
-    void note(const compute::Changes& changes);
-    [[nodiscard]] bool empty() const { return codes_.empty(); }
-    // Puts what the rays hold now into the pages, and forgets which they are.
-    void take(const compute::Solid& solid, scene::Pages& pages);
-
-private:
-    compute::Lattice lattice_;
-    std::array<std::vector<bool>, 3> changed_;
-    std::vector<std::uint32_t> codes_;
-};
-
-// Makes a change again. Fails, and changes nothing, where the pages are none of this solid.
-[[nodiscard]] Result<void> apply_change(compute::Solid& solid, const scene::Pages& change, const std::string& where);
-
 // Puts the solid's head and those of its pages that have changed into the pages.
 void save_solid(const compute::Solid& solid, const ChangedPages& changed, scene::Pages& pages);
 

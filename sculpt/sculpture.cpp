@@ -19,6 +19,9 @@ Vec3 middle_of(const compute::Lattice& lattice) {
     return lattice.origin_object + 0.5 * lattice.spacing_m * cells;
 }
 
+// A copy is a journal's beginning, which is written each time that a session begins.
+constexpr std::size_t kMostCopiedSteps_bytes = std::size_t{64} << 20;
+
 double milliseconds(Nanoseconds from_ns, Nanoseconds to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
 
 }  // namespace
@@ -145,17 +148,30 @@ Result<void> Sculpture::local_surface(const Vec3& center_object, double radius_m
 
 // ---- Undo
 
-Result<std::size_t> Sculpture::undo(std::size_t strokes) { return walk_history(strokes, &compute::History::undo); }
+void Sculpture::end_stroke() {
+    if (history_) history_->end_stroke();
+    if (noted_ && noted_->is_open()) note_step(compute::HistoryStep::stroke);
+}
 
-Result<std::size_t> Sculpture::redo(std::size_t strokes) { return walk_history(strokes, &compute::History::redo); }
+// A step is noted at once, because the next one may change the same rays.
+void Sculpture::note_step(compute::HistoryStep step) {
+    if (noted_) noted_->take(engine_->solid(), step, noted_changes_.emplace_back(scene::Pages{.whole = false}));
+}
 
-Result<std::size_t> Sculpture::walk_history(std::size_t strokes, HistoryStep step) {
+Result<std::size_t> Sculpture::undo(std::size_t strokes) { return walk_history(strokes, compute::HistoryStep::undo); }
+
+Result<std::size_t> Sculpture::redo(std::size_t strokes) { return walk_history(strokes, compute::HistoryStep::redo); }
+
+Result<std::size_t> Sculpture::walk_history(std::size_t strokes, compute::HistoryStep step) {
+    end_stroke();
     std::size_t walked = 0;
     while (history_ && walked < strokes) {
-        const Result<bool> stepped = (*history_.*step)(*engine_);
+        const Result<bool> stepped =
+            step == compute::HistoryStep::undo ? history_->undo(*engine_) : history_->redo(*engine_);
         if (!stepped) return std::unexpected(stepped.error());
         if (!*stepped) break;
         follow_engine();
+        note_step(step);
         ++walked;
     }
     return walked;
@@ -171,12 +187,20 @@ void Sculpture::follow_engine() {
 
 void Sculpture::copy(scene::Pages& pages) const {
     save_solid(engine_->solid(), ChangedPages(engine_->solid().lattice), pages);
+    if (history_) copy_steps(*history_, kMostCopiedSteps_bytes, pages);
 }
 
 bool Sculpture::take_change(scene::Pages& pages) {
-    if (!has_noted()) return false;
-    noted_->take(engine_->solid(), pages);
+    if (noted_ && noted_changes_.empty() && !noted_->empty()) note_step(compute::HistoryStep::goes_on);
+    if (noted_changes_.empty()) return false;
+    pages = std::move(noted_changes_.front());
+    noted_changes_.pop_front();
     return true;
+}
+
+void Sculpture::is_saved() {
+    unsaved_.clear();
+    if (history_) static_cast<void>(history_->take_unsaved());
 }
 
 Result<void> Sculpture::save(scene::Pages& pages) {
@@ -185,6 +209,7 @@ Result<void> Sculpture::save(scene::Pages& pages) {
     if (const auto read = read_back(); !read) return read;
     if (pages.whole) unsaved_.note_all();
     save_solid(engine_->solid(), unsaved_, pages);
+    if (history_) save_steps(*history_, pages);
     unsaved_.clear();
     return {};
 }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@
 #include "compute/tools/apply.hpp"
 #include "compute/vulkan/device_surface.hpp"
 #include "sculpt/mirror.hpp"
+#include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
 
 namespace burin::sculpt {
@@ -64,23 +66,26 @@ public:
 
     // Keeps what each stroke changes, so that it can be undone, from the next update on. Costs time and memory.
     void keep_history(std::size_t budget_bytes) { history_.emplace(budget_bytes); }
+    // Goes on with that of an earlier session, whose last stroke led to this solid.
+    void keep_history(compute::History earlier) { history_.emplace(std::move(earlier)); }
     // Makes one stroke of the updates since the last call.
-    void end_stroke() {
-        if (history_) history_->end_stroke();
-    }
+    void end_stroke();
     // Undoes or repeats up to `strokes` strokes, the last first; returns how many there were.
     [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);
     [[nodiscard]] Result<std::size_t> redo(std::size_t strokes);
     // Puts the solid into the pages: all of it, or what has changed since the last call, as they ask
     // (sculpt/saved_solid.hpp). Ends the stroke that is open, so that undo goes to what was saved.
     [[nodiscard]] Result<void> save(scene::Pages& pages);
-    // Puts all of the solid into the pages; what save() gives next is the same as without.
+    // Says that the solid, and its history where it has one, is as a document holds it: save() gives what changes.
+    void is_saved();
+    // Puts all of the solid and the newest steps of its history into the pages; what save() gives next is the same as
+    // without.
     void copy(scene::Pages& pages) const;
     // Notes which rays change, for a journal, from the next update on. Has the host mesh.
     void note_changes() { noted_.emplace(engine_->solid().lattice); }
-    // Puts what has changed since the last call into the pages; returns whether there was anything.
+    // Puts the next change since the last call into the pages: each stroke, undo and redo is one of its own. Returns
+    // whether there was any.
     [[nodiscard]] bool take_change(scene::Pages& pages);
-    [[nodiscard]] bool has_noted() const { return noted_ && !noted_->empty(); }
     // Returns null without keep_history().
     [[nodiscard]] compute::History* history() { return history_ ? &*history_ : nullptr; }
 
@@ -107,9 +112,9 @@ public:
     [[nodiscard]] bool has_changed_tiles() const;  // since then
 
 private:
-    using HistoryStep = Result<bool> (compute::History::*)(compute::CarvingEngine&);
-    [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, HistoryStep step);
+    [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, compute::HistoryStep step);
     void follow_engine();
+    void note_step(compute::HistoryStep step);
     void note_changed_tiles();
     [[nodiscard]] Result<void> carve(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> update_on_device(std::span<const compute::ToolSweep> sweeps);
@@ -124,6 +129,7 @@ private:
     std::vector<bool> tile_changed_;
     ChangedPages unsaved_;
     std::optional<ChangedRays> noted_;
+    std::deque<scene::Pages> noted_changes_;  // that nobody has taken
     SculptFigures figures_;
     double initial_volume_m3_ = 0.0;
     double first_mesh_ms_ = 0.0;

@@ -70,8 +70,8 @@ Result<std::string> new_journal(const std::string& folder, const std::string& na
 }
 
 Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options, const std::string& folder,
-                                         WorkerPool& pool) {
-    Result<OpenedWork> opened = open_work(options, pool);
+                                         WorkerPool& pool, std::size_t undo_bytes) {
+    Result<OpenedWork> opened = open_work(options, pool, undo_bytes);
     if (!opened || opened->document.empty() || folder.empty()) return opened;
     std::vector<document::LeftJournal> left = newest_first(document::left_journals(folder));
     const auto is_other = [&](const document::LeftJournal& one) {
@@ -80,7 +80,7 @@ Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options
     std::erase_if(left, is_other);
     for (auto one = left.begin(); opened->journal.empty() && one != left.end(); ++one) {
         if (document::Version{one->base_id, one->base_saves} != opened->version) continue;
-        Result<OpenedWork> recovered = open_work({.source = one->path}, pool);
+        Result<OpenedWork> recovered = open_work({.source = one->path}, pool, undo_bytes);
         if (!recovered) continue;
         recovered->document = opened->document;  // which may have another name by now
         opened = std::move(recovered);

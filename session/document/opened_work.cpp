@@ -10,7 +10,9 @@
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
 #include "record/store_reading.hpp"
+#include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
+#include "session/document/opened_history.hpp"
 #include "session/input/input_words.hpp"
 #include "session/state/command_table.hpp"
 #include "session/state/held_tool.hpp"
@@ -73,13 +75,15 @@ Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& la
     return sculpt::workpiece_bounds(lattice);
 }
 
-// Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
-Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened) {
+// Makes the changes again that were not saved, with a history of them where there is one. Stops, and fails, at one that
+// is damaged.
+Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened, compute::History* history) {
     const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
     for (std::int64_t number = 1; number <= reader.changes(); ++number) {
         const Result<scene::Pages> change = reader.change(*part, number);
         if (!change) return std::unexpected(change.error());
-        if (const auto done = sculpt::apply_change(opened.workpiece.solid, *change, reader.path()); !done) return done;
+        if (const auto done = sculpt::apply_change(opened.workpiece.solid, *change, reader.path(), history); !done)
+            return done;
         opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
     }
     return {};
@@ -103,7 +107,21 @@ void say_where_it_goes(const document::DocumentReader& reader, OpenedWork& opene
     opened.version = document::Version{reader.fact(document::kBaseIdFact), reader.number(document::kBaseSavesFact)};
 }
 
-Result<OpenedWork> open_document(const std::string& path) {
+// Takes the history of the solid that the pages hold. What is damaged and was made again is other than the strokes left
+// it: nothing leads back from there.
+void take_history(document::DocumentReader& reader, OpenedWork& opened, std::size_t undo_bytes, std::string& lost) {
+    const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
+    if (lost.empty()) {
+        opened.history = history_in(reader, *part, opened.workpiece.solid, undo_bytes, lost);
+        return;
+    }
+    opened.history.emplace(undo_bytes);
+    const auto steps = reader.steps(*part);
+    const bool had_some = !steps || (*steps && (*steps)->first <= (*steps)->last) || reader.changes() > 0;
+    if (had_some) add_to(lost, "undo goes back to this opening alone");
+}
+
+Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes) {
     Result<document::DocumentReader> reader = document::DocumentReader::open(path);
     if (!reader) return std::unexpected(reader.error());
     const Result<scene::Pages> pages = reader->pages_of(sculpt::kSolidPart);
@@ -111,7 +129,12 @@ Result<OpenedWork> open_document(const std::string& path) {
     Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, path);
     if (!loaded) return std::unexpected(loaded.error());
     OpenedWork opened{.workpiece = {.solid = std::move(loaded->solid), .report = {}}};
-    if (const auto changed = apply_changes(*reader, opened); !changed) add_to(loaded->lost, changed.error().what);
+    const bool leads_back = undo_bytes > 0 && loaded->lost.empty();
+    if (undo_bytes > 0) take_history(*reader, opened, undo_bytes, loaded->lost);
+    compute::History* const history = leads_back ? &*opened.history : nullptr;
+    if (const auto changed = apply_changes(*reader, opened, history); !changed)
+        add_to(loaded->lost, changed.error().what);
+    if (history != nullptr) history->take_step(compute::HistoryStep::stroke);  // the one that was not ended
     if (document::is_log_damaged(path))
         add_to(loaded->lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
     if (record::lacks_its_log(path))
@@ -183,8 +206,8 @@ std::string line_of(const SessionCommand& command) {
 
 bool is_document(const sculpt::WorkpieceOptions& options) { return document::is_document_name(options.source); }
 
-Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool) {
-    if (is_document(options)) return open_document(options.source);
+Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool, std::size_t undo_bytes) {
+    if (is_document(options)) return open_document(options.source, undo_bytes);
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     return OpenedWork{.workpiece = std::move(*workpiece), .version = {}};

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/rays/history.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/state/session_options.hpp"
@@ -18,6 +19,7 @@ namespace burin::session {
 struct OpenedWork {
     sculpt::LoadedWorkpiece workpiece;
     std::string lost = {};                           // what of a document was damaged, in words; empty: nothing
+    std::optional<compute::History> history = {};    // of a document, where one was asked for
     std::optional<Similarity> view = {};             // of a document
     std::string document = {};                       // where a save goes; empty: the work has no file yet
     std::optional<document::Version> version = {};   // of that document
@@ -32,8 +34,9 @@ struct OpenedWork {
 [[nodiscard]] bool is_document(const sculpt::WorkpieceOptions& options);
 
 // Opens the workpiece, whatever its source is: a document, a mesh file or a shape. A document needs no file but
-// itself.
-[[nodiscard]] Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool);
+// itself. undo_bytes: the memory for what led to a document's solid; 0: that is not wanted.
+[[nodiscard]] Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool,
+                                           std::size_t undo_bytes = 0);
 
 // Takes over from the document, which is the options' workpiece, what it says of tool, material and mirror, where the
 // options leave it open. Changes nothing where the workpiece is no document.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "base/text.hpp"
 #include "sculpt/crumbs.hpp"
@@ -71,22 +73,28 @@ Result<sculpt::MadeWorkpiece> LiveSession::make_workpiece(const SculptOptions& o
     if (!is_document(options.workpiece))
         return sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
     auto pool = std::make_unique<WorkerPool>(options.threads);
-    Result<OpenedWork> opened = open_work_and_journal(options.workpiece, options.live.journal, *pool);
+    Result<OpenedWork> opened =
+        open_work_and_journal(options.workpiece, options.live.journal, *pool, options.undo_memory_MiB << 20);
     if (!opened) return std::unexpected(opened.error());
     opened_ = std::move(*opened);
     if (!opened_.lost.empty()) notify(opened_.lost, MessageKind::error);
     if (!opened_.recovered.empty()) notify_of_event(opened_.recovered, MessageKind::warning);
     document_.came_from(opened_.origin);
     // A log's session leaves the file that it began with as it is.
-    if (!opened_.version || !options.live.input.empty())
-        return sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
-    if (const auto holder = document_.hold(options.live.journal, opened_.document))
+    const bool is_own = opened_.version && options.live.input.empty();
+    const auto holder = is_own ? document_.hold(options.live.journal, opened_.document) : std::nullopt;
+    if (holder)
         notify_of_event(opened_.document + " is open in another window, " + text_of(*holder) +
                             ": it can be read here, and is saved under another name",
                         MessageKind::warning);
-    else
+    else if (is_own)
         document_.opened(opened_.document, *opened_.version);
-    return sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
+    auto made = sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
+    if (!made) return made;
+    if (opened_.history) made->carving->keep_history(std::move(*std::exchange(opened_.history, std::nullopt)));
+    // What came from a journal, or was damaged, is in no document as it is here.
+    if (opened_.journal.empty() && opened_.lost.empty()) made->carving->is_saved();
+    return made;
 }
 
 Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::optional<sculpt::MadeWorkpiece> made) {

@@ -270,4 +270,65 @@ TEST_F(Document, WhatCouldNotBeSavedGoesAlongWithTheNextSave) {
     EXPECT_EQ(pages_in(path).pages.at({"tile", 0}), bytes_of("third"));
 }
 
+// ---- Steps
+
+namespace {
+
+// Work with steps first to done, of which those from new_from on are given.
+Content work_with_steps(std::int64_t first, std::int64_t done, std::int64_t new_from, char mark) {
+    Content content;
+    scene::Pages& part = content.parts.emplace_back(scene::Pages{.part = "a thing"});
+    part.pages = {{{"head", 0}, bytes_of("h")}};
+    part.steps = {.first = first, .done = done, .last = done};
+    for (std::int64_t number = new_from; number <= done; ++number)
+        part.steps->pages[{"rays", number}] = bytes_of(std::string(1, mark) + std::to_string(number));
+    return content;
+}
+
+// Returns the steps in a document, in words: "2 3: a2 b3".
+std::string steps_in(const std::string& path) {
+    Result<DocumentReader> reader = DocumentReader::open(path);
+    EXPECT_TRUE(reader) << reader.error().line();
+    const auto steps = reader->steps(reader->parts().at(0));
+    if (!steps) return steps.error().line();
+    if (!*steps) return "none";
+    std::string words = std::to_string((*steps)->first) + " " + std::to_string((*steps)->done) + ":";
+    for (std::int64_t number = (*steps)->first - 1; number <= (*steps)->last + 1; ++number) {
+        const auto step = reader->step(reader->parts().at(0), number);
+        if (!step) continue;
+        words += " ";
+        for (const std::byte byte : step->pages.at({"rays", 0})) words += static_cast<char>(byte);
+    }
+    return words;
+}
+
+}  // namespace
+
+TEST_F(Document, KeepsTheStepsThatItNamesAndTakesTheNewOnes) {
+    const auto saved = write_document(path, work_with_steps(1, 4, 1, 'a'), Place::nothing);
+    ASSERT_TRUE(saved) << saved.error().line();
+    EXPECT_EQ(steps_in(path), "1 4: a1 a2 a3 a4");
+    const auto changed = update_document(path, work_with_steps(2, 5, 4, 'b'), saved->version);
+    ASSERT_TRUE(changed) << changed.error().line();
+    EXPECT_EQ(steps_in(path), "2 5: a2 a3 b4 b5");
+    ASSERT_TRUE(update_document(path, changed_tile("x"), changed->version));
+    EXPECT_EQ(steps_in(path), "none") << "a part that changes without them has none";
+}
+
+TEST_F(Document, WhoseSaveFailedGivesItsStepsToTheNext) {
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    DocumentWriter writer(disk.kName);
+    const auto save = [&](Content content, bool changed_alone) {
+        writer.save({.path = path, .name = "work", .content = std::move(content), .changed_alone = changed_alone});
+        writer.finish();
+        return static_cast<bool>(writer.take_outcomes().at(0).saved);
+    };
+    ASSERT_TRUE(save(work_with_steps(1, 2, 1, 'a'), false));
+    disk.is_full = true;
+    EXPECT_FALSE(save(work_with_steps(1, 5, 3, 'b'), true));
+    disk.is_full = false;
+    EXPECT_TRUE(save(work_with_steps(2, 4, 4, 'c'), true));
+    EXPECT_EQ(steps_in(path), "2 4: a2 b3 c4");
+}
+
 }  // namespace burin::document

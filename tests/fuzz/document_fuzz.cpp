@@ -22,6 +22,7 @@
 #include "document/document_reader.hpp"
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
+#include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
 
 namespace {
@@ -54,6 +55,21 @@ void load(const scene::Pages& pages) {
         if (name.kind != "head") require(pages.find(name) != nullptr && *pages.find(name) == bytes);
 }
 
+void read_steps(document::DocumentReader& reader, const document::PartPlace& part, const compute::Solid& solid,
+                compute::History& history) {
+    const auto steps = reader.steps(part);
+    if (!steps) return check_error(steps.error());
+    if (!*steps) return;
+    history.go_on_after((*steps)->done);
+    for (std::int64_t number = (*steps)->done; number >= std::max((*steps)->first, (*steps)->done - 4); --number) {
+        const auto pages = reader.step(part, number);
+        if (!pages) return check_error(pages.error());
+        auto step = sculpt::step_in(solid, *pages, "fuzz");
+        if (!step) return check_error(step.error());
+        if (!history.put_before(std::move(*step))) return;
+    }
+}
+
 void read_file(const std::string& path) {
     Result<document::DocumentReader> reader = document::DocumentReader::open(path);
     if (!reader) return check_error(reader.error());
@@ -66,13 +82,16 @@ void read_file(const std::string& path) {
         }
         load(*pages);
         Result<sculpt::LoadedSolid> solid = sculpt::load_solid(*pages, "fuzz");
+        compute::History history(std::size_t{1} << 20);
+        if (solid) read_steps(*reader, part, solid->solid, history);
         for (std::int64_t number = 1; solid && number <= std::min<std::int64_t>(reader->changes(), 4); ++number) {
             const Result<scene::Pages> change = reader->change(part, number);
             if (!change) {
                 check_error(change.error());
                 break;
             }
-            if (const auto done = sculpt::apply_change(solid->solid, *change, "fuzz"); !done) check_error(done.error());
+            if (const auto done = sculpt::apply_change(solid->solid, *change, "fuzz", &history); !done)
+                check_error(done.error());
         }
     }
 }
@@ -89,6 +108,11 @@ std::vector<std::uint8_t> sound_file() {
     compute::Solid solid = small_solid();
     document::Content content{.facts = {{"unit", "mm"}}, .commands = {"tool ball:0.01"}};
     sculpt::save_solid(solid, sculpt::ChangedPages(solid.lattice), content.parts.emplace_back());
+    compute::RayBatch stroke;
+    stroke.add(shared::ray_code(1, 2, 2), solid.sets[1].ends(2, 2));
+    compute::History history;
+    require(history.put_before(std::move(stroke)));
+    sculpt::save_steps(history, content.parts[0]);
     Result<document::Journal> journal = document::Journal::begin(path, content);
     require(journal.has_value());
     sculpt::ChangedRays changed(solid.lattice);
@@ -96,7 +120,7 @@ std::vector<std::uint8_t> sound_file() {
     changes.record({0, 1, 1}, 0, 1, solid.sets[0].ends(1, 1));
     changed.note(changes);
     document::Change change{.part = 0, .pages = {.whole = false}};
-    changed.take(solid, change.pages);
+    changed.take(solid, compute::HistoryStep::stroke, change.pages);
     require(journal->add({std::move(change)}).has_value());
     journal->end();
     std::ifstream in(path, std::ios::binary);

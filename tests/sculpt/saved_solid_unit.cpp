@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/json.hpp"
+#include "sculpt/saved_changes.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
@@ -96,7 +97,10 @@ TEST(SavedSolid, IsMadeAgainFromTheChangesSinceItWasSaved) {
     ball.carving.copy(before);
     EXPECT_FALSE(ball.carving.take_change(nothing));
     std::vector<scene::Pages> changes;
-    const auto take = [&] { EXPECT_TRUE(ball.carving.take_change(changes.emplace_back())); };
+    const auto take = [&] {
+        EXPECT_TRUE(ball.carving.take_change(changes.emplace_back()));
+        for (scene::Pages more; ball.carving.take_change(more);) changes.push_back(std::move(more));
+    };
     ball.stroke({0.0, 0.0, 0.1}, {0.03, 0.0, 0.1});
     take();
     ball.stroke({0.03, 0.0, 0.1}, {0.05, 0.05, 0.08});

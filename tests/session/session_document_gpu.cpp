@@ -83,6 +83,32 @@ TEST_F(DocumentOfASession, GoesOnAsIfNothingHadBeenBetween) {
     EXPECT_EQ(saves("b/first.burin"), 1);
 }
 
+TEST_F(DocumentOfASession, TakesBackAndRepeatsStrokesOfTheSessionBefore) {
+    const std::string more = "1 mouse 150 80\n1.05 button press left\n1.4 mouse 165 70\n1.5 button release left\n";
+    const auto first = play(kBall + " --journal j", "a",
+                            "0 command export whole.ply\n" + kStroke + "0.9 command export one.ply\n" + more +
+                                "2.5 command save work.burin\n2.6 command export two.ply\n3 command quit\n");
+    ASSERT_EQ(first.status, 0) << first.output;
+    const auto second = play("a/work.burin --journal j", "b",
+                             "0.1 command undo\n0.2 command export one.ply\n1 command undo\n1.1 command export "
+                             "whole.ply\n2 command redo\n2.1 command save work.burin\n2.2 command redo\n2.3 command "
+                             "export two.ply\n3 command quit\n");
+    ASSERT_EQ(second.status, 0) << second.output;
+    for (const char* const part : {"whole.ply", "one.ply", "two.ply"})
+        EXPECT_EQ(place.read(std::string("a/") + part), place.read(std::string("b/") + part)) << part;
+    EXPECT_NE(place.read("b/one.ply"), place.read("b/two.ply"));
+    // The redo was not saved; the next session has it from the journal, and takes it back.
+    const auto third = play("b/work.burin --journal j", "c",
+                            "0.1 command export two.ply\n1 command undo\n1.1 command export one.ply\n1.5 command "
+                            "undo\n1.6 command export whole.ply\n2 command quit\n");
+    ASSERT_EQ(third.status, 0) << third.output;
+    EXPECT_TRUE(third.output.contains("has come back")) << third.output;
+    for (const char* const part : {"whole.ply", "one.ply", "two.ply"})
+        EXPECT_EQ(place.read(std::string("a/") + part), place.read(std::string("c/") + part)) << part;
+    const auto told = place.run(std::string(kBurinCommand) + " info b/work.burin");
+    EXPECT_TRUE(told.output.contains("undo: 1 stroke back, 1 forward")) << told.output;
+}
+
 TEST_F(DocumentOfASession, ThatAScriptOpensStaysAsItIs) {
     ASSERT_EQ(play(kBall, "a", "0.1 command save work.burin\n").status, 0);
     const std::string before = place.read("a/work.burin");
