@@ -8,6 +8,9 @@
 namespace burin::document {
 namespace {
 
+// All of the work is asked for at each so many-th try: copying it takes the scene's thread some time.
+constexpr int kTriesForAll = 10;
+
 // Puts what a part has later over what it had; steps that are not there any more fall away.
 void put_over(scene::Pages& later, scene::Pages& earlier) {
     later.pages.merge(std::move(earlier.pages));  // which keeps its own
@@ -32,7 +35,8 @@ Content merged(Content earlier, Content later) {
 
 }  // namespace
 
-DocumentWriter::DocumentWriter(std::string vfs) : vfs_(std::move(vfs)) {
+DocumentWriter::DocumentWriter(std::string vfs, std::chrono::milliseconds again_after, std::size_t most_unwritten_bytes)
+    : vfs_(std::move(vfs)), again_after_(again_after), most_unwritten_bytes_(most_unwritten_bytes) {
     thread_ = std::thread([this] { run(); });
 }
 
@@ -71,19 +75,18 @@ void DocumentWriter::note(Change change) {
     put(std::move(change));
 }
 
-std::optional<Error> DocumentWriter::take_journal_failure() {
+void DocumentWriter::begin_anew(Content now) { put(Anew{std::move(now)}); }
+
+std::vector<JournalNews> DocumentWriter::take_journal_news() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(journal_failure_, std::nullopt);
+    return std::exchange(journal_news_, {});
 }
 
 std::string DocumentWriter::end_journal(bool discards) {
+    put(JournalEnd{discards});
     finish();
-    if (!journal_) return {};
-    if (discards) journal_->discard();
-    const bool stays = journal_->is_needed();
-    journal_->end();
-    journal_.reset();
-    return stays ? journal_path_ : std::string();
+    const std::lock_guard lock(mutex_);
+    return std::exchange(journal_left_, {});
 }
 
 std::vector<SaveOutcome> DocumentWriter::take_outcomes() {
@@ -103,24 +106,31 @@ void DocumentWriter::finish() {
 
 void DocumentWriter::run() {
     std::unique_lock lock(mutex_);
+    const auto has_work = [this] { return ending_ || !waiting_.empty(); };
     for (;;) {
-        wake_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
-        if (waiting_.empty()) return;
+        if (fails_)
+            wake_.wait_until(lock, next_try_, has_work);
+        else
+            wake_.wait(lock, has_work);
+        if (waiting_.empty() && ending_) return;
         std::vector<Change> changes;  // all that wait next to each other go into one transaction
         while (!waiting_.empty() && std::holds_alternative<Change>(waiting_.front())) {
             changes.push_back(std::get<Change>(std::move(waiting_.front())));
             waiting_.pop_front();
         }
         std::optional<Work> work;
-        if (changes.empty()) {
+        if (changes.empty() && !waiting_.empty()) {
             work = std::move(waiting_.front());
             waiting_.pop_front();
         }
         writing_ = true;
         lock.unlock();
-        if (!changes.empty()) add_to_journal(std::move(changes));
+        if (fails_ && std::chrono::steady_clock::now() >= next_try_) try_journal_again();
+        if (!changes.empty()) carry_out(std::move(changes));
         if (work && std::holds_alternative<SaveRequest>(*work)) carry_out(std::get<SaveRequest>(*work));
         if (work && std::holds_alternative<JournalBeginning>(*work)) carry_out(std::get<JournalBeginning>(*work));
+        if (work && std::holds_alternative<Anew>(*work)) carry_out(std::get<Anew>(*work));
+        if (work && std::holds_alternative<JournalEnd>(*work)) carry_out(std::get<JournalEnd>(*work));
         lock.lock();
         writing_ = false;
         done_.notify_all();
@@ -129,42 +139,136 @@ void DocumentWriter::run() {
 
 void DocumentWriter::carry_out(SaveRequest& request) {
     Result<Saved> saved = write(request);
-    if (saved && journal_) {
-        // From now on the journal goes on from what was saved.
-        request.content.facts[kJournalOfFact] = request.path;
-        request.content.facts[kBaseIdFact] = saved->version.id;
-        request.content.facts[kBaseSavesFact] = std::to_string(saved->version.saves);
-        if (const auto taken = journal_->take_over(std::move(request.content)); !taken) fail_journal(taken.error());
-    }
+    if (saved) keep_saved(std::move(request.content), request.path, saved->version);
     const std::lock_guard lock(mutex_);
     outcomes_.push_back(
         {std::move(request.path), std::move(request.name), request.asked_by, request.state, std::move(saved)});
 }
 
+// ---- The journal
+
+// From now on the journal goes on from what was saved.
+void DocumentWriter::keep_saved(Content saved, const std::string& path, const Version& version) {
+    unsaved_ = false;
+    // release: the document holds these changes before anybody reads the number.
+    safe_.store(handled_, std::memory_order_release);
+    named_[kJournalOfFact] = path;
+    named_[kBaseIdFact] = version.id;
+    named_[kBaseSavesFact] = std::to_string(version.saves);
+    if (!journal_ || lacks_some_) return;
+    for (const auto& [key, value] : named_) saved.facts[key] = value;
+    saved.facts.erase(kUnsavedFact);
+    const auto taken = journal_->take_over(std::move(saved));
+    if (taken) return journal_holds_all();
+    give_up_unwritten();  // it leads on from an earlier state
+    journal_fails(taken.error());
+}
+
 void DocumentWriter::carry_out(JournalBeginning& begin) {
-    Result<Journal> journal = Journal::begin(begin.path, begin.content, vfs_);
-    if (!journal) return fail_journal(journal.error());
-    journal_.emplace(std::move(*journal));
     journal_path_ = begin.path;
+    replaces_ = begin.replaces;
+    named_.clear();
+    for (const char* const fact : {kJournalNameFact, kJournalOfFact, kBaseIdFact, kBaseSavesFact})
+        if (const auto at = begin.content.facts.find(fact); at != begin.content.facts.end()) named_.insert(*at);
+    unsaved_ = begin.content.facts.contains(kUnsavedFact);
+    begin_journal(begin.content);
+}
+
+void DocumentWriter::carry_out(Anew& anew) {
+    if (journal_path_.empty()) return;
+    for (const auto& [key, value] : named_) anew.content.facts[key] = value;
+    if (unsaved_) anew.content.facts[kUnsavedFact] = "1";
+    begin_journal(anew.content);
+}
+
+void DocumentWriter::begin_journal(const Content& content) {
+    if (journal_) {
+        if (const auto begun = journal_->begin_anew(content, unsaved_); !begun) return journal_fails(begun.error());
+        return journal_holds_all();
+    }
+    Result<Journal> journal = Journal::begin(journal_path_, content, vfs_);
+    if (!journal) {
+        give_up_unwritten();
+        return journal_fails(journal.error());
+    }
+    journal_.emplace(std::move(*journal));
     std::error_code ignored;
-    if (!begin.replaces.empty())
+    if (!replaces_.empty())
         for (const char* ending : {"", "-wal", "-shm", "-journal"})
-            std::filesystem::remove(begin.replaces + ending, ignored);
+            std::filesystem::remove(replaces_ + ending, ignored);
+    journal_holds_all();
 }
 
-void DocumentWriter::add_to_journal(std::vector<Change> changes) {
-    if (!journal_) return;
-    if (const auto added = journal_->add(changes); !added) return fail_journal(added.error());
+void DocumentWriter::carry_out(std::vector<Change> changes) {
+    handled_ += static_cast<std::int64_t>(changes.size());
+    unsaved_ = true;
+    if (journal_path_.empty() || lacks_some_) return;
+    for (Change& change : changes) {
+        for (const auto& [name, bytes] : change.pages.pages) unwritten_bytes_ += bytes.size();
+        unwritten_.push_back(std::move(change));
+    }
+    if (!fails_) return add_unwritten();
+    if (unwritten_bytes_ > most_unwritten_bytes_) give_up_unwritten();
+}
+
+void DocumentWriter::add_unwritten() {
+    if (const auto added = journal_->add(unwritten_); !added) return journal_fails(added.error());
+    journal_holds_all();
+}
+
+void DocumentWriter::try_journal_again() {
+    ++tries_;
+    next_try_ = std::chrono::steady_clock::now() + again_after_;
+    if (!lacks_some_) return add_unwritten();
+    if (tries_ % kTriesForAll == 0) wants_all_ = true;
+}
+
+void DocumentWriter::journal_holds_all() {
+    unwritten_.clear();
+    unwritten_bytes_ = 0;
+    lacks_some_ = false;
     // release: the file holds these changes before anybody reads the number.
-    safe_.fetch_add(static_cast<std::int64_t>(changes.size()), std::memory_order_release);
+    safe_.store(handled_, std::memory_order_release);
+    if (!std::exchange(fails_, false)) return;
+    const std::lock_guard lock(mutex_);
+    journal_news_.push_back({});
 }
 
-// Ends the journal after a failure: its changes stay in its file, and later changes are in no journal.
-void DocumentWriter::fail_journal(const Error& why) {
-    if (journal_) journal_->end();
-    journal_.reset();
+// What the journal has stays in its file; what it has not is tried again.
+void DocumentWriter::journal_fails(const Error& why) {
+    next_try_ = std::chrono::steady_clock::now() + again_after_;
+    if (std::exchange(fails_, true)) return;
+    tries_ = 0;
     const std::lock_guard lock(mutex_);
-    journal_failure_ = why;
+    journal_news_.push_back({why});
+}
+
+// From now on the journal needs all as it is then.
+void DocumentWriter::give_up_unwritten() {
+    unwritten_.clear();
+    unwritten_bytes_ = 0;
+    lacks_some_ = true;
+}
+
+void DocumentWriter::carry_out(JournalEnd& end) {
+    if (fails_ && !lacks_some_) add_unwritten();  // there may be room by now
+    std::string left;
+    if (journal_) {
+        if (end.discards) journal_->discard();
+        if (journal_->is_needed()) left = journal_path_;
+        journal_->end();
+        journal_.reset();
+    }
+    const bool loses = fails_ && unsaved_ && !end.discards;
+    const std::string path = std::exchange(journal_path_, {});
+    fails_ = false;
+    give_up_unwritten();
+    const std::lock_guard lock(mutex_);
+    journal_left_ = std::move(left);
+    if (loses)
+        journal_news_.push_back({Error{.what = "the newest strokes are in no file",
+                                       .where = path,
+                                       .remedy = "free some space first, and save before the end"}});
 }
 
 Result<Saved> DocumentWriter::write(SaveRequest& request) {

@@ -45,8 +45,7 @@ Result<Journal> Journal::begin(const std::string& path, const Content& beginning
     if (!file) return std::unexpected(file.error());
     Journal journal(path, std::move(*file));
     journal.needed_ = beginning.facts.contains(kUnsavedFact);
-    for (const scene::Pages& part : beginning.parts)
-        journal.first_steps_.push_back(part.steps ? part.steps->first : std::numeric_limits<std::int64_t>::min());
+    journal.note_first_steps(beginning);
     return journal;
 }
 
@@ -73,23 +72,40 @@ Result<void> Journal::add(const std::vector<Change>& changes) {
 
 // What is saved may go back to steps that the journal never had.
 Result<void> Journal::take_over(Content saved) {
-    Database& database = file_.database();
     for (std::size_t part = 0; part < saved.parts.size() && part < first_steps_.size(); ++part) {
         auto& steps = saved.parts[part].steps;
         if (steps) steps->first = std::clamp(steps->first, first_steps_[part], steps->done + 1);
     }
+    return replace_changes(saved, false);
+}
+
+Result<void> Journal::begin_anew(const Content& now, bool is_needed) {
+    const Result<void> done = replace_changes(now, is_needed);
+    if (done) note_first_steps(now);
+    return done;
+}
+
+Result<void> Journal::replace_changes(const Content& content, bool is_needed) {
+    Database& database = file_.database();
     const Result<void> done = in_transaction(database, [&]() -> Result<void> {
         if (const auto gone =
                 database.run("DELETE FROM change; DELETE FROM meta WHERE key = '" + std::string(kUnsavedFact) + "'");
             !gone)
             return gone;
         Saved ignored;
-        return put_content(database, saved, ignored);
+        const Result<void> put = put_content(database, content, ignored);
+        return put && is_needed ? put_fact(database, kUnsavedFact, "1") : put;
     });
     if (!done) return done;
-    needed_ = false;
+    needed_ = is_needed;
     changes_ = 0;
     return {};
+}
+
+void Journal::note_first_steps(const Content& beginning) {
+    first_steps_.clear();
+    for (const scene::Pages& part : beginning.parts)
+        first_steps_.push_back(part.steps ? part.steps->first : std::numeric_limits<std::int64_t>::min());
 }
 
 void Journal::end() {

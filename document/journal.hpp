@@ -31,6 +31,8 @@ public:
     [[nodiscard]] Result<void> add(const std::vector<Change>& changes);
     // Takes over what was saved elsewhere: its pages take the place of the changes so far.
     [[nodiscard]] Result<void> take_over(Content saved);
+    // Takes all as it is now in the place of what it holds. is_needed: something of that was not saved elsewhere.
+    [[nodiscard]] Result<void> begin_anew(const Content& now, bool is_needed);
     // Returns how many changes follow its pages.
     [[nodiscard]] std::int64_t changes() const { return changes_; }
     // Returns whether it holds something that was not saved elsewhere.
@@ -42,6 +44,9 @@ public:
 
 private:
     Journal(std::string path, record::StoreFile file) : path_(std::move(path)), file_(std::move(file)) {}
+
+    [[nodiscard]] Result<void> replace_changes(const Content& content, bool is_needed);
+    void note_first_steps(const Content& beginning);
 
     std::string path_;
     record::StoreFile file_;

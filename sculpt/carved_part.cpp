@@ -102,6 +102,13 @@ void CarvedPart::tell_journal() {
     while (journal_ && sculpture_.take_change(change)) journal_(std::move(change));
 }
 
+bool CarvedPart::copy(scene::Pages& pages) {
+    if (pressed()) return false;
+    tell_journal();
+    sculpture_.copy(pages);
+    return true;
+}
+
 Result<void> CarvedPart::carve(Carver& carver) {
     SweptSamples swept;
     do {

@@ -111,6 +111,9 @@ public:
     void keep_journal(TakeChange take);
     // Returns which state the work is in (compute::History::state); 0 without a history.
     [[nodiscard]] std::uint64_t state() const;
+    // Puts all of the solid into the pages, after the journal was told of what it holds. Returns false, and does
+    // nothing, while a stroke goes on.
+    [[nodiscard]] bool copy(scene::Pages& pages);
 
     // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update. A hand
     // comes after the cursor: undo and redo that are asked for while a button is still down wait for the stroke's end,

@@ -95,6 +95,13 @@ void take_what_is_safe(std::deque<Unsafe>& unsafe, const document::DocumentWrite
     }
 }
 
+// Returns why the journal is not written.
+std::optional<Error> refused_journal(document::DocumentWriter& writer) {
+    for (document::JournalNews& news : writer.take_journal_news())
+        if (news.failed) return std::move(news.failed);
+    return std::nullopt;
+}
+
 Result<void> measure_journal(const DocumentTask& task, const CarveScene& scene, const OwnFolder& folder,
                              WorkerPool& pool, DocumentFigures::Journal& figures) {
     const auto sculpture = uncut(scene, task.journal_resolution, pool);
@@ -102,7 +109,7 @@ Result<void> measure_journal(const DocumentTask& task, const CarveScene& scene, 
     document::DocumentWriter writer;
     writer.keep_journal(folder.file("journal.burin"), all_of(**sculpture));
     writer.finish();
-    if (auto why = writer.take_journal_failure()) return std::unexpected(std::move(*why));
+    if (const auto refused = refused_journal(writer)) return std::unexpected(*refused);
     MonotonicClock clock;
     std::deque<Unsafe> unsafe;
     Nanoseconds due_ns = clock.now_ns(), told_ns = due_ns;
@@ -137,7 +144,7 @@ Result<void> measure_journal(const DocumentTask& task, const CarveScene& scene, 
     constexpr Nanoseconds kLongest_ns = 10'000'000'000;
     for (const Nanoseconds end_ns = clock.now_ns() + kLongest_ns; !unsafe.empty() && clock.now_ns() < end_ns;)
         look_until(clock.now_ns() + kLook_ns);
-    if (auto why = writer.take_journal_failure()) return std::unexpected(std::move(*why));
+    if (const auto refused = refused_journal(writer)) return std::unexpected(*refused);
     static_cast<void>(writer.end_journal(true));
     if (!unsafe.empty()) return fail(folder.file("journal.burin"), "takes more than 10 s to write", "check the disk");
     return {};

@@ -28,7 +28,7 @@ public:
     // Takes which state the work is in (compute::History::state), how many strokes can be undone there, and how many
     // changes the journal had been given by then.
     void work_is(std::uint64_t state, std::size_t strokes, std::int64_t noted);
-    void journal_failed() { keeps_ = false; }
+    void journal_keeps(bool keeps) { keeps_ = keeps; }
     void name_looked_at(const std::string& name, bool taken);
 
     // Returns whether something is under way that will be told soon.

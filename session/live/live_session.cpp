@@ -59,6 +59,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
                       state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
+    watch_journal(give);
 }
 
 // Two pictures side by side or one above the other leave each another shape: what filled one is cut off in the other.
@@ -168,7 +169,7 @@ void LiveSession::keep_journal(const std::string& folder) {
     document::Content beginning = saved_content();
     scene_.workpiece()->copy(beginning.parts.emplace_back());
     if (const auto kept = document_.keep_journal(folder, options_, opened_, std::move(beginning)); !kept) {
-        news_of_document_.journal_failed();
+        news_of_document_.journal_keeps(false);
         return notify(kept.error().line());
     }
     scene_.carved()->keep_journal(
@@ -192,11 +193,6 @@ void LiveSession::watch(Nanoseconds time_ns) {
         files_.tell(ended);
         news_of_document_.save_ended(ended);
     }
-    const bool keeps_journal = !options_.live.journal.empty();
-    if (const auto why = keeps_journal ? document_.writer().take_journal_failure() : std::nullopt) {
-        log_.notify_of_event("strokes are no longer kept until they are saved: " + why->line(), MessageKind::error);
-        news_of_document_.journal_failed();
-    }
     if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
     if (const auto change = wand_.look(state_.wands)) notify(*change);
@@ -207,6 +203,21 @@ void LiveSession::watch(Nanoseconds time_ns) {
         events_.push_back(std::move(news.event));
     }
     std::ranges::move(activity_.take_events(), std::back_inserter(events_));
+}
+
+void LiveSession::watch_journal(const Give& give) {
+    if (options_.live.journal.empty()) return;
+    for (const document::JournalNews& news : document_.writer().take_journal_news()) {
+        news_of_document_.journal_keeps(!news.failed);
+        if (news.failed)
+            log_.notify_of_event("strokes are not kept until they are saved: " + news.failed->line() +
+                                     "; it is tried again every few seconds",
+                                 MessageKind::error);
+        else
+            log_.notify_of_event("strokes are kept again, with all that was done meanwhile", MessageKind::info);
+    }
+    if (scene_.carved() != nullptr && document_.writer().wants_all())
+        give(scene_.journalling(saved_content(), document_.writer()));
 }
 
 void LiveSession::take_loaded() {
@@ -263,6 +274,9 @@ void LiveSession::finish_scene() {
     for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
     if (const std::string kept = document_.end_journal(state_.discards); !kept.empty())
         notify("what was not saved is kept: burin sculpt " + kept);
+    if (!options_.live.journal.empty())
+        for (const document::JournalNews& news : document_.writer().take_journal_news())
+            if (news.failed) log_.notify_of_event(news.failed->line(), MessageKind::error);
     collect({});
     take_news(UINT64_MAX);
     // What the activity orders now has nobody to carry it out, but for its words.

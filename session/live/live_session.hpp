@@ -180,6 +180,7 @@ private:
     void take(sculpt::SurfaceUpdate news);
     [[nodiscard]] bool tells_late_pictures() const { return hands().felt_by_person() || state_.head.tracked; }
     void watch(Nanoseconds time_ns);
+    void watch_journal(const Give& give);
     void watch_misfit(const sculpt::Tool& tool);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
 

@@ -62,6 +62,12 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
     return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };
 }
 
+SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
+    return [this, content = std::move(content), &writer]() mutable {
+        if (carved_->copy(content.parts.emplace_back())) writer.begin_anew(std::move(content));
+    };
+}
+
 SceneSide::Order SceneSide::editing(WorldOrder order) {
     return [this, order = std::move(order)] {
         if (const auto done = world_->part().edit(order.object, order.edit); !done) news_.notify(done.error().line());

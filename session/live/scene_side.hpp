@@ -49,6 +49,8 @@ public:
     [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);
     // Takes the pages of all parts and has them saved; one that cannot be saved has nothing saved.
     [[nodiscard]] Order saving(document::SaveRequest request, document::DocumentWriter& writer);
+    // Has a journal begin anew with the workpiece as it is then, unless a stroke goes on.
+    [[nodiscard]] Order journalling(document::Content content, document::DocumentWriter& writer);
     [[nodiscard]] Order editing(WorldOrder order);
     [[nodiscard]] Order holding(HoldOrder order);
     // Has what is known around a hand's first point reach its others, at this distance, where that is new.

@@ -19,6 +19,7 @@
 #include "document/document_reader.hpp"
 #include "document/document_writer.hpp"
 #include "document/log_check.hpp"
+#include "tests/record/failing_disk.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::document {
@@ -210,17 +211,146 @@ TEST(Journal, WhoseLogIsDamagedIsKeptAndTold) {
     EXPECT_FALSE(left_with(""));
 }
 
-TEST(Journal, ThatCannotBeWrittenSaysSoOnceAndSavesGoOn) {
-    const Workplace at;
-    DocumentWriter writer;
-    writer.keep_journal((at / "no/such/folder.burin").string(), beginning());
+// ---- A disk that refuses
+
+namespace {
+
+class JournalOnABadDisk : public testing::Test {
+protected:
+    void SetUp() override { disk.reset(); }
+    void TearDown() override { disk.reset(); }
+    // Waits for what the writer finds by itself.
+    static std::vector<JournalNews> next_news(DocumentWriter& writer) {
+        for (;;) {
+            if (auto news = writer.take_journal_news(); !news.empty()) return news;
+            sched_yield();
+        }
+    }
+    void wait_for_tries(int count) const {
+        for (const int before = disk.writes; disk.writes < before + count;) sched_yield();
+    }
+    static Content now(std::int64_t number) {
+        Content content = beginning();
+        content.parts[0].pages = {{{"tile", 0}, numbered(number, 5000)}};
+        return content;
+    }
+    static constexpr auto kAgain = std::chrono::milliseconds(1);
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    Workplace at;
+    const std::string path = at / "work-1.burin", work = at / "work.burin";
+};
+
+}  // namespace
+
+TEST_F(JournalOnABadDisk, IsTriedAgainUntilItHasAll) {
+    DocumentWriter writer(disk.kName, kAgain);
+    writer.keep_journal(path, beginning());
     writer.note(change(1));
-    writer.save({.path = at / "work.burin", .name = "work.burin", .content = beginning()});
     writer.finish();
-    EXPECT_TRUE(writer.take_journal_failure());
-    EXPECT_FALSE(writer.take_journal_failure());
-    EXPECT_EQ(writer.safe_up_to(), 0);
+    EXPECT_EQ(writer.safe_up_to(), 1);
+    disk.is_full = true;
+    for (std::int64_t number = 2; number <= 5; ++number) writer.note(change(number));
+    writer.finish();
+    const auto failed = next_news(writer);
+    ASSERT_EQ(failed.size(), 1u);
+    EXPECT_TRUE(failed[0].failed && failed[0].failed->line().contains("the disk is full"));
+    wait_for_tries(3);
+    EXPECT_TRUE(writer.take_journal_news().empty()) << "it is told once";
+    EXPECT_EQ(writer.safe_up_to(), 1);
+    disk.is_full = false;
+    const auto back = next_news(writer);
+    ASSERT_EQ(back.size(), 1u);
+    EXPECT_FALSE(back[0].failed);
+    EXPECT_EQ(writer.safe_up_to(), 5);
+    writer.note(change(6));
+    EXPECT_EQ(writer.end_journal(false), path);
+    EXPECT_TRUE(writer.take_journal_news().empty());
+    EXPECT_EQ(sound_changes(path), 6);
+}
+
+TEST_F(JournalOnABadDisk, BeginsAnewWithAllWhereTooMuchWouldHaveToBeKept) {
+    DocumentWriter writer(disk.kName, kAgain, 20'000);
+    writer.keep_journal(path, beginning());
+    writer.note(change(1));
+    writer.finish();
+    disk.is_full = true;
+    for (std::int64_t number = 2; number <= 20; ++number) {
+        writer.note(change(number));
+        writer.finish();
+    }
+    EXPECT_TRUE(next_news(writer)[0].failed);
+    while (!writer.wants_all()) sched_yield();
+    writer.begin_anew(now(20));
+    writer.finish();
+    EXPECT_TRUE(writer.take_journal_news().empty()) << "the disk is still full";
+    EXPECT_EQ(writer.safe_up_to(), 1);
+    disk.is_full = false;
+    while (!writer.wants_all()) sched_yield();
+    writer.begin_anew(now(20));
+    EXPECT_FALSE(next_news(writer)[0].failed);
+    EXPECT_EQ(writer.safe_up_to(), 20);
+    writer.note(change(1));
+    EXPECT_EQ(writer.end_journal(false), path);
+    EXPECT_EQ(sound_changes(path), 1);
+    Result<DocumentReader> reader = DocumentReader::open(path);
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->pages(reader->parts().at(0))->pages.at({"tile", 0}), numbered(20, 5000));
+    EXPECT_EQ(left_journals((at / "").string()).size(), 1u);
+}
+
+TEST_F(JournalOnABadDisk, IsWrittenAtTheEndWhereThereIsRoomByThen) {
+    DocumentWriter writer(disk.kName, std::chrono::hours(1));
+    writer.keep_journal(path, beginning());
+    writer.finish();
+    disk.is_full = true;
+    writer.note(change(1));
+    writer.finish();
+    EXPECT_TRUE(next_news(writer)[0].failed);
+    disk.is_full = false;
+    EXPECT_EQ(writer.end_journal(false), path);
+    EXPECT_EQ(sound_changes(path), 1);
+}
+
+TEST_F(JournalOnABadDisk, SaysAtTheEndThatTheNewestStrokesAreNowhere) {
+    DocumentWriter writer(disk.kName, std::chrono::hours(1));
+    writer.keep_journal(path, beginning());
+    writer.finish();
+    disk.is_full = true;
+    writer.note(change(1));
+    writer.finish();
+    EXPECT_TRUE(next_news(writer)[0].failed);
+    EXPECT_EQ(writer.end_journal(false), "");
+    const auto lost = next_news(writer);
+    ASSERT_TRUE(lost[0].failed);
+    EXPECT_TRUE(lost[0].failed->line().contains("in no file")) << lost[0].failed->line();
+}
+
+// Its folder comes later, as a disk that is plugged in.
+TEST_F(JournalOnABadDisk, ThatCouldNotBeginBeginsWhenItCanAndKnowsWhatWasSaved) {
+    const std::string later = at / "later/work-1.burin";
+    DocumentWriter writer(disk.kName, kAgain);
+    writer.keep_journal(later, beginning());
+    writer.note(change(1));
+    writer.save({.path = work, .name = "work.burin", .content = beginning()});
+    writer.finish();
+    EXPECT_TRUE(next_news(writer)[0].failed);
+    EXPECT_EQ(writer.safe_up_to(), 1) << "in the document";
     EXPECT_TRUE(writer.take_outcomes().at(0).saved);
+    writer.note(change(2));
+    writer.finish();
+    EXPECT_EQ(writer.safe_up_to(), 1);
+    fs::create_directory(at / "later");
+    while (!writer.wants_all()) sched_yield();
+    writer.begin_anew(now(2));
+    EXPECT_FALSE(next_news(writer)[0].failed);
+    EXPECT_EQ(writer.safe_up_to(), 2);
+    EXPECT_EQ(writer.end_journal(false), later);
+    const auto left = left_journals((at / "later").string());
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_EQ(left[0].of, work);
+    const Result<DocumentReader> reader = DocumentReader::open(work);
+    ASSERT_TRUE(reader);
+    EXPECT_EQ((Version{left[0].base_id, left[0].base_saves}), reader->version());
 }
 
 }  // namespace burin::document
