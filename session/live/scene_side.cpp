@@ -51,9 +51,10 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
     auto wanted = std::make_shared<document::SaveRequest>(std::move(request));
     sculpt::SaveScene save{[this, wanted, &writer] {
         for (scene::ScenePart* part : saved_parts_) {
+            if (wanted->refused) break;  // a part that gives its pages counts them as saved
             scene::Pages pages{.whole = !wanted->changed_alone};
             const Result<void> saved = part->save(pages);
-            if (!saved && !wanted->refused) wanted->refused = saved.error();
+            if (!saved) wanted->refused = saved.error();
             wanted->content.parts.push_back(std::move(pages));
         }
         wanted->state = carved_ ? carved_->state() : 0;
