@@ -2,6 +2,8 @@
 #include "window/window.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "window/key_names.hpp"
@@ -19,7 +21,7 @@ public:
     }
     ~Implementation() {
         system_->remove(this);
-        glfwDestroyWindow(handle_);
+        if (!display_is_lost()) glfwDestroyWindow(handle_);
     }
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
@@ -204,13 +206,16 @@ Result<gpu::SurfaceHandle> Window::create_surface(gpu::Device& device) {
     return gpu::SurfaceHandle(core, surface);
 }
 
+// GLFW takes what a display that is gone does not answer for an answer: it is asked nothing more.
 std::vector<WindowEvent> Window::poll() {
-    glfwPollEvents();
+    if (!display_is_lost()) glfwPollEvents();
     return implementation_->take();
 }
 
 std::vector<WindowEvent> Window::wait(double timeout_s) {
-    if (timeout_s > 0.0) {
+    if (display_is_lost()) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(timeout_s));
+    } else if (timeout_s > 0.0) {
         glfwWaitEventsTimeout(timeout_s);
     } else {
         glfwPollEvents();
@@ -220,6 +225,7 @@ std::vector<WindowEvent> Window::wait(double timeout_s) {
 
 Window::Size Window::framebuffer() const {
     Size size;
+    if (display_is_lost()) return size;
     glfwGetFramebufferSize(implementation_->handle(), &size.width, &size.height);
     return size;
 }
@@ -227,6 +233,7 @@ Window::Size Window::framebuffer() const {
 Monitor Window::monitor() const {
     Position at;
     Size size;
+    if (display_is_lost()) return {};
     glfwGetWindowPos(implementation_->handle(), &at.x, &at.y);
     glfwGetWindowSize(implementation_->handle(), &size.width, &size.height);
     const int x = at.x + size.width / 2, y = at.y + size.height / 2;
@@ -238,12 +245,14 @@ Monitor Window::monitor() const {
 Window::Position Window::on_monitor() const {
     const Monitor under = monitor();
     Position at;
+    if (display_is_lost()) return at;
     glfwGetWindowPos(implementation_->handle(), &at.x, &at.y);
     return {at.x - under.x, at.y - under.y};
 }
 
 double Window::content_scale() const {
     Size size;
+    if (display_is_lost()) return 1.0;
     glfwGetWindowSize(implementation_->handle(), &size.width, &size.height);
     return size.width > 0 ? static_cast<double>(framebuffer().width) / size.width : 1.0;
 }

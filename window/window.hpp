@@ -37,6 +37,10 @@ struct Monitor {
 // Lists the monitors; empty on a machine whose monitors are all off. An Error without a display.
 [[nodiscard]] Result<std::vector<Monitor>> monitors();
 
+// Returns whether the display has gone for good since windows were opened. They have no more events then, and nothing
+// is drawn in them. Any thread.
+[[nodiscard]] bool display_is_lost();
+
 // Returns the extensions for DeviceOptions::instance_extensions. An Error without a display or without Vulkan.
 [[nodiscard]] Result<std::vector<std::string>> required_extensions();
 

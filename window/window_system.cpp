@@ -9,6 +9,8 @@
 #include <mutex>
 #include <utility>
 
+#include "window/lost_display.hpp"
+
 namespace burin::window {
 
 namespace {
@@ -55,10 +57,13 @@ Result<std::shared_ptr<WindowSystem>> WindowSystem::use() {
     std::shared_ptr<WindowSystem> started(new WindowSystem);
     g_running = started;
     glfwSetMonitorCallback(on_monitor);
+    outlive_display();
     return started;
 }
 
-WindowSystem::~WindowSystem() { glfwTerminate(); }
+WindowSystem::~WindowSystem() {
+    if (!display_is_lost()) glfwTerminate();
+}
 
 std::string WindowSystem::take_errors() {
     const std::lock_guard lock(g_errors_mutex);
@@ -91,8 +96,9 @@ Monitor WindowSystem::describe(GLFWmonitor* monitor, int index) {
 
 std::vector<Monitor> WindowSystem::monitors() const {
     int count = 0;
-    GLFWmonitor** found = glfwGetMonitors(&count);
     std::vector<Monitor> list;
+    if (display_is_lost()) return list;
+    GLFWmonitor** found = glfwGetMonitors(&count);
     for (int i = 0; i < count; ++i) list.push_back(describe(found[i], i));
     return list;
 }

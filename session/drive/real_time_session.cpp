@@ -93,6 +93,7 @@ std::optional<FrameInput> LiveFrames::next_input() {
     times.begin();
     turn_ = now();
     std::vector<InputEvent> happened = wait_for_frame();
+    if (presenter_.has_lost_display()) return std::nullopt;
     times.reached(FrameStage::wait);
     for (InputEvent& event : in_order_of_time(std::move(happened), take_tracker_input()))
         input_.push(event.time_ns, std::move(event.input));
@@ -106,6 +107,7 @@ std::optional<FrameInput> LiveFrames::next_input() {
     if (!frame) return std::nullopt;
     times.reached(FrameStage::input);
     presenter_.look();
+    if (presenter_.has_lost_display()) return std::nullopt;  // its windows have no size any more
     return frame;
 }
 
@@ -311,6 +313,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     const Result<void> driven = drive(threads, frames);
     const Result<void> ended = frames.finish(threads);  // also after an error: it completes the recording
     if (recording) tell_of(*recording);
+    if (presenter->has_lost_display())
+        return fail("the display", "is gone, and so is the session's window", "what was done up to then is kept");
     if (!driven) return std::unexpected(driven.error());
     if (!ended) return std::unexpected(ended.error());
     SessionRecord record = frames.record();

@@ -48,6 +48,7 @@ Result<bool> SessionFrames::draw() {
     while (wants_picture()) {
         Result<bool> anew = presenter_.draw(session_, frame_.display_ns);
         if (anew) return anew;
+        if (presenter_.has_lost_display()) return false;  // the next turn ends the session
         if (const auto recovered = presenter_.recover(session_, anew.error()); !recovered)
             return std::unexpected(recovered.error());
     }

@@ -51,6 +51,8 @@ public:
     // give input.
     [[nodiscard]] bool shows() const { return screens_.front().output != nullptr; }
     [[nodiscard]] bool has_windows() const { return !waker_ && shows(); }
+    // Returns whether the windows' display is gone for good: they are dead, and a session has to end.
+    [[nodiscard]] bool has_lost_display() const { return has_windows() && window::display_is_lost(); }
     [[nodiscard]] double refresh_Hz() const;
     // Has the windows say what is worked on.
     void name_windows(const std::string& document);
