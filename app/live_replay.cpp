@@ -53,9 +53,10 @@ std::optional<std::string> digest_of(const std::string& path) {
     return digest ? std::optional(*digest) : std::nullopt;
 }
 
-std::optional<std::string> digest_of_world(const std::string& path) {
+std::optional<std::string> digest_of_world(const std::string& path, const scene::WorldReading& reading) {
     if (path.empty()) return {};
-    const scene::WorldOrProblems world = scene::read_any_world(path);  // the session tells its remarks and problems
+    // The session tells its remarks and problems.
+    const scene::WorldOrProblems world = scene::read_any_world(path, reading);
     return world ? std::optional(world_digest(world->objects)) : std::nullopt;
 }
 
@@ -133,7 +134,7 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
                          const std::string& first_device, const std::vector<std::string>& sets) {
     const std::string tool = tool_file_of(own), &workpiece = own.workpiece.source, &device = own.live.device;
     if (const auto same = check_recorded_file(reader, {kWorldDigestFact, "world", "world"}, own.world,
-                                              digest_of_world(own.world), sets);
+                                              digest_of_world(own.world, own.world_reading), sets);
         !same)
         return same;
     if (const auto same = check_recorded_file(reader, {kWorkpieceDigestFact, "workpiece", "workpiece"}, workpiece,
@@ -206,7 +207,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     const auto add = [&](const char* fact, const std::optional<std::string>& digest) {
         if (digest) facts.emplace_back(fact, *digest);
     };
-    add(kWorldDigestFact, digest_of_world(options.world));
+    add(kWorldDigestFact, digest_of_world(options.world, options.world_reading));
     if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
     std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));

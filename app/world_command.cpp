@@ -40,6 +40,7 @@ struct WorldObject {
     std::size_t shapes = 0, triangles = 0;
     Box bounds_m;
     geometry::VrmlColour colour{};
+    bool has_own_colours = false;  // several
     double transparency = 0.0;
     bool two_sided = false;
     std::map<std::string, double> haptics;
@@ -88,8 +89,16 @@ Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 // Describes the contents of one file, for the terminal and for --json.
 class WorldSummary {
 public:
-    WorldSummary(std::string path, const geometry::VrmlFile& file, const geometry::VrmlWorld& world)
-        : path_(std::move(path)), file_(file), world_(world), objects_(objects_of(world)) {
+    // felt: the same world as objects.
+    WorldSummary(std::string path, const geometry::VrmlFile& file, const geometry::VrmlWorld& world,
+                 const scene::World& felt)
+        : path_(std::move(path)), file_(file), world_(world), felt_(felt), objects_(objects_of(world)) {
+        for (WorldObject& o : objects_) {
+            const auto object = std::ranges::find(felt.objects, o.name, &scene::SceneObject::name);
+            if (object == felt.objects.end()) continue;
+            o.colour = object->colour;
+            o.has_own_colours = object->corner_colours != nullptr;
+        }
         for (const geometry::VrmlShape& shape : world.shapes) include_shape(bounds_m_, shape);
         unnamed_ = static_cast<std::size_t>(
             std::ranges::count_if(world.shapes, [](const geometry::VrmlShape& s) { return s.name.empty(); }));
@@ -102,7 +111,8 @@ public:
         for (const WorldObject& o : objects_) width = std::max(width, o.name.size());
         for (const WorldObject& o : objects_) {
             std::printf("  %-*s  %zu triangles, %s, %s", static_cast<int>(std::min<std::size_t>(width, 40)),
-                        o.name.c_str(), o.triangles, size_text(o.bounds_m).c_str(), hexadecimal(o.colour).c_str());
+                        o.name.c_str(), o.triangles, size_text(o.bounds_m).c_str(),
+                        o.has_own_colours ? "colours of its own" : hexadecimal(o.colour).c_str());
             if (o.transparency > 0.0) std::printf(", transparency %g", o.transparency);
             if (o.two_sided) std::printf(", two-sided");
             for (const auto& [name, value] : o.haptics) std::printf(", %s %g", name.c_str(), value);
@@ -117,6 +127,7 @@ public:
                         file_.where(skipped.first_place).c_str());
         }
         for (const Error& remark : world_.remarks) std::printf("  %s\n", remark.line().c_str());
+        for (const std::string& remark : felt_.remarks) std::printf("  %s\n", remark.c_str());
     }
 
     [[nodiscard]] Json json() const {
@@ -132,6 +143,8 @@ public:
             json["skipped"].push_back({{"type", s.type}, {"count", s.count}, {"where", file_.where(s.first_place)}});
         json["remarks"] = Json::array();
         for (const Error& remark : world_.remarks) json["remarks"].push_back(error_json(remark));
+        for (const std::string& remark : felt_.remarks)
+            json["remarks"].push_back(error_json({.what = remark, .where = "", .remedy = ""}));
         return json;
     }
 
@@ -141,6 +154,7 @@ private:
         json["lowest_m"] = vector_json(o.bounds_m.lo);
         json["highest_m"] = vector_json(o.bounds_m.hi);
         json["colour"] = hexadecimal(o.colour);
+        json["own_colours"] = o.has_own_colours;
         json["transparency"] = o.transparency;
         json["two_sided"] = o.two_sided;
         json["haptics"] = o.haptics;
@@ -150,6 +164,7 @@ private:
     std::string path_;
     const geometry::VrmlFile& file_;
     const geometry::VrmlWorld& world_;
+    const scene::World& felt_;
     std::vector<WorldObject> objects_;
     Box bounds_m_;
     std::size_t unnamed_ = 0;
@@ -173,7 +188,8 @@ CheckedWorld faulty(const std::string& path, std::span<const Error> faults, bool
 
 std::string look_text(const scene::SceneObject& object) {
     if (!object.seen) return "not seen";
-    return hexadecimal(object.colour) + (object.opacity < 1.0 ? formatted(", opacity %.9g", object.opacity) : "");
+    return (object.corner_colours ? "colours of its own" : hexadecimal(object.colour)) +
+           (object.opacity < 1.0 ? formatted(", opacity %.9g", object.opacity) : "");
 }
 
 // Returns the box around an object where its own pose has it.
@@ -219,6 +235,7 @@ Json object_json(const scene::SceneObject& o) {
     json["lowest_m"] = vector_json(bounds_m.lo);
     json["highest_m"] = vector_json(bounds_m.hi);
     json["colour"] = hexadecimal(o.colour);
+    json["own_colours"] = o.corner_colours != nullptr;
     json["opacity"] = o.opacity;
     json["seen"] = o.seen;
     json["felt"] = o.felt;
@@ -240,8 +257,8 @@ void print_settings(const std::string& path, const scene::World& world) {
 }
 
 // Checks a world in TOML, or a mesh that is a world alone.
-CheckedWorld check_toml_world(const std::string& path, bool print) {
-    const scene::WorldOrProblems world = scene::read_any_world(path);
+CheckedWorld check_toml_world(const std::string& path, const scene::WorldReading& reading, bool print) {
+    const scene::WorldOrProblems world = scene::read_any_world(path, reading);
     if (!world) return faulty(path, world.error(), print);
     if (print) print_world(path, *world);
     Json json{{"file", path}, {"faults", Json::array()}};
@@ -252,18 +269,24 @@ CheckedWorld check_toml_world(const std::string& path, bool print) {
     return {std::move(json), 0};
 }
 
-CheckedWorld check_world(const std::string& path, bool print) {
+CheckedWorld check_world(const std::string& path, const scene::WorldReading& reading, bool print) {
     if (std::filesystem::path(path).extension() == ".toml" || scene::is_mesh_file(path))
-        return check_toml_world(path, print);
-    const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path);
+        return check_toml_world(path, reading, print);
+    const Result<double> unit_m = scene::metres_in_vrml(path, reading);
+    if (!unit_m) return faulty(path, std::array{unit_m.error()}, print);
+    const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path, reading.root);
     if (!file) return faulty(path, std::array{file.error()}, print);
-    const geometry::VrmlWorldOrFaults world = geometry::shapes_of(*file);
+    geometry::VrmlWorldOrFaults world = geometry::shapes_of(*file);
     if (!world) return faulty(path, world.error(), print);
-    const WorldSummary summary(path, *file, *world);
+    scene::scale_vrml(*world, *unit_m);
+    scene::WorldOrProblems felt = scene::world_of(*world, path);
+    if (!felt) return faulty(path, felt.error(), print);
+    if (const std::string remark = scene::unit_remark(*world, path); !remark.empty()) felt->remarks.push_back(remark);
+    const WorldSummary summary(path, *file, *world, *felt);
     if (print) summary.print();
     CheckedWorld checked{summary.json(), 0};
     if (!scene::has_settings(path)) return checked;
-    const scene::WorldOrProblems with_settings = scene::read_any_world(path);
+    const scene::WorldOrProblems with_settings = scene::read_any_world(path, reading);
     if (!with_settings) return faulty(path, with_settings.error(), print);
     if (print) print_settings(path, *with_settings);
     checked.json["settings"] = scene::settings_of(path).string();
@@ -292,6 +315,7 @@ bool is_recording(const std::string& log) {
 
 struct WorldCommand::Options {
     std::vector<std::string> files;  // to check
+    std::string unit, root;          // of these
     WorldExploration exploration;
     session::SculptOptions session;  // live
     std::string json;
@@ -307,7 +331,7 @@ Result<void> WorldCommand::Options::check_files() const {
     Json report{{"files", Json::array()}};
     std::size_t faults = 0, faulty_files = 0;
     for (const std::string& file : files) {
-        const CheckedWorld checked = check_world(file, json != kStandardOutput);
+        const CheckedWorld checked = check_world(file, {unit, root}, json != kStandardOutput);
         faults += checked.faults;
         faulty_files += checked.faults > 0 ? 1 : 0;
         report["files"].push_back(checked.json);
@@ -328,6 +352,10 @@ WorldCommand::WorldCommand(Command app)
     o.session.workpiece.source.clear();
     command_.option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
         .asset(AssetRoom::worlds);
+    command_.option("--units", o.session.world_reading.unit,
+                    "What a number of the world's file is: m, cm, mm, in, ft, or 2.54mm; else as it states");
+    command_.option("--root", o.session.world_reading.root,
+                    "A folder around a world in VRML, of which it may inline files; else its own");
     command_
         .option("--workpiece", o.session.workpiece.source,
                 "A workpiece that stands in the world and is carved: FILE, block:X,Y,Z or ball:R; else none")
@@ -362,6 +390,8 @@ WorldCommand::WorldCommand(Command app)
     check_.option("FILE", o.files, "Worlds (.toml, .wrl for VRML 2.0, or a mesh), see docs/formats.md")
         .asset(AssetRoom::worlds)
         .required();
+    check_.option("--units", o.unit, "What a number of the files is: m, cm, mm, in, ft, or 2.54mm");
+    check_.option("--root", o.root, "A folder around a world in VRML, of which it may inline files");
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
 }
 
@@ -381,6 +411,10 @@ std::string WorldCommand::misuse() const {
         return "--mirror belongs to a session, and along a --stroke nothing is carved";
     if (along_a_stroke && !options_->session.tool.shape.empty())
         return "--tool belongs to a session: along a --stroke a ball touches, of --radius";
+    if (along_a_stroke && !options_->session.world_reading.unit.empty())
+        return "--units belongs to a session: along a --stroke [world] unit in the settings beside the world says it";
+    if (along_a_stroke && !options_->session.world_reading.root.empty())
+        return "--root belongs to a session: for a --stroke, copy what the world inlines into its folder";
     if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
     if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";

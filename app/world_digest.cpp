@@ -32,7 +32,9 @@ Json motion_json(const scene::ObjectMotion& motion) {
     if (path == nullptr) return Json(motion.index());  // a world's file has no hands that hold something
     Json keys = Json::array();
     for (const scene::PathKey& key : path->keys) keys.push_back({key.time_s, pose_json(key.pose)});
-    return Json{{"keys", keys}, {"repeats", path->repeats}};
+    Json json{{"keys", keys}, {"repeats", path->repeats}};
+    if (path->about_m != Vec3(0.0)) json["about"] = Json::array({path->about_m.x, path->about_m.y, path->about_m.z});
+    return json;
 }
 
 }  // namespace

@@ -283,6 +283,7 @@ std::vector<ObjectUpdate> MeshPart::take_object_updates() {
                            {pose.position_m, pose.orientation, placed.object.scale},
                            placed.object.seen,
                            placed.object.colour,
+                           placed.object.corner_colours != nullptr,
                            placed.object.pose,
                            placed.object.motion,
                            placed.object.opacity});

@@ -12,6 +12,6 @@ namespace burin::scene {
 
 // Returns whether the file's name is that of a mesh.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
-[[nodiscard]] WorldOrProblems read_mesh_world(const std::filesystem::path& path);
+[[nodiscard]] WorldOrProblems read_mesh_world(const std::filesystem::path& path, const std::string& unit = {});
 
 }  // namespace burin::scene

@@ -19,13 +19,6 @@ std::optional<Colour> colour_in(const std::string& text) {
     return colour;
 }
 
-Pose read_pose(TableReader& t, const Pose& otherwise = {}) {
-    Pose pose;
-    pose.position_m = t.vector("position").value_or(otherwise.position_m);
-    pose.orientation = t.quaternion("orientation").value_or(otherwise.orientation);
-    return pose;
-}
-
 }  // namespace
 
 ObjectKeys::ObjectKeys(TableReading& reading, const toml::table& table)
@@ -34,8 +27,11 @@ ObjectKeys::ObjectKeys(TableReading& reading, const toml::table& table)
       material_(reading, table_.table("material"), "[object.material]") {}
 
 void ObjectKeys::read(SceneObject& object) {
-    object.pose = read_pose(table_, object.pose);
+    const Vec3 displaced_m = table_.vector("position").value_or(displacement_m(object));
+    object.pivot_m = table_.vector("pivot").value_or(object.pivot_m);
+    const Quat orientation = table_.quaternion("orientation").value_or(object.pose.orientation);
     object.scale = table_.number("scale").value_or(object.scale);
+    object.pose = turned_about_pivot(object, displaced_m, orientation, object.scale);
     object.seen = table_.flag("seen").value_or(object.seen);
     object.felt = table_.flag("felt").value_or(object.felt);
     object.both_sides = table_.flag("both_sides").value_or(object.both_sides);
@@ -44,7 +40,7 @@ void ObjectKeys::read(SceneObject& object) {
     read_material(object.material);
     path_ = table_.tables("path");
     const std::optional<bool> repeats = table_.flag("repeat");
-    if (!path_.empty()) object.motion = read_path(repeats.value_or(true));
+    if (!path_.empty()) object.motion = read_path(repeats.value_or(true), object.scale * object.pivot_m);
     if (repeats && !table_.has("path")) table_.refuse("repeat", "stands where there is no path", "leave it out");
 }
 
@@ -68,13 +64,16 @@ void ObjectKeys::read_material(HapticMaterial& material) {
     m.refuse_unknown();
 }
 
-PathMotion ObjectKeys::read_path(bool repeats) {
+PathMotion ObjectKeys::read_path(bool repeats, const Vec3& about_m) {
     PathMotion path;
     path.repeats = repeats;
+    path.about_m = about_m;
     for (const toml::table* table : path_) {
         TableReader t(reading_, table, "[[object.path]]");
         t.require("time", "give the time in seconds at which it is there; the first at 0");
-        path.keys.push_back({t.number("time").value_or(0.0), read_pose(t)});
+        const Vec3 position_m = t.vector("position").value_or(Vec3(0.0));
+        const Quat turn = t.quaternion("orientation").value_or(Quat(1.0, 0.0, 0.0, 0.0));
+        path.keys.push_back({t.number("time").value_or(0.0), {position_m, turn}});
         t.refuse_unknown();
     }
     return path;

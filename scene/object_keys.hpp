@@ -28,7 +28,7 @@ public:
 private:
     void read_colour(SceneObject& object);
     void read_material(HapticMaterial& material);
-    [[nodiscard]] PathMotion read_path(bool repeats);
+    [[nodiscard]] PathMotion read_path(bool repeats, const Vec3& about_m);
 
     TableReading& reading_;
     TableReader table_;

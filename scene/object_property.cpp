@@ -56,7 +56,7 @@ PropertyValue value_of(const SceneObject& object, ObjectProperty property) {
         case ObjectProperty::dynamic_friction: return {m.dynamic_friction};
         case ObjectProperty::static_friction: return {m.static_friction};
         case ObjectProperty::position: {
-            const Vec3& p = object.pose.position_m;
+            const Vec3 p = displacement_m(object);
             return {p.x, p.y, p.z};
         }
         case ObjectProperty::orientation: return axis_and_angle(object.pose.orientation);
@@ -72,15 +72,17 @@ PropertyValue value_of(const SceneObject& object, ObjectProperty property) {
 
 ObjectEdit edit_of(const SceneObject& object, ObjectProperty property, const PropertyValue& value) {
     HapticMaterial material = object.material;
-    Pose pose = object.pose;
+    const auto placed = [&](const Vec3& displaced_m, const Quat& orientation) {
+        return SetPose{turned_about_pivot(object, displaced_m, orientation, object.scale)};
+    };
     switch (property) {
         case ObjectProperty::stiffness: material.stiffness_N_per_m = value[0]; break;
         case ObjectProperty::damping: material.damping_Ns_per_m = value[0]; break;
         case ObjectProperty::friction: material.static_friction = material.dynamic_friction = value[0]; break;
         case ObjectProperty::static_friction: material.static_friction = value[0]; break;
         case ObjectProperty::dynamic_friction: material.dynamic_friction = value[0]; break;
-        case ObjectProperty::position: pose.position_m = Vec3(value[0], value[1], value[2]); return SetPose{pose};
-        case ObjectProperty::orientation: pose.orientation = turn_of(value); return SetPose{pose};
+        case ObjectProperty::position: return placed(Vec3(value[0], value[1], value[2]), object.pose.orientation);
+        case ObjectProperty::orientation: return placed(displacement_m(object), turn_of(value));
         case ObjectProperty::scale: return SetScale{value[0]};
         case ObjectProperty::colour: return SetColour{{byte_of(value[0]), byte_of(value[1]), byte_of(value[2])}};
         case ObjectProperty::opacity: return SetOpacity{value[0]};

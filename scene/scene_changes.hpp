@@ -25,8 +25,9 @@ struct ObjectUpdate {
     Similarity scene_from_mesh;
     bool seen = true;
     Colour colour{};
-    Pose pose;            // its own: on a path, without the path
-    ObjectMotion motion;  // as it is now: a hand may hold it, or have left it where it is
+    bool has_own_colours = false;  // those of its file, and not `colour`
+    Pose pose;                     // its own: on a path, without the path
+    ObjectMotion motion;           // as it is now: a hand may hold it, or have left it where it is
     double opacity = 1.0;
 };
 

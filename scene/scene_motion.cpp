@@ -121,7 +121,10 @@ std::vector<Problem> problems(const PathMotion& path) {
     return found;
 }
 
-Pose pose_on(const PathMotion& path, double time_s) {
+namespace {
+
+// Between the keys as they stand in the path.
+Pose between_keys(const PathMotion& path, double time_s) {
     const double round_s = path.keys.back().time_s;
     if (!(time_s > 0.0)) return path.keys.front().pose;
     if (time_s >= round_s) {
@@ -137,6 +140,13 @@ Pose pose_on(const PathMotion& path, double time_s) {
     return {hermite(a.position_m, b.position_m, linear_tangent(path, to - 1), linear_tangent(path, to), s, span_s),
             glm::normalize(hermite(a.orientation, turn_to, angular_tangent(path, to - 1, a.orientation),
                                    angular_tangent(path, to, turn_to), s, span_s))};
+}
+
+}  // namespace
+
+Pose pose_on(const PathMotion& path, double time_s) {
+    const Pose pose = between_keys(path, time_s);
+    return {pose.position_m + (path.about_m - pose.orientation * path.about_m), pose.orientation};
 }
 
 HandPose grip_frame(std::span<const HandPose> parts) {

@@ -35,13 +35,14 @@ struct FixedMotion {
 
 struct PathKey {
     double time_s = 0.0;
-    Pose pose;  // relative to the object's own
+    Pose pose;  // relative to the object's own, which is turned about PathMotion::about_m
 
     bool operator==(const PathKey&) const = default;
 };
 struct PathMotion {
     std::vector<PathKey> keys;  // at least two; the first at 0 s, times rise
     bool repeats = true;  // begins again behind the last key, which then has the first one's pose; else stays there
+    Vec3 about_m{0.0};    // what the keys turn the object about, in its own frame, scaled
 
     bool operator==(const PathMotion&) const = default;
 };

@@ -26,11 +26,24 @@ struct Editor {
         object.pose = e.scene_from_object;
         return "";
     }
-    std::string operator()(const SetScale& e) const { return object.scale = e.scale, ""; }
+    std::string operator()(const SetScale& e) const {
+        const Vec3 less_m = (object.scale - e.scale) * object.pivot_m;
+        const auto about_pivot = [&](Pose pose) {
+            return Pose{pose.position_m + pose.orientation * less_m, pose.orientation};
+        };
+        object.pose = about_pivot(object.pose);
+        if (auto* const held = std::get_if<HeldMotion>(&object.motion))
+            held->hand_from_object = about_pivot(held->hand_from_object);
+        if (auto* const path = std::get_if<PathMotion>(&object.motion)) path->about_m = e.scale * object.pivot_m;
+        return object.scale = e.scale, "";
+    }
     std::string operator()(const SetMaterial& e) const { return object.material = e.material, ""; }
     std::string operator()(const SetFelt& e) const { return object.felt = e.felt, ""; }
     std::string operator()(const SetSeen& e) const { return object.seen = e.seen, ""; }
-    std::string operator()(const SetColour& e) const { return object.colour = e.colour, ""; }
+    std::string operator()(const SetColour& e) const {
+        object.corner_colours = nullptr;
+        return object.colour = e.colour, "";
+    }
     std::string operator()(const SetOpacity& e) const { return object.opacity = e.opacity, ""; }
     std::string operator()(const TakeHold& e) const {
         if (e.parts.empty()) return "is to be held by nobody; name a hand";
@@ -45,6 +58,25 @@ struct Editor {
 };
 
 }  // namespace
+
+Vec3 displacement_m(const SceneObject& object) {
+    // Without a turn and a scale the difference is 0, and nothing is rounded.
+    const Vec3 moved_m = object.pivot_m - object.pose.orientation * (object.scale * object.pivot_m);
+    return object.pose.position_m - moved_m;
+}
+
+Pose turned_about_pivot(const SceneObject& object, const Vec3& displacement_m, const Quat& orientation, double scale) {
+    return {displacement_m + (object.pivot_m - orientation * (scale * object.pivot_m)), orientation};
+}
+
+void take_colours(SceneObject& object, CornerColours colours) {
+    if (colours.empty()) return;
+    const Colour first = colours.front()[0];
+    object.colour = first;
+    const bool is_one = std::ranges::all_of(
+        colours, [&](const auto& corners) { return std::ranges::count(corners, first) == std::ssize(corners); });
+    object.corner_colours = is_one ? nullptr : std::make_shared<const CornerColours>(std::move(colours));
+}
 
 std::vector<Problem> problems(const SceneObject& object) {
     std::vector<Problem> found;

@@ -24,6 +24,8 @@ namespace burin::scene {
 using ObjectId = std::uint64_t;
 
 using Colour = std::array<std::uint8_t, 3>;  // sRGB
+// The colours of each triangle's corners.
+using CornerColours = std::vector<std::array<Colour, 3>>;
 
 struct SceneObject {
     ObjectId id = 0;
@@ -31,8 +33,12 @@ struct SceneObject {
     std::shared_ptr<const geometry::TriangleMesh> mesh;
     Pose pose;           // scene_from_object; without the motion of a path, and not used while a hand holds it
     double scale = 1.0;  // kMinScale to kMaxScale
+    // In the mesh's frame: what stays where it is when the object is turned or scaled.
+    Vec3 pivot_m{0.0};
     bool seen = true, felt = true;
     Colour colour{200, 200, 200};
+    // Those that its file has, one entry for each triangle of the mesh. Null: `colour` is everywhere.
+    std::shared_ptr<const CornerColours> corner_colours = {};
     double opacity = 1.0;  // 0: clear as air, and yet seen at grazing angles; 1: hides what is behind
     HapticMaterial material;
     bool both_sides = false;  // a surface without thickness, felt from the side on which the tool is
@@ -43,6 +49,15 @@ inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
 // Farther from the scene's origin than this nothing is touched: float positions would be coarser than 0.1 mm.
 inline constexpr double kMaxDistance_m = 1000.0;
 
+// How far the pivot is from where the mesh has it: the object's position for people, whatever its turn and scale.
+[[nodiscard]] Vec3 displacement_m(const SceneObject& object);
+// Returns the pose in which the pivot is displaced so far and the object, at this scale, turned about it.
+[[nodiscard]] Pose turned_about_pivot(const SceneObject& object, const Vec3& displacement_m, const Quat& orientation,
+                                      double scale);
+
+// Gives the object these colours; where they are all one, that is its colour. None: nothing changes.
+void take_colours(SceneObject& object, CornerColours colours);
+
 // Returns all that is wrong with an object's values, besides its mesh.
 [[nodiscard]] std::vector<Problem> problems(const SceneObject& object);
 
@@ -51,7 +66,7 @@ struct SetPose {
     Pose scene_from_object;
 };
 struct SetScale {
-    double scale = 1.0;
+    double scale = 1.0;  // about the pivot
 };
 struct SetMaterial {
     HapticMaterial material;
@@ -63,7 +78,7 @@ struct SetSeen {
     bool seen = true;
 };
 struct SetColour {
-    Colour colour{};
+    Colour colour{};  // everywhere
 };
 struct SetOpacity {
     double opacity = 1.0;

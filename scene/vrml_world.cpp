@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/vrml_world.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
@@ -15,6 +16,9 @@
 namespace burin::scene {
 namespace {
 
+// A world that is longer is no room before a wall; half of what a wand or a mesh has is above a hundredth of that.
+constexpr double kLongestInReach_m = 4.0;
+
 HapticMaterial material_of(const geometry::VrmlShape& shape) {
     HapticMaterial material;
     const std::array fields{std::pair("stiffness", &HapticMaterial::stiffness_N_per_m),
@@ -27,12 +31,18 @@ HapticMaterial material_of(const geometry::VrmlShape& shape) {
     return material;
 }
 
-// Adds a shape's triangles to a mesh, welding equal positions.
-void add_shape(geometry::TriangleMesh& mesh, geometry::VertexWeld& weld, const geometry::VrmlShape& shape) {
+// Adds a shape's triangles to a mesh, welding equal positions, and the colours of their corners.
+void add_shape(geometry::TriangleMesh& mesh, geometry::VertexWeld& weld, CornerColours& colours,
+               const geometry::VrmlShape& shape) {
     const geometry::TriangleMesh part = geometry::mesh_in_world(shape);
-    for (const auto& [a, b, c] : part.triangles)
+    const auto& own = shape.surface->corner_colours;
+    for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+        const auto& [a, b, c] = part.triangles[i];
         mesh.triangles.push_back({weld.index_of(part.positions_m[a]), weld.index_of(part.positions_m[b]),
                                   weld.index_of(part.positions_m[c])});
+        colours.push_back(own.empty() ? std::array{shape.colour, shape.colour, shape.colour} : own[i]);
+        if (shape.mirrored()) std::swap(colours.back()[1], colours.back()[2]);
+    }
 }
 
 struct Gathered {
@@ -58,6 +68,15 @@ std::vector<Gathered> by_name(const geometry::VrmlWorld& world) {
     return objects;
 }
 
+// A session tells the first of what was left out or may be meant otherwise; burin world check tells all.
+void tell_remarks(World& world, const std::vector<Error>& remarks, const std::string& path) {
+    constexpr std::size_t kTold = 5;
+    for (std::size_t i = 0; i < std::min(kTold, remarks.size()); ++i) world.remarks.push_back(remarks[i].line());
+    if (remarks.size() > kTold)
+        world.remarks.push_back(formatted("%s: %zu more remarks; burin world check %s tells all", path.c_str(),
+                                          remarks.size() - kTold, path.c_str()));
+}
+
 }  // namespace
 
 WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& name) {
@@ -74,9 +93,10 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
         object.opacity = object.seen ? 1.0 - first.transparency : 1.0;
         object.material = material_of(first);
         auto mesh = std::make_shared<geometry::TriangleMesh>();
+        CornerColours colours;
         geometry::VertexWeld weld(mesh->positions_m);
         for (const geometry::VrmlShape* shape : gathered.shapes) {
-            add_shape(*mesh, weld, *shape);
+            add_shape(*mesh, weld, colours, *shape);
             object.both_sides = object.both_sides || shape->surface->two_sided;
         }
         const geometry::MeshHealth health = geometry::examine(*mesh);
@@ -85,7 +105,11 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
             world.remarks.push_back(name + ": " + object.name +
                                     " is no closed surface that faces outwards, and is felt from both sides");
         }
+        Box box;
+        for (const Vec3& p : mesh->positions_m) box.include(p);
+        object.pivot_m = first.pivot_world.value_or(box.empty() ? Vec3(0.0) : box.center());
         object.mesh = std::move(mesh);
+        take_colours(object, std::move(colours));
         for (const Problem& problem : problems(object))
             found.push_back({.what = problem.what,
                              .where = name + ": " + object.name + ": " + problem.key,
@@ -102,15 +126,59 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
     return world;
 }
 
-WorldOrProblems read_any_world(const std::filesystem::path& path) {
-    if (path.extension() == ".toml") return read_world(path);
-    if (is_mesh_file(path)) return read_mesh_world(path);
-    const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path);
+Result<double> metres_in_vrml(const std::filesystem::path& path, const WorldReading& reading) {
+    if (!reading.unit.empty()) return parse_world_unit(reading.unit, "--units");
+    if (!has_settings(path)) return 1.0;
+    const std::filesystem::path settings = settings_of(path);
+    const Result<std::string> text = read_text_file(settings, kMaxWorldBytes);
+    if (!text) return std::unexpected(text.error());
+    return unit_in_settings(*text, settings.string());
+}
+
+void scale_vrml(geometry::VrmlWorld& world, double factor) {
+    if (factor == 1.0) return;
+    Mat4 scaling(factor);
+    scaling[3][3] = 1.0;
+    for (geometry::VrmlShape& shape : world.shapes) {
+        shape.world_from_shape = scaling * shape.world_from_shape;
+        if (shape.pivot_world) *shape.pivot_world *= factor;
+    }
+}
+
+std::string unit_remark(const geometry::VrmlWorld& world, const std::string& name) {
+    Box bounds_m;
+    for (const geometry::VrmlShape& shape : world.shapes)
+        for (const Vec3& p : shape.surface->mesh.positions_m)
+            bounds_m.include(Vec3(shape.world_from_shape * glm::dvec4(p, 1.0)));
+    if (bounds_m.empty()) return "";
+    const Vec3 size_m = bounds_m.extent();
+    const double longest_m = std::max({size_m.x, size_m.y, size_m.z});
+    if (longest_m <= kLongestInReach_m) return "";
+    return formatted(
+        "%s: is %.3g m long. VRML has metres; if these are others, --units mm, or [world] unit = \"mm\" in %s, says so "
+        "(2.54mm for units of 0.1 inch, as in models of electronic parts)",
+        name.c_str(), longest_m, settings_of(name).string().c_str());
+}
+
+WorldOrProblems read_any_world(const std::filesystem::path& path, const WorldReading& reading) {
+    if (path.extension() == ".toml") {
+        if (reading.unit.empty()) return read_world(path);
+        return std::unexpected(std::vector{Error{"has no place with a world in TOML", "--units " + reading.unit,
+                                                 "write mesh_units into its objects"}});
+    }
+    if (is_mesh_file(path)) return read_mesh_world(path, reading.unit);
+    const Result<double> unit_m = metres_in_vrml(path, reading);
+    if (!unit_m) return std::unexpected(std::vector{unit_m.error()});
+    const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path, reading.root);
     if (!file) return std::unexpected(std::vector{file.error()});
-    const geometry::VrmlWorldOrFaults shapes = geometry::shapes_of(*file);
+    geometry::VrmlWorldOrFaults shapes = geometry::shapes_of(*file);
     if (!shapes) return std::unexpected(shapes.error());
+    scale_vrml(*shapes, *unit_m);
     WorldOrProblems world = world_of(*shapes, path.string());
     if (!world) return world;
+    tell_remarks(*world, shapes->remarks, path.string());
+    if (const std::string remark = unit_remark(*shapes, path.string()); !remark.empty())
+        world->remarks.push_back(remark);
     if (!has_settings(path)) return world;
     const std::filesystem::path settings = settings_of(path);
     const Result<std::string> text = read_text_file(settings, kMaxWorldBytes);

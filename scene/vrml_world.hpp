@@ -11,6 +11,7 @@
 
 #include "geometry/vrml/vrml_shapes.hpp"
 #include "scene/world_file.hpp"
+#include "scene/world_reading.hpp"
 
 namespace burin::scene {
 
@@ -19,6 +20,12 @@ namespace burin::scene {
 
 // Reads a world in TOML (.toml), in VRML 2.0 (.wrl) with the settings beside it (scene/world_settings.hpp), or a mesh
 // as a world of one object (scene/mesh_world.hpp).
-[[nodiscard]] WorldOrProblems read_any_world(const std::filesystem::path& path);
+[[nodiscard]] WorldOrProblems read_any_world(const std::filesystem::path& path, const WorldReading& reading = {});
+
+// Returns the metres in a number of a world in VRML: as it is to be read, else as the settings beside it say, else 1.
+[[nodiscard]] Result<double> metres_in_vrml(const std::filesystem::path& path, const WorldReading& reading);
+// Makes all of it larger by a factor, about the origin. A world that reaches far for metres is remarked on.
+void scale_vrml(geometry::VrmlWorld& world, double factor);
+[[nodiscard]] std::string unit_remark(const geometry::VrmlWorld& world, const std::string& name);
 
 }  // namespace burin::scene

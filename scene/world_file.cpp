@@ -25,18 +25,33 @@ namespace fs = std::filesystem;
 struct WorldMesh {
     std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: could not be read
     geometry::MeshHealth health;
-    double reach_m = 0.0;          // of the farthest corner of its box from its origin
-    std::optional<Colour> colour;  // of the material that the file gives its first triangle
+    double reach_m = 0.0;   // of the farthest corner of its box from its origin
+    CornerColours colours;  // that the file gives them; empty: none
     std::optional<Error> failure;
 };
 
-// Returns the colour of the first triangle's material of an OBJ. The colours of scans vary from triangle to triangle,
-// and the first says nothing of the whole.
-std::optional<Colour> first_colour(const geometry::ImportedMesh& imported) {
-    const geometry::TriangleMesh& mesh = imported.mesh;
-    if (imported.report.format != "OBJ" || !mesh.colours.empty()) return std::nullopt;
-    const std::size_t at = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials.front();
-    return at < mesh.materials.size() ? std::optional(mesh.materials[at].colour) : std::nullopt;
+// Returns the colours of the corners: of the vertices, or else of the triangles' materials.
+CornerColours colours_of(const geometry::TriangleMesh& mesh) {
+    CornerColours colours;
+    if (mesh.colours.empty() && mesh.materials.empty()) return colours;
+    colours.reserve(mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!mesh.colours.empty()) {
+            const auto& [a, b, c] = mesh.triangles[i];
+            colours.push_back({mesh.colours[a], mesh.colours[b], mesh.colours[c]});
+        } else {
+            const std::size_t at = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[i];
+            const Colour colour = at < mesh.materials.size() ? mesh.materials[at].colour : geometry::Material{}.colour;
+            colours.push_back({colour, colour, colour});
+        }
+    }
+    return colours;
+}
+
+Vec3 middle_of(const geometry::TriangleMesh& mesh) {
+    Box box;
+    for (const Vec3& p : mesh.positions_m) box.include(p);
+    return box.empty() ? Vec3(0.0) : box.center();
 }
 
 // Returns why a mesh is not the surface of a solid; empty where it is.
@@ -90,6 +105,9 @@ private:
         object.name = t.text("name").value_or("object " + std::to_string(object.id));
         keys.read(object);
         read_mesh(t, object);
+        // What the file says is of the mesh's origin, unless it names another pivot; who turns it later expects its
+        // middle.
+        if (object.mesh && !t.has("pivot")) object.pivot_m = middle_of(*object.mesh);
         t.refuse_unknown();
         keys.tell_problems(object);
         check_others(t, table, object);
@@ -105,7 +123,7 @@ private:
         const WorldMesh& known = mesh_of(*name, unit);
         if (known.failure) return t.refuse("mesh", known.failure->what, known.failure->remedy);
         object.mesh = known.mesh;
-        if (known.colour && t.find("colour") == nullptr) object.colour = *known.colour;
+        if (t.find("colour") == nullptr) take_colours(object, known.colours);
         if (const double reach_m = object.scale * known.reach_m; object.scale <= kMaxScale && reach_m > kMaxDistance_m)
             t.refuse("mesh", formatted("reaches %.3g m from its origin", reach_m), "give mesh_units, or another scale");
         if (!object.felt || object.both_sides) return;
@@ -139,9 +157,10 @@ private:
                                   imported.error().remedy};
             return known;
         }
-        known.colour = first_colour(*imported);
+        known.colours = colours_of(imported->mesh);  // before vertices of several colours become one
         geometry::weld_vertices(imported->mesh);
         const auto joined = geometry::join_open_edges(imported->mesh, imported->report.weld_tolerance_m);
+        if (joined.triangles_dropped > 0) known.colours = colours_of(imported->mesh);
         triangles_ += imported->mesh.triangles.size();
         if (imported->mesh.triangles.empty()) known.failure = Error{"has no triangles: " + name, "", "name another"};
         known.health = geometry::examine(imported->mesh);

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "scene/object_keys.hpp"
 #include "scene/value_text.hpp"
+#include "scene/world_reading.hpp"
 
 namespace burin::scene {
 namespace {
@@ -42,6 +43,13 @@ bool has_settings(const std::filesystem::path& world) {
     return std::filesystem::exists(std::filesystem::symlink_status(settings_of(world), ignored));
 }
 
+Result<double> unit_in_settings(std::string_view text, const std::string& name) {
+    const Result<toml::table> root = parse_toml(text, name);
+    if (!root) return std::unexpected(root.error());
+    const auto unit = (*root)["world"]["unit"].value<std::string>();
+    return unit ? parse_world_unit(*unit, name + ": [world] unit") : 1.0;
+}
+
 std::vector<Error> apply_settings(World& world, std::string_view text, const std::string& name) {
     const Result<toml::table> root = parse_toml(text, name);
     if (!root) return {root.error()};
@@ -49,6 +57,9 @@ std::vector<Error> apply_settings(World& world, std::string_view text, const std
     TableReader file(reading, &*root, "the file");
     if (const auto title = file.text("name")) world.name = *title;
     if (has_control_characters(world.name)) file.refuse("name", "holds control characters", "write it on one line");
+    TableReader whole(reading, file.table("world"), "[world]");
+    static_cast<void>(whole.text("unit"));  // the world has been read in it: unit_in_settings()
+    whole.refuse_unknown();
     std::map<std::string, std::uint32_t> lines;  // of the names so far
     for (const toml::table* table : file.tables("object")) {
         ObjectKeys keys(reading, *table);

@@ -22,6 +22,8 @@ namespace burin::scene {
 
 // Changes a world's objects as a text says. `name` stands for the file in messages. Returns all problems; the world is
 // then not to be used.
+// Returns the metres in a number of the world that the settings are of; 1 where they leave it open.
+[[nodiscard]] Result<double> unit_in_settings(std::string_view text, const std::string& name);
 [[nodiscard]] std::vector<Error> apply_settings(World& world, std::string_view text, const std::string& name);
 
 }  // namespace burin::scene

@@ -96,6 +96,7 @@ renderer::Scene StageView::scene(StageMoment moment) {
                                                     {pose.position_m, pose.orientation, 1.0},
                                                     one.seen,
                                                     one.colour,
+                                                    false,
                                                     pose,
                                                     scene::FixedMotion{},
                                                     one.opacity}};

@@ -196,6 +196,7 @@ VrmlSurface vrml_elevation_grid(const VrmlGeometryRequest& request) {
                      "give xDimension times zDimension of them");
         return {};
     }
+    if (dx == 0.0 || dz == 0.0) return {};
     if (columns < 2.0 || rows < 2.0 || !may_make(request, 2.0 * (columns - 1.0) * (rows - 1.0))) return {};
     const auto nx = static_cast<std::uint32_t>(columns), nz = static_cast<std::uint32_t>(rows);
     std::vector<std::int32_t> corners;  // the quads' corners in VRML's own form, so that colours are found in one way

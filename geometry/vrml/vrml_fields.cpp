@@ -126,6 +126,11 @@ void VrmlFields::fault_at_value(const VrmlValue& value, std::size_t index, std::
     fault(file_.place_of_value(value.file, *value.field, index), std::move(what), std::move(remedy));
 }
 
+void VrmlFields::remark_at_value(const VrmlValue& value, std::size_t index, std::string what, std::string remedy) {
+    if (remarked_enough() || !blamed_.emplace(value.field, index).second) return;
+    remark(file_.place_of_value(value.file, *value.field, index), std::move(what), std::move(remedy));
+}
+
 bool VrmlFields::spend(VrmlPlace place, std::size_t nodes) {
     if (spent_all()) return false;
     spent_ += nodes;
@@ -229,16 +234,18 @@ double VrmlFields::number(const VrmlPlaced& placed, std::string_view name, doubl
 double VrmlFields::positive(const VrmlPlaced& placed, std::string_view name, double otherwise) {
     const double value = number(placed, name, otherwise);
     if (value > 0.0) return value;
-    fault_at_value(*find(placed, name), 0, in_quotes(name) + " is not above zero", "write a length in metres");
-    return otherwise;
+    remark_at_value(*find(placed, name), 0, in_quotes(name) + " is not above zero",
+                    "its shape is left out; write a length in metres");
+    return 0.0;
 }
 
 double VrmlFields::from_0_to_1(const VrmlPlaced& placed, std::string_view name, double otherwise) {
     const double value = number(placed, name, otherwise);
     if (value >= 0.0 && value <= 1.0) return value;
-    fault_at_value(*find(placed, name), 0, in_quotes(name) + formatted(" is %.9g, not from 0 to 1", value),
-                   "write a number from 0 to 1");
-    return otherwise;
+    const double nearer = std::clamp(value, 0.0, 1.0);
+    remark_at_value(*find(placed, name), 0, in_quotes(name) + formatted(" is %.9g, not from 0 to 1", value),
+                    formatted("it is taken for %g", nearer));
+    return nearer;
 }
 
 std::int64_t VrmlFields::integer(const VrmlPlaced& placed, std::string_view name, std::int64_t otherwise) {
@@ -257,6 +264,17 @@ bool VrmlFields::flag(const VrmlPlaced& placed, std::string_view name, bool othe
 Vec3 VrmlFields::vector(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise) {
     const auto values = exactly(placed, name, 3);
     return values.empty() ? otherwise : Vec3(values[0], values[1], values[2]);
+}
+
+Vec3 VrmlFields::colour(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise) {
+    const Vec3 given = vector(placed, name, otherwise), nearer = glm::clamp(given, 0.0, 1.0);
+    for (int k = 0; k < 3; ++k) {
+        if (given[k] == nearer[k]) continue;
+        remark_at_value(*find(placed, name), static_cast<std::size_t>(k),
+                        formatted("a colour has the number %.9g, not from 0 to 1", given[k]),
+                        formatted("it is taken for %g", nearer[k]));
+    }
+    return nearer;
 }
 
 Quat VrmlFields::rotation(const VrmlPlaced& placed, std::string_view name) {

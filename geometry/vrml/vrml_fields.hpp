@@ -59,6 +59,7 @@ public:
     void remark(VrmlPlace place, std::string what, std::string remedy);
     // Points at one of a field's values.
     void fault_at_value(const VrmlValue& value, std::size_t index, std::string what, std::string remedy);
+    void remark_at_value(const VrmlValue& value, std::size_t index, std::string what, std::string remedy);
     [[nodiscard]] bool full() const { return faults_.size() >= kMostVrmlFaults; }
 
     [[nodiscard]] bool remarked_enough() const { return remarks_.size() >= kMostVrmlFaults; }
@@ -76,11 +77,15 @@ public:
 
     // Return the default where the field is missing, or where it is wrong, which is a fault.
     [[nodiscard]] double number(const VrmlPlaced& placed, std::string_view name, double otherwise);
+    // Where it is not above zero, which is remarked on, returns 0: there is nothing to show.
     [[nodiscard]] double positive(const VrmlPlaced& placed, std::string_view name, double otherwise);
+    // Where it is not from 0 to 1, which is remarked on, returns the nearer of these.
     [[nodiscard]] double from_0_to_1(const VrmlPlaced& placed, std::string_view name, double otherwise);
     [[nodiscard]] std::int64_t integer(const VrmlPlaced& placed, std::string_view name, std::int64_t otherwise);
     [[nodiscard]] bool flag(const VrmlPlaced& placed, std::string_view name, bool otherwise);
     [[nodiscard]] Vec3 vector(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise);
+    // Likewise for each of three numbers of a colour.
+    [[nodiscard]] Vec3 colour(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise);
     [[nodiscard]] Quat rotation(const VrmlPlaced& placed, std::string_view name);
 
     // Returns all numbers of a field, which come in groups of `size`. No field: it is missing. Empty where it is wrong.

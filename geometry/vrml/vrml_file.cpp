@@ -10,6 +10,7 @@
 #include "geometry/vrml/vrml_inlines.hpp"
 #include "geometry/vrml/vrml_parser.hpp"
 #include "geometry/vrml/vrml_scanner.hpp"
+#include "geometry/vrml/vrml_text.hpp"
 
 namespace burin::geometry {
 namespace {
@@ -34,7 +35,6 @@ struct ForeignFormat {
 };
 
 constexpr ForeignFormat kForeignFormats[] = {
-    {"\x1f\x8b", "is compressed with gzip", "unpack it first: gunzip < packed.wrl > world.wrl"},
     {"#VRML V1.0", "is VRML 1.0", "convert it to VRML 2.0 (VRML97) in a modelling program"},
     {"#X3D", "is X3D in its classic encoding", "export it as VRML 2.0 (VRML97)"},
     {"<?xml", "is XML, as X3D is", "export it as VRML 2.0 (VRML97)"},
@@ -46,8 +46,6 @@ constexpr ForeignFormat kForeignFormats[] = {
 Result<std::string_view> checked_header(std::string_view bytes, const std::string& name) {
     const std::string place = name + ":1:1";
     if (bytes.empty()) return fail(place, "is empty", "export it again");
-    if (bytes.starts_with(kForeignFormats[0].begins))
-        return fail(place, kForeignFormats[0].what, kForeignFormats[0].remedy);
     const Result<std::string_view> text = utf8_text(bytes, place);
     if (!text) return text;
     if (text->starts_with(kVrmlHeader) &&
@@ -61,32 +59,45 @@ Result<std::string_view> checked_header(std::string_view bytes, const std::strin
                 "write this as the first line of a VRML 2.0 file; others are named .toml, .stl, .obj, .ply or .off");
 }
 
-// Returns the name of an inlined file relative to the world's folder, or what is wrong with it. `folder` is that of the
-// file that inlines it, likewise relative.
-Result<std::string> inlined_name(std::string_view raw, const fs::path& folder) {
+// Returns the name, relative to the root, of a file that an Inline or an EXTERNPROTO (`who`) names, or what is wrong
+// with it. `folder` is that of the file in which the name stands, likewise relative.
+Result<std::string> named_file(const std::string& who, std::string_view raw, const fs::path& folder) {
     constexpr const char* kRemedy = "copy that file into the world's folder and name it without a path";
     const std::string url = percent_decoded(unescaped_vrml(raw.substr(0, raw.find('#'))));
-    if (url.empty()) return fail("", "an Inline names no file", "write its name in quotes behind url");
+    if (url.empty()) return fail("", who + " names no file", "write its name in quotes behind url");
+    if (raw.find('\\') != std::string_view::npos)
+        return fail("", who + " names " + in_quotes(raw) + ", with a backslash", "write / between folder and file");
     const std::size_t colon = url.find(':');
     if (colon != std::string::npos && colon < url.find('/'))
-        return fail("", "an Inline names " + in_quotes(url) + ", which is no file of this folder", kRemedy);
+        return fail("", who + " names " + in_quotes(url) + ", which is no file of this folder", kRemedy);
     const fs::path path = (folder / url).lexically_normal();
-    const bool leaves = url.front() == '/' || url.find('\\') != std::string::npos || path.is_absolute() ||
-                        path.empty() || *path.begin() == "..";
+    const bool leaves = url.front() == '/' || path.is_absolute() || path.empty() || *path.begin() == "..";
     if (leaves || path.filename().empty() || url.find('\0') != std::string::npos)
-        return fail("", "an Inline leads to " + in_quotes(url) + ", outside of the world's folder", kRemedy);
+        return fail("", who + " leads to " + in_quotes(url) + ", outside of the world's folder",
+                    std::string(kRemedy) + ", or allow a folder around both with --root");
     return path.generic_string();
+}
+
+Result<std::string> read_vrml_bytes(const fs::path& path) {
+    const Result<std::vector<std::byte>> bytes = read_file(path, kMostVrmlBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
 // Parses a file and all that it inlines, each only once.
 class InlineReader {
 public:
-    InlineReader(VrmlFile& file, const std::string& name, const VrmlOpener& opener)
-        : file_(file), folder_(fs::path(name).parent_path()), opener_(opener) {}
+    InlineReader(VrmlFile& file, fs::path root, const VrmlOpener& opener)
+        : file_(file), root_(std::move(root)), opener_(opener) {}
 
-    // `name` is relative to the world's folder.
+    // `name` is relative to the root.
     Result<std::uint32_t> read(std::string bytes, const std::string& name) {
-        const std::string shown = (folder_ / name).string();
+        const std::string shown = (root_ / name).string();
+        if (is_gzip(bytes)) {
+            Result<std::string> unpacked = gunzipped(bytes, kMostVrmlBytes, shown + ":1:1");
+            if (!unpacked) return std::unexpected(unpacked.error());
+            bytes = std::move(*unpacked);
+        }
         bytes_ += bytes.size();
         if (bytes_ > kMostVrmlBytes) {
             return fail(shown + ":1:1", "the world has more than " + std::to_string(kMostVrmlBytes) + " bytes",
@@ -96,6 +107,10 @@ public:
         if (!text) return std::unexpected(text.error());
         bytes.erase(0, static_cast<std::size_t>(text->data() - bytes.data()));  // the byte-order mark
         const auto source = static_cast<std::uint32_t>(file_.sources.size());
+        if (!is_utf8(bytes)) {
+            bytes = utf8_of_latin1(bytes);
+            file_.remarks.push_back({{source, 0}, "is not UTF-8, as VRML 2.0 has to be", "it is read as Latin-1"});
+        }
         sources_.emplace(name, source);
         VrmlSource made;
         made.name = shown;
@@ -114,6 +129,8 @@ public:
             if (node.prototype == kNoVrmlIndex && file_.type_of(node) == "Inline") follow(n, name);
         }
         for (const std::uint32_t field : bound_inline_urls(file_, part)) follow_bound(field, source, name);
+        for (std::uint32_t p = part.first_prototype; p < part.end_prototype; ++p)
+            if (file_.prototypes[p].external) follow_external(p, name);
         around_.pop_back();
         return source;
     }
@@ -138,6 +155,40 @@ private:
         file_.bound_inlines.push_back({field, first.source, first.fault.value_or(VrmlFault{})});
     }
 
+    // Has an EXTERNPROTO be the PROTO of another file that it names. Where that is not found its instances are left
+    // out. The field is copied: reading a file adds fields.
+    void follow_external(std::uint32_t index, const std::string& from) {
+        const VrmlPrototype external = file_.prototypes[index];
+        const VrmlField url = file_.fields[external.url];
+        std::optional<VrmlFault> first;
+        for (std::uint32_t i = 0; url.kind == VrmlKind::strings && i < url.count; ++i) {
+            const VrmlPlace place = file_.place_of_value(external.file, url, i);
+            const std::string_view given = file_.strings[url.first + i];
+            const std::size_t hash = given.find('#');
+            const std::string name(hash != std::string_view::npos ? given.substr(hash + 1) : file_.name_of(external));
+            const Result<std::uint32_t> source = opened("an EXTERNPROTO", given, from);
+            if (!source) {
+                const Error& error = source.error();
+                const std::string what = error.where.empty() ? error.what : error.where + ": " + error.what;
+                if (!first) first = VrmlFault{place, what, error.remedy};
+                continue;
+            }
+            const auto is_meant = [&](const VrmlPrototype& p) {
+                return p.file == *source && !p.external && file_.name_of(p) == name;
+            };
+            const auto found = std::ranges::find_if(file_.prototypes, is_meant);
+            if (found != file_.prototypes.end()) {
+                file_.prototypes[index] = *found;
+                return;
+            }
+            if (!first)
+                first = VrmlFault{place, file_.sources[*source].name + " has no PROTO " + in_quotes(name),
+                                  "name one behind #"};
+        }
+        if (!first || file_.remarks.size() >= kMostVrmlFaults) return;
+        file_.remarks.push_back({first->place, first->what, "what it would show is left out; " + first->remedy});
+    }
+
     struct Opened {
         std::uint32_t source = kNoVrmlIndex;
         std::optional<VrmlFault> fault = std::nullopt;  // of the first name, where none can be opened
@@ -147,7 +198,7 @@ private:
         Opened first;
         for (std::uint32_t i = 0; i < field.count; ++i) {
             const VrmlPlace place = file_.place_of_value(in_file, field, i);
-            const Result<std::uint32_t> source = opened(file_.strings[field.first + i], from);
+            const Result<std::uint32_t> source = opened("an Inline", file_.strings[field.first + i], from);
             if (source) return {*source, std::nullopt};
             const Error& error = source.error();
             const std::string what = error.where.empty() ? error.what : error.where + ": " + error.what;
@@ -156,11 +207,11 @@ private:
         return first;
     }
 
-    Result<std::uint32_t> opened(std::string_view url, const std::string& from) {
-        const Result<std::string> name = inlined_name(url, fs::path(from).parent_path());
+    Result<std::uint32_t> opened(const std::string& who, std::string_view url, const std::string& from) {
+        const Result<std::string> name = named_file(who, url, fs::path(from).parent_path());
         if (!name) return std::unexpected(name.error());
         if (std::ranges::find(around_, *name) != around_.end()) {
-            return fail("", "an Inline leads back to " + in_quotes(*name) + ", in which it stands",
+            return fail("", who + " leads back to " + in_quotes(*name) + ", in which it stands",
                         "the world would have no end: remove it");
         }
         if (const auto known = sources_.find(*name); known != sources_.end()) return known->second;
@@ -176,7 +227,7 @@ private:
     }
 
     VrmlFile& file_;
-    fs::path folder_;
+    fs::path root_;  // of all names
     const VrmlOpener& opener_;
     std::map<std::string, std::uint32_t> sources_;
     std::vector<std::string> around_;  // the files from the world to the present one
@@ -210,33 +261,44 @@ VrmlPlace VrmlFile::place_of_value(std::uint32_t file, const VrmlField& field, s
     return {file, scan.peek().at};
 }
 
-VrmlOpener vrml_files_beside(const fs::path& world) {
-    return [folder = world.parent_path()](const std::string& name) -> Result<std::string> {
+VrmlOpener vrml_files_beside(const fs::path& world) { return vrml_files_below(world.parent_path()); }
+
+VrmlOpener vrml_files_below(const fs::path& root) {
+    return [folder = root](const std::string& name) -> Result<std::string> {
         const fs::path path = folder / name;
         std::error_code code;
-        const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
-        const fs::path real = fs::weakly_canonical(root / name, code);
-        if (std::ranges::mismatch(root, real).in1 != root.end()) {
+        const fs::path top = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
+        const fs::path real = fs::weakly_canonical(top / name, code);
+        if (std::ranges::mismatch(top, real).in1 != top.end()) {
             return fail(path.string(), "is a link that leads out of the world's folder",
                         "copy that file into the world's folder");
         }
-        return read_text_file(path, kMostVrmlBytes);
+        return read_vrml_bytes(path);
     };
 }
 
-Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const VrmlOpener& opener) {
+Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const VrmlOpener& opener, const fs::path& root) {
     VrmlFile file;
-    InlineReader reader(file, name, opener);
-    const auto source = reader.read(std::move(bytes), fs::path(name).filename().string());
+    const fs::path path(name);
+    InlineReader reader(file, root.empty() ? path.parent_path() : root, opener);
+    const fs::path below = root.empty() ? path.filename() : path.lexically_relative(root);
+    const auto source = reader.read(std::move(bytes), below.generic_string());
     if (!source) return std::unexpected(source.error());
     std::ranges::sort(file.bound_inlines, {}, &VrmlBoundInline::field);
     return file;
 }
 
-Result<VrmlFile> read_vrml_file(const fs::path& path) {
-    Result<std::string> text = read_text_file(path, kMostVrmlBytes);
-    if (!text) return std::unexpected(text.error());
-    return read_vrml(std::move(*text), path.string(), vrml_files_beside(path));
+Result<VrmlFile> read_vrml_file(const fs::path& path, const fs::path& root) {
+    Result<std::string> bytes = read_vrml_bytes(path);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (root.empty()) return read_vrml(std::move(*bytes), path.string(), vrml_files_beside(path));
+    const fs::path top = root.lexically_normal() / "", at = path.lexically_normal();
+    std::error_code code;
+    const fs::path below = fs::relative(fs::canonical(at, code), fs::canonical(top, code), code);
+    if (code || below.empty() || *below.begin() == "..")
+        return fail("--root " + root.string(), "is no folder in which " + path.string() + " lies",
+                    "name a folder around the world's file and those that it inlines");
+    return read_vrml(std::move(*bytes), (top / below).string(), vrml_files_below(top), top);
 }
 
 std::string unescaped_vrml(std::string_view raw) {

@@ -105,7 +105,8 @@ struct VrmlPrototype {
     std::uint32_t at = 0, name_length = 0;
     std::uint32_t first_field = 0, field_count = 0;  // the interface with its defaults, in VrmlFile::fields
     std::uint32_t first_link = 0, link_count = 0;    // the nodes of its body, in VrmlFile::links; the first one counts
-    bool external = false;                           // EXTERNPROTO: it has no body here
+    bool external = false;                           // EXTERNPROTO whose body was not found
+    std::uint32_t url = kNoVrmlIndex;                // of an EXTERNPROTO: where that is, in VrmlFile::fields
 };
 
 struct VrmlSource {
@@ -125,6 +126,7 @@ struct VrmlFile {
     std::vector<VrmlPrototype> prototypes;
     std::vector<VrmlBoundInline> bound_inlines;  // by field
     std::vector<VrmlFault> faults;               // of the syntax, in the order in which they were found
+    std::vector<VrmlFault> remarks;              // likewise: what was read otherwise than it stands there, or left out
 
     [[nodiscard]] std::string_view text_at(VrmlPlace place, std::uint32_t length) const {
         return std::string_view(*sources[place.file].text).substr(place.at, length);
@@ -161,21 +163,25 @@ struct VrmlFile {
     [[nodiscard]] VrmlPlace place_of_value(std::uint32_t file, const VrmlField& field, std::size_t index) const;
 };
 
-// Returns the bytes of a file that an Inline names. The name is relative to the folder of the first file, has no "..",
-// and is free of "." and "//".
+// Returns the bytes of a file that an Inline or an EXTERNPROTO names. The name is relative to the root, has no "..", and
+// is free of "." and "//".
 using VrmlOpener = std::function<Result<std::string>(const std::string& name)>;
 
-// Returns an opener of files in the folder of a world's file and below it. A name that leads out of the folder through
-// a symbolic link is refused.
+// Returns an opener of files in a folder, the root, and below it: that of a world's file, unless another is given. A
+// name that leads out of it through a symbolic link is refused.
 [[nodiscard]] VrmlOpener vrml_files_beside(const std::filesystem::path& world);
+[[nodiscard]] VrmlOpener vrml_files_below(const std::filesystem::path& root);
 
-// Reads the text of a world. `name` stands for the file in messages. Without an opener, each Inline is a fault.
-// Fails where nothing can be read: another format (VRML 1.0, X3D), a gzip-compressed file, UTF-16, too many bytes. All
-// other faults are listed in the tree.
-[[nodiscard]] Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const VrmlOpener& opener = {});
+// Reads the text of a world, packed with gzip or not. `name` stands for the file in messages; it lies below `root`, or
+// directly in the folder of files that it may name. Without an opener, each Inline is a fault.
+// Text that is not UTF-8 is read as Latin-1. Fails where nothing can be read: another format (VRML 1.0, X3D), UTF-16,
+// too many bytes. All other faults are listed in the tree.
+[[nodiscard]] Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const VrmlOpener& opener = {},
+                                         const std::filesystem::path& root = {});
 
-// Reads a world's file, and those that it inlines.
-[[nodiscard]] Result<VrmlFile> read_vrml_file(const std::filesystem::path& path);
+// Reads a world's file, and those that it names: of its folder and below, or of the root and below, in which it lies.
+[[nodiscard]] Result<VrmlFile> read_vrml_file(const std::filesystem::path& path,
+                                              const std::filesystem::path& root = {});
 
 // Returns a string's value: without the backslashes before quotes and backslashes.
 [[nodiscard]] std::string unescaped_vrml(std::string_view raw);

@@ -306,8 +306,7 @@ void VrmlParser::prototype() {
     const VrmlLexeme brace = scan_.peek();
     if (brace.token == VrmlToken::open_brace) {
         static_cast<void>(scan_.take());
-        statements(VrmlToken::close_brace, brace.at, nodes);
-        if (nodes.empty()) fault(name.at, "PROTO " + in_quotes(name.text) + " has no node", "write one in its braces");
+        statements(VrmlToken::close_brace, brace.at, nodes);  // without a node, instances are left out
     } else {
         fault(brace.at, "the body of PROTO " + in_quotes(name.text) + " is expected here", "write { and its nodes");
     }
@@ -334,6 +333,8 @@ void VrmlParser::external_prototype() {
     interface(false, fields);
     VrmlField url = field_at(name);
     value(url);
+    made.url = static_cast<std::uint32_t>(file_.fields.size());
+    file_.fields.push_back(url);
     scopes_.back().prototypes.insert_or_assign(name.text, static_cast<std::uint32_t>(file_.prototypes.size()));
     file_.prototypes.push_back(made);
 }

@@ -101,7 +101,7 @@ bool VrmlParser::item(VrmlField& field, std::vector<VrmlLink>& nodes) {
         if (!fits(VrmlKind::nodes)) return false;
         static_cast<void>(scan_.take());
         field.kind = VrmlKind::nodes;
-    } else if (begins_node() || next.is("PROTO") || next.is("EXTERNPROTO")) {
+    } else if (begins_statement()) {  // a ROUTE among nodes has no place in the grammar, and files have it
         if (!fits(VrmlKind::nodes)) return false;
         field.kind = VrmlKind::nodes;
         if (!statement(nodes)) return false;

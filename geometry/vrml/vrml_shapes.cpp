@@ -30,6 +30,8 @@ struct DefinedName {
 struct Surroundings {
     Mat4 world_from_here{1.0};
     DefinedName* name = nullptr;
+    std::optional<Vec3> pivot_world = {};
+    bool names_pivot = true;  // the next Transform has it: none around has a name
     std::size_t depth = 0;
 };
 
@@ -69,11 +71,18 @@ public:
             for (const VrmlFault& f : fields_.faults()) errors.push_back(file.error_of(f));
             return std::unexpected(std::move(errors));
         }
+        for (const VrmlFault& f : file.remarks) fields_.remark(f.place, f.what, f.remedy);
         for (const VrmlFault& f : fields_.remarks()) world_.remarks.push_back(file.error_of(f));
         return std::move(world_);
     }
 
 private:
+    // has_pivot: it is a Transform, or an instance of which one may be the body.
+    void name(Surroundings& around, std::string_view def, bool has_pivot) {
+        around.name = &names_.emplace_back(DefinedName{def, {}});
+        around.names_pivot = has_pivot || !around.pivot_world;
+    }
+
     void visit_all(std::span<const VrmlLink> links, const Surroundings& around) {
         for (const VrmlLink& link : links) visit({link.node, nullptr}, around);
     }
@@ -103,7 +112,7 @@ private:
                                  "take groups out of each other");
         }
         if (node.name_length > 0 && (placed.within == nullptr || !placed.within->named))
-            around.name = &names_.emplace_back(DefinedName{file.name_of(node), {}});
+            name(around, file.name_of(node), node.prototype != kNoVrmlIndex || file.type_of(node) == "Transform");
         if (node.prototype != kNoVrmlIndex) {
             const auto body = fields_.body_of(placed);
             if (body) return visit(*body, around);
@@ -133,6 +142,12 @@ private:
         if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0) {
             return fields_.remark(fields_.place(placed), "a Transform scales by 0, so that nothing in it has a volume",
                                   "it is left out; scale by numbers above 0");
+        }
+        if (around.names_pivot) {
+            const Vec3 middle =
+                fields_.vector(placed, "translation", Vec3(0.0)) + fields_.vector(placed, "center", Vec3(0.0));
+            around.pivot_world = Vec3(around.world_from_here * glm::dvec4(middle, 1.0));
+            around.names_pivot = around.name == nullptr;  // what stands within a named one turns with it
         }
         around.world_from_here = around.world_from_here * matrix_of_transform(fields_, placed, scale);
         visit_all(fields_.nodes(placed, "children"), around);
@@ -176,6 +191,7 @@ private:
         VrmlShape made;
         made.place = fields_.place(placed);
         made.world_from_shape = around.world_from_here;
+        made.pivot_world = around.pivot_world;
         for (const VrmlPlaced& appearance : fields_.nodes(placed, "appearance")) appear(appearance, made);
         const std::vector<VrmlPlaced> geometries = fields_.nodes(placed, "geometry");
         for (const VrmlPlaced& given : geometries) {
@@ -243,15 +259,9 @@ private:
     }
 
     void colour(const VrmlPlaced& material, VrmlShape& made) {
-        const Vec3 diffuse = fields_.vector(material, "diffuseColor", Vec3(0.8));
+        const Vec3 diffuse = fields_.colour(material, "diffuseColor", Vec3(0.8));
         made.transparency = fields_.from_0_to_1(material, "transparency", 0.0);
-        if (glm::all(glm::greaterThanEqual(diffuse, Vec3(0.0))) && glm::all(glm::lessThanEqual(diffuse, Vec3(1.0)))) {
-            made.colour = vrml_colour(diffuse.x, diffuse.y, diffuse.z);
-            return;
-        }
-        const auto value = fields_.find(material, "diffuseColor");
-        fields_.fault({value->file, value->field->value_at}, "a colour has a number that is not from 0 to 1",
-                      "write red, green and blue from 0 to 1");
+        made.colour = vrml_colour(diffuse.x, diffuse.y, diffuse.z);
     }
 
     // Returns the triangles of a geometry node, which is no instance; made once where no PROTO's instance changes it.

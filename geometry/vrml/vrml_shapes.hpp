@@ -21,6 +21,7 @@
 #include <expected>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,11 @@ struct VrmlShape {
     std::string name;
     std::shared_ptr<const VrmlSurface> surface;  // never null
     Mat4 world_from_shape{1.0};                  // affine; its determinant is not 0
-    VrmlColour colour{204, 204, 204};            // diffuseColor; by default 0.8
-    double transparency = 0.0;                   // 0 opaque, 1 invisible
+    // The centre of the named Transform that the object is or stands in, else of the nearest one around the shape, in
+    // the world: what it turns about. None: there is no Transform.
+    std::optional<Vec3> pivot_world = {};
+    VrmlColour colour{204, 204, 204};  // diffuseColor; by default 0.8
+    double transparency = 0.0;         // 0 opaque, 1 invisible
     // The numbers of a PROTO HapticMaterial in place of the shape's Material or Appearance: its fields of one number,
     // by name ("stiffness"). What they mean is for others to say.
     std::map<std::string, double> haptics;

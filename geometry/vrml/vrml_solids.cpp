@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Box, Cone, Cylinder and Sphere (ISO/IEC 14772-1:1997, 6.6, 6.9, 6.13 and 6.42), and what all geometry shares.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 
+#include "base/text.hpp"
 #include "geometry/vrml/vrml_geometry.hpp"
 
 namespace burin::geometry {
@@ -72,10 +74,16 @@ VrmlGeometryMaker vrml_geometry_maker(std::string_view type) {
 VrmlSurface vrml_box(const VrmlGeometryRequest& request) {
     VrmlSurface surface;
     const Vec3 half = 0.5 * request.fields.vector(request.node, "size", Vec3(2.0));
-    if (!(half.x > 0.0 && half.y > 0.0 && half.z > 0.0)) {
-        request.fields.fault(request.fields.place(request.node), "a Box has a size that is not above zero",
-                             "write three lengths in metres");
+    const auto flat_axes = [&] { return (half.x == 0.0 ? 1 : 0) + (half.y == 0.0 ? 1 : 0) + (half.z == 0.0 ? 1 : 0); };
+    if (!(half.x >= 0.0 && half.y >= 0.0 && half.z >= 0.0) || flat_axes() > 1) {
+        request.fields.remark(request.fields.place(request.node), "a Box has a size that is not above zero",
+                              "it is left out; write three lengths in metres");
         return surface;
+    }
+    if (flat_axes() == 1) {
+        surface.two_sided = true;
+        request.fields.remark(request.fields.place(request.node), "a Box has no thickness",
+                              "it is shown as a plate; write three lengths in metres");
     }
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
@@ -83,7 +91,11 @@ VrmlSurface vrml_box(const VrmlGeometryRequest& request) {
     }
     constexpr std::array<std::array<std::uint32_t, 4>, 6> kQuads{
         {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-    for (const auto& q : kQuads) {
+    for (std::size_t side = 0; side < kQuads.size(); ++side) {
+        // The sides lie across z, then y, then x. Of a plate one of the two large ones is there.
+        const auto& q = kQuads[side];
+        const int across = 2 - static_cast<int>(side / 2);
+        if (flat_axes() == 1 && (half[across] != 0.0 || side % 2 == 0)) continue;
         surface.mesh.triangles.push_back({q[0], q[1], q[2]});
         surface.mesh.triangles.push_back({q[0], q[2], q[3]});
     }
@@ -97,6 +109,7 @@ VrmlSurface vrml_cone(const VrmlGeometryRequest& request) {
     const double radius = fields.positive(request.node, "bottomRadius", 1.0);
     const double half = 0.5 * fields.positive(request.node, "height", 2.0);
     const bool bottom = fields.flag(request.node, "bottom", true), side = fields.flag(request.node, "side", true);
+    if (radius == 0.0 || half == 0.0) return surface;
     const std::uint32_t ring = add_ring(mesh, radius, -half);
     if (side) add_fan(mesh, ring, add_vertex(mesh, Vec3(0.0, half, 0.0)), false);
     if (bottom) add_fan(mesh, ring, add_vertex(mesh, Vec3(0.0, -half, 0.0)), true);
@@ -111,6 +124,7 @@ VrmlSurface vrml_cylinder(const VrmlGeometryRequest& request) {
     const double half = 0.5 * fields.positive(request.node, "height", 2.0);
     const bool side = fields.flag(request.node, "side", true);
     const bool top = fields.flag(request.node, "top", true), bottom = fields.flag(request.node, "bottom", true);
+    if (radius == 0.0 || half == 0.0) return surface;
     const std::uint32_t lower = add_ring(mesh, radius, -half), upper = add_ring(mesh, radius, half);
     if (side) add_band(mesh, lower, upper);
     if (top) add_fan(mesh, upper, add_vertex(mesh, Vec3(0.0, half, 0.0)), false);
@@ -122,6 +136,7 @@ VrmlSurface vrml_sphere(const VrmlGeometryRequest& request) {
     VrmlSurface surface;
     TriangleMesh& mesh = surface.mesh;
     const double radius = request.fields.positive(request.node, "radius", 1.0);
+    if (radius == 0.0) return surface;
     const std::uint32_t south = add_vertex(mesh, Vec3(0.0, -radius, 0.0));
     std::uint32_t below = 0;
     for (std::uint32_t stack = 1; stack < kStacks; ++stack) {
@@ -149,7 +164,9 @@ void apply_vrml_sides(const VrmlGeometryRequest& request, VrmlSurface& surface) 
 }
 
 VrmlColour vrml_colour(double red, double green, double blue) {
-    const auto byte = [](double value) { return static_cast<std::uint8_t>(std::lround(255.0 * value)); };
+    const auto byte = [](double value) {
+        return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+    };
     return {byte(red), byte(green), byte(blue)};
 }
 
@@ -163,9 +180,9 @@ std::vector<VrmlColour> vrml_colours(const VrmlGeometryRequest& request) {
         const VrmlNumbers numbers = fields.numbers(*node, "color", 3);
         for (std::size_t i = 0; i < numbers.values.size(); ++i) {
             if (numbers.values[i] >= 0.0 && numbers.values[i] <= 1.0) continue;
-            fields.fault_at_value(numbers.value, i, "a colour has a number that is not from 0 to 1",
-                                  "write red, green and blue from 0 to 1");
-            return {};
+            fields.remark_at_value(numbers.value, i,
+                                   formatted("a colour has the number %.9g, not from 0 to 1", numbers.values[i]),
+                                   "it is taken for the nearer of these");
         }
         for (std::size_t i = 0; i < numbers.values.size(); i += 3) {
             const auto rgb = numbers.values.subspan(i, 3);

@@ -19,7 +19,7 @@ struct Face {
     std::array<std::uint32_t, 3> corners{};  // welded
     Vec3 area{0.0};                          // along the normal, as long as twice the area
     Vec3 normal{0.0};
-    std::uint32_t colour = 0xffffffffu;
+    std::array<std::uint32_t, 3> colours{};
 };
 
 std::uint32_t normal_code(const Vec3& normal) {
@@ -28,14 +28,18 @@ std::uint32_t normal_code(const Vec3& normal) {
     return shared::encode_normal({std::llround(n.x), std::llround(n.y), std::llround(n.z)});
 }
 
-std::uint32_t colour_code(const geometry::TriangleMesh& mesh, std::size_t triangle) {
-    if (mesh.materials.empty()) return 0xffffffffu;
-    const std::size_t index = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[triangle];
-    const auto& c = mesh.materials.at(index).colour;
+std::uint32_t colour_code(const std::array<std::uint8_t, 3>& c) {
     return 0xff000000u | std::uint32_t{c[2]} << 16 | std::uint32_t{c[1]} << 8 | c[0];
 }
 
-std::vector<Face> faces_of(const geometry::TriangleMesh& mesh, std::vector<Vec3>& places) {
+std::uint32_t material_code(const geometry::TriangleMesh& mesh, std::size_t triangle) {
+    if (mesh.materials.empty()) return 0xffffffffu;
+    const std::size_t index = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[triangle];
+    return colour_code(mesh.materials.at(index).colour);
+}
+
+std::vector<Face> faces_of(const geometry::TriangleMesh& mesh, std::span<const TriangleColours> colours,
+                           std::vector<Vec3>& places) {
     geometry::VertexWeld weld(places);
     std::vector<Face> faces;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -47,7 +51,8 @@ std::vector<Face> faces_of(const geometry::TriangleMesh& mesh, std::vector<Vec3>
         if (!(twice_area > 0.0)) continue;
         face.normal = face.area / twice_area;
         face.corners = {weld.index_of(p), weld.index_of(q), weld.index_of(r)};
-        face.colour = colour_code(mesh, i);
+        for (std::size_t k = 0; k < 3; ++k)
+            face.colours[k] = colours.empty() ? material_code(mesh, i) : colour_code(colours[i][k]);
         faces.push_back(face);
     }
     return faces;
@@ -115,21 +120,23 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh) {
+std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh,
+                                            std::span<const TriangleColours> colours) {
     std::vector<Vec3> places;
-    const std::vector<Face> faces = faces_of(mesh, places);
+    const std::vector<Face> faces = faces_of(mesh, colours, places);
     SmoothAreas areas(faces, places.size());
     auto drawn = std::make_shared<DrawnMesh>();
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;  // place, normal, colour
     for (const Face& face : faces) {
-        for (const std::uint32_t place : face.corners) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::uint32_t place = face.corners[corner], colour = face.colours[corner];
             const std::uint32_t code = normal_code(areas.around(place, face.normal));
             const auto [at, is_new] =
-                known.try_emplace({place, code, face.colour}, static_cast<std::uint32_t>(drawn->vertices.size()));
+                known.try_emplace({place, code, colour}, static_cast<std::uint32_t>(drawn->vertices.size()));
             if (is_new) {
                 const Vec3& p = places[place];
                 drawn->vertices.push_back(
-                    {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), code, face.colour});
+                    {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), code, colour});
                 drawn->bounds.include(p);
             }
             drawn->indices.push_back(at->second);

@@ -37,7 +37,10 @@ inline constexpr double kCreaseCosine = 0.766;
 
 // Returns the mesh with a normal for each corner: the mean of the faces that meet there and turn from the corner's own
 // by less than a crease (to 4 degrees, where hundreds meet), weighted by area. Each triangle has its material's colour
-// where the mesh has materials, and is white, to be tinted, where it has none. Triangles without area are left out.
-[[nodiscard]] std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh);
+// where the mesh has materials, and is white, to be tinted, where it has none; or its corners have the colours (sRGB)
+// that are given, one entry for each triangle. Triangles without area are left out.
+using TriangleColours = std::array<std::array<std::uint8_t, 3>, 3>;
+[[nodiscard]] std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh,
+                                                          std::span<const TriangleColours> colours = {});
 
 }  // namespace burin::renderer

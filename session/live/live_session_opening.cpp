@@ -126,7 +126,7 @@ Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::opti
 }
 
 Result<void> LiveSession::load_world(const SculptOptions& options) {
-    Result<scene::World> read = options.scene ? *options.scene : read_sound_world(options.world);
+    Result<scene::World> read = options.scene ? *options.scene : read_sound_world(options.world, options.world_reading);
     if (!read) return std::unexpected(read.error());
     const std::size_t count = read->objects.size();
     Result<std::unique_ptr<WorldSide>> made = WorldSide::create(std::move(*read));

@@ -8,8 +8,8 @@
 
 namespace burin::session {
 
-Result<scene::World> read_sound_world(const std::string& path) {
-    scene::WorldOrProblems world = scene::read_any_world(path);
+Result<scene::World> read_sound_world(const std::string& path, const scene::WorldReading& reading) {
+    scene::WorldOrProblems world = scene::read_any_world(path, reading);
     if (world) {
         for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
         return std::move(*world);

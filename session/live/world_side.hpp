@@ -8,13 +8,14 @@
 #include <string>
 
 #include "scene/world_file.hpp"
+#include "scene/world_reading.hpp"
 #include "session/picture/drawn_world.hpp"
 #include "session/state/world_objects.hpp"
 
 namespace burin::session {
 
 // Reads a world, or a mesh as a world of one object. Where it has several problems all are printed.
-[[nodiscard]] Result<scene::World> read_sound_world(const std::string& path);
+[[nodiscard]] Result<scene::World> read_sound_world(const std::string& path, const scene::WorldReading& reading = {});
 
 class WorldSide {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/picture/drawn_world.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "renderer/scene/frame_setup.hpp"
@@ -10,14 +11,18 @@ namespace {
 
 Vec3 srgb_of(const scene::Colour& c) { return Vec3(c[0], c[1], c[2]) / 255.0; }
 
-// The object's colour counts, whatever materials its file has. What is felt from both sides is a sheet, and is seen
-// from both: each of its triangles is there the other way round as well.
-geometry::TriangleMesh plain_mesh(const scene::SceneObject& object) {
+// What is felt from both sides is a sheet, and is seen from both: each of its triangles is there the other way round as
+// well.
+std::shared_ptr<const renderer::DrawnMesh> mesh_of(const scene::SceneObject& object,
+                                                   const scene::CornerColours* own_colours) {
     geometry::TriangleMesh plain{object.mesh->positions_m, object.mesh->triangles, {}, {}, {}};
-    if (!object.both_sides) return plain;
-    plain.triangles.reserve(2 * object.mesh->triangles.size());
-    for (const auto& [a, b, c] : object.mesh->triangles) plain.triangles.push_back({a, c, b});
-    return plain;
+    scene::CornerColours colours = own_colours != nullptr ? *own_colours : scene::CornerColours();
+    if (object.both_sides) {
+        for (const auto& [a, b, c] : object.mesh->triangles) plain.triangles.push_back({a, c, b});
+        for (std::size_t i = 0, count = colours.size(); i < count; ++i)
+            colours.push_back({colours[i][0], colours[i][2], colours[i][1]});
+    }
+    return renderer::drawn_mesh(plain, colours);
 }
 
 Pose pose_at_the_beginning(const scene::SceneObject& object) {
@@ -28,13 +33,26 @@ Pose pose_at_the_beginning(const scene::SceneObject& object) {
 }  // namespace
 
 DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects) {
-    std::map<std::pair<const geometry::TriangleMesh*, bool>, std::shared_ptr<const renderer::DrawnMesh>> drawn;
+    std::map<std::tuple<const geometry::TriangleMesh*, const scene::CornerColours*, bool>,
+             std::shared_ptr<const renderer::DrawnMesh>>
+        drawn;
     for (const scene::SceneObject& object : objects) {
-        auto& mesh = drawn[{object.mesh.get(), object.both_sides}];
-        if (!mesh) mesh = renderer::drawn_mesh(plain_mesh(object));
+        const auto drawn_with = [&](const scene::CornerColours* colours) {
+            auto& mesh = drawn[{object.mesh.get(), colours, object.both_sides}];
+            if (!mesh) mesh = mesh_of(object, colours);
+            return mesh;
+        };
+        // Both are made ready, so that no frame waits when an object in its file's colours is given another.
+        const auto mesh = drawn_with(nullptr), coloured = drawn_with(object.corner_colours.get());
         const Pose pose = pose_at_the_beginning(object);
         const Similarity scene_from_mesh{pose.position_m, pose.orientation, object.scale};
-        objects_[object.id] = {mesh, scene_from_mesh, object.seen, srgb_of(object.colour), object.opacity};
+        objects_[object.id] = {mesh,
+                               coloured,
+                               object.corner_colours != nullptr,
+                               scene_from_mesh,
+                               object.seen,
+                               srgb_of(object.colour),
+                               object.opacity};
         const Box bounds = renderer::placed_box(mesh->bounds, scene_from_mesh);
         if (!object.seen || bounds.empty()) continue;
         bounds_scene_.include(bounds.lo);
@@ -46,15 +64,21 @@ void DrawnWorld::take(std::span<const scene::ObjectUpdate> updates) {
     for (const scene::ObjectUpdate& update : updates) {
         const auto at = objects_.find(update.id);
         if (at == objects_.end()) continue;
-        at->second = {at->second.mesh, update.scene_from_mesh, update.seen, srgb_of(update.colour), update.opacity};
+        at->second = {at->second.mesh, at->second.coloured,    update.has_own_colours, update.scene_from_mesh,
+                      update.seen,     srgb_of(update.colour), update.opacity};
     }
 }
 
 std::vector<renderer::DrawnObject> DrawnWorld::in_world(const Similarity& world_from_scene) const {
     std::vector<renderer::DrawnObject> list;
-    for (const auto& [id, object] : objects_)
-        if (object.seen)
-            list.push_back({object.mesh, world_from_scene * object.scene_from_mesh, object.colour, object.opacity});
+    for (const auto& [id, object] : objects_) {
+        if (!object.seen) continue;
+        const Similarity placed = world_from_scene * object.scene_from_mesh;
+        if (object.has_own_colours)
+            list.push_back({object.coloured, placed, Vec3(1.0), object.opacity});
+        else
+            list.push_back({object.mesh, placed, object.colour, object.opacity});
+    }
     return list;
 }
 

@@ -28,7 +28,8 @@ public:
 
 private:
     struct Seen {
-        std::shared_ptr<const renderer::DrawnMesh> mesh;
+        std::shared_ptr<const renderer::DrawnMesh> mesh, coloured;  // white, to be tinted; in its file's colours
+        bool has_own_colours = false;                               // those of its file
         Similarity scene_from_mesh;
         bool seen = true;
         Vec3 colour{};

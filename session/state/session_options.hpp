@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "devices/registry/device_registry.hpp"
+#include "scene/world_reading.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/mirror.hpp"
 #include "sculpt/tool_options.hpp"
@@ -98,6 +99,7 @@ enum class HandChoice { rigid, simulated };
 struct SculptOptions {
     sculpt::WorkpieceOptions workpiece;
     std::string world;  // a file of objects that are touched besides the workpiece, or without one; empty: none
+    scene::WorldReading world_reading;
     std::shared_ptr<const scene::World> scene;  // the world itself, in place of a file; no option of the command line
     bool no_workpiece = false;                  // with a world
     std::string points;  // of a handle, that touch (devices::points_named); empty: the tool is held in its middle

@@ -22,6 +22,8 @@ constexpr const char* kActivity = "--activity";  // behind it Activity::settings
 template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
     visit("--world", o.world);
+    visit("--world-units", o.world_reading.unit);
+    visit("--world-root", o.world_reading.root);
     visit("--no-workpiece", o.no_workpiece);
     visit("--points", o.points);
     visit("--workpiece", o.workpiece.source);

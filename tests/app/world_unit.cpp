@@ -51,12 +51,12 @@ TEST(WorldCommand, MirrorsAWorkpieceAndRefusesToWhereThereIsNone) {
 
 TEST(WorldCommand, TellsEveryFaultOfEveryFileAndFails) {
     const Workplace place;
-    place.write("a.wrl", kWorldHead + "Shape { geometry Sphere { radius 0 } }\nUSE Nobody");
+    place.write("a.wrl", kWorldHead + "Shape { geometry Sphere { radius 1 2 } }\nUSE Nobody");
     place.write("b.wrl", "#VRML V1.0 ascii\n");
-    place.write("c.wrl", kWorldHead);
+    place.write("c.wrl", kWorldHead + "Shape { geometry Box { size .1 .1 .1 } }");
     const auto outcome = place.run(kWorldBurin + " world check a.wrl b.wrl c.wrl lost.wrl --json r.json");
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(tells(outcome, "a.wrl:2:34: 'radius' is not above zero; ")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "a.wrl:2:34: 'radius' takes 1 number, and has 2; ")) << outcome.output;
     EXPECT_TRUE(tells(outcome, "a.wrl:3:5: no node is named 'Nobody' before this place; ")) << outcome.output;
     EXPECT_TRUE(tells(outcome, "b.wrl:1:1: is VRML 1.0; ")) << outcome.output;
     EXPECT_TRUE(tells(outcome, "lost.wrl: cannot be read")) << outcome.output;

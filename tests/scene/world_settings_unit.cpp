@@ -47,7 +47,7 @@ TEST(WorldSettings, ChangeWhatTheyNameAndLeaveTheRest) {
     EXPECT_EQ(world->name, "A yard");
     ASSERT_EQ(world->objects.size(), 2u);
     const SceneObject &rock = world->objects[0], &moss = world->objects[1];
-    EXPECT_EQ(moss.pose.position_m, Vec3(0.0, 0.5, 0.0));
+    EXPECT_EQ(displacement_m(moss), Vec3(0.0, 0.5, 0.0));
     EXPECT_EQ(moss.scale, 2.0);
     EXPECT_EQ(moss.colour, (Colour{0x10, 0xff, 0x20}));
     EXPECT_FALSE(moss.seen);

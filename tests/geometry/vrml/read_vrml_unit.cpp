@@ -103,7 +103,7 @@ TEST(ReadVrml, RefusesOtherFormatsByName) {
     EXPECT_TRUE(refusal("#VRML V1.0 ascii\n").starts_with("test.wrl:1:1: is VRML 1.0; convert it"));
     EXPECT_TRUE(refusal("#X3D V3.0 utf8\n").starts_with("test.wrl:1:1: is X3D"));
     EXPECT_TRUE(refusal("<?xml version=\"1.0\"?>\n").starts_with("test.wrl:1:1: is XML, as X3D is; export it"));
-    EXPECT_TRUE(refusal("\x1f\x8b\x08").starts_with("test.wrl:1:1: is compressed with gzip; unpack it"));
+    EXPECT_TRUE(refusal("\x1f\x8b\x08").starts_with("test.wrl:1:1: is packed with gzip, and cut short"));
     EXPECT_TRUE(refusal("").starts_with("test.wrl:1:1: is empty"));
     EXPECT_TRUE(refusal("Shape { }").starts_with("test.wrl:1:1: does not begin with '#VRML V2.0 utf8'"));
     EXPECT_TRUE(refusal("#VRML V2.0 utf80").starts_with("test.wrl:1:1: does not begin"));
@@ -211,11 +211,11 @@ TEST(ReadVrml, ACycleOfInlinesIsAFaultWhereItCloses) {
 
 TEST(ReadVrml, FaultsOfAnInlinedFileNameThatFile) {
     const VrmlOpener opener = [](const std::string&) -> Result<std::string> {
-        return kVrmlHead + "\nShape { geometry Sphere { radius -1 } }";
+        return kVrmlHead + "\nShape { geometry Sphere { radius 1 2 } }";
     };
     const auto faults = vrml_faults(kVrmlHead + "Inline { url \"ball.wrl\" }", opener);
     ASSERT_EQ(faults.size(), 1u);
-    EXPECT_TRUE(faults[0].starts_with("ball.wrl:3:34: 'radius' is not above zero")) << faults[0];
+    EXPECT_TRUE(faults[0].starts_with("ball.wrl:3:34: 'radius' takes 1 number, and has 2")) << faults[0];
 }
 
 TEST(ReadVrml, TheTreeKeepsNamesFieldsAndPlaces) {
