@@ -153,6 +153,7 @@ void DocumentWriter::keep_saved(Content saved, const std::string& path, const Ve
     // release: the document holds these changes before anybody reads the number.
     safe_.store(handled_, std::memory_order_release);
     named_[kJournalOfFact] = path;
+    named_[kJournalNameFact] = std::filesystem::path(path).filename().string();
     named_[kBaseIdFact] = version.id;
     named_[kBaseSavesFact] = std::to_string(version.saves);
     if (!journal_ || lacks_some_) return;
@@ -271,14 +272,32 @@ void DocumentWriter::carry_out(JournalEnd& end) {
                                        .remedy = "free some space first, and save before the end"}});
 }
 
+// The document that there is stays the one that saves go to, until another is whole.
+Result<Saved> DocumentWriter::write_elsewhere(SaveRequest& request) {
+    Result<Saved> saved = write_document(request.path, request.content, request.place, vfs_);
+    if (saved) {
+        path_ = request.path;
+        version_ = saved->version;
+        owed_ = {};
+    } else {
+        owed_ = std::move(request.content);
+    }
+    return saved;
+}
+
 Result<Saved> DocumentWriter::write(SaveRequest& request) {
     if (request.refused) return std::unexpected(*request.refused);
     if (request.changed_alone) {
         request.content = merged(std::exchange(owed_, {}), std::move(request.content));
+        if (request.path != path_) {  // whoever asked did not know yet that the save before had failed
+            owed_ = std::move(request.content);
+            return fail(request.path, "was not written by the save before", "save once more");
+        }
     } else {
         std::error_code ignored;
         // Where the whole content goes to the document's own file, and that still exists, the file is updated.
-        if (request.path != path_ || !std::filesystem::exists(path_, ignored)) version_.reset();
+        if (request.path == path_ && !std::filesystem::exists(path_, ignored)) version_.reset();
+        if (request.path != path_ && version_) return write_elsewhere(request);
         path_ = request.path;
         owed_ = {};
     }

@@ -112,6 +112,7 @@ private:
     void carry_out(JournalEnd& end);
     void carry_out(std::vector<Change> changes);
     [[nodiscard]] Result<Saved> write(SaveRequest& request);
+    [[nodiscard]] Result<Saved> write_elsewhere(SaveRequest& request);
     void keep_saved(Content saved, const std::string& path, const Version& version);
     void begin_journal(const Content& content);
     void add_unwritten();

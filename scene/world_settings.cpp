@@ -35,7 +35,9 @@ SceneObject* object_named(World& world, TableReader& t, const std::string& name)
 }  // namespace
 
 std::filesystem::path settings_of(const std::filesystem::path& world) {
-    return std::filesystem::path(world).replace_extension(".toml");
+    std::filesystem::path plain = world;
+    if (plain.extension() == ".gz") plain.replace_extension();  // world.wrl.gz is world.wrl, packed
+    return plain.replace_extension(".toml");
 }
 
 bool has_settings(const std::filesystem::path& world) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "base/length_unit.hpp"
 #include "compute/rays/memory_need.hpp"
@@ -90,32 +91,64 @@ Result<compute::Solid> empty_solid(const scene::Pages& pages, const std::string&
     return solid;
 }
 
-// Puts a page's rays into the solid; returns false, and changes nothing, where the bytes are no such page.
-bool put_page(std::span<const std::byte> bytes, int axis, const PageRays& rays, compute::Solid& solid) {
-    if (bytes.size() % 4 != 0 || bytes.size() < 4 * rays.count()) return false;
-    const auto at = [&](std::size_t index) {
-        std::uint32_t value = 0;
-        std::memcpy(&value, bytes.data() + 4 * index, sizeof value);
-        return value;
-    };
+// A page that has been read: of each ray the number of its ends, and all ends, ray after ray.
+struct ReadPage {
+    std::vector<std::uint32_t> counts;
+    std::vector<DexelEnd> ends;
+};
+
+// Reads a page's rays; nothing where the bytes are no such page.
+std::optional<ReadPage> page_in(std::span<const std::byte> bytes, std::size_t rays, int most_depth,
+                                std::size_t materials) {
+    if (bytes.size() % 4 != 0 || bytes.size() < 4 * rays) return {};
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), bytes.size());
+    ReadPage page{{words.begin(), words.begin() + static_cast<std::ptrdiff_t>(rays)}, {}};
     std::uint64_t ends = 0;
-    for (std::size_t ray = 0; ray < rays.count(); ++ray) ends += at(ray);
-    if (4 * (rays.count() + 2 * ends) != bytes.size()) return false;
-    std::vector<DexelEnd> all(ends);
-    for (std::size_t end = 0; end < ends; ++end) all[end] = {at(rays.count() + end), at(rays.count() + ends + end)};
-    const auto a = static_cast<std::size_t>(axis);
-    const int most_depth = solid.lattice.cells[a] * shared::kUnitsPerCell;
+    for (const std::uint32_t count : page.counts) ends += count;
+    if (rays + 2 * ends != words.size()) return {};
+    page.ends.reserve(ends);
+    for (std::size_t end = rays; end < rays + ends; ++end) page.ends.push_back({words[end], words[end + ends]});
     std::size_t first = 0;
-    for (std::size_t ray = 0; ray < rays.count(); first += at(ray++))
-        if (!is_sound(std::span(all).subspan(first, at(ray)), most_depth, solid.materials.size())) return false;
-    std::size_t ray = 0;
-    first = 0;
-    each_ray(rays, [&](int u, int v) {
-        const std::size_t count = at(ray++);
-        solid.sets[a].replace(u, v, std::span(all).subspan(first, count));
+    for (const std::uint32_t count : page.counts) {
+        if (!is_sound(std::span(page.ends).subspan(first, count), most_depth, materials)) return {};
         first += count;
+    }
+    return page;
+}
+
+// Puts the pages of a set into it, by their numbers; where there is none the rays stay empty.
+void put_pages(const std::vector<std::optional<ReadPage>>& pages, const compute::Lattice& lattice, int axis,
+               DexelSet& set) {
+    const auto row = static_cast<std::size_t>(set.rays_u());
+    std::vector<std::uint32_t> counts(set.ray_count(), 0);
+    const auto each_row = [&](auto visit) {  // (first ray of the set, rays, first ray of the page, page)
+        for (std::size_t number = 0; number < pages.size(); ++number) {
+            if (!pages[number]) continue;
+            const PageRays rays = rays_of(lattice, axis, number);
+            const auto across = static_cast<std::size_t>(rays.u_to - rays.u_from);
+            for (int v = rays.v_from; v < rays.v_to; ++v)
+                visit(static_cast<std::size_t>(v) * row + static_cast<std::size_t>(rays.u_from), across,
+                      static_cast<std::size_t>(v - rays.v_from) * across, *pages[number]);
+        }
+    };
+    each_row([&](std::size_t ray, std::size_t across, std::size_t of_page, const ReadPage& page) {
+        std::copy_n(page.counts.begin() + static_cast<std::ptrdiff_t>(of_page), across,
+                    counts.begin() + static_cast<std::ptrdiff_t>(ray));
     });
-    return true;
+    std::vector<std::size_t> first(counts.size() + 1, 0);
+    for (std::size_t ray = 0; ray < counts.size(); ++ray) first[ray + 1] = first[ray] + counts[ray];
+    std::vector<DexelEnd> ends(first.back());
+    const ReadPage* last = nullptr;
+    std::size_t taken = 0;  // of the page
+    each_row([&](std::size_t ray, std::size_t across, std::size_t, const ReadPage& page) {
+        if (std::exchange(last, &page) != &page) taken = 0;
+        const std::size_t count = first[ray + across] - first[ray];
+        std::copy_n(page.ends.begin() + static_cast<std::ptrdiff_t>(taken), count,
+                    ends.begin() + static_cast<std::ptrdiff_t>(first[ray]));
+        taken += count;
+    });
+    set.assign(counts, ends);
 }
 
 // ---- What is lost
@@ -265,11 +298,16 @@ Result<LoadedSolid> load_solid(const scene::Pages& pages, const std::string& whe
     std::size_t missing = 0, all = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
+        const int most_depth = solid->lattice.cells[a] * shared::kUnitsPerCell;
+        std::vector<std::optional<ReadPage>> read;
         for (std::size_t page = 0; page < pages_of(solid->lattice, axis); ++page, ++all) {
             const auto* bytes = pages.find({kRaysAlong[a], static_cast<std::int64_t>(page)});
-            lost[a].push_back(bytes == nullptr || !put_page(*bytes, axis, rays_of(solid->lattice, axis, page), *solid));
+            const std::size_t rays = rays_of(solid->lattice, axis, page).count();
+            read.push_back(bytes ? page_in(*bytes, rays, most_depth, solid->materials.size()) : std::nullopt);
+            lost[a].push_back(!read.back());
             missing += lost[a].back() ? 1 : 0;
         }
+        put_pages(read, solid->lattice, axis, solid->sets[a]);
     }
     if (missing == 0) return LoadedSolid{std::move(*solid)};
     if (missing == all) return fail(where, "none of its pages can be read", "open an earlier copy of the file");

@@ -163,8 +163,8 @@ struct VrmlFile {
     [[nodiscard]] VrmlPlace place_of_value(std::uint32_t file, const VrmlField& field, std::size_t index) const;
 };
 
-// Returns the bytes of a file that an Inline or an EXTERNPROTO names. The name is relative to the root, has no "..", and
-// is free of "." and "//".
+// Returns the bytes of a file that an Inline or an EXTERNPROTO names. The name is relative to the root, has no "..",
+// and is free of "." and "//".
 using VrmlOpener = std::function<Result<std::string>(const std::string& name)>;
 
 // Returns an opener of files in a folder, the root, and below it: that of a world's file, unless another is given. A

@@ -23,7 +23,10 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 }  // namespace
 
 AskedFiles::AskedFiles(const SculptOptions& options, MessageLog& log)
-    : log_(log), outputs_(options.live, inputs_of(options).list()), log_name_(options.live.input) {}
+    : log_(log), outputs_(options.live, inputs_of(options).list()), log_name_(options.live.input) {
+    if (log_name_.empty() && !options.no_workpiece && document::is_document_name(options.workpiece.source))
+        opened_ = options.workpiece.source;
+}
 
 void AskedFiles::place(sculpt::ExportSurface& wanted) {
     const auto placed = outputs_.new_place_of(wanted.path, OutputKind::mesh);
@@ -54,6 +57,9 @@ Result<AskedFiles::DocumentPlace> AskedFiles::place_document(const std::string& 
     // A user's own document is an input as well, and yet what is saved goes there.
     if (!of_log && !outputs_.refuse_meshes() && is_same_file(name, current))
         return DocumentPlace{current, outputs_.shown(name, current), true, true};
+    // The document that was opened is an input, and may be replaced by what came of it, if that is the answer.
+    if (replaces && !outputs_.refuse_meshes() && is_same_file(name, opened_))
+        return DocumentPlace{opened_, outputs_.shown(name, opened_), false, true};
     Result<std::filesystem::path> place = outputs_.place_of(name, OutputKind::document);
     if (!place) return std::unexpected(place.error());
     const bool is_current = is_same_file(*place, current);
@@ -64,6 +70,7 @@ Result<AskedFiles::DocumentPlace> AskedFiles::place_document(const std::string& 
 
 bool AskedFiles::is_taken(const std::string& name, const std::string& current) const {
     if (outputs_.are_of_log() || is_same_file(name, current)) return false;
+    if (is_same_file(name, opened_)) return true;
     const Result<std::filesystem::path> place = outputs_.place_of(name, OutputKind::document);
     std::error_code ignored;
     return place && std::filesystem::exists(*place, ignored);

@@ -64,6 +64,7 @@ private:
     MessageLog& log_;
     SessionOutputs outputs_;
     std::string log_name_;         // of the input; empty: a user's
+    std::string opened_;           // the document that a user's session began with, read to its end; empty: none
     std::vector<Asked> pictures_;  // not drawn yet
     std::size_t last_line_ = 0;    // of the log, that was seen by a step
     std::size_t failures_ = 0;     // of what a log asked for, and of the recording

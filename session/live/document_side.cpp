@@ -2,6 +2,7 @@
 #include "session/live/document_side.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "base/file_io.hpp"
 #include "base/sha256.hpp"
@@ -74,6 +75,7 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
     request.place =
         place->replaces && (is_of_log || !place->is_current) ? document::Place::replaced : document::Place::nothing;
     if (!place->is_current) {
+        if (state_ == FileState::written && is_there) earlier_ = Earlier{path_, name_, asked_};
         asked_ = wanted.text;
         name_ = is_of_log ? name : request.path;
     }
@@ -117,10 +119,17 @@ std::vector<document::SaveOutcome> DocumentSide::take_outcomes() {
     for (const document::SaveOutcome& ended : outcomes) {
         if (ended.path != path_) continue;
         if (ended.saved) static_cast<void>(lock_.take(lock_folder_, path_));
-        if (ended.saved)
+        const std::optional<Earlier> earlier = std::exchange(earlier_, std::nullopt);
+        if (ended.saved) {
             state_ = FileState::written;
-        else if (state_ == FileState::asked_for)
+        } else if (earlier) {
+            path_ = earlier->path;
+            name_ = earlier->name;
+            asked_ = earlier->asked;
+            state_ = FileState::written;
+        } else if (state_ == FileState::asked_for) {
             state_ = FileState::failed;
+        }
     }
     return outcomes;
 }

@@ -66,6 +66,11 @@ private:
     std::string path_, name_;                           // of the document; empty: it has none yet
     std::string asked_;                                 // the name that led to that place; empty: none was given
     FileState state_ = FileState::asked_for;
+    // The document that there was when a save elsewhere was asked for, which stays the session's should that fail.
+    struct Earlier {
+        std::string path, name, asked;
+    };
+    std::optional<Earlier> earlier_;
     std::map<std::string, std::string> origin_;  // facts
     std::shared_future<std::string> source_digest_;
     DocumentLock lock_;

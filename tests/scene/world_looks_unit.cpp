@@ -7,6 +7,7 @@
 
 #include "scene/object_property.hpp"
 #include "scene/vrml_world.hpp"
+#include "scene/world_settings.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::scene {
@@ -84,7 +85,8 @@ TEST_F(WorldOfAnybody, OfSeveralShapesHasTheColourOfEach) {
     const World world = read("a.wrl", kVrml + R"(DEF Two Transform { scale -1 1 1 children [
         Shape { appearance Appearance { material Material { diffuseColor 1 0 0 } } geometry Box { size .1 .1 .1 } }
         Transform { translation 1 0 0 children Shape {
-            appearance Appearance { material Material { diffuseColor 0 0 1 } } geometry Box { size .1 .1 .1 } } } ] })");
+            appearance Appearance { material Material { diffuseColor 0 0 1 } }
+            geometry Box { size .1 .1 .1 } } } ] })");
     const CornerColours& colours = *world.objects.at(0).corner_colours;
     ASSERT_EQ(colours.size(), 24u);
     EXPECT_EQ(colours.front()[2], kRed);
@@ -149,6 +151,7 @@ TEST_F(WorldOfAnybody, HasItsUnitInTheSettingsBesideIt) {
     EXPECT_NEAR(size(world.objects.at(0)).x, 0.1, 1e-15);
     EXPECT_EQ(world.objects[0].pose.position_m.x, 0.5) << "settings are in metres as ever";
     EXPECT_EQ(size(read("mm.wrl", mm, {.unit = "cm"}).objects.at(0)), Vec3(1, 0.4, 0.6)) << "what is said counts";
+    EXPECT_EQ(settings_of("a/mm.wrl.gz"), "a/mm.toml");
     place.write("mm.toml", "[world]\nunit = \"yd\"\n");
     EXPECT_TRUE(why_not("mm.wrl", mm).contains("mm.toml: [world] unit: is yd")) << why_not("mm.wrl", mm);
     place.write("mm.toml", "[world]\nunits = \"mm\"\n");

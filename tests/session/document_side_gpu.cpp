@@ -73,6 +73,29 @@ TEST_F(DocumentOfAUser, WhoseFirstSaveFailedIsSavedWholeByTheNext) {
     expect_saved(save("", 3), later, 4);
 }
 
+TEST_F(DocumentOfAUser, StaysTheSessionsWhereASaveElsewhereFails) {
+    expect_saved(save(path, 1), path, 2);
+    EXPECT_FALSE(save(at / "nowhere/other.burin", 2).saved);
+    EXPECT_EQ(side.name(options), path);
+    EXPECT_TRUE(side.has_file());
+    expect_saved(save("", 3), path, 4);
+    EXPECT_EQ(at.files(), 1u);
+    expect_saved(save(second, 4), second, 2);
+    expect_saved(save("", 5), second, 3);
+}
+
+TEST_F(DocumentOfAUser, ThatWasOpenedMayBeReplacedByWhatCameOfIt) {
+    expect_saved(save(path, 1), path, 2);
+    options.workpiece.source = path;
+    AskedFiles of_opened{options, log};
+    EXPECT_TRUE(of_opened.is_taken(path, second)) << "it is asked about";
+    EXPECT_FALSE(of_opened.place_document(path, second));
+    const auto place = of_opened.place_document(path, second, true);
+    ASSERT_TRUE(place) << place.error().line();
+    EXPECT_EQ(place->path, path);
+    EXPECT_TRUE(place->replaces);
+}
+
 TEST_F(DocumentOfAUser, ThatWasDeletedMeanwhileIsWrittenAnew) {
     expect_saved(save(path, 1), path, 2);
     fs::remove(path);
