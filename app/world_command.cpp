@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
+#include "scene/mesh_part.hpp"
 #include "scene/mesh_world.hpp"
 #include "scene/vrml_world.hpp"
 #include "scene/world_file.hpp"
@@ -256,10 +258,18 @@ void print_settings(const std::string& path, const scene::World& world) {
         std::printf("  %s: %s, %s\n", o.name.c_str(), look_text(o).c_str(), feel_text(o).c_str());
 }
 
+// Returns why a session could not touch the world's objects.
+std::optional<Error> why_not_touched(const scene::World& world) {
+    scene::MaterialTable materials;
+    const auto part = scene::MeshPart::create(world.objects, materials);
+    return part ? std::nullopt : std::optional(part.error());
+}
+
 // Checks a world in TOML, or a mesh that is a world alone.
 CheckedWorld check_toml_world(const std::string& path, const scene::WorldReading& reading, bool print) {
     const scene::WorldOrProblems world = scene::read_any_world(path, reading);
     if (!world) return faulty(path, world.error(), print);
+    if (const auto why = why_not_touched(*world)) return faulty(path, std::array{*why}, print);
     if (print) print_world(path, *world);
     Json json{{"file", path}, {"faults", Json::array()}};
     json["name"] = world->name;
@@ -281,6 +291,7 @@ CheckedWorld check_world(const std::string& path, const scene::WorldReading& rea
     scene::scale_vrml(*world, *unit_m);
     scene::WorldOrProblems felt = scene::world_of(*world, path);
     if (!felt) return faulty(path, felt.error(), print);
+    if (const auto why = why_not_touched(*felt)) return faulty(path, std::array{*why}, print);
     if (const std::string remark = scene::unit_remark(*world, path); !remark.empty()) felt->remarks.push_back(remark);
     const WorldSummary summary(path, *file, *world, *felt);
     if (print) summary.print();
@@ -288,6 +299,7 @@ CheckedWorld check_world(const std::string& path, const scene::WorldReading& rea
     if (!scene::has_settings(path)) return checked;
     const scene::WorldOrProblems with_settings = scene::read_any_world(path, reading);
     if (!with_settings) return faulty(path, with_settings.error(), print);
+    if (const auto why = why_not_touched(*with_settings)) return faulty(path, std::array{*why}, print);
     if (print) print_settings(path, *with_settings);
     checked.json["settings"] = scene::settings_of(path).string();
     checked.json["felt_objects"] = Json::array();

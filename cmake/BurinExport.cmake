@@ -3,6 +3,7 @@
 # PREFIX/include/burin and are included as here: "compute/cpu_engine.hpp". They are the program's own and promise no
 # stability: the package is found by exactly the version that it is of. docs/library.md has an example.
 include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
 set(exported base geometry devices haptics scene gpu compute)
 set(place ${CMAKE_INSTALL_LIBDIR}/cmake/burin)
 

@@ -122,8 +122,23 @@ Result<void> rename_to(const std::string& from, const std::string& to, Place pla
 
 Result<void> check_replaceable(const std::string& path) {
     struct stat there{};
-    if (::lstat(path.c_str(), &there) != 0 || S_ISREG(there.st_mode)) return record::check_no_log_of(path);
+    if (::lstat(path.c_str(), &there) != 0) return record::check_no_log_of(path);
+    if (S_ISREG(there.st_mode)) return {};
     return fail(path, "is not a regular file", "choose another name");
+}
+
+// Brings a document that a kill has left with a log to rest, so that no log of it lies beside the one that takes its
+// place, into which SQLite would bring it.
+Result<void> bring_to_rest(const std::string& path) {
+    bool has_log = false;
+    std::error_code ignored;
+    for (const char* ending : {"-wal", "-journal"}) has_log = has_log || fs::exists(path + ending, ignored);
+    if (!has_log) return {};
+    if (is_locked(path)) return fail(path, "is in use by another program", "wait until that has ended, or end it");
+    if (Result<StoreFile> file = StoreFile::open(path, kDocumentKind)) static_cast<void>(file->close());
+    // Of a file that is none of ours, or damaged, nothing stays in any case.
+    for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
+    return {};
 }
 
 }  // namespace
@@ -150,6 +165,8 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
         vfs);
     if (!file) return name_the_place(file.error());
     if (const auto closed = file->close(); !closed) return name_the_place(closed.error());
+    if (place == Place::replaced)
+        if (const auto rests = bring_to_rest(path); !rests) return name_the_place(rests.error());
     if (const auto named = rename_to(made_as, path, place); !named) return name_the_place(named.error());
     record::flush_folder_of(path);
     return saved;

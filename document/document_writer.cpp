@@ -9,7 +9,7 @@ namespace burin::document {
 namespace {
 
 // All of the work is asked for at each so many-th try: copying it takes the scene's thread some time.
-constexpr int kTriesForAll = 10;
+constexpr int kTriesForAll = 3;
 
 // Puts what a part has later over what it had; steps that are not there any more fall away.
 void put_over(scene::Pages& later, scene::Pages& earlier) {
@@ -254,22 +254,28 @@ void DocumentWriter::give_up_unwritten() {
 void DocumentWriter::carry_out(JournalEnd& end) {
     if (fails_ && !lacks_some_) add_unwritten();  // there may be room by now
     std::string left;
+    bool taken_away = false;
     if (journal_) {
         if (end.discards) journal_->discard();
-        if (journal_->is_needed()) left = journal_path_;
+        const bool is_there = journal_->is_in_place();
+        if (journal_->is_needed() && is_there) left = journal_path_;
+        if (journal_->is_needed() && !is_there) taken_away = true;
         journal_->end();
         journal_.reset();
     }
-    const bool loses = fails_ && unsaved_ && !end.discards;
+    const bool loses = (fails_ || taken_away) && unsaved_ && !end.discards;
     const std::string path = std::exchange(journal_path_, {});
     fails_ = false;
     give_up_unwritten();
     const std::lock_guard lock(mutex_);
     journal_left_ = std::move(left);
     if (loses)
-        journal_news_.push_back({Error{.what = "the newest strokes are in no file",
-                                       .where = path,
-                                       .remedy = "free some space first, and save before the end"}});
+        journal_news_.push_back({taken_away ? Error{.what = "is not there any more: what was not saved is in no file",
+                                                    .where = path,
+                                                    .remedy = "save before the end"}
+                                            : Error{.what = "the newest strokes are in no file",
+                                                    .where = path,
+                                                    .remedy = "free some space first, and save before the end"}});
 }
 
 // The document that there is stays the one that saves go to, until another is whole.

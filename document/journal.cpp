@@ -113,6 +113,12 @@ void Journal::end() {
     if (!needed_) remove_with_log(path_);
 }
 
+namespace {
+
+bool is_in_use(const Error& error) { return error.what == record::kInUse; }
+
+}  // namespace
+
 std::vector<LeftJournal> left_journals(const std::string& folder) {
     std::vector<LeftJournal> left;
     std::error_code failed;
@@ -122,15 +128,27 @@ std::vector<LeftJournal> left_journals(const std::string& folder) {
     std::ranges::sort(paths);
     for (const std::string& path : paths) {
         const Result<DocumentReader> reader = DocumentReader::open(path);
-        // A living session's cannot be read; others have been put there.
-        if (!reader || !reader->facts().contains(kJournalNameFact)) continue;
+        if (!reader) {
+            // That of a living session is locked, or still empty.
+            std::error_code ignored;
+            if (!is_in_use(reader.error()) && fs::file_size(path, ignored) > 0)
+                left.push_back({.path = path, .unreadable = reader.error().what});
+            continue;
+        }
+        if (!reader->facts().contains(kJournalNameFact)) {  // it has been put there, or its beginning is lost
+            if (is_log_damaged(path)) left.push_back({.path = path, .unreadable = "has a damaged log"});
+            continue;
+        }
         const bool is_saved = reader->changes() == 0 && !reader->facts().contains(kUnsavedFact);
         if (is_saved && !is_log_damaged(path)) {
             remove_with_log(path);
             continue;
         }
-        left.push_back({path, reader->fact(kJournalOfFact), reader->fact(kJournalNameFact), reader->fact(kBaseIdFact),
-                        reader->number(kBaseSavesFact)});
+        left.push_back({.path = path,
+                        .of = reader->fact(kJournalOfFact),
+                        .name = reader->fact(kJournalNameFact),
+                        .base_id = reader->fact(kBaseIdFact),
+                        .base_saves = reader->number(kBaseSavesFact)});
     }
     return left;
 }

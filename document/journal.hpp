@@ -35,6 +35,8 @@ public:
     [[nodiscard]] Result<void> begin_anew(const Content& now, bool is_needed);
     // Returns how many changes follow its pages.
     [[nodiscard]] std::int64_t changes() const { return changes_; }
+    // Returns whether its path still leads to it.
+    [[nodiscard]] bool is_in_place() const { return file_.is_in_place(); }
     // Returns whether it holds something that was not saved elsewhere.
     [[nodiscard]] bool is_needed() const { return needed_; }
     // Marks its changes as not wanted: end() then removes the file.
@@ -58,12 +60,13 @@ private:
 // A journal that a dead session has left.
 struct LeftJournal {
     std::string path;
-    std::string of;       // the document's path; empty: the work had no name
-    std::string name;     // what the work was called
-    std::string base_id;  // the document that it goes on from, and its count of saves
+    std::string of = {};       // the document's path; empty: the work had no name
+    std::string name = {};     // what the work was called
+    std::string base_id = {};  // the document that it goes on from, and its count of saves
     std::int64_t base_saves = 0;
+    std::string unreadable = {};  // why it cannot be read; empty: it can, else nothing but its path is known
 };
-// Returns those in a folder that hold unsaved work; removes the others that nobody has open.
+// Returns those in a folder that hold unsaved work, or may; removes the others that nobody has open.
 [[nodiscard]] std::vector<LeftJournal> left_journals(const std::string& folder);
 
 // Facts of a journal.

@@ -59,7 +59,7 @@ Error database_error(sqlite3* database, int code, const std::string& path, const
     switch (code & 0xff) {
         case SQLITE_FULL: return {"the disk is full", path, words_of_kind.full_disk};
         case SQLITE_BUSY:
-        case SQLITE_LOCKED: return {"is in use by another program", path, "wait until that has ended, or end it"};
+        case SQLITE_LOCKED: return {kInUse, path, "wait until that has ended, or end it"};
         case SQLITE_READONLY:
             return {"cannot be written: it is read-only", path, "choose a folder that you may write to"};
         case SQLITE_CANTOPEN: return {"cannot be opened: " + words, path, "check the path and its permissions"};

@@ -64,6 +64,9 @@ private:
     FileWords words_;
 };
 
+// What is said of a file that another program has locked.
+inline constexpr const char* kInUse = "is in use by another program";
+
 class Database {
 public:
     enum class Use { write, read };

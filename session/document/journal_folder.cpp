@@ -41,6 +41,8 @@ bool is_journal_of(const document::LeftJournal& left, const OpenedWork& opened, 
 }
 
 std::string told_of(const document::LeftJournal& left) {
+    if (!left.unreadable.empty())
+        return "what a session has left cannot be read, and stays: " + left.path + " " + left.unreadable;
     return "work that was not saved (" + left.name + ") is kept: burin sculpt " + left.path;
 }
 
@@ -75,11 +77,12 @@ Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options
     if (!opened || opened->document.empty() || folder.empty()) return opened;
     std::vector<document::LeftJournal> left = newest_first(document::left_journals(folder));
     const auto is_other = [&](const document::LeftJournal& one) {
-        return !is_journal_of(one, *opened, options.source) || is_same_file(one.path, options.source);
+        const bool is_of_this = is_journal_of(one, *opened, options.source) || !one.unreadable.empty();
+        return !is_of_this || is_same_file(one.path, options.source);
     };
     std::erase_if(left, is_other);
     for (auto one = left.begin(); opened->journal.empty() && one != left.end(); ++one) {
-        if (document::Version{one->base_id, one->base_saves} != opened->version) continue;
+        if (!one->unreadable.empty() || document::Version{one->base_id, one->base_saves} != opened->version) continue;
         Result<OpenedWork> recovered = open_work({.source = one->path}, pool, undo_bytes);
         if (!recovered) continue;
         recovered->document = opened->document;  // which may have another name by now

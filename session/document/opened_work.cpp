@@ -176,7 +176,10 @@ struct IntoOptions {
         if (!keeps_tool) options.tool.operation = set.operation;
     }
     void operator()(const SetColour& set) const {
-        if (!keeps_tool && options.tool.material.empty()) options.tool.material = exact(set.srgb);
+        if (keeps_tool || !options.tool.material.empty()) return;
+        std::array<double, 3> of_255{};  // as --material has it
+        for (std::size_t k = 0; k < 3; ++k) of_255[k] = std::round(255.0 * std::clamp(set.srgb[k], 0.0, 1.0));
+        options.tool.material = exact(of_255);
     }
     void operator()(const SetMaterial& set) const {
         if (options.feel.hardness == sculpt::FeelOptions{}.hardness)

@@ -79,7 +79,9 @@ bool AskedFiles::is_taken(const std::string& name, const std::string& current) c
 void AskedFiles::tell(const document::SaveOutcome& ended) {
     if (ended.saved) {
         const std::string message = "saved " + ended.name;
-        log_.notify_of_event(message, MessageKind::info, {{}, where_it_lies(message, ended.path, false)});
+        const bool is_new = ended.saved->version.saves == 1;  // else it was the document itself
+        log_.notify_of_event(message, MessageKind::info,
+                             {{}, where_it_lies(message, ended.path, is_new && ended.saved->replaced)});
     } else if (outputs_.refuse_meshes()) {
         log_.notify_of_event(ended.saved.error().line());
     } else {

@@ -222,6 +222,18 @@ TEST_F(Document, OnAFullDiskStaysAsItWas) {
     ASSERT_TRUE(update_document(path, changed_tile("new"), first->version));
 }
 
+TEST_F(Document, ThatTakesThePlaceOfOneWithALogIsNotChangedByIt) {
+    ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
+    change(path, "PRAGMA journal_mode = WAL");
+    for (const char* const ending : {"-wal", "-shm", "-journal"}) at.write("work.burin" + std::string(ending), "left");
+    Content other = small_work();
+    other.parts[0].pages[{"tile", 7}] = bytes_of("other");
+    const Result<Saved> saved = write_document(path, other, Place::replaced);
+    ASSERT_TRUE(saved) << saved.error().line();
+    EXPECT_EQ(files_in(at), 1u);
+    EXPECT_EQ(pages_in(path).pages, other.parts[0].pages);
+}
+
 TEST_F(Document, RemovesWhatAKilledSaveHasLeftAndNothingElse) {
     const pid_t child = fork();
     if (child == 0) _exit(0);

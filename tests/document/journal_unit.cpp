@@ -202,13 +202,42 @@ TEST(Journal, WhoseLogIsDamagedIsKeptAndTold) {
         EXPECT_TRUE(left_with(damaged)) << part;
         const auto reader = DocumentReader::open(copy);
         const bool is_known = reader && reader->facts().contains(kJournalNameFact);  // else its beginning is lost
-        EXPECT_EQ(left_journals(folder).size(), is_known ? 1u : 0u) << part;
+        const auto journals = left_journals(folder);
+        ASSERT_EQ(journals.size(), 1u) << part;
+        EXPECT_EQ(journals[0].unreadable.empty(), is_known) << part;
         EXPECT_TRUE(fs::exists(copy) && fs::exists(copy + "-wal")) << part;
     }
     // A transaction that a kill cut off had not been ended, so that nothing that was acknowledged is missing.
     EXPECT_FALSE(left_with(log.substr(0, log.size() - 100)));
     EXPECT_FALSE(left_with(log.substr(0, 32)));
     EXPECT_FALSE(left_with(""));
+}
+
+TEST(Journal, ThatCannotBeReadIsToldAndStays) {
+    const Workplace at;
+    at.write("work-1.burin", std::string(5000, 'x'));
+    at.write("work-2.burin", "");
+    DocumentWriter living;
+    living.keep_journal(at / "work-3.burin", beginning());
+    living.finish();
+    const auto left = left_journals((at / "").string());
+    ASSERT_EQ(left.size(), 1u) << "the second is about to be written, and the third is a living session's";
+    EXPECT_EQ(left[0].path, (at / "work-1.burin").string());
+    EXPECT_TRUE(left[0].unreadable.contains("not an SQLite file")) << left[0].unreadable;
+    EXPECT_EQ(at.read("work-1.burin").size(), 5000u);
+}
+
+TEST(Journal, ThatWasTakenAwayIsToldAtTheEnd) {
+    const Workplace at;
+    DocumentWriter writer;
+    writer.keep_journal(at / "work-1.burin", beginning());
+    writer.note(change(1));
+    writer.finish();
+    fs::remove(at / "work-1.burin");
+    EXPECT_EQ(writer.end_journal(false), "");
+    const auto news = writer.take_journal_news();
+    ASSERT_EQ(news.size(), 1u);
+    EXPECT_TRUE(news[0].failed && news[0].failed->line().contains("is not there any more")) << news[0].failed->line();
 }
 
 // ---- A disk that refuses

@@ -145,6 +145,22 @@ TEST_F(DocumentOfASession, WithoutSomeOfItsRowsOrItsLogIsToldByInfo) {
     }
 }
 
+TEST_F(DocumentOfASession, KeepsTheColourOfItsTool) {
+    for (const char* const colour : {"0.8,0.4,0.2", "1,0,0", "1,1,1", "0,0,0", "0.004,0.5,0.996"}) {
+        fs::remove_all(place / "a");
+        fs::remove_all(place / "b");
+        const auto saved =
+            play(kBall, "a", "0.1 command colour " + std::string(colour) + "\n0.2 command save work.burin\n");
+        ASSERT_EQ(saved.status, 0) << saved.output;
+        const auto again = play("a/work.burin", "b", "0.1 command save again.burin\n");
+        ASSERT_EQ(again.status, 0) << colour << again.output;
+        const auto commands = [&](const char* name) {
+            return document::DocumentReader::open((place / name).string())->commands();
+        };
+        EXPECT_EQ(commands("a/work.burin"), commands("b/again.burin")) << colour;
+    }
+}
+
 TEST_F(DocumentOfASession, ComesBackWithWhatWasNotSaved) {
     const std::string more = "1 mouse 150 80\n1.05 button press left\n1.4 mouse 165 70\n1.5 button release left\n";
     const std::string save = "0.9 command save work.burin\n", later = "2.5 command export part.ply\n3 command quit";
