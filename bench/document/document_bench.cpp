@@ -132,12 +132,13 @@ Result<void> measure_journal(const DocumentTask& task, const CarveScene& scene, 
         }
         if (!ends && now_ns - told_ns < sculpt::CarvedPart::kJournal_ns) continue;
         told_ns = now_ns;
-        document::Change change;
-        const bool is_one = (*sculpture)->take_change(change.pages);
+        std::vector<document::Change> changes;
+        for (document::Change change; (*sculpture)->take_change(change.pages); change = {})
+            changes.push_back(std::move(change));
         figures.taken_ms.push_back(1e3 * seconds(clock.now_ns() - now_ns));
-        if (!is_one) continue;
-        writer.note(std::move(change));
+        for (document::Change& change : changes) writer.note(std::move(change));
         figures.changes = static_cast<std::uint64_t>(writer.noted());
+        if (changes.empty()) continue;
         for (Unsafe& one : unsafe)
             if (one.change == 0) one.change = writer.noted();
     }
@@ -181,14 +182,15 @@ Result<void> measure_save(const DocumentTask& task, const CarveScene& scene, scu
     }
     figures.strokes = task.strokes;
     figures.rays_changed = sculpture.figures().rays_changed - before;
-    scene::Pages changed;
-    if (!sculpture.take_change(changed)) return fail(task.mesh, "is cut by no stroke", "name another mesh");
-    for (const auto& [name, bytes] : changed.pages) {
-        figures.changed_bytes += bytes.size();
-        const auto packed = record::compressed(bytes);
-        if (!packed) return std::unexpected(packed.error());
-        figures.changed_packed_bytes += packed->size();
+    for (scene::Pages changed; sculpture.take_change(changed); changed = {}) {
+        for (const auto& [name, bytes] : changed.pages) {
+            figures.changed_bytes += bytes.size();
+            const auto packed = record::compressed(bytes);
+            if (!packed) return std::unexpected(packed.error());
+            figures.changed_packed_bytes += packed->size();
+        }
     }
+    if (figures.changed_bytes == 0) return fail(task.mesh, "is cut by no stroke", "name another mesh");
     document::SaveRequest second{.path = path, .name = path, .content = {}, .changed_alone = true, .refused = {}};
     Stopwatch watch;
     scene::Pages& pages = second.content.parts.emplace_back();

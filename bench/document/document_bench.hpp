@@ -43,9 +43,9 @@ struct DocumentFigures {
     struct Save {
         unsigned strokes = 0;
         std::uint64_t rays_changed = 0;
-        std::uint64_t changed_bytes = 0;          // what the changed rays hold, as memory holds it
+        std::uint64_t changed_bytes = 0;          // what the rays that each stroke has changed hold, in memory
         std::uint64_t changed_packed_bytes = 0;   // that, compressed
-        std::uint64_t pages = 0, page_bytes = 0;  // written, compressed
+        std::uint64_t pages = 0, page_bytes = 0;  // written, with what rays held before, for undo; compressed
         std::uint64_t written_bytes = 0;          // all that the process wrote meanwhile, SQLite's log included
         double taken_ms = 0.0, written_ms = 0.0;  // the scene's thread; the document's
     } save;

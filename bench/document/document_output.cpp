@@ -48,10 +48,11 @@ std::string document_table(const DocumentFigures& f) {
                       at(taken_ms, 1.0));
     text += formatted("%u strokes, saved at N = %d: %llu rays changed\n", s.strokes, f.resolution,
                       static_cast<unsigned long long>(s.rays_changed));
-    text += formatted("  changed %.2f MB (%.2f MB packed), in pages %.2f MB packed, written %.2f MB in all\n",
-                      megabytes(s.changed_bytes), megabytes(s.changed_packed_bytes), megabytes(s.page_bytes),
-                      megabytes(s.written_bytes));
-    text += formatted("  pages are %.2f times what changed (limit 2), %.2f times what changed, packed\n",
+    text += formatted(
+        "  changed %.2f MB (%.2f MB packed), in pages and steps back %.2f MB packed, written %.2f MB in all\n",
+        megabytes(s.changed_bytes), megabytes(s.changed_packed_bytes), megabytes(s.page_bytes),
+        megabytes(s.written_bytes));
+    text += formatted("  that is %.2f times what changed (limit 2), %.2f times what changed, packed\n",
                       over(s.page_bytes, s.changed_bytes), over(s.page_bytes, s.changed_packed_bytes));
     text += formatted("  the scene's thread stands still for %.1f ms, the document's works for %.0f ms\n", s.taken_ms,
                       s.written_ms);
