@@ -71,7 +71,7 @@ std::string roff(std::string_view text) {
     return escaped;
 }
 
-// The same formatter as the help's, for what stands behind an option's name.
+// Formats what stands behind an option's name as the help does.
 class ValueFormatter : public CLI::Formatter {
 public:
     [[nodiscard]] std::string value(const CLI::Option& option) const { return make_option_opts(&option); }

@@ -76,7 +76,7 @@ Result<void> document_info(const InfoOptions& options) {
         Json& told = json["parts"].emplace_back(part_json(part, *pages));
         tell_steps(*reader, part, prints, told);
     }
-    // What is not there can be told by whoever makes work of the pages alone.
+    // Missing pages show only when the work is made of all of them.
     WorkerPool pool;
     const Result<session::OpenedWork> opened =
         session::open_work({.source = options.file}, pool, compute::History::kDefaultBudget_bytes);

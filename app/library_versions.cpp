@@ -21,7 +21,7 @@ struct UsbVersion {  // as libusb_version of libusb 1.0, its first members
     unsigned short major, minor, micro;
 };
 
-// Of functions that take nothing, or a pointer of which they make nothing, and return a text.
+// Adds versions that a function returns as a text. It takes nothing, or a pointer that it ignores.
 void add_texts(std::vector<LibraryVersion>& to) {
     for (const auto& [name, symbol] :
          {std::pair("GLFW", "glfwGetVersionString"), std::pair("SQLite", "sqlite3_libversion"),

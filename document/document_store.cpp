@@ -134,9 +134,9 @@ Result<void> bring_to_rest(const std::string& path) {
     std::error_code ignored;
     for (const char* ending : {"-wal", "-journal"}) has_log = has_log || fs::exists(path + ending, ignored);
     if (!has_log) return {};
-    if (is_locked(path)) return fail(path, "is in use by another program", "wait until that has ended, or end it");
+    if (is_locked(path)) return fail(path, record::kInUse, "wait until that has ended, or end it");
     if (Result<StoreFile> file = StoreFile::open(path, kDocumentKind)) static_cast<void>(file->close());
-    // Of a file that is none of ours, or damaged, nothing stays in any case.
+    // Removes the log of a file that could not be opened as well: damaged, or of another program.
     for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
     return {};
 }

@@ -8,7 +8,7 @@
 namespace burin::document {
 namespace {
 
-// All of the work is asked for at each so many-th try: copying it takes the scene's thread some time.
+// Tries until all of the work is asked for once more: copying it takes the scene's thread some time.
 constexpr int kTriesForAll = 3;
 
 // Puts what a part has later over what it had; steps that are not there any more fall away.
@@ -235,7 +235,7 @@ void DocumentWriter::journal_holds_all() {
     journal_news_.push_back({});
 }
 
-// What the journal has stays in its file; what it has not is tried again.
+// Keeps what could not be written, for the next try; the file stays as it is.
 void DocumentWriter::journal_fails(const Error& why) {
     next_try_ = std::chrono::steady_clock::now() + again_after_;
     if (std::exchange(fails_, true)) return;

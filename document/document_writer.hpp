@@ -48,7 +48,7 @@ struct SaveOutcome {
     Result<Saved> saved;
 };
 
-// What has become of the journal. failed: what is noted is not on the disk, and why; nothing: it is again.
+// News of the journal. failed: why what is noted is not on the disk; none: all of it is on the disk again.
 struct JournalNews {
     std::optional<Error> failed;
 };

@@ -70,7 +70,7 @@ Result<void> Journal::add(const std::vector<Change>& changes) {
     return {};
 }
 
-// What is saved may go back to steps that the journal never had.
+// Leaves out steps of the saved content that are older than those which the journal has.
 Result<void> Journal::take_over(Content saved) {
     for (std::size_t part = 0; part < saved.parts.size() && part < first_steps_.size(); ++part) {
         auto& steps = saved.parts[part].steps;

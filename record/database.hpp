@@ -64,7 +64,7 @@ private:
     FileWords words_;
 };
 
-// What is said of a file that another program has locked.
+// Error::what of a file that another program has locked.
 inline constexpr const char* kInUse = "is in use by another program";
 
 class Database {

@@ -23,7 +23,7 @@
 
 namespace burin::compute {
 
-// What a change of rays was: a part of a stroke that goes on, the end of a stroke, a stroke taken back or repeated.
+// Says what a change of rays ends: nothing, as the stroke goes on; a stroke; an undo; a redo.
 enum class HistoryStep : std::uint8_t { goes_on, stroke, undo, redo };
 
 class History {

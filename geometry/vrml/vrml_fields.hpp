@@ -84,7 +84,7 @@ public:
     [[nodiscard]] std::int64_t integer(const VrmlPlaced& placed, std::string_view name, std::int64_t otherwise);
     [[nodiscard]] bool flag(const VrmlPlaced& placed, std::string_view name, bool otherwise);
     [[nodiscard]] Vec3 vector(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise);
-    // Likewise for each of three numbers of a colour.
+    // Returns red, green and blue; each that is not from 0 to 1 as from_0_to_1() does.
     [[nodiscard]] Vec3 colour(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise);
     [[nodiscard]] Quat rotation(const VrmlPlaced& placed, std::string_view name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the bytes of a VRML file say as text, before anybody reads it: unpacked where gzip has packed them, in UTF-8
-// where they are in Latin-1 (ISO 8859-1). Internal to geometry/vrml/. Pure; any thread.
+// Makes text of a VRML file's bytes: unpacks what gzip has packed, and turns Latin-1 (ISO 8859-1) into UTF-8, which
+// the parser reads. Internal to geometry/vrml/. Pure; any thread.
 #pragma once
 
 #include <cstddef>

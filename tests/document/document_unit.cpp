@@ -68,6 +68,11 @@ class Document : public testing::Test {
 protected:
     void SetUp() override { record::test::failing_disk().reset(); }
     void TearDown() override { record::test::failing_disk().reset(); }
+    bool is_saved_by(DocumentWriter& writer, Content content, bool changed_alone) const {
+        writer.save({.path = path, .name = "work", .content = std::move(content), .changed_alone = changed_alone});
+        writer.finish();
+        return static_cast<bool>(writer.take_outcomes().at(0).saved);
+    }
     Workplace at;
     std::string path = (at / "work.burin").string();
 };
@@ -263,9 +268,7 @@ TEST_F(Document, WhatCouldNotBeSavedGoesAlongWithTheNextSave) {
     record::test::FailingDisk& disk = record::test::failing_disk();
     DocumentWriter writer(disk.kName);
     const auto save = [&](Content content, bool changed_alone) {
-        writer.save({.path = path, .name = "work", .content = std::move(content), .changed_alone = changed_alone});
-        writer.finish();
-        return static_cast<bool>(writer.take_outcomes().at(0).saved);
+        return is_saved_by(writer, std::move(content), changed_alone);
     };
     disk.is_full = true;
     EXPECT_FALSE(save(small_work(), false));
@@ -331,9 +334,7 @@ TEST_F(Document, WhoseSaveFailedGivesItsStepsToTheNext) {
     record::test::FailingDisk& disk = record::test::failing_disk();
     DocumentWriter writer(disk.kName);
     const auto save = [&](Content content, bool changed_alone) {
-        writer.save({.path = path, .name = "work", .content = std::move(content), .changed_alone = changed_alone});
-        writer.finish();
-        return static_cast<bool>(writer.take_outcomes().at(0).saved);
+        return is_saved_by(writer, std::move(content), changed_alone);
     };
     ASSERT_TRUE(save(work_with_steps(1, 2, 1, 'a'), false));
     disk.is_full = true;

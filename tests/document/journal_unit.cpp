@@ -255,6 +255,14 @@ protected:
             sched_yield();
         }
     }
+    void fill_up_before_a_change(DocumentWriter& writer) {
+        writer.keep_journal(path, beginning());
+        writer.finish();
+        disk.is_full = true;
+        writer.note(change(1));
+        writer.finish();
+        EXPECT_TRUE(next_news(writer)[0].failed);
+    }
     void wait_for_tries(int count) const {
         for (const int before = disk.writes; disk.writes < before + count;) sched_yield();
     }
@@ -329,12 +337,7 @@ TEST_F(JournalOnABadDisk, BeginsAnewWithAllWhereTooMuchWouldHaveToBeKept) {
 
 TEST_F(JournalOnABadDisk, IsWrittenAtTheEndWhereThereIsRoomByThen) {
     DocumentWriter writer(disk.kName, std::chrono::hours(1));
-    writer.keep_journal(path, beginning());
-    writer.finish();
-    disk.is_full = true;
-    writer.note(change(1));
-    writer.finish();
-    EXPECT_TRUE(next_news(writer)[0].failed);
+    fill_up_before_a_change(writer);
     disk.is_full = false;
     EXPECT_EQ(writer.end_journal(false), path);
     EXPECT_EQ(sound_changes(path), 1);
@@ -342,12 +345,7 @@ TEST_F(JournalOnABadDisk, IsWrittenAtTheEndWhereThereIsRoomByThen) {
 
 TEST_F(JournalOnABadDisk, SaysAtTheEndThatTheNewestStrokesAreNowhere) {
     DocumentWriter writer(disk.kName, std::chrono::hours(1));
-    writer.keep_journal(path, beginning());
-    writer.finish();
-    disk.is_full = true;
-    writer.note(change(1));
-    writer.finish();
-    EXPECT_TRUE(next_news(writer)[0].failed);
+    fill_up_before_a_change(writer);
     EXPECT_EQ(writer.end_journal(false), "");
     const auto lost = next_news(writer);
     ASSERT_TRUE(lost[0].failed);

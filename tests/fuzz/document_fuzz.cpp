@@ -3,15 +3,9 @@
 // beyond the bounds (run with -rss_limit_mb); every failure has a place and a remedy. The bytes are taken in four ways:
 // as a file; as its log; as pages of a solid, so that what lies behind the check sums is reached too; and as changes of
 // a sound document with a journal's changes.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -24,25 +18,14 @@
 #include "document/log_check.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
+#include "tests/fuzz/changed_file.hpp"
 
 namespace {
 
 using namespace burin;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using namespace burin::fuzz;
 
 void check_error(const Error& error) { require(!error.what.empty() && !error.where.empty()); }
-
-// One file in memory, which every input replaces.
-const std::string& file_with(const std::uint8_t* data, std::size_t size) {
-    static const int fd = memfd_create("fuzz", 0);
-    static const std::string path = "/proc/self/fd/" + std::to_string(fd);
-    require(fd >= 0 && ftruncate(fd, 0) == 0);
-    require(pwrite(fd, data, size, 0) == static_cast<ssize_t>(size));
-    return path;
-}
 
 // A solid whose pages are whole must say the same when it is saved again.
 void load(const scene::Pages& pages) {
@@ -104,7 +87,7 @@ compute::Solid small_solid() {
 
 // A document with the changes of a journal behind it.
 std::vector<std::uint8_t> sound_file() {
-    const std::string path = std::filesystem::temp_directory_path() / ("fuzz-" + std::to_string(::getpid()) + ".burin");
+    const std::string path = own_path(".burin");
     compute::Solid solid = small_solid();
     document::Content content{.facts = {{"unit", "mm"}}, .commands = {"tool ball:0.01"}};
     sculpt::save_solid(solid, sculpt::ChangedPages(solid.lattice), content.parts.emplace_back());
@@ -123,21 +106,12 @@ std::vector<std::uint8_t> sound_file() {
     changed.take(solid, compute::HistoryStep::stroke, change.pages);
     require(journal->add({std::move(change)}).has_value());
     journal->end();
-    std::ifstream in(path, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-    std::filesystem::remove(path);
-    return {bytes.begin(), bytes.end()};
+    return take_file(path);
 }
 
-// Each four bytes of the input change one byte of the sound file: three say where, one how.
 void read_changed(const std::uint8_t* data, std::size_t size) {
     static const std::vector<std::uint8_t> sound = sound_file();
-    std::vector<std::uint8_t> changed = sound;
-    for (std::size_t i = 0; i + 4 <= size; i += 4) {
-        const std::size_t at = data[i] + 256u * data[i + 1] + 65536u * data[i + 2];
-        changed[at % changed.size()] ^= data[i + 3];
-    }
-    read_file(file_with(changed.data(), changed.size()));
+    read_file(changed_file(sound, data, size));
 }
 
 std::vector<std::byte> bytes_of(const std::uint8_t* data, std::size_t size) {
@@ -168,7 +142,7 @@ void read_pages(const std::uint8_t* data, std::size_t size) {
 }
 
 void read_log(const std::uint8_t* data, std::size_t size) {
-    static const std::string path = std::filesystem::temp_directory_path() / ("fuzz-log-" + std::to_string(::getpid()));
+    static const std::string path = own_path("-log");
     std::ofstream(path + "-wal", std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<long>(size));
     static_cast<void>(document::is_log_damaged(path));
 }

@@ -3,40 +3,22 @@
 // (run with -rss_limit_mb); every failure has a place and a remedy. The bytes are taken in three ways: as a file; as
 // header and data of a block whose check sum fits, so that what lies behind the sum is reached too; and as changes of
 // a sound file.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "record/examination.hpp"
 #include "record/record_writer.hpp"
+#include "tests/fuzz/changed_file.hpp"
 
 namespace {
 
 using namespace burin::record;
-
-void require(bool condition) {
-    if (!condition) std::abort();
-}
+using namespace burin::fuzz;
 
 void check_error(const burin::Error& error) {
     require(!error.what.empty() && !error.where.empty() && !error.remedy.empty());
-}
-
-// One file in memory, which every input replaces.
-const std::string& file_with(const std::uint8_t* data, std::size_t size) {
-    static const int fd = memfd_create("fuzz", 0);
-    static const std::string path = "/proc/self/fd/" + std::to_string(fd);
-    require(fd >= 0 && ftruncate(fd, 0) == 0);
-    require(pwrite(fd, data, size, 0) == static_cast<ssize_t>(size));
-    return path;
 }
 
 void read_file(const std::string& path) {
@@ -54,7 +36,7 @@ void read_file(const std::string& path) {
 
 // A session of two blocks with a line, a trial and an event.
 std::vector<std::uint8_t> sound_file() {
-    const std::string path = std::filesystem::temp_directory_path() / ("fuzz-" + std::to_string(::getpid()));
+    const std::string path = own_path();
     burin::Ring<burin::haptics::TickRecord> ring(64);
     auto writer = RecordWriter::create(path, {{"fuzz", {}, {}, &ring}}, {});
     require(writer.has_value());
@@ -67,21 +49,12 @@ std::vector<std::uint8_t> sound_file() {
     (*writer)->note_line(1, "a line");
     (*writer)->note_event(2, "touched", "wall", (*writer)->begin_trial(1, "one"));
     require((*writer)->close().has_value());
-    std::ifstream in(path, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-    std::filesystem::remove(path);
-    return {bytes.begin(), bytes.end()};
+    return take_file(path);
 }
 
-// Each four bytes of the input change one byte of the sound file: three say where, one how.
 void read_changed(const std::uint8_t* data, std::size_t size) {
     static const std::vector<std::uint8_t> sound = sound_file();
-    std::vector<std::uint8_t> changed = sound;
-    for (std::size_t i = 0; i + 4 <= size; i += 4) {
-        const std::size_t at = data[i] + 256u * data[i + 1] + 65536u * data[i + 2];
-        changed[at % changed.size()] ^= data[i + 3];
-    }
-    read_file(file_with(changed.data(), changed.size()));
+    read_file(changed_file(sound, data, size));
 }
 
 void read_block(const std::uint8_t* data, std::size_t size) {
