@@ -50,9 +50,9 @@ void put_rays(const RayBatch& batch, std::int64_t number, std::map<scene::PageNa
 // Reads the rays of a page; nothing where the bytes are none of this lattice.
 std::optional<RayBatch> batch_in(std::span<const std::byte> bytes, const compute::Lattice& lattice,
                                  std::size_t materials) {
+    if (bytes.empty() || bytes.size() % 4 != 0) return {};
     std::vector<std::uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), 4 * words.size());
-    if (words.empty() || bytes.size() % 4 != 0) return {};
+    std::memcpy(words.data(), bytes.data(), bytes.size());
     const std::uint64_t rays = words[0];
     if (words.size() < 1 + 2 * rays) return {};
     const auto counts = std::span(words).subspan(1 + rays, rays);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/rays/lattice.hpp"
 #include "compute/rays/solid.hpp"
 #include "document/document_reader.hpp"
 #include "document/journal.hpp"
@@ -80,7 +81,7 @@ void read_file(const std::string& path) {
 }
 
 compute::Solid small_solid() {
-    Result<compute::Solid> solid = compute::make_block(Vec3(1.0), 6, {"stone", {120, 120, 120}});
+    Result<compute::Solid> solid = compute::make_block(Vec3(1.0), compute::kMinResolution, {"stone", {120, 120, 120}});
     require(solid.has_value());
     return std::move(*solid);
 }

@@ -48,4 +48,13 @@ TEST(SavedChanges, OfAHugeStrokeAreWholeInSeveralPages) {
     EXPECT_FALSE(step_in(solid, step, "work.burin"));
 }
 
+TEST(SavedChanges, WithoutBytesAreNone) {
+    compute::Solid solid;
+    solid.lattice.spacing_m = 0.001;
+    solid.lattice.cells = {16, 16, 16};
+    solid.materials.resize(1);
+    const scene::Pages step{.part = std::string(kSolidPart), .whole = false, .pages = {{{"rays", 0}, {}}}};
+    EXPECT_FALSE(step_in(solid, step, "work.burin"));
+}
+
 }  // namespace burin::sculpt
