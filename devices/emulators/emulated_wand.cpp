@@ -116,7 +116,8 @@ void EmulatedWand::run(const std::function<bool()>& ends) {
         drill_->has_tripped = wand->trips() > 0;
         drill_->acting.write({wrench.force_device_N.x, wrench.force_device_N.y, wrench.force_device_N.z,
                               wrench.torque_device_Nm.x, wrench.torque_device_Nm.y, wrench.torque_device_Nm.z});
-        if (opener != 0) wand->advance(kPeriod_ns);
+        // The hand keeps the handle in its jig until the counters have been set there: a busy machine may take long.
+        if (opener != 0 && memory_->setter.load(std::memory_order_relaxed) == opener) wand->advance(kPeriod_ns);
         publish(wand->true_pose_device(), now_ns);
     }
     memory_->pull_cable();

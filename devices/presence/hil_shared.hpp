@@ -8,7 +8,7 @@
 namespace burin::devices {
 
 struct HilShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c32;  // "burinHL2": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c33;  // "burinHL3": of this layout
     static constexpr const char* kPrefix = "burin-hil-";
 
     // ---- The emulator's
@@ -21,6 +21,7 @@ struct HilShared : SharedLife {
     std::atomic<std::uint32_t> enabled = 0;    // bit i: the amplifier of motor i
     std::atomic<std::uint32_t> owner = 0;      // the process that has opened it; 0: none
     std::atomic<std::uint32_t> opener = 0;     // the process that opened it last; 0: none has
+    std::atomic<std::uint32_t> setter = 0;     // the process that set its counters last; 0: none has
     std::atomic<Nanoseconds> watchdog_ns = 0;  // after which the outputs are zero; 0: none is started
 
     [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }

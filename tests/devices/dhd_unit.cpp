@@ -17,6 +17,7 @@
 #include "devices/emulators/emulated_dhd.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "tests/devices/ticked_arm.hpp"
+#include "tests/devices/tries.hpp"
 
 namespace burin::devices {
 namespace {
@@ -304,9 +305,7 @@ TEST(Dhd, IsListedWithItsCauseAndWhileItIsEmulated) {
     EXPECT_FALSE(names_it(own_dhd()));
     {
         RunningDhd running(own_dhd());
-        bool is_named = false;
-        for (int i = 0; i < 100 && !is_named; ++i) is_named = names_it(own_dhd());
-        EXPECT_TRUE(is_named);
+        EXPECT_TRUE(tried([&] { return names_it(own_dhd()); }));
     }
     EXPECT_FALSE(names_it(own_dhd()));
     EXPECT_EQ(look_for_dhds().front().name.substr(0, 3), "dhd");

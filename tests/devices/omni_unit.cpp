@@ -18,6 +18,7 @@
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "tests/devices/ticked_arm.hpp"
+#include "tests/devices/tries.hpp"
 
 namespace burin::devices {
 namespace {
@@ -281,8 +282,10 @@ TEST(Omni, SaysWhatIsWrongWithALibraryAndADevice) {
     {
         RunningOmni running(own_name());
         std::string other;
-        for (int i = 0; i < 100 && !other.contains("HDAPI"); ++i)
+        EXPECT_TRUE(tried([&] {
             other = refusal("omni:" + own_name() + "@" + library_named("libburin_emulated_hd_9.so"));
+            return other.contains("HDAPI");
+        }));
         EXPECT_TRUE(other.contains("is HDAPI 9.01.2, and Burin knows version 3")) << other;
         EXPECT_FALSE(EmulatedOmni::create(own_name())) << "there is one of that name";
         EXPECT_TRUE(TickedArm("omni:" + own_name()).is_well()) << "and what was refused has given it back";
@@ -307,9 +310,7 @@ TEST(Omni, IsListedWithItsCauseAndWhileItIsEmulated) {
     EXPECT_FALSE(names_it(own_name()));
     {
         RunningOmni running(own_name());
-        bool is_named = false;
-        for (int i = 0; i < 100 && !is_named; ++i) is_named = names_it(own_name());
-        EXPECT_TRUE(is_named);
+        EXPECT_TRUE(tried([&] { return names_it(own_name()); }));
     }
     EXPECT_FALSE(names_it(own_name()));
     EXPECT_EQ(look_for_omnis().front().name, "omni");

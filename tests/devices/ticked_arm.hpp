@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "devices/registry/device_registry.hpp"
+#include "tests/devices/tries.hpp"
 
 namespace burin::devices {
 
@@ -20,12 +21,7 @@ class TickedArm {
 public:
     // `device` as --device takes it.
     explicit TickedArm(const std::string& device) {
-        // A busy machine may keep an emulated device from stepping for so long that it seems to be gone.
-        auto opened = open_haptic_device(device, {clock_, nobodys_hand()});
-        for (int i = 0; i < 100 && !opened; ++i) {
-            clock_.sleep_until(clock_.now_ns() + 10'000'000);
-            opened = open_haptic_device(device, {clock_, nobodys_hand()});
-        }
+        auto opened = tried([&] { return open_haptic_device(device, {clock_, nobodys_hand()}); });
         EXPECT_TRUE(opened) << opened.error().line();
         if (opened) opened_ = std::move(*opened);
     }

@@ -20,6 +20,7 @@
 #include "devices/haptic/wand_file.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "tests/devices/ticked_arm.hpp"
+#include "tests/devices/tries.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::devices {
@@ -70,12 +71,7 @@ private:
 class TickedWand {
 public:
     explicit TickedWand(const std::string& name) {
-        // A busy machine may keep an emulated device from stepping for so long that it seems to be gone.
-        auto opened = open_haptic_device("wand:" + name, {clock_, nobodys_hand()});
-        for (int i = 0; i < 100 && !opened; ++i) {
-            clock_.sleep_until(clock_.now_ns() + 10'000'000);
-            opened = open_haptic_device("wand:" + name, {clock_, nobodys_hand()});
-        }
+        auto opened = tried([&] { return open_haptic_device("wand:" + name, {clock_, nobodys_hand()}); });
         EXPECT_TRUE(opened) << opened.error().line();
         if (opened) opened_ = std::move(*opened);
     }
@@ -150,6 +146,31 @@ TEST(Wand, W2ReadsPlaceAndTurnInTheDeviceFrame) {
     EXPECT_NE(sample.joints[0], 0.0);
 }
 
+TEST(Wand, StaysInItsJigUntilABusyMachineHasSetItsCounters) {
+    RunningWand running(own_wand());
+    const auto api = load_hil_api(library_of_tests(kEmulatedHilLibrary));
+    ASSERT_TRUE(api) << api.error().line();
+    constexpr std::array<std::uint32_t, kWandJoints> kChannels{0, 1, 2, 3, 4, 5};
+    constexpr std::array<std::int32_t, kWandJoints> kZero{};
+    HilCard card = nullptr;
+    ASSERT_EQ(api->open("emulated", own_wand().c_str(), &card), 0);
+    std::array<std::int32_t, kWandJoints> at_first{}, counts{};
+    const auto read = [&](auto& to) { return api->read_encoder(card, kChannels.data(), kWandJoints, to.data()) >= 0; };
+    EXPECT_TRUE(read(at_first));
+    for (int i = 0; i < 300; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(!read(counts) || counts == at_first);
+    }
+    EXPECT_EQ(api->set_encoder_counts(card, kChannels.data(), kWandJoints, kZero.data()), 0);
+    bool moves = false;
+    for (int i = 0; i < 5000 && !moves; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        moves = read(counts) && counts != kZero;
+    }
+    EXPECT_TRUE(moves);
+    EXPECT_EQ(api->close(card), 0);
+}
+
 TEST(Wand, W6GivesForceAndTorqueToTheHandleThroughItsMotors) {
     RunningWand running(own_wand());
     TickedWand wand(own_wand());
@@ -171,8 +192,7 @@ TEST(Wand, W6GivesForceAndTorqueToTheHandleThroughItsMotors) {
 TEST(Wand, W2KeepsEveryLimitAndCountsWhatIsAtIt) {
     RunningWand running(own_wand());
     const std::string library = library_of_tests(kEmulatedHilLibrary);
-    auto served = HilWand::open(library, own_wand(), quanser_wand_of_maker());
-    for (int i = 0; i < 100 && !served; ++i) served = HilWand::open(library, own_wand(), quanser_wand_of_maker());
+    auto served = tried([&] { return HilWand::open(library, own_wand(), quanser_wand_of_maker()); });
     ASSERT_TRUE(served) << served.error().line();
     MonotonicClock clock;
     DeviceWrench worst;
@@ -219,9 +239,7 @@ TEST(Wand, ACurrentThatIsNoNumberIsZeroAndAFault) {
     WandDescription wand = quanser_wand_of_maker();
     wand.mechanism.torque_Nm_per_A[2] = 0.0;
     RunningWand running(own_wand());
-    auto served = HilWand::open(library_of_tests(kEmulatedHilLibrary), own_wand(), wand);
-    for (int i = 0; i < 100 && !served; ++i)
-        served = HilWand::open(library_of_tests(kEmulatedHilLibrary), own_wand(), wand);
+    auto served = tried([&] { return HilWand::open(library_of_tests(kEmulatedHilLibrary), own_wand(), wand); });
     ASSERT_TRUE(served) << served.error().line();
     MonotonicClock clock;
     std::string said;
@@ -441,9 +459,7 @@ TEST(Wand, IsListedWithItsCauseAndWhileItIsEmulated) {
     };
     {
         RunningWand running(own_wand());
-        bool is_named = false;
-        for (int i = 0; i < 100 && !is_named; ++i) is_named = names_it(own_wand());
-        EXPECT_TRUE(is_named);
+        EXPECT_TRUE(tried([&] { return names_it(own_wand()); }));
     }
     EXPECT_FALSE(names_it(own_wand()));
     EXPECT_EQ(look_for_wands().front().name, "wand");

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sculpt/saved_solid.hpp"
+
 namespace burin::sculpt {
 
 TEST(SavedChanges, OfAHugeStrokeAreWholeInSeveralPages) {

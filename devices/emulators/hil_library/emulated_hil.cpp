@@ -115,6 +115,7 @@ HilError hil_set_encoder_counts(HilCard handle, const std::uint32_t* channels, s
             (*zero)[channels[i]] = (*raw)[channels[i]] - to[i];
         }
         card.memory->zero_counts.write(*zero);
+        card.memory->setter = static_cast<std::uint32_t>(::getpid());
         return HilError{0};
     });
 }
