@@ -9,6 +9,7 @@
 #include "base/clock.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
+#include "geometry/mesh/mesh_placing.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/record/input_files.hpp"
@@ -73,8 +74,8 @@ Result<void> combine_files(const CombineOptions& options) {
     name_materials(*a, options.a, {205, 195, 178});
     name_materials(*b, options.b, {224, 142, 54});
 
-    Box bounds = compute::bounds_of_triangles(a->mesh);
-    const Box of_b = compute::bounds_of_triangles(b->mesh);
+    Box bounds = geometry::bounds_of(a->mesh);
+    const Box of_b = geometry::bounds_of(b->mesh);
     bounds.include(of_b.lo);
     bounds.include(of_b.hi);
     const Result<compute::Lattice> lattice = compute::lattice_around(bounds, options.resolution);

@@ -173,8 +173,9 @@ CommandOption Command::option(const std::string& name,
     const std::function<void(const std::vector<std::string>&)> taken = [take](const std::vector<std::string>& given) {
         if (const auto ok = take(given); !ok) throw CLI::ValidationError(ok.error().line());
     };
-    // One value each time that it is given: what follows may be a file's name.
-    return CommandOption(app_->add_option_function(name, taken, help)->expected(1)->take_all());
+    // One value each time that it is given, and no more: what follows may be a file's name.
+    return CommandOption(
+        app_->add_option_function(name, taken, help)->expected(1)->take_all()->allow_extra_args(false));
 }
 
 CommandOption Command::option(const std::string& name, int& to, const std::string& help) {

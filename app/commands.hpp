@@ -13,6 +13,7 @@
 #include "app/command_line.hpp"
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
+#include "base/space.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "document/document_file.hpp"
 #include "session/state/session_options.hpp"
@@ -35,6 +36,9 @@ struct ConvertOptions {
     bool close_holes = false;
     std::optional<double> weld_m;                // corners at open edges that are joined; none: with close_holes alone
     std::optional<double> simplify_m;            // bound on the surface's motion; none: all triangles
+    bool center = false;                         // as a place of 0,0,0
+    std::optional<Vec3> place_m;                 // where the middle of the mesh's box goes; none: it stays
+    std::optional<double> scale;                 // none: 1
     std::string to;                              // format of a session file's table; empty: IN is a mesh
     std::string columns, part, trials;           // of that table
     std::string subject = "01", task = "touch";  // labels of a BIDS data set

@@ -4,11 +4,13 @@
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/convert_placing.hpp"
 #include "app/output_files.hpp"
 #include "compute/repair/rounding.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_placing.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
@@ -37,7 +39,35 @@ Result<void> check_precision(const geometry::FileNumbers& numbers, const std::st
     return fail(out,
                 "would hold single-precision numbers, in which " + std::to_string(numbers.without_area) +
                     " triangles have no area",
-                "move the mesh nearer to its origin, or write .obj");
+                "move the mesh to its origin (burin convert IN OUT --center), or write .obj");
+}
+
+// Moves and scales the mesh as asked, and says where it is then.
+Result<void> place(geometry::TriangleMesh& mesh, const geometry::Placing& placing, LengthUnit unit) {
+    if (placing.changes_nothing()) return {};
+    geometry::place_mesh(mesh, placing);
+    const Box bounds = geometry::bounds_of(mesh);
+    if (const auto ok = check_reach(bounds, unit); !ok) return ok;
+    std::printf("%s\n", placed_in_words(bounds, placing).c_str());
+    print_health(mesh);
+    return {};
+}
+
+// Of the longest side: how far single precision moves a corner before the user is told.
+constexpr double kRoundingTold = 1e-5;
+
+// Tells how far rounding to floats has moved corners of a mesh far from its origin.
+void tell_rounding(const geometry::TriangleMesh& mesh_m, const geometry::TriangleMesh& numbers, LengthUnit unit) {
+    double farthest_m = 0.0;
+    for (std::size_t v = 0; v < mesh_m.positions_m.size(); ++v)
+        farthest_m = std::max(farthest_m, glm::length(to_metres(numbers.positions_m[v], unit) - mesh_m.positions_m[v]));
+    const Vec3 size_m = geometry::bounds_of(mesh_m).extent();
+    if (!(farthest_m > kRoundingTold * std::max({size_m.x, size_m.y, size_m.z}))) return;
+    std::printf(
+        "  single-precision numbers so far from the origin move its corners by up to %s; --center moves the mesh to "
+        "its "
+        "origin, and .obj has double precision\n",
+        in_millimetres(farthest_m).c_str());
 }
 
 // Brings the mesh to the numbers that the file will hold, and says what scaling and rounding have changed.
@@ -49,6 +79,7 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
     if (numbers.steps_apart > 0)
         std::printf("  vertices that fall together by rounding were moved apart by %zu steps of a float\n",
                     numbers.steps_apart);
+    if (numbers.is_rounded) tell_rounding(mesh_m, numbers.mesh, unit);
     if (!numbers.is_rounded || format == geometry::MeshFormat::obj) return std::move(numbers.mesh);
     const compute::RoundingReport repair = compute::repair_rounding(mesh_m, numbers.mesh, pool);
     if (repair.vertices_moved > 0)
@@ -68,6 +99,8 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
 
 Result<void> convert(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
+    const Result<geometry::Placing> placing = placing_of(options);
+    if (!placing) return std::unexpected(placing.error());
     const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
@@ -95,10 +128,11 @@ Result<void> convert(const ConvertOptions& options) {
                     closing.triangles_added, turned.triangles_turned);
         print_health(mesh);
     }
+    const LengthUnit unit = options.export_units.value_or(report.unit.unit);
+    if (const auto ok = place(mesh, *placing, unit); !ok) return ok;
     // Without shared vertices every edge would be a border, and decimation keeps borders.
     if (options.simplify_m) geometry::weld_vertices(mesh);
     WorkerPool pool;
-    const LengthUnit unit = options.export_units.value_or(report.unit.unit);
     Result<geometry::TriangleMesh> numbers = rounded_for(options.out, mesh, unit, pool);
     if (!numbers) return std::unexpected(numbers.error());
     if (options.simplify_m) {

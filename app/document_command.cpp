@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "app/convert_placing.hpp"
 #include "app/output_files.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
@@ -95,21 +96,24 @@ Result<void> document_info(const InfoOptions& options) {
 Result<void> convert_document(const ConvertOptions& options) {
     if (const auto ok = check_for_a_document(options); !ok) return ok;
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
+    const Result<geometry::Placing> placing = placing_of(options);
+    if (!placing) return std::unexpected(placing.error());
     const std::array inputs{options.in};
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
     WorkerPool pool;
-    const Result<session::OpenedWork> opened = session::open_work({.source = options.in}, pool);
+    Result<session::OpenedWork> opened = session::open_work({.source = options.in}, pool);
     if (!opened) return std::unexpected(opened.error());
-    const compute::Solid& solid = opened->workpiece.solid;
+    compute::Solid& solid = opened->workpiece.solid;
     std::printf("%s\n", opened->workpiece.size.c_str());
     if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
+    const LengthUnit unit = options.export_units.value_or(opened->workpiece.unit);
+    if (const auto ok = place_solid(solid, *placing, unit, pool); !ok) return ok;
     if (const auto ok = sculpt::check_precision(options.out, solid.lattice); !ok) return ok;
     compute::Surface surface(solid.lattice);
     surface.mesh_all(solid, pool);
-    const LengthUnit unit = options.export_units.value_or(opened->workpiece.unit);
     constexpr double kAllCrumbs_m = 0.0;  // what a document holds is converted whole
-    const Result<sculpt::FinishedMesh> finished =
+    Result<sculpt::FinishedMesh> finished =
         sculpt::finish_mesh(surface, solid, unit, options.simplify_m, kAllCrumbs_m, pool);
     if (!finished) return std::unexpected(finished.error());
     if (finished->mesh.triangles.empty())
@@ -117,6 +121,7 @@ Result<void> convert_document(const ConvertOptions& options) {
                     finished->too_thin.empty() ? "has been carved away altogether, so there is nothing to convert"
                                                : "has nothing to convert: " + finished->too_thin,
                     "open it, and undo some strokes");
+    if (placing->mirrors()) mirror(finished->mesh);
     if (const auto written = sculpt::export_finished(*finished, options.out); !written) return written;
     std::printf("%s: %zu triangles, in %s\n", options.out.c_str(), finished->mesh.triangles.size(),
                 descriptor_of(unit).plural);

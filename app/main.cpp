@@ -8,6 +8,7 @@
 #include "app/bench_command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/convert_placing.hpp"
 #include "app/demo_command.hpp"
 #include "app/devices_command.hpp"
 #include "app/document_command.hpp"
@@ -95,6 +96,7 @@ int run(int argc, char** argv) {
                    "as far as the file's numbers are precise");
     convert.option("--simplify", convert_options.simplify_m,
                    "Fewer triangles: the surface moves at most this far, in metres");
+    add_placing_options(convert, convert_options);
 
     InfoOptions info_options;
     Command info = app.subcommand("info", "What is in a document, and from where it came");

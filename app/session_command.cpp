@@ -243,9 +243,25 @@ Result<record::ExportReport> export_table(record::RecordReader& reader, const Co
     return record::export_csv(reader, *table, *columns, out, *times);
 }
 
+// Refuses what a mesh or a document alone can be asked for.
+Result<void> check_for_a_session(const ConvertOptions& options) {
+    const std::array given{std::pair{"--units", options.units.has_value()},
+                           std::pair{"--export-units", options.export_units.has_value()},
+                           std::pair{"--close-holes", options.close_holes},
+                           std::pair{"--weld", options.weld_m.has_value()},
+                           std::pair{"--simplify", options.simplify_m.has_value()},
+                           std::pair{"--center", options.center},
+                           std::pair{"--place", options.place_m.has_value()},
+                           std::pair{"--scale", options.scale.has_value()}};
+    for (const auto& [name, is_given] : given)
+        if (is_given) return fail(name, "is for meshes and documents", "leave it out, or leave out --to");
+    return {};
+}
+
 }  // namespace
 
 Result<void> convert_session(const ConvertOptions& options) {
+    if (const auto ok = check_for_a_session(options); !ok) return ok;
     const std::string out = output_of(options);
     if (const auto ok = check_overwrites_none(out, std::array{options.in}); !ok) return ok;
     if (const auto ok = record::check_no_file(out); !ok) return ok;

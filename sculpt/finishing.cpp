@@ -62,7 +62,7 @@ Result<void> check_precision(const std::string& path, const compute::Lattice& la
     return fail(path,
                 "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from its "
                 "origin",
-                "move the workpiece nearer to its origin, or export .obj");
+                "move the workpiece to its origin (burin convert IN OUT.obj --center), or export .obj");
 }
 
 bool loses_colours(const geometry::TriangleMesh& mesh, const std::string& path) {

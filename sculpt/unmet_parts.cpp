@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "compute/rays/scan_convert.hpp"
+#include "geometry/mesh/mesh_placing.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -72,7 +73,7 @@ double width_beyond(const geometry::TriangleMesh& mesh, const BeyondPlane& plane
 std::vector<UnmetPart> find_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& solid) {
     Box met;
     for (int axis = 0; axis < 3; ++axis) include_ends(met, solid, axis);
-    const Box bounds = compute::bounds_of_triangles(mesh);
+    const Box bounds = geometry::bounds_of(mesh);
     std::vector<UnmetPart> parts;
     if (met.empty() || bounds.empty()) return parts;
     for (int axis = 0; axis < 3; ++axis) {

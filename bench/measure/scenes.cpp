@@ -8,6 +8,7 @@
 
 #include "bench/measure/exact_rays.hpp"
 #include "compute/rays/scan_convert.hpp"
+#include "geometry/mesh/mesh_placing.hpp"
 
 namespace burin::bench {
 namespace {
@@ -32,7 +33,7 @@ geometry::TriangleMesh cube_mesh() {
 
 // Scales the mesh to a longest side of 1 and moves the centre of its bounds to that of the cube.
 void fit_into_cube(geometry::TriangleMesh& mesh) {
-    const Box bounds = compute::bounds_of_triangles(mesh);
+    const Box bounds = geometry::bounds_of(mesh);
     const Vec3 size = bounds.extent();
     const double longest_m = std::max({size.x, size.y, size.z});
     for (Vec3& p : mesh.positions_m) p = (p - bounds.center()) / longest_m + kCubeCentre;
@@ -77,7 +78,7 @@ Result<compute::Solid> uncut_solid(const CarveScene& scene, int resolution, Work
     for (Vec3& p : mesh.positions_m) p = scene.object_from_scene * p;
     mesh.triangle_materials.clear();
     mesh.materials = {material};
-    const Vec3 size = compute::bounds_of_triangles(mesh).extent();
+    const Vec3 size = geometry::bounds_of(mesh).extent();
     const double longest_m = std::max({size.x, size.y, size.z});
     const int cells = static_cast<int>(std::lround(longest_m * resolution));
     Result<compute::ScanConversion> converted = compute::scan_convert(mesh, cells, pool);

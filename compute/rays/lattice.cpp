@@ -60,8 +60,10 @@ Result<Lattice> lattice_around(const Box& bounds, int resolution) {
     const Vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
     const double distance = std::max({farthest.x, farthest.y, farthest.z});
     if (distance > kFarthestInExtents * longest) {
-        return fail("workpiece", "measures " + in_metres(longest) + " but lies " + in_metres(distance) + " away",
-                    "move it to the origin: so far out, its coordinates do not hold its shape");
+        return fail(
+            "workpiece", "measures " + in_metres(longest) + " but lies " + in_metres(distance) + " away",
+            "move it to the origin (burin convert IN OUT.obj --center): so far out, its coordinates do not hold its "
+            "shape");
     }
     Lattice lattice;
     lattice.spacing_m = longest / resolution;

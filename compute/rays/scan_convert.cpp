@@ -9,6 +9,7 @@
 #include "compute/rays/normal_code.hpp"
 #include "compute/rays/ray_crossings.hpp"
 #include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/mesh_placing.hpp"
 
 namespace burin::compute {
 namespace {
@@ -125,18 +126,11 @@ const char* const kHoles = "has holes, so inside and outside are not defined";
 
 }  // namespace
 
-Box bounds_of_triangles(const geometry::TriangleMesh& mesh) {
-    Box bounds;
-    for (const auto& t : mesh.triangles)
-        for (const std::uint32_t i : t) bounds.include(mesh.positions_m[i]);
-    return bounds;
-}
-
 Result<ScanConversion> scan_convert(const geometry::TriangleMesh& mesh, int resolution, WorkerPool& pool) {
     if (const auto good = check_lists(mesh); !good) return std::unexpected(good.error());
     const Orientation orientation = orientation_of(mesh);
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
-    const Result<Lattice> lattice = lattice_around(bounds_of_triangles(mesh), resolution);
+    const Result<Lattice> lattice = lattice_around(geometry::bounds_of(mesh), resolution);
     if (!lattice) return std::unexpected(lattice.error());
     if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
     return convert(mesh, orientation, *lattice, pool);
@@ -146,7 +140,7 @@ Result<ScanConversion> scan_convert_onto(const geometry::TriangleMesh& mesh, con
     if (const auto good = check_lists(mesh); !good) return std::unexpected(good.error());
     const Orientation orientation = orientation_of(mesh);
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
-    const Box bounds = bounds_of_triangles(mesh);
+    const Box bounds = geometry::bounds_of(mesh);
     const Vec3 lo = lattice.units_from_object(bounds.lo), hi = lattice.units_from_object(bounds.hi);
     for (int a = 0; a < 3; ++a) {
         if (lo[a] < 0.0 || hi[a] > lattice.cells[static_cast<std::size_t>(a)] * double(shared::kUnitsPerCell)) {

@@ -28,7 +28,4 @@ struct ScanConversion {
 [[nodiscard]] Result<ScanConversion> scan_convert_onto(const geometry::TriangleMesh& mesh, const Lattice& lattice,
                                                        WorkerPool& pool);
 
-// Returns the bounds of the vertices that triangles use, so that a stray vertex does not enlarge a lattice.
-[[nodiscard]] Box bounds_of_triangles(const geometry::TriangleMesh& mesh);
-
 }  // namespace burin::compute

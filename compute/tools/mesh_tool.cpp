@@ -255,7 +255,7 @@ Result<Extent> extent_of(const MeshTool& tool, double unit_m) {
     // A vertex far from the tool's origin would lose precision and leave the range of the exact arithmetic.
     if (std::sqrt(glm::dot(extent.middle, extent.middle)) + extent.radius <= kLargestMeshReach) return extent;
     return fail("tool mesh", "is too large for the workpiece, or lies too far from its own origin",
-                "bring it within 4096 lattice cells of its origin");
+                "bring it within 4096 lattice cells of its origin (burin convert IN OUT.obj --center, --scale F)");
 }
 
 Result<void> check_effort(const MeshTool& tool, std::span<const StraightMove> moves) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/mesh/mesh_placing.hpp"
 #include "geometry/mesh/polygon.hpp"
 
 namespace burin::geometry {
@@ -146,10 +147,7 @@ FirstFaces split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& r
 // Brings the mesh, whose positions are numbers of the file, to metres. Metres stay as they are to the last bit.
 void bring_to_metres(ImportedMesh& imported, std::optional<LengthUnit> given, const std::optional<StatedUnit>& stated,
                      const CoordinatePrecision& precision) {
-    Box bounds;
-    for (const auto& triangle : imported.mesh.triangles) {
-        for (const std::uint32_t v : triangle) bounds.include(imported.mesh.positions_m[v]);
-    }
+    const Box bounds = bounds_of(imported.mesh);
     const Vec3 size = bounds.extent(), farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
     ImportReport& report = imported.report;
     report.unit = choose_unit(given, stated, std::max({size.x, size.y, size.z}));

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "document/document_reader.hpp"
+#include "geometry/files/mesh_import.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_placing.hpp"
 #include "gpu/device.hpp"
 #include "record/database.hpp"
 #include "sculpt/saved_solid.hpp"
@@ -66,6 +69,36 @@ TEST_F(DocumentOfASession, IsOpenedSavedAgainAndConvertedAsItWas) {
     ASSERT_EQ(told.status, 0) << told.output;
     for (const char* const part : {"ball:0.1", "--resolution 64", "tri-dexel solid", "version"})
         EXPECT_TRUE(told.output.contains(part)) << part << " in " << told.output;
+}
+
+TEST_F(DocumentOfASession, IsConvertedToThePlaceAndTheSizeThatAreAskedFor) {
+    const auto saved = play(kBall, "a", kStroke + "1.6 command save work.burin\n2.5 command quit\n");
+    ASSERT_EQ(saved.status, 0) << saved.output;
+    const auto converted = [&](const std::string& options) {
+        const auto outcome = place.run(std::string(kBurinCommand) + " convert a/work.burin part.ply" +
+                                       (options.empty() ? "" : " ") + options);
+        EXPECT_EQ(outcome.status, 0) << outcome.output;
+        auto read = geometry::import_mesh(place / "part.ply", LengthUnit::m);
+        return read ? std::move(read->mesh) : geometry::TriangleMesh{};
+    };
+    const geometry::TriangleMesh plain = converted(""), placed = converted("--place 1,-2,3 --scale 3"),
+                                 mirrored = converted("--center --scale -1"), larger = converted("--scale -2");
+    const Vec3 middle = geometry::bounds_of(plain).center();
+    const double volume_m3 = geometry::examine(plain).signed_volume_m3;
+    ASSERT_EQ(plain.positions_m.size(), placed.positions_m.size());
+    ASSERT_EQ(plain.positions_m.size(), mirrored.positions_m.size());
+    EXPECT_EQ(plain.colours, placed.colours);
+    EXPECT_EQ(plain.colours, mirrored.colours);
+    constexpr double kFloats = 1e-6;  // a few steps at 3 m
+    for (std::size_t v = 0; v < plain.positions_m.size(); ++v) {
+        const Vec3 from_middle = plain.positions_m[v] - middle;
+        ASSERT_LT(glm::distance(placed.positions_m[v], 3.0 * from_middle + Vec3(1.0, -2.0, 3.0)), kFloats) << v;
+        ASSERT_LT(glm::distance(mirrored.positions_m[v], Vec3(0.0) - from_middle), kFloats) << v;
+        ASSERT_LT(glm::distance(larger.positions_m[v], -2.0 * plain.positions_m[v]), kFloats) << v;
+    }
+    EXPECT_NEAR(geometry::examine(placed).signed_volume_m3, 27.0 * volume_m3, 1e-4 * volume_m3);
+    EXPECT_NEAR(geometry::examine(mirrored).signed_volume_m3, volume_m3, 1e-4 * volume_m3);
+    EXPECT_NEAR(geometry::examine(larger).signed_volume_m3, 8.0 * volume_m3, 1e-4 * volume_m3);
 }
 
 TEST_F(DocumentOfASession, GoesOnAsIfNothingHadBeenBetween) {
