@@ -31,6 +31,11 @@ void add_detail_option(Command command, session::LiveOptions& options) {
                                                           {"full", DetailChoice::full}});
 }
 
+void add_shadows_option(Command command, session::LiveOptions& options) {
+    command.choice("--shadows", options.shadows, "Whether the objects of a world cast shadows",
+                   std::vector<std::pair<std::string, bool>>{{"on", true}, {"off", false}});
+}
+
 std::vector<std::string> add_live_options(Command command, session::LiveOptions& options, const char* input_help,
                                           const char* device_help) {
     const std::size_t before = command.options().size();
@@ -93,6 +98,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
         .one_of(session::kSampleCounts)
         .show_default();
     add_detail_option(command, options);
+    add_shadows_option(command, options);
     command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
     command.option("--outputs", options.outputs,
                    "With --input: the folder below which all its files go; else one in the working folder, named after "

@@ -18,9 +18,10 @@ inline constexpr const char* kInputHelp =
 std::vector<std::string> add_live_options(Command command, session::LiveOptions& options,
                                           const char* input_help = kInputHelp, const char* device_help = "");
 
-// Two of them, for a command that has no others.
+// Three of them, for a command that has no others.
 void add_mouse_option(Command command, session::LiveOptions& options);
 void add_detail_option(Command command, session::LiveOptions& options);
+void add_shadows_option(Command command, session::LiveOptions& options);
 // The mirror planes of a workpiece.
 void add_mirror_option(Command command, session::SculptOptions& options);
 

@@ -79,6 +79,8 @@ ProfileCommand::ProfileCommand(Command app)
     command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it")
         .asset(AssetRoom::workpieces)
         .show_default();
+    command_.option("--world", s.world, "A world, as burin world has it, in the workpiece's place")
+        .asset(AssetRoom::worlds);
     command_.option("--tool", s.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
     command_.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
     command_.option("--weld", s.workpiece.weld_m, "As burin sculpt has it");
@@ -100,6 +102,7 @@ ProfileCommand::ProfileCommand(Command app)
         .show_default();
     add_mouse_option(command_, s.live);
     add_detail_option(command_, s.live);
+    add_shadows_option(command_, s.live);
     command_.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
     command_.option("--driver-threads", o.driver_threads,
                     "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");
@@ -115,6 +118,7 @@ Result<void> ProfileCommand::run() const {
     if (const auto ok = check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()); !ok) return ok;
     session::SculptOptions options = o.sculpt;
     options.live.offscreen = !o.window;
+    options.no_workpiece = !options.world.empty();
     const auto choices = parse_driver_threads(o.driver_threads);
     if (!choices) return std::unexpected(choices.error());
     std::vector<Json> runs;
@@ -125,7 +129,8 @@ Result<void> ProfileCommand::run() const {
         if (o.json != kStandardOutput) std::printf("%s\n", profile_table(runs.back()).c_str());
     }
     if (o.json != kStandardOutput) std::fputs(comparison_table(runs).c_str(), stdout);
-    const Json all = {{"input", options.live.input}, {"workpiece", options.workpiece.source}, {"runs", runs}};
+    Json all = {{"input", options.live.input}, {"workpiece", options.workpiece.source}, {"runs", runs}};
+    if (options.no_workpiece) all["workpiece"] = options.world;
     return write_output(o.json, json_text(all));
 }
 

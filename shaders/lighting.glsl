@@ -56,6 +56,53 @@ float tool_shadow(vec3 world) {
 }
 #endif
 
+#ifdef BURIN_SHADOW_MAP
+// Returns the i-th of so many places spread evenly over a disc, turned by an angle that has this cosine and sine. (What
+// depends on i alone is folded when the shader is compiled.)
+vec2 on_disc(int i, int all, vec2 turn) {
+    float angle = 2.39996323 * float(i);
+    vec2 at = sqrt((float(i) + 0.5) / float(all)) * vec2(cos(angle), sin(angle));
+    return vec2(at.x * turn.x - at.y * turn.y, at.x * turn.y + at.y * turn.x);
+}
+
+// Returns the shadow of the objects, 0 to 1; n: the surface's normal. Its edge is as wide as the lamp appears from
+// there (Fernando 2005): what is between the point and the lamp is looked for around the line to the lamp, and then its
+// mean distance says how far apart the look-ups are. Each is at the depth of the surface's own plane there, so that a
+// surface which is seen aslant does not shade itself.
+float object_shadow(vec3 world, vec3 n) {
+    vec3 l = frame.light.xyz;
+    float sine = sqrt(max(1.0 - dot(n, l) * dot(n, l), 0.0));
+    vec3 beside = world + frame.map.y * (kBesideSurface * sine * n + kTowardsLamp * l);
+    vec3 at = (frame.map_from_world * vec4(beside, 1.0)).xyz;
+    vec2 uv = 0.5 + 0.5 * at.xy;
+    vec3 across = mat3(frame.map_from_world) * n;
+    float side = frame.map.y / frame.map.x;
+    vec2 slope = across.xy * (-0.5 * side * side / (frame.map.z * frame.map.z)) / min(across.z, -0.1 / frame.map.z);
+    // By quarters of a turn from pixel to pixel, so that each 2 x 2 together have four times as many look-ups.
+    float angle = 2.0 * kPi * fract(dot(gl_FragCoord.xy, vec2(0.5, 0.75)) - 0.625);
+    vec2 turn = vec2(cos(angle), sin(angle));
+    float apart = frame.map.x * kUsualShadow;
+    if (kFinders > 0) {
+        float spread = frame.light.w * frame.map.z / frame.map.y;  // of the lamp's disc, texels for each unit of depth
+        float around = frame.map.x * clamp(spread * at.z, kSharpestShadow, kSoftestShadow);
+        float found = 0.0, gap = 0.0;
+        for (int i = 0; i < kFinders; ++i) {
+            vec2 off = around * on_disc(i, kFinders, turn);
+            float before = at.z + dot(slope, off) - texture(shadow_depths, uv + off).r;
+            found += step(0.0, before);
+            gap += max(before, 0.0);
+        }
+        apart = frame.map.x * clamp(spread * gap / max(found, 1.0), kSharpestShadow, kSoftestShadow);
+    }
+    float seen = 0.0;
+    for (int i = 0; i < kTaps; ++i) {
+        vec2 off = apart * on_disc(i, kTaps, turn);
+        seen += texture(shadow_map, vec3(uv + off, clamp(at.z + dot(slope, off), 0.0, 1.0)));
+    }
+    return 1.0 - seen / float(kTaps);
+}
+#endif
+
 #ifndef BURIN_FAR_FROM_TOOL
 // Returns the shadow of the workpiece on the plinth, 0 to 1: that of a ball of its typical size, as on the floor.
 float workpiece_shadow(vec3 world) {
@@ -175,6 +222,9 @@ vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
     float light = nl > 0.0 ? sun * (1.0 - tool_shadow(world)) : 0.0;
     if (draw.material.z <= 0.0) open *= 1.0 - 0.8 * ball_cover(world, n, frame.workpiece);
     if (draw.material.z < 0.0) light *= 1.0 - 0.7 * workpiece_shadow(world);
+#endif
+#ifdef BURIN_SHADOW_MAP
+    light *= 1.0 - object_shadow(world, n);
 #endif
     if (kCapsules && draw.material.w >= 0.0) {
         light *= 1.0 - capsule_shadow(world);

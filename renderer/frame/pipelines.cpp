@@ -7,6 +7,7 @@
 #include "renderer/surface/patch_detail.hpp"
 #include "shaders/backdrop.frag.spv.hpp"
 #include "shaders/backdrop.vert.spv.hpp"
+#include "shaders/backdrop_shaded.frag.spv.hpp"
 #include "shaders/fine.frag.spv.hpp"
 #include "shaders/fine.vert.spv.hpp"
 #include "shaders/glass.frag.spv.hpp"
@@ -14,6 +15,7 @@
 #include "shaders/shared/surface_vertex.h"
 #include "shaders/solid.frag.spv.hpp"
 #include "shaders/solid.vert.spv.hpp"
+#include "shaders/solid_shaded.frag.spv.hpp"
 
 namespace burin::renderer {
 
@@ -40,8 +42,10 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
     switch (kind) {
         case PipelineKind::solid:
         case PipelineKind::solid_beside_capsules:
+        case PipelineKind::solid_shaded:
             spec.name = "solid pipeline";
             spec.fragment_spirv = k_solid_frag;
+            if (kind == PipelineKind::solid_shaded) spec.fragment_spirv = k_solid_shaded_frag;
             spec.cull = VK_CULL_MODE_BACK_BIT;
             break;
         case PipelineKind::fine:
@@ -53,11 +57,13 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
         case PipelineKind::backdrop:
         case PipelineKind::backdrop_without_shadows:
         case PipelineKind::backdrop_plain:
+        case PipelineKind::backdrop_shaded:
             spec.name = "backdrop pipeline";
             spec.vertex_spirv = k_backdrop_vert;
             spec.attributes = std::span(kAttributes).first(1);
             spec.depth_write = false;
             spec.fragment_spirv = k_backdrop_frag;
+            if (kind == PipelineKind::backdrop_shaded) spec.fragment_spirv = k_backdrop_shaded_frag;
             break;
         case PipelineKind::glass_back:
         case PipelineKind::glass_front:
@@ -85,6 +91,10 @@ Result<Pipelines> Pipelines::create(gpu::Device& device) {
     if (!uniforms) return std::unexpected(uniforms.error());
     p.uniforms_ = std::move(*uniforms);
     auto done = p.create_layouts(device);
+    if (!done) return std::unexpected(done.error());
+    auto map = ShadowMap::create(device, p.layout_.raw());
+    if (!map) return std::unexpected(map.error());
+    p.shadow_map_ = std::move(*map);
     if (done) done = p.create_set(device);
     if (!done) return std::unexpected(done.error());
     return p;
@@ -92,10 +102,13 @@ Result<Pipelines> Pipelines::create(gpu::Device& device) {
 
 Result<void> Pipelines::create_layouts(gpu::Device& device) {
     const auto& core = device.core();
-    const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kAllStages, nullptr};
+    const std::array<VkDescriptorSetLayoutBinding, 3> bindings{
+        {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kAllStages, nullptr},
+         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+         {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
     auto set_info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-    set_info.bindingCount = 1;
-    set_info.pBindings = &binding;
+    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set_info.pBindings = bindings.data();
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateDescriptorSetLayout(core->device, &set_info, nullptr, &set_layout);
         r != VK_SUCCESS) {
@@ -118,11 +131,12 @@ Result<void> Pipelines::create_layouts(gpu::Device& device) {
 
 Result<void> Pipelines::create_set(gpu::Device& device) {
     const auto& core = device.core();
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1};
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}}};
     auto pool_info = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool_info.maxSets = 1;
-    pool_info.poolSizeCount = 1;
-    pool_info.pPoolSizes = &size;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateDescriptorPool(core->device, &pool_info, nullptr, &pool); r != VK_SUCCESS) {
         return gpu::vulkan_failure("renderer", "no descriptor pool", r);
@@ -135,29 +149,45 @@ Result<void> Pipelines::create_set(gpu::Device& device) {
     if (const VkResult r = core->vk.vkAllocateDescriptorSets(core->device, &info, &set_); r != VK_SUCCESS) {
         return gpu::vulkan_failure("renderer", "no descriptor set", r);
     }
-    const VkDescriptorBufferInfo buffer{uniforms_.raw(), 0, VK_WHOLE_SIZE};
-    auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-    write.dstSet = set_;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    write.pBufferInfo = &buffer;
-    core->vk.vkUpdateDescriptorSets(core->device, 1, &write, 0, nullptr);
+    fill_set(device);
     return {};
+}
+
+void Pipelines::fill_set(const gpu::Device& device) {
+    const VkDescriptorBufferInfo buffer{uniforms_.raw(), 0, VK_WHOLE_SIZE};
+    const std::array<VkDescriptorImageInfo, 2> maps{shadow_map_.compared(), shadow_map_.depths()};
+    std::array<VkWriteDescriptorSet, 3> writes{};
+    writes.fill(structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET));
+    for (VkWriteDescriptorSet& write : writes) {
+        write.dstSet = set_;
+        write.descriptorCount = 1;
+    }
+    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    writes[0].pBufferInfo = &buffer;
+    for (std::uint32_t i : {1u, 2u}) {
+        writes[i].dstBinding = i;
+        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pImageInfo = &maps[i - 1];
+    }
+    const auto& core = device.core();
+    core->vk.vkUpdateDescriptorSets(core->device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
 Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, bool fades,
                                        const FrameTargets& targets) {
-    const bool shadows = kind == PipelineKind::backdrop,
+    const bool shadows = kind == PipelineKind::backdrop || kind == PipelineKind::backdrop_shaded,
                grid = shadows || kind == PipelineKind::backdrop_without_shadows;
     // The room is behind the screen, where nothing fades.
     if (grid || kind == PipelineKind::backdrop_plain) fades = false;
     OfEachKind& kinds = pipelines_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
     gpu::PipelineHandle& kept = kinds[static_cast<std::size_t>(kind)];
+    const bool beside_capsules = kind == PipelineKind::solid_beside_capsules;
+    const bool software = device.info().is_software();
     if (!kept) {
         gpu::GraphicsPipelineSpec spec = spec_of(kind);
-        const std::array<std::uint32_t, 5> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u, grid ? 1u : 0u,
-                                                     shadows ? 1u : 0u,
-                                                     kind == PipelineKind::solid_beside_capsules ? 1u : 0u};
+        const std::array<std::uint32_t, 7> constants{
+            targets.encodes ? 1u : 0u, fades ? 1u : 0u,    grid ? 1u : 0u,     shadows ? 1u : 0u,
+            beside_capsules ? 1u : 0u, software ? 0u : 8u, software ? 4u : 16u};
         spec.layout = layout_.raw();
         spec.render_pass = targets.whole_pass.raw();
         spec.samples = targets.samples;

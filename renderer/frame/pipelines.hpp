@@ -7,6 +7,7 @@
 
 #include "gpu/buffer.hpp"
 #include "renderer/frame/frame_targets.hpp"
+#include "renderer/frame/shadow_map.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
 namespace burin::renderer {
@@ -14,10 +15,12 @@ namespace burin::renderer {
 enum class PipelineKind : std::size_t {
     solid,                  // the shapes, and the workpiece where it is lit at every pixel
     solid_beside_capsules,  // the same, with the shadow of the scene's capsules
+    solid_shaded,           // with the shadows of its objects
     fine,                   // the workpiece where it is lit at its vertices
     backdrop,               // the room
     backdrop_without_shadows,
-    backdrop_plain,  // without shadows and grid
+    backdrop_plain,   // without shadows and grid
+    backdrop_shaded,  // with the shadows of the scene's objects too
     // The far faces of the workspace's boxes and bubble, drawn before glass_front. Neither writes depth.
     glass_back,
     glass_front,  // the near faces of the same
@@ -36,6 +39,7 @@ public:
     [[nodiscard]] std::uint32_t created() const { return created_; }  // compiled so far
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.raw(); }
     [[nodiscard]] VkDescriptorSet set() const { return set_; }
+    [[nodiscard]] ShadowMap& shadow_map() { return shadow_map_; }
     [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.raw(); }
     // Buffer of FrameUniforms. It is filled by a frame's own commands,
     // so that frames may follow one another without waiting.
@@ -44,8 +48,10 @@ public:
 private:
     [[nodiscard]] Result<void> create_layouts(gpu::Device& device);
     [[nodiscard]] Result<void> create_set(gpu::Device& device);
+    void fill_set(const gpu::Device& device);
 
     gpu::Buffer uniforms_;
+    ShadowMap shadow_map_;
     gpu::SetLayoutHandle set_layout_;
     gpu::PipelineLayoutHandle layout_;
     gpu::DescriptorPoolHandle pool_;

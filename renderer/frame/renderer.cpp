@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "gpu/commands.hpp"
+#include "renderer/frame/draw_calls.hpp"
 #include "renderer/frame/frame_targets.hpp"
 #include "renderer/frame/magnify.hpp"
 #include "renderer/frame/mesh_store.hpp"
@@ -14,6 +15,7 @@
 #include "renderer/frame/scene_choice.hpp"
 #include "renderer/panel/panel_quad.hpp"
 #include "renderer/scene/frame_setup.hpp"
+#include "renderer/scene/lamp_view.hpp"
 #include "renderer/scene/primitives.hpp"
 #include "renderer/surface/drawn_patches.hpp"
 #include "wall/projection.hpp"
@@ -25,7 +27,8 @@ namespace {
 using gpu::structure;
 
 // Returns the pipeline for what is lit at every pixel.
-PipelineKind solid_of(const Scene& scene) {
+PipelineKind solid_of(const Scene& scene, bool shaded) {
+    if (shaded) return PipelineKind::solid_shaded;
     return scene.capsules.empty() ? PipelineKind::solid : PipelineKind::solid_beside_capsules;
 }
 
@@ -61,12 +64,13 @@ private:
     // State of one part of a frame while it is recorded.
     struct Recording {
         gpu::Commands& commands;
+        DrawCalls calls;
         const Scene& scene;
+        bool shaded = false;  // objects cast shadows
         PixelRect part;
         Shapes shapes;
         PatchDraws surface;
         Workpiece workpiece{};
-        std::uint32_t draws = 0;
     };
     struct StandingPanel {
         std::optional<PanelQuad> quad;
@@ -75,7 +79,7 @@ private:
     Result<void> upload_primitives();
     Result<void> draw_with(std::uint32_t pixel);
     std::vector<PixelRect> parts_to_draw(const Shown& wanted);
-    Result<void> draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part);
+    Result<void> draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part, bool shaded);
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
     void begin_pass(Recording& r);
@@ -89,12 +93,8 @@ private:
     void draw_primitives(Recording& r, std::span<const Shape> shapes);
     void draw_meshes(Recording& r, std::span<const Shape> shapes);
     Result<void> use(Recording& r, PipelineKind kind);
-    void draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants);
-    void draw(Recording& r, const StoredMesh& mesh, const shared::DrawConstants& constants);
-    void bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& lights, const gpu::Buffer& indices);
-    void bind_primitives(Recording& r) { bind(r, primitive_vertices_, primitive_lights_, primitive_indices_); }
-    void push(Recording& r, const shared::DrawConstants& constants);
-    void clip(Recording& r, const PixelRect& part);
+    static void draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants);
+    void bind_primitives(Recording& r) { r.calls.bind(primitive_vertices_, primitive_lights_, primitive_indices_); }
     std::uint32_t pipelines_created() const {
         std::uint32_t created = pipelines_.created();
         for (const auto& panels : panels_)
@@ -214,14 +214,19 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .draws = 0,
              .uploaded_bytes = *uploaded,
              .pipelines = pipelines_created()};
+    const std::optional<LampView> lamp = lamp_view(scene);
     if (!stats.parts.empty()) {
         if (const auto put = meshes_.put(device_, commands, meshes_of(scene)); !put)
             return std::unexpected(put.error());
         upload_uniforms(commands, wanted);
         commands.barrier();
+        if (lamp)
+            if (const auto drawn = pipelines_.shadow_map().record(device_, commands, *lamp, meshes_); !drawn)
+                return std::unexpected(drawn.error());
     }
     for (const PixelRect& part : stats.parts)
-        if (const auto done = draw_part(commands, wanted, part); !done) return std::unexpected(done.error());
+        if (const auto done = draw_part(commands, wanted, part, lamp.has_value()); !done)
+            return std::unexpected(done.error());
     stats.pipelines = pipelines_created();
     stats.whole = !stats.parts.empty() && stats.parts.front() == all_of(drawn_into().size);
     if (pixel_ > 1 && !stats.parts.empty()) {
@@ -255,17 +260,19 @@ std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& want
     return parts;
 }
 
-Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part) {
+Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part,
+                                                 bool shaded) {
     const Scene& scene = wanted.scene;
     ShownShapes shapes = shapes_in(part, scene, primitives_, drawn_into().size, savings);
-    Recording r{commands, scene, part, std::move(shapes.shapes), {}};
+    const DrawCalls calls(device_, commands, pipelines_.layout());
+    Recording r{commands, calls, scene, shaded, part, std::move(shapes.shapes), {}};
     r.workpiece = wanted.workpiece;
     r.surface = choose_draws(drawn_, scene, drawn_into().size, part, savings, surface->occluders(), pixel_ > 1);
     const auto done = draw_views(r);
     stats.part = around(stats.part, part);
     stats.shapes_left_out += shapes.left_out;
     stats.patch_counts += r.surface.counts;
-    stats.draws += r.draws;
+    stats.draws += r.calls.draws();
     return done;
 }
 
@@ -277,11 +284,11 @@ void Renderer::Implementation::upload_uniforms(gpu::Commands& commands, const Sh
 Result<void> Renderer::Implementation::draw_views(Recording& r) {
     begin_pass(r);
     // Front to back as far as the order is known: hidden fragments that come later cost little.
-    auto done = draw_shapes(r, solid_of(r.scene), r.shapes.solid);
+    auto done = draw_shapes(r, solid_of(r.scene, r.shaded), r.shapes.solid);
     if (done) done = draw_surface(r);
     // Whatever is before it: what is seen of the tool covers it afterwards, and the room where nothing is before it.
     if (done) done = draw_shapes(r, PipelineKind::hidden, r.shapes.hidden);
-    if (done) done = draw_shapes(r, solid_of(r.scene), r.shapes.tool);
+    if (done) done = draw_shapes(r, solid_of(r.scene, r.shaded), r.shapes.tool);
     if (done) done = draw_room(r);
     if (done) done = draw_panel(r);
     if (done) done = draw_glass(r);
@@ -330,14 +337,15 @@ void Renderer::Implementation::draw_primitives(Recording& r, std::span<const Sha
 
 void Renderer::Implementation::draw_meshes(Recording& r, std::span<const Shape> shapes) {
     if (std::ranges::none_of(shapes, [](const Shape& shape) { return shape.mesh != nullptr; })) return;
-    bind(r, meshes_.vertices(), meshes_.lights(), meshes_.indices());
+    r.calls.bind(meshes_);
     for (const Shape& shape : shapes)
-        if (shape.mesh) draw(r, meshes_.at(*shape.mesh), shape.constants);
+        if (shape.mesh) r.calls.draw(meshes_.at(*shape.mesh), shape.constants);
 }
 
 Result<void> Renderer::Implementation::draw_surface(Recording& r) {
-    // Shadows of capsules are finer than any vertices.
-    const PipelineKind solid = solid_of(r.scene), fine = r.scene.capsules.empty() ? PipelineKind::fine : solid;
+    // Shadows of capsules and objects are finer than any vertices.
+    const PipelineKind solid = solid_of(r.scene, r.shaded),
+                       fine = solid == PipelineKind::solid ? PipelineKind::fine : solid;
     if (const auto done = draw_surface(r, fine, r.surface.fine); !done) return done;
     return draw_surface(r, solid, r.surface.solid);
 }
@@ -347,12 +355,9 @@ Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind k
     if (ranges.empty()) return {};
     if (const auto done = use(r, kind); !done) return done;
     const PatchStore& patches = surface->patches();
-    bind(r, patches.vertex_buffer(), patches.light_buffer(), patches.index_buffer());
-    push(r, surface_constants(r.scene));
-    for (const DrawRange& range : ranges) {
-        vk().vkCmdDrawIndexed(r.commands.raw(), range.index_count, 1, range.first_index, 0, 0);
-        ++r.draws;
-    }
+    r.calls.bind(patches.vertex_buffer(), patches.light_buffer(), patches.index_buffer());
+    r.calls.push(surface_constants(r.scene));
+    for (const DrawRange& range : ranges) r.calls.draw(range.index_count, range.first_index);
     return {};
 }
 
@@ -361,25 +366,20 @@ Result<void> Renderer::Implementation::draw_room(Recording& r) {
     std::vector<RoomPart> parts{{r.part, RoomLook::full}};
     if (savings.plain_room) parts = room_parts(r.scene, r.workpiece, drawn_into().size, r.part);
     bind_primitives(r);
-    for (const auto& [look, kind] : {std::pair(RoomLook::full, PipelineKind::backdrop),
-                                     std::pair(RoomLook::without_shadows, PipelineKind::backdrop_without_shadows),
-                                     std::pair(RoomLook::plain, PipelineKind::backdrop_plain)}) {
+    const PipelineKind full = r.shaded ? PipelineKind::backdrop_shaded : PipelineKind::backdrop;
+    for (const auto& [look, kind] :
+         {std::pair(RoomLook::full, full), std::pair(RoomLook::without_shadows, PipelineKind::backdrop_without_shadows),
+          std::pair(RoomLook::plain, PipelineKind::backdrop_plain)}) {
         for (const RoomPart& part : parts) {
             if (part.look != look) continue;
             if (const auto done = use(r, kind); !done) return done;
-            clip(r, part.rect);
+            r.calls.clip(part.rect);
             draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
             if (look != RoomLook::full) stats.plain_room += std::uint64_t{part.rect.width} * part.rect.height;
         }
     }
-    clip(r, r.part);
+    r.calls.clip(r.part);
     return {};
-}
-
-void Renderer::Implementation::clip(Recording& r, const PixelRect& part) {
-    const VkRect2D scissor{{static_cast<std::int32_t>(part.x), static_cast<std::int32_t>(part.y)},
-                           {part.width, part.height}};
-    vk().vkCmdSetScissor(r.commands.raw(), 0, 1, &scissor);
 }
 
 Result<void> Renderer::Implementation::draw_panel(Recording& r) {
@@ -388,7 +388,7 @@ Result<void> Renderer::Implementation::draw_panel(Recording& r) {
     StandingPanel& panel = panels_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
     if (const auto ready = make_ready(panel, fades); !ready) return ready;
     panel.quad->record(r.commands.raw(), r.scene.panel->stand, pipelines_.set());
-    ++r.draws;
+    ++stats.draws;
     return {};
 }
 
@@ -418,34 +418,13 @@ Result<void> Renderer::Implementation::draw_glass(Recording& r) {
 Result<void> Renderer::Implementation::use(Recording& r, PipelineKind kind) {
     const auto pipeline = pipelines_.pipeline(device_, kind, r.scene.edge_fade > 0.0, targets);
     if (!pipeline) return std::unexpected(pipeline.error());
-    vk().vkCmdBindPipeline(r.commands.raw(), VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline);
+    r.calls.use(*pipeline);
     return {};
 }
 
 void Renderer::Implementation::draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants) {
-    push(r, constants);
-    vk().vkCmdDrawIndexed(r.commands.raw(), range.index_count, 1, range.first_index, 0, 0);
-    ++r.draws;
-}
-
-void Renderer::Implementation::draw(Recording& r, const StoredMesh& mesh, const shared::DrawConstants& constants) {
-    push(r, constants);
-    vk().vkCmdDrawIndexed(r.commands.raw(), mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
-    ++r.draws;
-}
-
-void Renderer::Implementation::bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& lights,
-                                    const gpu::Buffer& indices) {
-    const std::array<VkBuffer, 2> buffers{vertices.raw(), lights.raw()};
-    const std::array<VkDeviceSize, 2> offsets{0, 0};
-    vk().vkCmdBindVertexBuffers(r.commands.raw(), 0, 2, buffers.data(), offsets.data());
-    vk().vkCmdBindIndexBuffer(r.commands.raw(), indices.raw(), 0, VK_INDEX_TYPE_UINT32);
-}
-
-void Renderer::Implementation::push(Recording& r, const shared::DrawConstants& constants) {
-    vk().vkCmdPushConstants(r.commands.raw(), pipelines_.layout(),
-                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(constants),
-                            &constants);
+    r.calls.push(constants);
+    r.calls.draw(range.index_count, range.first_index);
 }
 
 // ---- Reading back

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "renderer/frame/redraw.hpp"
+#include "renderer/scene/lamp_view.hpp"
 #include "renderer/scene/pixel_length.hpp"
 #include "wall/projection.hpp"
 
@@ -40,7 +41,7 @@ double radius_px(const Shape& ball, const PixelLength& pixel) {
     return radius_m / pixel.at(Vec3(place[3]), radius_m);
 }
 
-// Constants of the room in shaders/backdrop.frag: where the floor
+// Constants of the room in shaders/backdrop_stage.glsl: where the floor
 // begins to rise, and where its grid has faded out on the rise.
 constexpr double kBend_m = -2.4, kGridEndZ_m = -2.76, kGridEndY_m = 0.045;
 
@@ -90,6 +91,16 @@ PixelRect shadows_on_floor(const Scene& scene, const Workpiece& workpiece, Image
         const double edge_m = 0.012 + 2.2 * kLightHalfAngleTangent * std::max(height_m, 0.0);
         include_disc(box, plinth.top_center_world + fallen(height_m), plinth.radius_m + edge_m);
         include_disc(box, plinth.top_center_world, plinth.radius_m + std::max(edge_m, double{shared::kFootDarkens}));
+    }
+    if (const std::optional<LampView> lamp = lamp_view(scene)) {
+        const Box& casters = lamp->casters_world;
+        // As far as a shadow is looked up, across the lamp's light.
+        const double reach = shared::kSoftestShadow + shared::kBesideSurface + shared::kTowardsLamp + 1.0;
+        const double edge_m = reach * lamp->side_m / kShadowMapSide / light.y;
+        for (const double height_m : {casters.lo.y, casters.hi.y})
+            for (const Vec3& corner :
+                 {casters.lo, casters.hi, Vec3(casters.lo.x, 0.0, casters.hi.z), Vec3(casters.hi.x, 0.0, casters.lo.z)})
+                include_disc(box, Vec3(corner.x, 0.0, corner.z) + fallen(height_m), edge_m);
     }
     if (box.empty()) return {};
     if (box.lo.z <= kBend_m) return all_of(size);  // the shadows extend up the rise

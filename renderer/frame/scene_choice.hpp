@@ -40,7 +40,7 @@ struct RoomPart {
                                                const PixelRect& part);
 
 // Returns a rectangle around all that either eye may see of the
-// workpiece's and the plinth's shadows on the floor (backdrop.frag).
+// workpiece's, the plinth's and the objects' shadows on the floor (shaders/backdrop_stage.glsl).
 [[nodiscard]] PixelRect shadows_on_floor(const Scene& scene, const Workpiece& workpiece, ImageSize size);
 // Returns the number of rows, from the picture's top, in which neither eye sees the floor's grid.
 [[nodiscard]] std::uint32_t rows_above_grid(const Scene& scene, ImageSize size);

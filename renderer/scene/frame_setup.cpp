@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/scene/contact_marks.hpp"
+#include "renderer/scene/lamp_view.hpp"
 #include "shaders/shared/srgb.h"
 #include "wall/projection.hpp"
 
@@ -238,7 +239,9 @@ Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double re
     if (!scene.workpiece_object.empty()) {
         const Vec3 center = scene.world_from_object * scene.workpiece_object.center();
         const Vec3 size = scene.workpiece_object.extent() * scene.world_from_object.scale;
-        return {{center, 0.5 * glm::length(size)}, {center, (size.x + size.y + size.z) / 6.0}};
+        const Ball enclosing{center, 0.5 * glm::length(size)};
+        if (patch_bounds.empty() && lamp_view(scene)) return {enclosing, {}};
+        return {enclosing, {center, (size.x + size.y + size.z) / 6.0}};
     }
     if (patch_bounds.empty()) return {};
     const Vec3 center = scene.world_from_object * (scene.lattice_origin_object + patch_bounds.center());
@@ -312,6 +315,11 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
     for (std::size_t i = 0; i < std::min<std::size_t>(scene.capsules.size(), shared::kMostCapsules); ++i) {
         frame.capsule_from[i] = vec4_of(scene.capsules[i].from_world, scene.capsules[i].radius_m);
         frame.capsule_to[i] = vec4_of(scene.capsules[i].to_world, 0.0);
+    }
+    if (const std::optional<LampView> lamp = lamp_view(scene)) {
+        constexpr double kTexel = 1.0 / kShadowMapSide;
+        frame.map_from_world = glm::mat4(lamp->map_from_world);
+        frame.map = glm::vec4(glm::dvec4(kTexel, kTexel * lamp->side_m, lamp->deep_m, 0.0));
     }
     return frame;
 }

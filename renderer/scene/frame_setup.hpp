@@ -23,7 +23,7 @@ struct Ball {
 // Position and extent of the workpiece in the world.
 struct Workpiece {
     Ball enclosing;  // holds all of the workpiece
-    Ball typical;    // of the workpiece's mean size: its appearance from far away
+    Ball typical;  // of the workpiece's mean size: its appearance from far away; absent where objects cast the shadows
 
     bool operator==(const Workpiece&) const = default;
 };

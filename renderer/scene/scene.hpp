@@ -33,9 +33,9 @@ struct SceneTool {
 
 inline constexpr std::int32_t kNoCapsule = -1, kAllCapsules = -2;
 
-// An object of a world. It receives the tool's shadow and ring as the workpiece does, and that of the capsules, and
-// casts none itself. One that changes its shape has another mesh in each scene; where these are of one size the
-// renderer puts each in the place of the one before.
+// An object of a world. It receives the shadow and ring of the tool as the workpiece does, and the shadows of capsules
+// and of objects that cast some. One that changes its shape has another mesh in each scene; where these are of one size
+// the renderer puts each in the place of the one before.
 struct DrawnObject {
     std::shared_ptr<const DrawnMesh> mesh;  // not null
     Similarity world_from_mesh;
@@ -44,6 +44,8 @@ struct DrawnObject {
     double roughness = 0.42, gloss = 0.9;
     // Which of the scene's capsules stands for it, and keeps no light off it.
     std::int32_t own_capsule = kNoCapsule;
+    // On other objects, itself, the workpiece, the plinth and the floor. What one sees through casts none.
+    bool casts_shadow = false;
 
     bool operator==(const DrawnObject&) const = default;
 };

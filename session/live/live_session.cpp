@@ -253,6 +253,9 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
                           std::back_inserter(scene->objects));
     if (scene && activity_.draws_hands()) scene->tool.visible = false;
     if (scene) activity_.stage(*scene, screen);
+    // What an activity shows is its own: a shadow would tell of a study's tube that nobody may see.
+    if (scene && (!options_.live.shadows || options_.activity != nullptr))
+        for (renderer::DrawnObject& object : scene->objects) object.casts_shadow = false;
     return scene;
 }
 

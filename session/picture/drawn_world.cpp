@@ -78,6 +78,7 @@ std::vector<renderer::DrawnObject> DrawnWorld::in_world(const Similarity& world_
             list.push_back({object.coloured, placed, Vec3(1.0), object.opacity});
         else
             list.push_back({object.mesh, placed, object.colour, object.opacity});
+        list.back().casts_shadow = true;
     }
     return list;
 }

@@ -69,6 +69,7 @@ struct LiveOptions {
     int width = 1280, height = 720;
     std::uint32_t samples = 0;  // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
     DetailChoice detail = DetailChoice::automatic;
+    bool shadows = true;          // the objects of a world cast some
     std::string screenshots;      // folder for screenshots with a relative name; empty: the working directory
     std::string outputs;          // folder for all files of an input; empty: one named after the input
     bool writes_nothing = false;  // files that are asked for are left out

@@ -35,6 +35,9 @@ struct FrameUniforms {
     vec4 fade;
     vec4 capsule_from[kMostCapsules];  // xyz: one end, w: radius; radius 0: none
     vec4 capsule_to[kMostCapsules];    // xyz: the other end
+    // The shadow map of the objects, as the lamp sees them: x and y -1 to 1 in the map, z 0 to 1 away from the lamp.
+    mat4 map_from_world;
+    vec4 map;  // x: side of a texel, in the map's width; y: the same in metres; z: metres from z = 0 to 1
 };
 
 // A panel in the scene is divided into this many cells each way where parallax is faded, since the fade is computed at
@@ -46,6 +49,11 @@ const int kFadedPanelCells = 16;
 const float kToolNears = 1.8f;    // ring of colour
 const float kToolDarkens = 3.5f;  // ambient occlusion
 const float kToolShades = 20.0f;  // shadow, along the light
+
+// Of the shadow map, in its texels: how far from a surface, along its normal and towards the lamp, a point is looked
+// up, the bounds of half the width of a shadow's edge, and that width where nobody asks how far off the object is.
+const float kBesideSurface = 2.0f, kTowardsLamp = 1.0f, kSharpestShadow = 1.2f, kSoftestShadow = 24.0f,
+            kUsualShadow = 2.5f;
 
 // Range around the foot of the plinth in which it occludes ambient light on the floor, in metres.
 const float kFootDarkens = 0.5f;
@@ -61,7 +69,7 @@ struct DrawConstants {
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + (16 + 2 * 24) * 16);
+static_assert(sizeof(burin::shared::FrameUniforms) == 4 * 64 + (17 + 2 * 24) * 16);
 static_assert(sizeof(burin::shared::DrawConstants) == 96,
               "must fit the 128 bytes of push constants that every device has");
 #endif
