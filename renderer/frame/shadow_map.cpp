@@ -125,6 +125,7 @@ Result<void> ShadowMap::create_pipeline(gpu::Device& device) {
     spec.layout = layout_;
     spec.bindings = std::span(&kMapBinding, 1);
     spec.attributes = std::span(&kMapAttribute, 1);
+    spec.cull = VK_CULL_MODE_BACK_BIT;  // what faces away from the lamp lies behind what faces it
     spec.color_attachments = 0;
     spec.name = "shadow map pipeline";
     auto made = gpu::create_graphics_pipeline(device, spec);
