@@ -15,6 +15,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/text.hpp"
+
 namespace burin::app {
 namespace {
 
@@ -104,6 +106,61 @@ std::string resolve_asset(AssetRoom room, std::string& text) {
     std::error_code ignored;
     if (!is_word || takes_other_words(room) || std::filesystem::exists(name, ignored)) return {};
     return unknown_asset(room, name);
+}
+
+// ---- Misspelt words
+
+// Returns the name that a word was meant to be; empty where none is near.
+std::string meant(std::string_view word, const std::vector<std::string>& names) {
+    if (names.empty() || word.size() < 3) return "";
+    const std::vector<std::string_view> all(names.begin(), names.end());
+    const std::string_view nearest = nearest_name(word, all);
+    const std::size_t most = word.size() < 6 ? 1 : 2;
+    return edit_distance(word, nearest) <= most + (word.size() == nearest.size() ? 1 : 0) ? std::string(nearest) : "";
+}
+
+std::vector<std::string> subcommands_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* one : app.get_subcommands({})) names.push_back(one->get_name());
+    return names;
+}
+
+std::vector<std::string> long_options_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// Says what the first misspelt subcommand or option was meant to be; empty where nothing is misspelt so that one can
+// tell. The library takes the value behind an unknown option for the value of a place, and blames that.
+std::string misspelt(const CLI::App& program, int argc, const char* const* argv) {
+    const CLI::App* at = &program;
+    std::string path;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--") break;
+        if (word.starts_with("--")) {
+            const std::string name = word.substr(0, word.find('='));
+            const std::vector<std::string> known = long_options_of(*at);
+            if (std::ranges::find(known, name) != known.end()) continue;
+            if (const std::string option = meant(name, known); !option.empty())
+                return name + " is no option; did you mean " + option + "? See burin " + path + "--help";
+            continue;
+        }
+        const std::vector<std::string> known = subcommands_of(*at);
+        if (known.empty() || word.starts_with('-')) continue;
+        if (std::ranges::find(known, word) != known.end()) {
+            at = at->get_subcommand(word);
+            path += word + " ";
+            continue;
+        }
+        const bool is_a_name = word.find_first_of("/.:") == std::string::npos;
+        const std::string command = is_a_name ? meant(word, known) : "";
+        if (!command.empty())
+            return word + " is no command; did you mean " + command + "? See burin " + path + "--help";
+    }
+    return "";
 }
 
 }  // namespace
@@ -265,7 +322,11 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
         return {};
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app_->exit(error);  // --help
-        std::string command;                                       // with its subcommands: "devices emulate "
+        if (const std::string hint = misspelt(*app_, argc, argv); !hint.empty()) {
+            std::fprintf(stderr, "burin: %s\n", hint.c_str());
+            return 2;
+        }
+        std::string command;  // with its subcommands: "devices emulate "
         for (auto parsed = app_->get_subcommands(); !parsed.empty(); parsed = parsed.front()->get_subcommands())
             command += parsed.front()->get_name() + " ";
         std::fprintf(stderr, "burin: %s; see burin %s--help\n", error.what(), command.c_str());

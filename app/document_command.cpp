@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 #include "app/convert_placing.hpp"
 #include "app/output_files.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
 #include "session/document/opened_work.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -98,7 +100,11 @@ Result<void> convert_document(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
     const Result<geometry::Placing> placing = placing_of(options);
     if (!placing) return std::unexpected(placing.error());
-    const std::array inputs{options.in};
+    const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
+    for (const std::string& file : inputs)
+        if (file != options.in && session::is_same_file(options.out, file))
+            return fail(options.out, "is the mesh of which " + options.in + " was made, and would be overwritten",
+                        "choose another place, or remove it first");
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
     WorkerPool pool;

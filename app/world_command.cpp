@@ -121,8 +121,10 @@ public:
             std::printf("\n");
         }
         if (unnamed_ > 0) {
-            std::printf("  %zu shapes without a name, which no command can reach: write DEF Name before them\n",
-                        unnamed_);
+            std::printf(
+                "  %zu %s without a name; commands and settings know them as %s, in the order of the file. DEF "
+                "Name before a Shape gives it one that stays\n",
+                unnamed_, unnamed_ == 1 ? "shape" : "shapes", unnamed_names().c_str());
         }
         for (const geometry::VrmlSkipped& skipped : world_.skipped) {
             std::printf("  skipped: %zu %s, the first at %s\n", skipped.count, skipped.type.c_str(),
@@ -130,6 +132,17 @@ public:
         }
         for (const Error& remark : world_.remarks) std::printf("  %s\n", remark.line().c_str());
         for (const std::string& remark : felt_.remarks) std::printf("  %s\n", remark.c_str());
+    }
+
+    // "shape-1 to shape-3": what they are called as objects.
+    [[nodiscard]] std::string unnamed_names() const {
+        const auto is_new = [&](const scene::SceneObject& object) {
+            return std::ranges::find(objects_, object.name, &WorldObject::name) == objects_.end();
+        };
+        const auto first = std::ranges::find_if(felt_.objects, is_new);
+        if (first == felt_.objects.end()) return "nothing: they have no triangles";
+        const auto last = std::find_if(felt_.objects.rbegin(), felt_.objects.rend(), is_new);
+        return first->name == last->name ? first->name : first->name + " to " + last->name;
     }
 
     [[nodiscard]] Json json() const {

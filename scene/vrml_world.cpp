@@ -77,6 +77,23 @@ void tell_remarks(World& world, const std::vector<Error>& remarks, const std::st
                                           remarks.size() - kTold, path.c_str()));
 }
 
+// A file of settings is no world: names the world that it is of.
+WorldOrProblems read_world_or_name_its_world(const std::filesystem::path& path) {
+    WorldOrProblems world = read_world(path);
+    if (world) return world;
+    for (const char* const ending : {".wrl", ".wrl.gz", ".wrz"}) {
+        std::filesystem::path beside = path;
+        beside.replace_extension(ending);
+        std::error_code ignored;
+        if (!std::filesystem::exists(beside, ignored)) continue;
+        std::vector<Error> problems = std::move(world.error());
+        problems.insert(problems.begin(), Error{"has the name of the settings of " + beside.string(), path.string(),
+                                                "name " + beside.string() + ": its settings are read with it"});
+        return std::unexpected(std::move(problems));
+    }
+    return world;
+}
+
 }  // namespace
 
 WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& name) {
@@ -162,7 +179,7 @@ std::string unit_remark(const geometry::VrmlWorld& world, const std::string& nam
 
 WorldOrProblems read_any_world(const std::filesystem::path& path, const WorldReading& reading) {
     if (path.extension() == ".toml") {
-        if (reading.unit.empty()) return read_world(path);
+        if (reading.unit.empty()) return read_world_or_name_its_world(path);
         return std::unexpected(std::vector{Error{"has no place with a world in TOML", "--units " + reading.unit,
                                                  "write mesh_units into its objects"}});
     }

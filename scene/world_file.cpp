@@ -157,7 +157,9 @@ private:
                                   imported.error().remedy};
             return known;
         }
-        known.colours = colours_of(imported->mesh);  // before vertices of several colours become one
+        // Before vertices of several colours become one.
+        known.colours =
+            imported->corner_colours.empty() ? colours_of(imported->mesh) : std::move(imported->corner_colours);
         geometry::weld_vertices(imported->mesh);
         const auto joined = geometry::join_open_edges(imported->mesh, imported->report.weld_tolerance_m);
         if (joined.triangles_dropped > 0) known.colours = colours_of(imported->mesh);

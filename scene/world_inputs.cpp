@@ -8,6 +8,7 @@
 #include "base/toml_table.hpp"
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/vrml/vrml_file.hpp"
+#include "geometry/vrml/vrml_textures.hpp"
 #include "scene/mesh_world.hpp"
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
@@ -45,8 +46,10 @@ std::vector<fs::path> files_of_world(const fs::path& path) {
         return files;
     }
     files.push_back(settings_of(path));
-    if (const Result<geometry::VrmlFile> vrml = geometry::read_vrml_file(path))
+    if (const Result<geometry::VrmlFile> vrml = geometry::read_vrml_file(path)) {
         for (const geometry::VrmlSource& source : vrml->sources) files.emplace_back(source.name);
+        for (const std::string& name : geometry::vrml_picture_names(*vrml)) files.push_back(vrml->root / name);
+    }
     return files;
 }
 

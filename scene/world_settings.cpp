@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/text.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 #include "scene/object_keys.hpp"
 #include "scene/value_text.hpp"
 #include "scene/world_reading.hpp"
@@ -31,6 +32,8 @@ SceneObject* object_named(World& world, TableReader& t, const std::string& name)
              "did you mean " + std::string(nearest_name(name, names)) + "? It has: " + some_names(world));
     return nullptr;
 }
+
+bool is_open(const SceneObject& object) { return object.mesh != nullptr && !geometry::examine(*object.mesh).closed; }
 
 }  // namespace
 
@@ -78,6 +81,10 @@ std::vector<Error> apply_settings(World& world, std::string_view text, const std
         t.refuse_unknown();
         if (known == nullptr) continue;
         keys.tell_problems(object);
+        if (object.felt && !object.both_sides && t.has("both_sides") && is_open(object))
+            world.remarks.push_back(
+                formatted("%s:%u: %s is open, and with both_sides = false it is not felt from behind", name.c_str(),
+                          static_cast<unsigned>(t.find("both_sides")->source().begin.line), object_name.c_str()));
         const auto line = static_cast<std::uint32_t>(t.find("name")->source().begin.line);
         const auto [at, is_new] = lines.try_emplace(object_name, line);
         if (!is_new)

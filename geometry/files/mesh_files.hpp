@@ -12,8 +12,8 @@ namespace burin::geometry {
 // Returns the names of a line that names several material files, with blanks between them.
 [[nodiscard]] std::vector<std::string_view> material_file_names(std::string_view names);
 
-// Returns the mesh itself, whether it is there or not, and the material files that an OBJ may name: of a line with
-// blanks in it the one file of that name, and one of each word.
+// Returns the mesh itself, whether it is there or not, and the material files that an OBJ may name, with their
+// pictures: of a line with blanks in it the one file of that name, and one of each word.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
 }  // namespace burin::geometry

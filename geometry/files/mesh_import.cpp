@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/files/mesh_import.hpp"
 
+#include <algorithm>
+
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
@@ -8,15 +10,15 @@
 namespace burin::geometry {
 namespace {
 
-constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20;
+constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20, kMostPictureBytes = 256 << 20;
 
 Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
-                      const MaterialFileReader& material_files) {
+                      const MaterialFileReader& material_files, const MaterialFileReader& pictures) {
     if (format == MeshFormat::stl) return read_stl(bytes, name);  // tells itself whether it is text
     if (format == MeshFormat::ply) return read_ply(bytes, name);  // begins with text
     const Result<std::string_view> text = utf8_text(text_of(bytes), name);
     if (!text) return std::unexpected(text.error());
-    return format == MeshFormat::obj ? read_obj(*text, name, material_files) : read_off(*text, name);
+    return format == MeshFormat::obj ? read_obj(*text, name, material_files, pictures) : read_off(*text, name);
 }
 
 // Holds the format that a file's content looks like, whatever its name says.
@@ -45,6 +47,24 @@ MaterialFileReader files_beside(const std::filesystem::path& obj) {
     };
 }
 
+// Reads pictures of the OBJ's folder and below it, through no link that leads out: the file may be a stranger's.
+MaterialFileReader pictures_below(const std::filesystem::path& obj) {
+    return [folder = obj.parent_path()](std::string_view name) -> Result<std::string> {
+        constexpr const char* kRemedy = "copy that file into the mesh's folder and name it without a path";
+        const std::filesystem::path below = std::filesystem::path(name).lexically_normal();
+        if (below.empty() || below.is_absolute() || *below.begin() == "..")
+            return fail(std::string(name), "is not in the mesh's folder", kRemedy);
+        std::error_code code;
+        const auto top = std::filesystem::canonical(folder.empty() ? std::filesystem::path(".") : folder, code);
+        const auto real = std::filesystem::weakly_canonical(top / below, code);
+        if (std::ranges::mismatch(top, real).in1 != top.end())
+            return fail(std::string(name), "is a link that leads out of the mesh's folder", kRemedy);
+        const Result<std::vector<std::byte>> bytes = read_file(folder / below, kMostPictureBytes);
+        if (!bytes) return std::unexpected(bytes.error());
+        return std::string(text_of(*bytes));
+    };
+}
+
 }  // namespace
 
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
@@ -69,13 +89,14 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optiona
     }
     const auto bytes = read_file(path);
     if (!bytes) return std::unexpected(bytes.error());
-    return import_mesh(*bytes, *format, name, files_beside(path), given_unit);
+    return import_mesh(*bytes, *format, name, files_beside(path), given_unit, pictures_below(path));
 }
 
 Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
-                                 const MaterialFileReader& material_files, std::optional<LengthUnit> given_unit) {
+                                 const MaterialFileReader& material_files, std::optional<LengthUnit> given_unit,
+                                 const MaterialFileReader& pictures) {
     if (bytes.empty()) return fail(name, "is empty", "export it again");
-    Result<MeshSoup> soup = read(bytes, format, name, material_files);
+    Result<MeshSoup> soup = read(bytes, format, name, material_files, pictures);
     Result<ImportedMesh> mesh =
         soup ? finished(std::move(*soup), name, given_unit) : Result<ImportedMesh>(std::unexpected(soup.error()));
     if (mesh) return mesh;

@@ -24,6 +24,7 @@
 // and none of them can say in which line. The tests use OpenMesh as the independent reader instead.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -71,20 +72,26 @@ struct ImportReport {
 struct ImportedMesh {
     TriangleMesh mesh;
     ImportReport report;
+    // Of an OBJ whose materials name pictures (map_Kd): the colours of each triangle's corners. The triangle's material
+    // then has their mean. Empty: there are no pictures.
+    std::vector<std::array<std::array<std::uint8_t, 3>, 3>> corner_colours = {};
 };
 
 // Reads the file, whose format follows from the extension (any case). Reads an OBJ's MTL files from the OBJ's folder; a
-// missing one is a remark. The unit is found out where none is given.
+// missing one is a remark; so is a picture that a material names (map_Kd), which must lie in that folder or below it.
+// The unit is found out where none is given.
 [[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path,
                                                std::optional<LengthUnit> given_unit = std::nullopt);
 
-// Returns the text of a material file named by an OBJ.
+// Returns the text of a material file named by an OBJ, or the bytes of a picture named by that.
 using MaterialFileReader = std::function<Result<std::string>(std::string_view name)>;
 
-// Reads a mesh from memory; `name` stands for the file in messages. Without a reader, OBJ materials are plain grey.
+// Reads a mesh from memory; `name` stands for the file in messages. Without readers, OBJ materials are plain grey,
+// and pictures are left out.
 [[nodiscard]] Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format,
                                                const std::string& name, const MaterialFileReader& material_files = {},
-                                               std::optional<LengthUnit> given_unit = std::nullopt);
+                                               std::optional<LengthUnit> given_unit = std::nullopt,
+                                               const MaterialFileReader& pictures = {});
 
 // Returns the format that an extension stands for (".stl", any case), if any.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reads OBJ: v (with w, or with a colour: x y z r g b, and perhaps its alpha), f (and the old fo) with positive or
-// negative indices, usemtl, mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and
-// smoothing are skipped silently, since they do not change the surface; lines, points, curves and free-form surfaces
-// are counted in a remark. Reads only the diffuse colours (Kd) of material files (MTL), of which a line may name
-// several. A comment near the beginning may state the unit.
+// negative indices, usemtl, mtllib, and vt where a material names a picture. A face may name a vertex that comes later.
+// Normals, groups and smoothing are skipped silently, since they do not change the surface; lines, points, curves and
+// free-form surfaces are counted in a remark. Reads only the diffuse colours (Kd) and their pictures (map_Kd) of
+// material files (MTL), of which a line may name several. A comment near the beginning may state the unit.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +12,7 @@
 
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/obj_pictures.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/files/unit_statement.hpp"
 
@@ -25,10 +26,15 @@ constexpr std::size_t kMostLibraries = 64;  // limit for material files; a hosti
 constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
                                          "usemap", "maplib", "lod", "bevel", "c_interp", "d_interp"};
 
+struct ObjMaterial {
+    Colour colour = kPlainColour;
+    std::string picture = {};  // map_Kd; empty: none
+};
+
 // The diffuse colours of a material file. A fault in the file never stops an import, since the shape does not depend on
 // it: it becomes a remark and the material keeps the plain colour.
 struct MaterialLibrary {
-    std::map<std::string, Colour, std::less<>> colours;
+    std::map<std::string, ObjMaterial, std::less<>> materials;
     std::vector<std::string> remarks;
 };
 
@@ -55,7 +61,7 @@ struct DiffuseColour {
 // Reads all materials of an MTL file. Kd numbers run from 0 to 1 and are taken as sRGB, as most programs write them.
 MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
     MaterialLibrary library;
-    Colour* current = nullptr;
+    ObjMaterial* current = nullptr;
     ColourScale scale;
     std::vector<DiffuseColour> found;
     std::size_t faults = 0;
@@ -63,12 +69,15 @@ MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
     for (TextScanner scan(text); !scan.at_end(); scan.next_line()) {
         const std::string_view keyword = scan.token_in_line('#');
         if (equals_ignoring_case(keyword, "newmtl")) {
-            current = &library.colours.insert_or_assign(std::string(scan.rest_of_line()), kPlainColour).first->second;
+            current =
+                &library.materials.insert_or_assign(std::string(scan.rest_of_line()), ObjMaterial{}).first->second;
+        } else if (equals_ignoring_case(keyword, "map_kd") && current != nullptr) {
+            current->picture = picture_named(scan.rest_of_line());
         } else if (equals_ignoring_case(keyword, "kd")) {
             const auto colour = diffuse(scan);
             if (colour && current != nullptr) {
                 scale.see(*colour);
-                found.push_back({current, *colour, scan.line()});
+                found.push_back({&current->colour, *colour, scan.line()});
             } else if (faults++ == 0) {
                 first_fault = scan.line();
             }
@@ -86,8 +95,9 @@ MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
 
 class ObjReader {
 public:
-    ObjReader(std::string_view text, const std::string& name, const MaterialFileReader& material_files)
-        : text_(text), scan_(text), name_(name), material_files_(material_files) {}
+    ObjReader(std::string_view text, const std::string& name, const MaterialFileReader& material_files,
+              const MaterialFileReader& pictures)
+        : text_(text), scan_(text), name_(name), material_files_(material_files), pictures_(pictures) {}
 
     Result<MeshSoup> read() {
         soup_.report.format = "OBJ";
@@ -97,6 +107,7 @@ public:
         }
         if (auto done = resolve_corners(); !done) return std::unexpected(done.error());
         if (auto done = resolve_colours(); !done) return std::unexpected(done.error());
+        wear_pictures();
         if (undefined_ > 0) {
             soup_.report.remarks.push_back(std::to_string(undefined_) +
                                            " materials are not defined and shown grey, the first is " +
@@ -133,6 +144,7 @@ private:
         const std::string_view keyword = word();
         if (keyword.empty()) return {};
         if (equals_ignoring_case(keyword, "v")) return vertex();
+        if (equals_ignoring_case(keyword, "vt")) texture_place();
         if (equals_ignoring_case(keyword, "f") || equals_ignoring_case(keyword, "fo")) return face();
         if (equals_ignoring_case(keyword, "usemtl")) {
             use_material(scan_.rest_of_line());
@@ -183,6 +195,7 @@ private:
         std::uint32_t corners = 0;
         for (std::string_view w = word(); !w.empty(); w = word(), ++corners) {
             if (auto done = corner(w.substr(0, w.find('/'))); !done) return done;
+            texture_corner(w);
         }
         if (corners < 3) return wrong("a face has fewer than 3 corners", kTruncatedRemedy);
         soup_.corner_counts.push_back(corners);
@@ -206,6 +219,56 @@ private:
         }
         soup_.corners.push_back(corner);
         return {};
+    }
+
+    // ---- Pictures
+    // What is wrong with texture coordinates is no error: the surface does not depend on them.
+
+    void texture_place() {
+        Vec2 place(0.0);
+        for (int k = 0; k < 2; ++k) {
+            const auto value = number_from(word());
+            if (value && std::isfinite(*value) && std::abs(*value) <= kMaxCoordinate) place[k] = *value;
+        }
+        texture_places_.push_back(place);
+    }
+
+    void texture_corner(std::string_view w) {
+        const std::size_t slash = w.find('/');
+        const std::string_view behind = slash == std::string_view::npos ? "" : w.substr(slash + 1);
+        const auto index = integer_from<std::int64_t>(behind.substr(0, behind.find('/')));
+        const auto known = static_cast<std::int64_t>(texture_places_.size());
+        texture_corners_.push_back(!index ? -1 : *index > 0 ? *index - 1 : *index < -known ? -1 : known + *index);
+    }
+
+    // Gives the corners of faces whose materials have pictures the colours of these.
+    void wear_pictures() {
+        if (soup_.face_materials.empty() || std::ranges::all_of(pictures_of_, &std::string::empty)) return;
+        ObjPictures pictures(pictures_);
+        ColourMaterials means(soup_.materials);
+        std::vector<Vec2> places;
+        std::size_t first = 0;
+        for (std::size_t face = 0; face < soup_.corner_counts.size(); ++face) {
+            const std::uint32_t count = soup_.corner_counts[face];
+            std::uint32_t& material = soup_.face_materials[face];
+            const Colour own = soup_.materials[material].colour;
+            const std::string& name = pictures_of_[material];
+            const Picture* const picture = name.empty() ? nullptr : pictures.named(name);
+            places.clear();
+            for (const std::int64_t at : std::span(texture_corners_).subspan(first, count))
+                if (at >= 0 && at < std::ssize(texture_places_))
+                    places.push_back(texture_places_[static_cast<std::size_t>(at)]);
+            if (picture != nullptr && places.size() == count) {
+                const std::vector<Colour> worn = worn_colours(*picture, places, own);
+                soup_.corner_colours.insert(soup_.corner_colours.end(), worn.begin(), worn.end());
+                material = means.index_of(mean_of(worn));
+            } else {
+                soup_.corner_colours.insert(soup_.corner_colours.end(), count, own);
+            }
+            first += count;
+        }
+        if (pictures.worn() == 0) soup_.corner_colours.clear();
+        std::ranges::copy(pictures.remarks(), std::back_inserter(soup_.report.remarks));
     }
 
     Done resolve_corners() {
@@ -258,7 +321,8 @@ private:
             if (known == library_.end() && !material.empty()) {
                 if (undefined_++ == 0) first_undefined_ = material;
             }
-            soup_.materials.push_back({material, known == library_.end() ? kPlainColour : known->second});
+            soup_.materials.push_back({material, known == library_.end() ? kPlainColour : known->second.colour});
+            pictures_of_.push_back(known == library_.end() ? "" : known->second.picture);
         }
         last_name_ = material;
         last_number_ = entry->second;
@@ -291,7 +355,7 @@ private:
 
     void add_materials(std::string_view text, std::string_view file) {
         MaterialLibrary read = read_mtl(text, std::string(file));
-        for (auto& [name, colour] : read.colours) library_.insert_or_assign(name, colour);
+        for (auto& [name, material] : read.materials) library_.insert_or_assign(name, std::move(material));
         std::ranges::move(read.remarks, std::back_inserter(soup_.report.remarks));
     }
 
@@ -299,7 +363,11 @@ private:
     TextScanner scan_;
     const std::string& name_;
     const MaterialFileReader& material_files_;
+    const MaterialFileReader& pictures_;
     MeshSoup soup_;
+    std::vector<Vec2> texture_places_;
+    std::vector<std::int64_t> texture_corners_;  // into these, for each corner; below 0: none
+    std::vector<std::string> pictures_of_;       // of each material that the file uses
     std::vector<Vec3> colours_;
     std::vector<std::uint64_t> colour_lines_;
     ColourScale scale_;
@@ -312,7 +380,7 @@ private:
     std::string last_name_;
     std::optional<std::uint32_t> last_number_;
     std::map<std::string, std::uint32_t, std::less<>> numbers_;
-    std::map<std::string, Colour, std::less<>> library_;
+    std::map<std::string, ObjMaterial, std::less<>> library_;
     std::set<std::string, std::less<>> libraries_;
     bool too_many_libraries_ = false;
     std::uint64_t undefined_ = 0;
@@ -321,8 +389,9 @@ private:
 
 }  // namespace
 
-Result<MeshSoup> read_obj(std::string_view text, const std::string& name, const MaterialFileReader& material_files) {
-    return ObjReader(text, name, material_files).read();
+Result<MeshSoup> read_obj(std::string_view text, const std::string& name, const MaterialFileReader& material_files,
+                          const MaterialFileReader& pictures) {
+    return ObjReader(text, name, material_files, pictures).read();
 }
 
 }  // namespace burin::geometry

@@ -114,7 +114,9 @@ void remark_polygons(ImportReport& report, const FirstFaces& first) {
     }
 }
 
-FirstFaces split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report) {
+FirstFaces split_faces(const MeshSoup& soup, ImportedMesh& imported) {
+    TriangleMesh& mesh = imported.mesh;
+    ImportReport& report = imported.report;
     mesh.triangles.reserve(soup.corner_counts.size());
     FirstFaces first_faces;
     std::vector<Vec3> polygon;
@@ -122,6 +124,11 @@ FirstFaces split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& r
     for (std::size_t face = 0; face < soup.corner_counts.size(); ++face) {
         const std::uint32_t count = soup.corner_counts[face];
         const std::uint32_t* corner = soup.corners.data() + first;
+        const auto add = [&, colours = soup.corner_colours.data() + first](const std::array<std::uint32_t, 3>& t) {
+            mesh.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
+            if (!soup.corner_colours.empty())
+                imported.corner_colours.push_back({colours[t[0]], colours[t[1]], colours[t[2]]});
+        };
         first += count;
         if (count < 3) {
             ++report.faces_without_area;
@@ -129,13 +136,13 @@ FirstFaces split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& r
         }
         if (count == 3) {
             ++report.triangles_in_file;
-            mesh.triangles.push_back({corner[0], corner[1], corner[2]});
+            add({0, 1, 2});
         } else {
             polygon.clear();
             for (std::uint32_t i = 0; i < count; ++i) polygon.push_back(soup.positions[corner[i]]);
             const SplitPolygon split = split_polygon(polygon);
             count_polygon(report, split.how, face, first_faces);
-            for (const auto& t : split.triangles) mesh.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
+            for (const auto& t : split.triangles) add(t);
         }
         if (!soup.face_materials.empty()) {
             mesh.triangle_materials.resize(mesh.triangles.size(), static_cast<std::uint8_t>(soup.face_materials[face]));
@@ -189,7 +196,7 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::opt
     ImportReport& report = result.report;
     report.faces_in_file = soup.corner_counts.size();
     report.vertices_in_file = soup.positions.size() + report.vertices_merged;
-    const FirstFaces first_faces = split_faces(soup, result.mesh, report);
+    const FirstFaces first_faces = split_faces(soup, result);
     if (result.mesh.triangles.empty()) {
         return fail(name, "has no triangles", "export it again as a surface of triangles or polygons");
     }

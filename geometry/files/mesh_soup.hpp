@@ -30,6 +30,7 @@ struct MeshSoup {
     std::vector<std::uint32_t> corners;         // corners of all faces, one face after another
     std::vector<std::uint32_t> corner_counts;   // one for each face
     std::vector<std::uint32_t> face_materials;  // one for each face, index into materials; or empty
+    std::vector<Colour> corner_colours;         // of pictures, one for each of the corners; or empty
     std::vector<Material> materials;            // any number
     ImportReport report;                        // the reader's part; finished() fills in the counts of faces
 };
@@ -63,7 +64,8 @@ inline constexpr const char* kTruncatedRemedy = "the file is cut short or damage
 [[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);
 [[nodiscard]] Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<MeshSoup> read_obj(std::string_view text, const std::string& name,
-                                        const MaterialFileReader& material_files);
+                                        const MaterialFileReader& material_files,
+                                        const MaterialFileReader& pictures = {});
 [[nodiscard]] Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<MeshSoup> read_off(std::string_view text, const std::string& name);
 

@@ -86,11 +86,77 @@ private:
     bool per_vertex_ = true, told_ = false;
 };
 
+// Where the corners of a face set lie in its picture: by an index, by their order, or by the set's box, whose longest
+// side is 1 wide in the picture, the second longest upwards in it.
+class FaceTexture {
+public:
+    FaceTexture(const VrmlGeometryRequest& request, const std::vector<std::int32_t>& corners,
+                std::span<const Vec3> points)
+        : corners_(corners), points_(points) {
+        if (!request.textured) return;
+        VrmlFields& fields = request.fields;
+        for (const VrmlPlaced& given : fields.nodes(request.node, "texCoord")) {
+            const auto node = fields.resolved(given);
+            if (!node || fields.type(*node) != "TextureCoordinate") continue;
+            fields.check_names(*node);
+            const std::span<const double> numbers = fields.numbers(*node, "point", 2).values;
+            for (std::size_t i = 0; i < numbers.size(); i += 2) places_.emplace_back(numbers[i], numbers[i + 1]);
+        }
+        const std::span<const double> indices = fields.numbers(request.node, "texCoordIndex").values;
+        indices_.assign(indices.begin(), indices.end());
+        any_ = true;
+        if (places_.empty()) spread_over_box();
+    }
+
+    [[nodiscard]] bool any() const { return any_; }
+
+    // Has a grid without coordinates of its own cover its picture once.
+    void spread_over_grid(std::uint32_t nx, std::uint32_t nz) {
+        if (!any_ || !places_.empty()) return;
+        for (std::uint32_t z = 0; z < nz; ++z)
+            for (std::uint32_t x = 0; x < nx; ++x)
+                places_.emplace_back(static_cast<double>(x) / (nx - 1), static_cast<double>(z) / (nz - 1));
+    }
+
+    // Returns the place of the corner `at` of the list of corners; the origin where the file gives none.
+    [[nodiscard]] Vec2 of(std::size_t at) const {
+        const double index = at < indices_.size() ? indices_[at] : static_cast<double>(corners_[at]);
+        if (places_.empty()) return on_box(points_[static_cast<std::size_t>(corners_[at])]);
+        return index >= 0.0 && index < static_cast<double>(places_.size()) ? places_[static_cast<std::size_t>(index)]
+                                                                           : Vec2(0.0);
+    }
+
+private:
+    void spread_over_box() {
+        for (const std::int32_t corner : corners_)
+            if (corner >= 0) box_.include(points_[static_cast<std::size_t>(corner)]);
+        const Vec3 size = box_.empty() ? Vec3(1.0) : box_.extent();
+        across_ = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        upwards_ = across_ == 0 ? 1 : 0;
+        for (int k = 0; k < 3; ++k)
+            if (k != across_ && size[k] > size[upwards_]) upwards_ = k;
+        longest_ = size[across_] > 0.0 ? size[across_] : 1.0;
+    }
+    [[nodiscard]] Vec2 on_box(const Vec3& p) const {
+        return Vec2(p[across_] - box_.lo[across_], p[upwards_] - box_.lo[upwards_]) / longest_;
+    }
+
+    const std::vector<std::int32_t>& corners_;
+    std::span<const Vec3> points_;
+    std::vector<Vec2> places_;
+    std::vector<double> indices_;
+    Box box_;
+    double longest_ = 1.0;
+    int across_ = 0, upwards_ = 1;
+    bool any_ = false;
+};
+
 // Splits the faces of a list of corners, each ended by -1 or the list's end.
 class FaceSplitter {
 public:
-    FaceSplitter(VrmlSurface& surface, const std::vector<std::int32_t>& corners, FaceColours& colours)
-        : surface_(surface), corners_(corners), colours_(colours) {}
+    FaceSplitter(VrmlSurface& surface, const std::vector<std::int32_t>& corners, FaceColours& colours,
+                 const FaceTexture& texture)
+        : surface_(surface), corners_(corners), colours_(colours), texture_(texture) {}
 
     // Returns the number of faces of fewer than three corners.
     std::size_t split_all() {
@@ -122,6 +188,8 @@ private:
     void add(const std::array<std::uint32_t, 3>& triangle) {
         const std::array<std::size_t, 3> at{first_ + triangle[0], first_ + triangle[1], first_ + triangle[2]};
         surface_.mesh.triangles.push_back({vertex(at[0]), vertex(at[1]), vertex(at[2])});
+        if (texture_.any())
+            surface_.corner_texture.push_back({texture_.of(at[0]), texture_.of(at[1]), texture_.of(at[2])});
         if (!colours_.any()) return;
         surface_.corner_colours.push_back(
             {colours_.of(at[0], face_), colours_.of(at[1], face_), colours_.of(at[2], face_)});
@@ -130,6 +198,7 @@ private:
     VrmlSurface& surface_;
     const std::vector<std::int32_t>& corners_;
     FaceColours& colours_;
+    const FaceTexture& texture_;
     std::vector<Vec3> polygon_;
     std::size_t first_ = 0, face_ = 0, without_area_ = 0;
 };
@@ -171,7 +240,8 @@ VrmlSurface vrml_face_set(const VrmlGeometryRequest& request) {
     if (!may_make(request, static_cast<double>(numbers.values.size()) - 2.0)) return {};
     const std::vector<std::int32_t> corners = read_indices(fields, numbers, surface.mesh.positions_m.size(), "points");
     FaceColours colours(request, corners);
-    const std::size_t without_area = FaceSplitter(surface, corners, colours).split_all();
+    const FaceTexture texture(request, corners, surface.mesh.positions_m);
+    const std::size_t without_area = FaceSplitter(surface, corners, colours, texture).split_all();
     if (without_area > 0) {
         fields.remark(fields.place(request.node), std::to_string(without_area) + " faces have fewer than three corners",
                       "they are left out");
@@ -211,7 +281,9 @@ VrmlSurface vrml_elevation_grid(const VrmlGeometryRequest& request) {
         }
     }
     FaceColours colours(request, corners);
-    static_cast<void>(FaceSplitter(surface, corners, colours).split_all());
+    FaceTexture texture(request, corners, surface.mesh.positions_m);
+    texture.spread_over_grid(nx, nz);
+    static_cast<void>(FaceSplitter(surface, corners, colours, texture).split_all());
     apply_vrml_sides(request, surface);
     return surface;
 }

@@ -59,25 +59,6 @@ Result<std::string_view> checked_header(std::string_view bytes, const std::strin
                 "write this as the first line of a VRML 2.0 file; others are named .toml, .stl, .obj, .ply or .off");
 }
 
-// Returns the name, relative to the root, of a file that an Inline or an EXTERNPROTO (`who`) names, or what is wrong
-// with it. `folder` is that of the file in which the name stands, likewise relative.
-Result<std::string> named_file(const std::string& who, std::string_view raw, const fs::path& folder) {
-    constexpr const char* kRemedy = "copy that file into the world's folder and name it without a path";
-    const std::string url = percent_decoded(unescaped_vrml(raw.substr(0, raw.find('#'))));
-    if (url.empty()) return fail("", who + " names no file", "write its name in quotes behind url");
-    if (raw.find('\\') != std::string_view::npos)
-        return fail("", who + " names " + in_quotes(raw) + ", with a backslash", "write / between folder and file");
-    const std::size_t colon = url.find(':');
-    if (colon != std::string::npos && colon < url.find('/'))
-        return fail("", who + " names " + in_quotes(url) + ", which is no file of this folder", kRemedy);
-    const fs::path path = (folder / url).lexically_normal();
-    const bool leaves = url.front() == '/' || path.is_absolute() || path.empty() || *path.begin() == "..";
-    if (leaves || path.filename().empty() || url.find('\0') != std::string::npos)
-        return fail("", who + " leads to " + in_quotes(url) + ", outside of the world's folder",
-                    std::string(kRemedy) + ", or allow a folder around both with --root");
-    return path.generic_string();
-}
-
 Result<std::string> read_vrml_bytes(const fs::path& path) {
     const Result<std::vector<std::byte>> bytes = read_file(path, kMostVrmlBytes);
     if (!bytes) return std::unexpected(bytes.error());
@@ -114,6 +95,7 @@ public:
         sources_.emplace(name, source);
         VrmlSource made;
         made.name = shown;
+        made.below = name;
         made.line_starts = line_starts_of(bytes);
         made.text = std::make_unique<const std::string>(std::move(bytes));
         file_.sources.push_back(std::move(made));
@@ -208,7 +190,7 @@ private:
     }
 
     Result<std::uint32_t> opened(const std::string& who, std::string_view url, const std::string& from) {
-        const Result<std::string> name = named_file(who, url, fs::path(from).parent_path());
+        const Result<std::string> name = named_vrml_file(who, url, fs::path(from).parent_path());
         if (!name) return std::unexpected(name.error());
         if (std::ranges::find(around_, *name) != around_.end()) {
             return fail("", who + " leads back to " + in_quotes(*name) + ", in which it stands",
@@ -280,7 +262,9 @@ VrmlOpener vrml_files_below(const fs::path& root) {
 Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const VrmlOpener& opener, const fs::path& root) {
     VrmlFile file;
     const fs::path path(name);
-    InlineReader reader(file, root.empty() ? path.parent_path() : root, opener);
+    file.opener = opener;
+    file.root = root.empty() ? path.parent_path() : root;
+    InlineReader reader(file, file.root, opener);
     const fs::path below = root.empty() ? path.filename() : path.lexically_relative(root);
     const auto source = reader.read(std::move(bytes), below.generic_string());
     if (!source) return std::unexpected(source.error());

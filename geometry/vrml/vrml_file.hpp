@@ -109,14 +109,21 @@ struct VrmlPrototype {
     std::uint32_t url = kNoVrmlIndex;                // of an EXTERNPROTO: where that is, in VrmlFile::fields
 };
 
+// Returns the bytes of a file that an Inline, an EXTERNPROTO or a texture names. The name is relative to the root, has
+// no "..", and is free of "." and "//".
+using VrmlOpener = std::function<Result<std::string>(const std::string& name)>;
+
 struct VrmlSource {
     std::string name;                              // as messages show it
+    std::string below;                             // relative to the root
     std::unique_ptr<const std::string> text;       // without byte-order mark; line ends as they are
     std::vector<std::uint32_t> line_starts;        // bytes
     std::uint32_t first_root = 0, root_count = 0;  // top-level nodes, in VrmlFile::links
 };
 
 struct VrmlFile {
+    VrmlOpener opener;                // of the pictures that textures name; none: there are no files
+    std::filesystem::path root;       // of all names
     std::vector<VrmlSource> sources;  // the file itself, then the inlined ones
     std::vector<VrmlNode> nodes;
     std::vector<VrmlField> fields;
@@ -162,10 +169,6 @@ struct VrmlFile {
     // Returns where the value number `index` of a field of that file stands. Cost: that of reading the field again.
     [[nodiscard]] VrmlPlace place_of_value(std::uint32_t file, const VrmlField& field, std::size_t index) const;
 };
-
-// Returns the bytes of a file that an Inline or an EXTERNPROTO names. The name is relative to the root, has no "..",
-// and is free of "." and "//".
-using VrmlOpener = std::function<Result<std::string>(const std::string& name)>;
 
 // Returns an opener of files in a folder, the root, and below it: that of a world's file, unless another is given. A
 // name that leads out of it through a symbolic link is refused.

@@ -17,6 +17,7 @@ struct VrmlGeometryRequest {
     VrmlFields& fields;
     VrmlPlaced node;
     std::size_t most_triangles = 0;  // more are a fault, before they take memory
+    bool textured = false;           // corner_texture is wanted
 };
 
 using VrmlGeometryMaker = VrmlSurface (*)(const VrmlGeometryRequest&);

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "geometry/files/text_scanner.hpp"
+
 namespace burin::geometry {
 namespace {
 
@@ -94,6 +96,23 @@ private:
 
 std::vector<std::uint32_t> bound_inline_urls(const VrmlFile& file, const VrmlFilePart& part) {
     return UrlFlow(file, part).sources();
+}
+
+Result<std::string> named_vrml_file(const std::string& who, std::string_view raw, const std::filesystem::path& folder) {
+    constexpr const char* kRemedy = "copy that file into the world's folder and name it without a path";
+    const std::string url = percent_decoded(unescaped_vrml(raw.substr(0, raw.find('#'))));
+    if (url.empty()) return fail("", who + " names no file", "write its name in quotes behind url");
+    if (raw.find('\\') != std::string_view::npos)
+        return fail("", who + " names " + in_quotes(raw) + ", with a backslash", "write / between folder and file");
+    const std::size_t colon = url.find(':');
+    if (colon != std::string::npos && colon < url.find('/'))
+        return fail("", who + " names " + in_quotes(url) + ", which is no file of this folder", kRemedy);
+    const std::filesystem::path path = (folder / url).lexically_normal();
+    const bool leaves = url.front() == '/' || path.is_absolute() || path.empty() || *path.begin() == "..";
+    if (leaves || path.filename().empty() || url.find('\0') != std::string::npos)
+        return fail("", who + " leads to " + in_quotes(url) + ", outside of the world's folder",
+                    std::string(kRemedy) + ", or allow a folder around both with --root");
+    return path.generic_string();
 }
 
 std::string percent_decoded(std::string_view url) {

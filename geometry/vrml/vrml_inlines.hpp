@@ -7,10 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/error.hpp"
 #include "geometry/vrml/vrml_file.hpp"
 
 namespace burin::geometry {
@@ -23,6 +25,11 @@ struct VrmlFilePart {
 
 // Returns the fields of texts that can become the url of an Inline in a PROTO, as indices into VrmlFile::fields.
 [[nodiscard]] std::vector<std::uint32_t> bound_inline_urls(const VrmlFile& file, const VrmlFilePart& part);
+
+// Returns the name, relative to the root, of a file that an Inline, an EXTERNPROTO or a texture (`who`) names, or what
+// is wrong with it. `folder` is that of the file in which the name stands, likewise relative.
+[[nodiscard]] Result<std::string> named_vrml_file(const std::string& who, std::string_view raw,
+                                                  const std::filesystem::path& folder);
 
 // Returns a name with each %20 or other two hexadecimal digits behind a % as the byte that they stand for.
 [[nodiscard]] std::string percent_decoded(std::string_view url);

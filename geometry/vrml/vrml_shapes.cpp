@@ -12,6 +12,7 @@
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/vrml/vrml_fields.hpp"
 #include "geometry/vrml/vrml_geometry.hpp"
+#include "geometry/vrml/vrml_textures.hpp"
 
 namespace burin::geometry {
 namespace {
@@ -192,7 +193,8 @@ private:
         made.place = fields_.place(placed);
         made.world_from_shape = around.world_from_here;
         made.pivot_world = around.pivot_world;
-        for (const VrmlPlaced& appearance : fields_.nodes(placed, "appearance")) appear(appearance, made);
+        VrmlTexture texture;
+        for (const VrmlPlaced& appearance : fields_.nodes(placed, "appearance")) appear(appearance, made, texture);
         const std::vector<VrmlPlaced> geometries = fields_.nodes(placed, "geometry");
         for (const VrmlPlaced& given : geometries) {
             const auto node = fields_.resolved(given);
@@ -200,9 +202,10 @@ private:
                 skip(given);
                 continue;
             }
-            const SharedSurface& shared = surface(*node);
+            const SharedSurface& shared = surface(*node, texture.picture != nullptr);
             if (!shared.surface || !fits(placed, shared, made.world_from_shape)) continue;
-            made.surface = shared.surface;
+            made.surface =
+                texture.picture ? painted(*shared.surface, fields_.type(*node), texture, made.colour) : shared.surface;
             made.name = name_for(around, given);
             world_.triangles += shared.surface->mesh.triangles.size();
             world_.shapes.push_back(made);
@@ -210,7 +213,7 @@ private:
     }
 
     // Reads an Appearance, or a HapticMaterial in its place.
-    void appear(const VrmlPlaced& given, VrmlShape& made) {
+    void appear(const VrmlPlaced& given, VrmlShape& made, VrmlTexture& texture) {
         const auto node = through_haptics(given, made);
         if (!node) return skip(given);
         if (!enter(*node)) return;
@@ -227,9 +230,7 @@ private:
                 colour(*at, made);
             }
         }
-        for (const char* const field : {"texture", "textureTransform"}) {
-            for (const VrmlPlaced& texture : fields_.nodes(*node, field)) skip(texture);
-        }
+        texture = textures_.texture_of(*node, [&](const VrmlPlaced& unread) { skip(unread); });
     }
 
     // Resolves an instance as VrmlFields::resolved() does, and keeps the numbers of a HapticMaterial on the way.
@@ -259,15 +260,18 @@ private:
     }
 
     void colour(const VrmlPlaced& material, VrmlShape& made) {
-        const Vec3 diffuse = fields_.colour(material, "diffuseColor", Vec3(0.8));
+        // What glows is seen in that colour too, whatever light falls on it.
+        const Vec3 diffuse = glm::min(Vec3(1.0), fields_.colour(material, "diffuseColor", Vec3(0.8)) +
+                                                     fields_.colour(material, "emissiveColor", Vec3(0.0)));
         made.transparency = fields_.from_0_to_1(material, "transparency", 0.0);
         made.colour = vrml_colour(diffuse.x, diffuse.y, diffuse.z);
     }
 
     // Returns the triangles of a geometry node, which is no instance; made once where no PROTO's instance changes it.
-    const SharedSurface& surface(const VrmlPlaced& placed) {
+    const SharedSurface& surface(const VrmlPlaced& placed, bool textured) {
         const VrmlNode& node = fields_.node(placed);
-        if (const auto known = surfaces_.find(placed.node); known != surfaces_.end()) {
+        auto& surfaces = textured ? textured_surfaces_ : surfaces_;
+        if (const auto known = surfaces.find(placed.node); known != surfaces.end()) {
             static_cast<void>(enter(placed));
             return known->second;
         }
@@ -275,7 +279,7 @@ private:
         if (const VrmlGeometryMaker maker = vrml_geometry_maker(fields_.type(placed)); maker == nullptr) {
             skip(placed);
         } else if (enter(placed)) {
-            VrmlSurface surface = maker({fields_, placed, kMostVrmlTriangles - world_.triangles});
+            VrmlSurface surface = maker({fields_, placed, kMostVrmlTriangles - world_.triangles, textured});
             for (const auto& t : surface.mesh.triangles) {
                 for (const std::uint32_t v : t) made.bounds.include(surface.mesh.positions_m[v]);
             }
@@ -285,7 +289,7 @@ private:
         }
         // Nodes changed by an instance are not taken from the cache: the changes hold only until the next instance.
         if (node.bound) return unshared_ = std::move(made);
-        return surfaces_.emplace(placed.node, std::move(made)).first->second;
+        return surfaces.emplace(placed.node, std::move(made)).first->second;
     }
 
     // Checks that the shape has a place in space, and the world room for its triangles.
@@ -333,7 +337,8 @@ private:
     VrmlWorld world_;
     std::deque<DefinedName> names_;
     std::map<std::string, std::size_t> taken_, skipped_;
-    std::unordered_map<std::uint32_t, SharedSurface> surfaces_;
+    VrmlTextures textures_{fields_};
+    std::unordered_map<std::uint32_t, SharedSurface> surfaces_, textured_surfaces_;
     SharedSurface unshared_;
 };
 

@@ -43,6 +43,7 @@ using VrmlColour = std::array<std::uint8_t, 3>;  // sRGB
 struct VrmlSurface {
     TriangleMesh mesh;                                      // positions and triangles alone
     std::vector<std::array<VrmlColour, 3>> corner_colours;  // one for each triangle; empty: the shape's colour
+    std::vector<std::array<Vec2, 3>> corner_texture;        // where in a picture; empty where none was asked for
     double crease_angle_rad = 0.0;  // edges of faces that meet at a smaller angle are to look smooth
     bool two_sided = false;         // solid FALSE: seen and felt from both sides
 };
@@ -57,7 +58,7 @@ struct VrmlShape {
     // The centre of the named Transform that the object is or stands in, else of the nearest one around the shape, in
     // the world: what it turns about. None: there is no Transform.
     std::optional<Vec3> pivot_world = {};
-    VrmlColour colour{204, 204, 204};  // diffuseColor; by default 0.8
+    VrmlColour colour{204, 204, 204};  // diffuseColor, by default 0.8, and emissiveColor
     double transparency = 0.0;         // 0 opaque, 1 invisible
     // The numbers of a PROTO HapticMaterial in place of the shape's Material or Appearance: its fields of one number,
     // by name ("stiffness"). What they mean is for others to say.

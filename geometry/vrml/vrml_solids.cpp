@@ -161,6 +161,7 @@ void apply_vrml_sides(const VrmlGeometryRequest& request, VrmlSurface& surface) 
     if (fields.flag(request.node, "ccw", true)) return;
     for (auto& t : surface.mesh.triangles) std::swap(t[1], t[2]);
     for (auto& c : surface.corner_colours) std::swap(c[1], c[2]);
+    for (auto& c : surface.corner_texture) std::swap(c[1], c[2]);
 }
 
 VrmlColour vrml_colour(double red, double green, double blue) {

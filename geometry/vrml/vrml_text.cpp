@@ -31,6 +31,9 @@ Result<std::string> gunzipped(std::string_view bytes, std::size_t most, const st
             return fail(name, "holds more than " + std::to_string(most) + " bytes, packed with gzip",
                         "reduce or split it");
         text.append(part.data(), made);
+        // Files of several members are their contents, one behind the other; what follows otherwise is no part of it.
+        const std::string_view rest = bytes.substr(bytes.size() - stream.avail_in);
+        if (code == Z_STREAM_END && is_gzip(rest)) code = inflateReset(&stream);
     }
     if (code == Z_STREAM_END) return text;
     return fail(name,

@@ -73,7 +73,9 @@ Result<void> check(const SculptOptions& options) {
                     "open it with a --workpiece, or leave it out");
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
-        return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
+        return fail(options.world,
+                    std::filesystem::exists(options.world, ignored) ? "is no file that can be read" : "does not exist",
+                    "name a world: .toml, .wrl, or a mesh");
     const auto has_points = [](const NamedDevice& hand) {
         return devices::has_handle(hand.device, &session_recordings());
     };

@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "session/record/input_files.hpp"
 
+#include "document/document_reader.hpp"
 #include "geometry/files/mesh_files.hpp"
+#include "geometry/files/mesh_import.hpp"
 #include "scene/world_inputs.hpp"
 #include "session/record/input_log.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 
 namespace burin::session {
+namespace {
+
+// Returns the mesh of which a document was made: it is not read again, but nobody means to lose it. Where it lay then
+// is a path from the folder of that session: this one's, or the document's.
+std::vector<std::string> made_from(const std::string& document) {
+    const Result<document::DocumentReader> reader = document::DocumentReader::open(document);
+    const std::string source = reader ? reader->fact("source") : "";
+    if (source.empty() || !geometry::mesh_format_of(source)) return {};
+    return {source, (std::filesystem::path(document).parent_path() / source).string()};
+}
+
+}  // namespace
 
 InputFiles& InputFiles::file(const std::string& path) {
     if (!path.empty()) list_.push_back(path);
@@ -17,6 +31,8 @@ InputFiles& InputFiles::file(const std::string& path) {
 InputFiles& InputFiles::mesh(const std::string& path) {
     if (path.empty()) return *this;
     for (const std::filesystem::path& file : geometry::files_of_mesh(path)) list_.push_back(file.string());
+    if (document::is_document_name(path))
+        for (const std::string& file : made_from(path)) list_.push_back(file);
     return *this;
 }
 

@@ -51,6 +51,19 @@ TEST(Command, RefusesWrongUsageWithStatusTwo) {
     expect_refused(place, "fly", 2, {"fly"});
 }
 
+TEST(Command, SaysWhatAMisspeltWordWasMeantToBe) {
+    const Workplace place;
+    expect_refused(place, "scuplt", 2, {"scuplt is no command; did you mean sculpt?"});
+    expect_refused(place, "convrt a.stl b.ply", 2, {"did you mean convert?"});
+    expect_refused(place, "world chek a.wrl", 2, {"did you mean check? See burin world --help"});
+    expect_refused(place, "sculpt --resoluton 64", 2, {"--resoluton is no option; did you mean --resolution?"});
+    expect_refused(place, "convert --centre a.stl b.ply", 2, {"did you mean --center?"});
+    expect_refused(place, "convert --plac=1,2,3 a.stl b.ply", 2, {"did you mean --place?"});
+    // What is far from any is left to the usual message.
+    expect_refused(place, "sculpt --bogus", 2, {"--bogus"});
+    expect_refused(place, "fly", 2, {"fly"});
+}
+
 // The seed was clipped, 010 was eight, 0x10 sixteen and 1'000 a thousand, without a word.
 TEST(Command, TakesEveryNumberByOneRule) {
     const Workplace place;

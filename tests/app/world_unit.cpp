@@ -64,6 +64,18 @@ TEST(WorldCommand, TellsEveryFaultOfEveryFileAndFails) {
     EXPECT_EQ(Json::parse(place.read("r.json"))["files"][0]["faults"][1]["where"], "a.wrl:3:5");
 }
 
+// It said that no command could reach them, and commands reached them.
+TEST(WorldCommand, SaysWhatShapesWithoutANameAreCalled) {
+    const Workplace place;
+    const std::string box = "Shape { geometry Box { size .1 .1 .1 } }\n";
+    place.write("w.wrl", "#VRML V2.0 utf8\n" + box + "DEF Named " + box + box);
+    place.write("w.toml", "[[object]]\nname = \"shape-2\"\nscale = 2\n");
+    const auto outcome = place.run(kWorldBurin + " world check w.wrl");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "2 shapes without a name; commands and settings know them as shape-1 to shape-2"))
+        << outcome.output;
+}
+
 TEST(WorldCommand, TellsWhatIsInAWorldInToml) {
     const Workplace place;
     place.write("cube.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");

@@ -39,6 +39,34 @@ std::string told(const std::string& settings) {
 
 }  // namespace
 
+// It was taken without a word, and one could push through the sheet from behind.
+TEST(WorldSettings, AnOpenSheetFeltFromOneSideIsRemarkedOn) {
+    const Workplace place;
+    place.write(
+        "sheet.wrl",
+        "#VRML V2.0 utf8\nDEF Sheet Shape { geometry IndexedFaceSet { solid FALSE coord Coordinate { point [0 0 "
+        "0, .1 0 0, .1 .1 0] } coordIndex [0 1 2 -1] } }\n");
+    const auto remarks = [&](const std::string& settings) {
+        place.write("sheet.toml", "[[object]]\nname = \"Sheet\"\n" + settings);
+        const WorldOrProblems world = read_any_world(place / "sheet.wrl");
+        return world ? world->remarks : std::vector<std::string>{"refused"};
+    };
+    EXPECT_TRUE(remarks("both_sides = true\n").empty());
+    ASSERT_EQ(remarks("both_sides = false\n").size(), 1u);
+    EXPECT_TRUE(remarks("both_sides = false\n")[0].contains("sheet.toml:3: Sheet is open"));
+    EXPECT_TRUE(remarks("felt = false\nboth_sides = false\n").empty()) << "nobody feels it";
+}
+
+TEST(WorldSettings, GivenForAWorldNameTheWorld) {
+    const Workplace place;
+    place.write("yard.wrl", kTwoBoxes);
+    place.write("yard.toml", "[[object]]\nname = \"Moss\"\nscale = 2\n");
+    const WorldOrProblems world = read_any_world(place / "yard.toml");
+    ASSERT_FALSE(world);
+    EXPECT_TRUE(world.error().front().line().contains("yard.wrl: its settings are read with it"))
+        << world.error().front().line();
+}
+
 TEST(WorldSettings, ChangeWhatTheyNameAndLeaveTheRest) {
     const WorldOrProblems world = two_boxes_with(
         "name = \"A yard\"\n[[object]]\nname = \"Moss\"\nposition = [0, 0.5, 0]\nscale = 2\ncolour = \"#10ff20\"\n"

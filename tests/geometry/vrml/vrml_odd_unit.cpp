@@ -29,6 +29,23 @@ std::string packed_world() {
 
 }  // namespace
 
+// The second was dropped without a word.
+TEST(OddWorlds, PackedInSeveralMembersAreReadWhole) {
+    const Workplace place;
+    place.write("w.wrl", kVrmlHead + kBox);
+    place.write("more.wrl", "\nDEF Second " + kBox);
+    ASSERT_EQ(place.run("gzip -9n w.wrl more.wrl && cat w.wrl.gz more.wrl.gz > both.wrl.gz").status, 0);
+    for (const std::string& tail : {std::string(), std::string("not packed")}) {
+        const auto file = read_vrml(place.read("both.wrl.gz") + tail, "both.wrl.gz");
+        ASSERT_TRUE(file) << file.error().line();
+        const auto world = shapes_of(*file);
+        ASSERT_TRUE(world);
+        EXPECT_EQ(world->shapes.size(), 2u) << tail;
+    }
+    const std::string whole = place.read("both.wrl.gz");
+    EXPECT_FALSE(read_vrml(whole.substr(0, whole.size() - 12), "both.wrl.gz")) << "the second is cut short";
+}
+
 TEST(OddWorlds, WithARouteAmongNodesAreShown) {
     const VrmlWorld world =
         vrml_world("DEF G Group { children [ DEF X " + kBox + " ROUTE X.a TO X.b ] ROUTE G.a TO G.b }");
