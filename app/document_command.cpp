@@ -80,9 +80,8 @@ Result<void> document_info(const InfoOptions& options) {
         tell_steps(*reader, part, prints, told);
     }
     // Missing pages show only when the work is made of all of them.
-    WorkerPool pool;
     const Result<session::OpenedWork> opened =
-        session::open_work({.source = options.file}, pool, compute::History::kDefaultBudget_bytes);
+        session::open_document(options.file, compute::History::kDefaultBudget_bytes);
     const std::string recovered = opened ? opened->recovered : "", lost = opened ? opened->lost : opened.error().line();
     json["unsaved"] = recovered;
     json["lost"] = lost;
@@ -110,10 +109,10 @@ Result<void> convert_document(const ConvertOptions& options) {
     WorkerPool pool;
     Result<session::OpenedWork> opened = session::open_work({.source = options.in}, pool);
     if (!opened) return std::unexpected(opened.error());
-    compute::Solid& solid = opened->workpiece.solid;
-    std::printf("%s\n", opened->workpiece.size.c_str());
+    compute::Solid& solid = opened->workpiece->solid;
+    std::printf("%s\n", opened->workpiece->size.c_str());
     if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
-    const LengthUnit unit = options.export_units.value_or(opened->workpiece.unit);
+    const LengthUnit unit = options.export_units.value_or(opened->workpiece->unit);
     if (const auto ok = place_solid(solid, *placing, unit, pool); !ok) return ok;
     if (const auto ok = sculpt::check_precision(options.out, solid.lattice); !ok) return ok;
     compute::Surface surface(solid.lattice);

@@ -11,8 +11,10 @@
 #include "activities/registry.hpp"
 #include "app/recorded_device.hpp"
 #include "app/world_digest.hpp"
+#include "document/document_file.hpp"
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
+#include "session/document/opened_work.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/input/input_words.hpp"
@@ -55,6 +57,10 @@ std::optional<std::string> digest_of(const std::string& path) {
 
 std::optional<std::string> digest_of_world(const std::string& path, const scene::WorldReading& reading) {
     if (path.empty()) return {};
+    if (document::is_document_name(path)) {
+        const Result<session::OpenedWork> saved = session::open_document(path);
+        return saved && saved->world ? std::optional(world_digest(saved->world->objects)) : std::nullopt;
+    }
     // The session tells its remarks and problems.
     const scene::WorldOrProblems world = scene::read_any_world(path, reading);
     return world ? std::optional(world_digest(world->objects)) : std::nullopt;
@@ -221,6 +227,7 @@ Result<void> run_recorded_session(const session::SculptOptions& given, const std
     session::SculptOptions options = given;
     options.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
     if (!session::is_session_file(options.live.record)) return session::run_session(options);
+    if (const auto settled = session::settle_document(options); !settled) return settled;
     if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
     return session::run_session(options, facts_of_live(options, command));
 }

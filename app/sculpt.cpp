@@ -215,7 +215,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     WorkerPool pool(options.threads);
     Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
     if (!opened) return std::unexpected(opened.error());
-    sculpt::LoadedWorkpiece* const workpiece = &opened->workpiece;
+    sculpt::LoadedWorkpiece* const workpiece = &*opened->workpiece;
     if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
     for (const std::string& path : options.exports) {
         if (const auto ok = sculpt::check_precision(path, workpiece->solid.lattice); !ok) return ok;
@@ -328,7 +328,7 @@ Result<void> record_again(const session::SculptOptions& options) {
     WorkerPool pool(options.threads);
     Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
     if (!opened) return std::unexpected(opened.error());
-    sculpt::LoadedWorkpiece* const workpiece = &opened->workpiece;
+    sculpt::LoadedWorkpiece* const workpiece = &*opened->workpiece;
     Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
     if (const auto taken = take_up(*workpiece, *chosen_tool); !taken) return std::unexpected(taken.error());

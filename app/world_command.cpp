@@ -21,6 +21,7 @@
 #include "compute/rays/lattice.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "document/document_file.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
 #include "scene/mesh_part.hpp"
@@ -29,6 +30,7 @@
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
 #include "session/drive/session.hpp"
+#include "session/live/world_side.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"
@@ -278,9 +280,16 @@ std::optional<Error> why_not_touched(const scene::World& world) {
     return part ? std::nullopt : std::optional(part.error());
 }
 
-// Checks a world in TOML, or a mesh that is a world alone.
+scene::WorldOrProblems saved_world(const std::string& path) {
+    Result<scene::World> world = session::read_sound_world(path);
+    if (!world) return std::unexpected(std::vector{world.error()});
+    return std::move(*world);
+}
+
+// Checks a world in TOML, a mesh that is a world alone, or that of a document.
 CheckedWorld check_toml_world(const std::string& path, const scene::WorldReading& reading, bool print) {
-    const scene::WorldOrProblems world = scene::read_any_world(path, reading);
+    const scene::WorldOrProblems world =
+        document::is_document_name(path) ? saved_world(path) : scene::read_any_world(path, reading);
     if (!world) return faulty(path, world.error(), print);
     if (const auto why = why_not_touched(*world)) return faulty(path, std::array{*why}, print);
     if (print) print_world(path, *world);
@@ -293,7 +302,8 @@ CheckedWorld check_toml_world(const std::string& path, const scene::WorldReading
 }
 
 CheckedWorld check_world(const std::string& path, const scene::WorldReading& reading, bool print) {
-    if (std::filesystem::path(path).extension() == ".toml" || scene::is_mesh_file(path))
+    if (std::filesystem::path(path).extension() == ".toml" || scene::is_mesh_file(path) ||
+        document::is_document_name(path))
         return check_toml_world(path, reading, print);
     const Result<double> unit_m = scene::metres_in_vrml(path, reading);
     if (!unit_m) return faulty(path, std::array{unit_m.error()}, print);
@@ -375,7 +385,8 @@ WorldCommand::WorldCommand(Command app)
       command_(app.subcommand("world", "Explore a world by touch, and check worlds")) {
     Options& o = *options_;
     o.session.workpiece.source.clear();
-    command_.option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+    command_
+        .option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, a mesh (STL, OBJ, PLY, OFF), .burin")
         .asset(AssetRoom::worlds);
     command_.option("--units", o.session.world_reading.unit,
                     "What a number of the world's file is: m, cm, mm, in, ft, or 2.54mm; else as it states");

@@ -55,6 +55,12 @@ struct Editor {
         object.motion = FixedMotion{};
         return "";
     }
+    std::string operator()(const Restore& e) const {
+        if (std::holds_alternative<HeldMotion>(object.motion)) return "is held by a hand; let go of it first";
+        if (e.object->id != object.id || e.object->mesh != object.mesh) return "is another object";
+        object = *e.object;
+        return "";
+    }
 };
 
 }  // namespace

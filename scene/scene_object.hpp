@@ -93,8 +93,12 @@ struct TakeHold {
 struct LetGo {
     Pose scene_from_object;
 };
+// Gives the object all values of a state of itself: as undo does. One that a hand holds is refused.
+struct Restore {
+    std::shared_ptr<const SceneObject> object;
+};
 using ObjectEdit =
-    std::variant<SetPose, SetScale, SetMaterial, SetFelt, SetSeen, SetColour, SetOpacity, TakeHold, LetGo>;
+    std::variant<SetPose, SetScale, SetMaterial, SetFelt, SetSeen, SetColour, SetOpacity, TakeHold, LetGo, Restore>;
 
 // Returns the object with the edit made. Fails where that would have a problem.
 [[nodiscard]] Result<SceneObject> edited(SceneObject object, const ObjectEdit& edit);

@@ -71,19 +71,19 @@ Result<std::string> new_journal(const std::string& folder, const std::string& na
     }
 }
 
-Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options, const std::string& folder,
-                                         WorkerPool& pool, std::size_t undo_bytes) {
-    Result<OpenedWork> opened = open_work(options, pool, undo_bytes);
+Result<OpenedWork> open_document_and_journal(const std::string& path, const std::string& folder,
+                                             std::size_t undo_bytes) {
+    Result<OpenedWork> opened = open_document(path, undo_bytes);
     if (!opened || opened->document.empty() || folder.empty()) return opened;
     std::vector<document::LeftJournal> left = newest_first(document::left_journals(folder));
     const auto is_other = [&](const document::LeftJournal& one) {
-        const bool is_of_this = is_journal_of(one, *opened, options.source) || !one.unreadable.empty();
-        return !is_of_this || is_same_file(one.path, options.source);
+        const bool is_of_this = is_journal_of(one, *opened, path) || !one.unreadable.empty();
+        return !is_of_this || is_same_file(one.path, path);
     };
     std::erase_if(left, is_other);
     for (auto one = left.begin(); opened->journal.empty() && one != left.end(); ++one) {
         if (!one->unreadable.empty() || document::Version{one->base_id, one->base_saves} != opened->version) continue;
-        Result<OpenedWork> recovered = open_work({.source = one->path}, pool, undo_bytes);
+        Result<OpenedWork> recovered = open_document(one->path, undo_bytes);
         if (!recovered) continue;
         recovered->document = opened->document;  // which may have another name by now
         opened = std::move(recovered);

@@ -18,11 +18,10 @@ inline constexpr const char* kNoJournal = "none";
 // Makes the folder and returns a path in it for the journal of work of this name. Fails where no file can be made.
 [[nodiscard]] Result<std::string> new_journal(const std::string& folder, const std::string& name);
 
-// Opens the workpiece as open_work() does; a document whose last session died before it was saved comes back with what
-// the newest of its journals in the folder holds, and names the others. An empty folder: there is none.
-[[nodiscard]] Result<OpenedWork> open_work_and_journal(const sculpt::WorkpieceOptions& options,
-                                                       const std::string& folder, WorkerPool& pool,
-                                                       std::size_t undo_bytes = 0);
+// Opens a document as open_document() does; one whose last session died before it was saved comes back with what the
+// newest of its journals in the folder holds, and names the others. An empty folder: there is none.
+[[nodiscard]] Result<OpenedWork> open_document_and_journal(const std::string& path, const std::string& folder,
+                                                           std::size_t undo_bytes = 0);
 // Says, in a line each, which unsaved work the folder holds, the newest first, and the command that opens it.
 [[nodiscard]] std::vector<std::string> unsaved_work_in(const std::string& folder);
 

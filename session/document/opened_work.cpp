@@ -10,6 +10,7 @@
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
 #include "record/store_reading.hpp"
+#include "scene/saved_objects.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
 #include "session/document/opened_history.hpp"
@@ -75,15 +76,24 @@ Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& la
     return sculpt::workpiece_bounds(lattice);
 }
 
-// Makes the changes again that were not saved, with a history of them where there is one. Stops, and fails, at one that
-// is damaged.
+// Makes a change of one part again; of the solid with a history of it, where there is one.
+Result<void> apply_change(const scene::Pages& change, OpenedWork& opened, const std::string& where,
+                          compute::History* history) {
+    if (change.part == scene::kObjectsPart)
+        return opened.world ? scene::apply_change(opened.world->objects, change, where) : Result<void>{};
+    return opened.workpiece ? sculpt::apply_change(opened.workpiece->solid, change, where, history) : Result<void>{};
+}
+
+// Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
 Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened, compute::History* history) {
-    const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
     for (std::int64_t number = 1; number <= reader.changes(); ++number) {
-        const Result<scene::Pages> change = reader.change(*part, number);
-        if (!change) return std::unexpected(change.error());
-        if (const auto done = sculpt::apply_change(opened.workpiece.solid, *change, reader.path(), history); !done)
-            return done;
+        for (const document::PartPlace& part : reader.parts()) {
+            const Result<scene::Pages> change = reader.change(part, number);
+            if (!change) return std::unexpected(change.error());
+            const bool is_of_part = !change->pages.empty() || reader.parts().size() == 1;
+            if (!is_of_part) continue;
+            if (const auto done = apply_change(*change, opened, reader.path(), history); !done) return done;
+        }
         opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
     }
     return {};
@@ -112,7 +122,7 @@ void say_where_it_goes(const document::DocumentReader& reader, OpenedWork& opene
 void take_history(document::DocumentReader& reader, OpenedWork& opened, std::size_t undo_bytes, std::string& lost) {
     const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
     if (lost.empty()) {
-        opened.history = history_in(reader, *part, opened.workpiece.solid, undo_bytes, lost);
+        opened.history = history_in(reader, *part, opened.workpiece->solid, undo_bytes, lost);
         return;
     }
     opened.history.emplace(undo_bytes);
@@ -121,39 +131,41 @@ void take_history(document::DocumentReader& reader, OpenedWork& opened, std::siz
     if (had_some) add_to(lost, "undo goes back to this opening alone");
 }
 
-Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes) {
-    Result<document::DocumentReader> reader = document::DocumentReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    const Result<scene::Pages> pages = reader->pages_of(sculpt::kSolidPart);
+bool has_part(const document::DocumentReader& reader, std::string_view kind) {
+    return std::ranges::find(reader.parts(), kind, &document::PartPlace::kind) != reader.parts().end();
+}
+
+// Reads the solid and what led to it.
+Result<void> read_solid(document::DocumentReader& reader, std::size_t undo_bytes, OpenedWork& opened,
+                        std::string& lost) {
+    const Result<scene::Pages> pages = reader.pages_of(sculpt::kSolidPart);
     if (!pages) return std::unexpected(pages.error());
-    Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, path);
+    Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, reader.path());
     if (!loaded) return std::unexpected(loaded.error());
-    OpenedWork opened{.workpiece = {.solid = std::move(loaded->solid), .report = {}}};
-    const bool leads_back = undo_bytes > 0 && loaded->lost.empty();
-    if (undo_bytes > 0) take_history(*reader, opened, undo_bytes, loaded->lost);
-    compute::History* const history = leads_back ? &*opened.history : nullptr;
-    if (const auto changed = apply_changes(*reader, opened, history); !changed)
-        add_to(loaded->lost, changed.error().what);
-    if (history != nullptr) history->take_step(compute::HistoryStep::stroke);  // the one that was not ended
-    if (document::is_log_damaged(path))
-        add_to(loaded->lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
-    if (record::lacks_its_log(path))
-        add_to(loaded->lost, "its log " + path + "-wal is not beside it: the newest changes may be missing");
-    say_where_it_goes(*reader, opened);
-    sculpt::LoadedWorkpiece& workpiece = opened.workpiece;
-    workpiece.unit = length_unit(reader->fact(kUnit)).value_or(LengthUnit::m);
-    workpiece.bounds_object = bounds_in(*reader, workpiece.solid.lattice, loaded->lost);
+    opened.workpiece = {.solid = std::move(loaded->solid), .report = {}};
+    lost = loaded->lost;
+    if (undo_bytes > 0) take_history(reader, opened, undo_bytes, lost);
+    return {};
+}
+
+Result<void> read_objects(document::DocumentReader& reader, OpenedWork& opened, std::string& lost) {
+    const Result<scene::Pages> pages = reader.pages_of(scene::kObjectsPart);
+    if (!pages) return std::unexpected(pages.error());
+    Result<scene::LoadedObjects> loaded = scene::load_objects(*pages, reader.path());
+    if (!loaded) return std::unexpected(loaded.error());
+    opened.world = {std::filesystem::path(reader.path()).stem().string(), std::move(loaded->objects), {}};
+    if (!loaded->lost.empty()) add_to(lost, loaded->lost);
+    return {};
+}
+
+// Says of the workpiece what the document knows of it.
+void describe_workpiece(const document::DocumentReader& reader, sculpt::LoadedWorkpiece& workpiece, std::string& lost) {
+    const std::string& path = reader.path();
+    workpiece.unit = length_unit(reader.fact(kUnit)).value_or(LengthUnit::m);
+    workpiece.bounds_object = bounds_in(reader, workpiece.solid.lattice, lost);
     workpiece.size_m = workpiece.bounds_object.extent();
-    workpiece.size = path + ": " + in_millimetres(workpiece.size_m) + ", saved from " + reader->fact(kSource);
-    workpiece.report = {{"source", path}, {"size", workpiece.size}, {"made_from", reader->fact(kSource)}};
-    opened.view = view_in(*reader, sculpt::longest_side_m(workpiece.bounds_object), loaded->lost);
-    if (!loaded->lost.empty()) {
-        opened.lost = path + ": " + loaded->lost;
-        workpiece.report["lost"] = loaded->lost;
-    }
-    for (const char* fact : {kSource, document::kSourceDigestFact, kSettings})
-        if (reader->facts().contains(fact)) opened.origin[fact] = reader->fact(fact);
-    return opened;
+    workpiece.size = path + ": " + in_millimetres(workpiece.size_m) + ", saved from " + reader.fact(kSource);
+    workpiece.report = {{"source", path}, {"size", workpiece.size}, {"made_from", reader.fact(kSource)}};
 }
 
 std::string number_in(double value) { return exact(std::array{value}); }
@@ -170,7 +182,7 @@ struct IntoOptions {
             options.tool.shape = shape;
         else  // its file lies elsewhere now; the work is no less there
             std::fprintf(stderr, "burin: %s: its tool %s cannot be taken up, the usual one is: %s\n",
-                         options.workpiece.source.c_str(), shape.c_str(), read.error().line().c_str());
+                         document_of(options).c_str(), shape.c_str(), read.error().line().c_str());
     }
     void operator()(const SetOperation& set) const {
         if (!keeps_tool) options.tool.operation = set.operation;
@@ -209,16 +221,82 @@ std::string line_of(const SessionCommand& command) {
 
 bool is_document(const sculpt::WorkpieceOptions& options) { return document::is_document_name(options.source); }
 
+std::string document_of(const SculptOptions& options) {
+    if (!options.no_workpiece && is_document(options.workpiece)) return options.workpiece.source;
+    return document::is_document_name(options.world) ? options.world : std::string();
+}
+
+Result<void> settle_document(SculptOptions& options) {
+    const std::string path = document_of(options);
+    if (path.empty() || options.scene != nullptr) return {};
+    const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    const bool has_solid = has_part(*reader, sculpt::kSolidPart), has_objects = has_part(*reader, scene::kObjectsPart);
+    if (!has_solid && !has_objects)
+        return fail(path, "holds neither a workpiece nor a world", "open it with the program that has saved it");
+    const bool brings_other = (has_objects && !options.world.empty() && options.world != path) ||
+                              (has_solid && !options.no_workpiece && options.workpiece.source != path);
+    if (brings_other)
+        return fail(path, "brings its own " + std::string(has_objects && options.world != path ? "world" : "workpiece"),
+                    "leave the other out");
+    if (has_objects) options.world = path;
+    options.no_workpiece = options.no_workpiece && !has_solid;
+    if (has_solid) options.workpiece.source = path;
+    if (!has_solid && options.workpiece.source == path) options.no_workpiece = true;
+    return {};
+}
+
+Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes) {
+    Result<document::DocumentReader> reader = document::DocumentReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    OpenedWork opened;
+    std::string lost;
+    const bool has_objects = has_part(*reader, scene::kObjectsPart);
+    const bool has_solid = has_part(*reader, sculpt::kSolidPart) || !has_objects;
+    if (has_solid)
+        if (const auto read = read_solid(*reader, undo_bytes, opened, lost); !read)
+            return std::unexpected(read.error());
+    const bool leads_back = has_solid && undo_bytes > 0 && lost.empty();
+    if (has_objects)
+        if (const auto read = read_objects(*reader, opened, lost); !read) return std::unexpected(read.error());
+    compute::History* const history = leads_back ? &*opened.history : nullptr;
+    if (const auto changed = apply_changes(*reader, opened, history); !changed) add_to(lost, changed.error().what);
+    if (history != nullptr) history->take_step(compute::HistoryStep::stroke);  // the one that was not ended
+    if (document::is_log_damaged(path))
+        add_to(lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
+    if (record::lacks_its_log(path))
+        add_to(lost, "its log " + path + "-wal is not beside it: the newest changes may be missing");
+    say_where_it_goes(*reader, opened);
+    double size_m = 1.0;
+    if (opened.workpiece) {
+        describe_workpiece(*reader, *opened.workpiece, lost);
+        size_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
+    }
+    opened.view = view_in(*reader, size_m, lost);
+    if (!lost.empty()) {
+        opened.lost = path + ": " + lost;
+        if (opened.workpiece) opened.workpiece->report["lost"] = lost;
+    }
+    for (const char* fact : {kSource, document::kSourceDigestFact, kSettings})
+        if (reader->facts().contains(fact)) opened.origin[fact] = reader->fact(fact);
+    return opened;
+}
+
 Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool, std::size_t undo_bytes) {
-    if (is_document(options)) return open_document(options.source, undo_bytes);
+    if (is_document(options)) {
+        Result<OpenedWork> opened = open_document(options.source, undo_bytes);
+        if (!opened || opened->workpiece) return opened;
+        return fail(options.source, "holds a world and no workpiece", "open it as one: burin world " + options.source);
+    }
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     return OpenedWork{.workpiece = std::move(*workpiece), .version = {}};
 }
 
 Result<void> take_settings_of_document(SculptOptions& options) {
-    if (options.no_workpiece || !is_document(options.workpiece)) return {};
-    const Result<document::DocumentReader> reader = document::DocumentReader::open(options.workpiece.source);
+    const std::string path = document_of(options);
+    if (path.empty()) return {};
+    const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
     if (!reader) return std::unexpected(reader.error());
     const IntoOptions into{options, !options.tool.shape.empty()};
     // A command that this program does not know is left out: what it set is not there either.
@@ -252,12 +330,13 @@ std::map<std::string, std::string> saved_facts(const SculptOptions& options, con
     std::map<std::string, std::string> facts(options.provenance.begin(), options.provenance.end());
     const Similarity& view = state.world_from_object;
     facts[kUnit] = name_of(state.export_unit);
-    facts[kBounds] = exact(std::array{workpiece_object.lo.x, workpiece_object.lo.y, workpiece_object.lo.z,
-                                      workpiece_object.hi.x, workpiece_object.hi.y, workpiece_object.hi.z});
+    if (!workpiece_object.empty())
+        facts[kBounds] = exact(std::array{workpiece_object.lo.x, workpiece_object.lo.y, workpiece_object.lo.z,
+                                          workpiece_object.hi.x, workpiece_object.hi.y, workpiece_object.hi.z});
     facts[kView] = exact(std::array{view.position_m.x, view.position_m.y, view.position_m.z, view.orientation.w,
                                     view.orientation.x, view.orientation.y, view.orientation.z, view.scale});
-    if (is_document(options.workpiece)) return facts;  // whose source is known already
-    facts[kSource] = options.workpiece.source;
+    if (!document_of(options).empty()) return facts;  // whose source is known already
+    facts[kSource] = options.no_workpiece ? options.world : options.workpiece.source;
     facts[kSettings] = settings_line(options);
     return facts;
 }

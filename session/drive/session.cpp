@@ -177,6 +177,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     }
     if (!log && options.live.journal.empty()) options.live.journal = usual_journal_folder();
     if (options.live.journal == kNoJournal) options.live.journal.clear();
+    if (const auto settled = settle_document(options); !settled) return settled;
     if (const auto taken = take_settings_of_document(options); !taken) return taken;
     if (const auto settled = settle_mouse(options); !settled) return settled;
     if (!log) options.workpiece.close_small_holes = true;

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "renderer/png.hpp"
+#include "session/document/opened_work.hpp"
 #include "session/record/input_files.hpp"
 #include "session/state/session_options.hpp"
 
@@ -24,8 +25,7 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 
 AskedFiles::AskedFiles(const SculptOptions& options, MessageLog& log)
     : log_(log), outputs_(options.live, inputs_of(options).list()), log_name_(options.live.input) {
-    if (log_name_.empty() && !options.no_workpiece && document::is_document_name(options.workpiece.source))
-        opened_ = options.workpiece.source;
+    if (log_name_.empty()) opened_ = document_of(options);
 }
 
 void AskedFiles::place(sculpt::ExportSurface& wanted) {

@@ -13,7 +13,7 @@ namespace {
 
 // The name of work that has none: that of its source.
 std::string name_from(const SculptOptions& options) {
-    const std::string& source = options.workpiece.source;
+    const std::string& source = options.no_workpiece ? options.world : options.workpiece.source;
     const std::string shape = source.substr(0, source.find(':'));
     const std::string stem = shape != source ? shape : std::filesystem::path(source).stem().string();
     return (stem.empty() ? "work" : stem) + std::string(document::kEnding);

@@ -58,11 +58,12 @@ void add_objects(PanelModel& m, const SessionState& state) {
 }
 
 // Fills in what is known of the document, and what the user is asked about it.
-void add_document(PanelModel& m, const AskedClose& asked) {
+void add_document(PanelModel& m, const SessionState& state) {
+    const AskedClose& asked = state.asked;
     if (!asked.told) return;
     const DocumentTold& told = *asked.told;
-    const std::string name = short_name(told);
-    m.document = PanelDocument{name, state_text(told), kept_text(told), told.is == DocumentIs::saving, told.keeps};
+    const std::string name = short_name(told), kept = kept_text(told, state.carves ? "stroke" : "change");
+    m.document = PanelDocument{name, state_text(told), kept, told.is == DocumentIs::saving, told.keeps};
     using What = PanelQuestion::What;
     if (asked.naming)
         m.question = PanelQuestion{asked.naming->is == NameIs::taken ? What::replace : What::name,
@@ -71,8 +72,8 @@ void add_document(PanelModel& m, const AskedClose& asked) {
                                    asked.naming->name,
                                    told.has_file};
     else if (asked.closing != Closing::no)
-        m.question = PanelQuestion{
-            asked.closing == Closing::asked ? What::close : What::saving, name, kept_text(told), {}, told.has_file};
+        m.question =
+            PanelQuestion{asked.closing == Closing::asked ? What::close : What::saving, name, kept, {}, told.has_file};
 }
 
 PanelNote note_of(const Message& message) { return {message.text, message.kind, message.count, message.time_ns}; }
@@ -125,12 +126,13 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.test_pattern = state.output.test_pattern;
     m.eye_distance_m = value(Quantity::eye_distance);
     m.force_shown = state.force_shown;
-    m.undo_count = static_cast<std::uint32_t>(context.undoable);
-    m.redo_count = static_cast<std::uint32_t>(context.redoable);
+    m.undo_count = static_cast<std::uint32_t>(context.undoable + state.edits.undoable());
+    m.redo_count = static_cast<std::uint32_t>(context.redoable + state.edits.redoable());
+    m.saves = state.saves;
     m.export_path = state.export_path;
     m.exporting = context.exporting;
     m.activity = context.activity;
-    add_document(m, state.asked);
+    add_document(m, state);
     for (const Message& message : log.all()) {
         m.log.push_back(note_of(message));
         if (log.is_shown(message)) m.notes.push_back(note_of(message));

@@ -10,6 +10,11 @@
 #include "session/state/view_cube.hpp"
 
 namespace burin::session {
+namespace {
+
+constexpr Nanoseconds kEditsNoted_ns = 500'000'000;  // how often the journal has what was done to objects
+
+}  // namespace
 
 // ---- One step
 
@@ -59,6 +64,11 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
                       state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
+    if (input.time_ns - edits_noted_ns_ >= kEditsNoted_ns) {
+        edits_noted_ns_ = input.time_ns;
+        note_edits();
+    }
+    if (state_.world) tell_work();
     watch_journal(give);
 }
 
@@ -157,23 +167,52 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
 void LiveSession::save(const Asked& wanted, const Give& give) {
     if (!files_.write()) return;
     news_of_document_.save_ordered();
-    give(scene_.saving(document_.request(wanted, files_, options_, saved_content()), document_.writer()));
+    note_edits();  // so that a save that fails leaves them in the journal
+    document::SaveRequest request = document_.request(wanted, files_, options_, saved_content());
+    if (state_.world && !request.refused)
+        request.content.parts.push_back(saved_world_.save(*state_.world, !request.changed_alone));
+    request.state = work_state(0);
+    give(scene_.saving(std::move(request), document_.writer()));
 }
 
 document::Content LiveSession::saved_content() const {
-    return {.facts = saved_facts(settled(options_), state_, *room_.carved_object), .commands = saved_commands(state_)};
+    return {.facts = saved_facts(settled(options_), state_, room_.carved_object.value_or(Box{})),
+            .commands = saved_commands(state_)};
+}
+
+// Returns the number of the state in which the workpiece and the objects are.
+std::uint64_t LiveSession::work_state(std::uint64_t of_workpiece) const {
+    return of_workpiece + (state_.edits.state() << 32);
 }
 
 // Before the scene's thread starts.
 void LiveSession::keep_journal(const std::string& folder) {
     document::Content beginning = saved_content();
-    scene_.workpiece()->copy(beginning.parts.emplace_back());
+    if (scene_.workpiece() != nullptr) scene_.workpiece()->copy(beginning.parts.emplace_back());
+    if (state_.world) beginning.parts.push_back(saved_world_.all(*state_.world));
     if (const auto kept = document_.keep_journal(folder, options_, opened_, std::move(beginning)); !kept) {
         news_of_document_.journal_keeps(false);
         return notify(kept.error().line());
     }
-    scene_.carved()->keep_journal(
-        [&writer = document_.writer()](scene::Pages change) { writer.note({.part = 0, .pages = std::move(change)}); });
+    if (scene_.carved() != nullptr)
+        scene_.carved()->keep_journal([&writer = document_.writer()](scene::Pages change) {
+            writer.note({.part = 0, .pages = std::move(change)});
+        });
+}
+
+// Notes for the journal what was done to objects.
+void LiveSession::note_edits() {
+    if (!state_.world || !state_.saves || options_.live.journal.empty()) return;
+    if (std::optional<scene::Pages> change = saved_world_.take_change(*state_.world))
+        document_.writer().note({.part = state_.carves ? 1 : 0, .pages = std::move(*change)});
+}
+
+// What was done to objects and is not noted yet will be the next change.
+void LiveSession::tell_work() {
+    if (!news_of_document_.tells()) return;
+    const bool waits = state_.world && saved_world_.has_change(*state_.world);
+    news_of_document_.work_is(work_state(carved_state_), undoable_ + state_.edits.undoable(),
+                              document_.noted() + (waits ? 1 : 0));
 }
 
 std::vector<CommandInput> LiveSession::take_told() {
@@ -216,8 +255,10 @@ void LiveSession::watch_journal(const Give& give) {
         else
             log_.notify_of_event("strokes are kept again, with all that was done meanwhile", MessageKind::info);
     }
-    if (scene_.carved() != nullptr && document_.writer().wants_all())
-        give(scene_.journalling(saved_content(), document_.writer()));
+    if (!document_.writer().wants_all()) return;
+    document::Content now = saved_content();
+    if (state_.world) now.parts.push_back(saved_world_.all(*state_.world));
+    give(scene_.journalling(std::move(now), document_.writer()));
 }
 
 void LiveSession::take_loaded() {
@@ -234,7 +275,9 @@ void LiveSession::take_news(std::uint64_t updates) {
     activity_.take(std::move(news.hands), std::move(news.drawn));
     if (scene_.world() == nullptr) return;
     scene_.world()->drawn().take(news.objects);
-    state_.world = followed(std::move(state_.world), news.objects, news.materials ? &*news.materials : nullptr);
+    const auto before = state_.world;
+    state_.world = followed(before, news.objects, news.materials ? &*news.materials : nullptr);
+    if (state_.saves && before != state_.world) state_.edits.follow(*before, *state_.world, state_.strokes);
     if (news.materials) publish_parameters();
 }
 
@@ -273,6 +316,7 @@ void LiveSession::stand_on_plinth(renderer::Scene& scene) const {
 
 void LiveSession::finish_scene() {
     scene_.service().finish();
+    note_edits();
     document_.finish();
     for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
     if (const std::string kept = document_.end_journal(state_.discards); !kept.empty())
@@ -293,10 +337,11 @@ void LiveSession::finish_scene() {
 void LiveSession::take(sculpt::SurfaceUpdate news) {
     for (const std::string& message : news.messages) notify(message);
     for (const sculpt::ExportOutcome& ended : news.exports) files_.tell(ended);
-    undoable_ = news.undoable;
+    undoable_ = state_.strokes = news.undoable;
     redoable_ = news.redoable;
+    carved_state_ = news.state;
     exporting_ = news.exporting;
-    if (news_of_document_.tells()) news_of_document_.work_is(news.state, news.undoable, document_.noted());
+    tell_work();
     times_.cut(news.cut_ns);
     seen_.take(news);
     strokes_.take(news);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "sculpt/made_workpiece.hpp"
+#include "session/document/saved_world.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/asked_files.hpp"
 #include "session/live/document_news.hpp"
@@ -163,6 +164,7 @@ private:
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall,
                                     std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> take_workpiece(const SculptOptions& options, std::optional<sculpt::MadeWorkpiece> made);
+    [[nodiscard]] Result<void> open_saved(const SculptOptions& options);
     [[nodiscard]] Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
@@ -174,7 +176,10 @@ private:
     void carry_out(SessionOrders orders, const Give& give);
     void save(const Asked& wanted, const Give& give);
     [[nodiscard]] document::Content saved_content() const;
+    [[nodiscard]] std::uint64_t work_state(std::uint64_t of_workpiece) const;
     void keep_journal(const std::string& folder);
+    void note_edits();
+    void tell_work();
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void switch_amplifiers(const AskedAmplifiers& asked);
     void take(sculpt::SurfaceUpdate news);
@@ -204,13 +209,16 @@ private:
     std::optional<wall::StereoMode> framed_;      // of the main screen, when the workpiece was last fitted into it
     ImageSize panel_output_;                      // of the panel's window; empty: there is none
     std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet: all of them in one, or none
-    std::size_t undoable_ = 0, redoable_ = 0;     // as of the last update
+    std::size_t undoable_ = 0, redoable_ = 0;     // strokes, as of the last update
+    std::uint64_t carved_state_ = 0;              // likewise (compute::History::state)
+    Nanoseconds edits_noted_ns_ = 0;              // in the journal
     bool exporting_ = false;
     LivePanel panel_;
     MessageLog log_;
     AskedFiles files_;
     DocumentSide document_;
     DocumentNews news_of_document_;
+    SavedWorld saved_world_;
     OpenedWork opened_;      // without its solid, once that is carved
     SculptOptions options_;  // as the session began, for documents
     SessionTimes times_{clock_};

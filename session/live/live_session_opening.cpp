@@ -53,10 +53,16 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     if (!opened) return std::unexpected(opened.error());
     room_ = std::move(opened->room);
     hands_.use(std::move(opened->handles));
+    if (const auto opened_here = open_saved(options); !opened_here) return opened_here;
     if (has_workpiece(options))
         if (const auto taken = take_workpiece(options, std::move(made)); !taken) return taken;
     if (has_world(options))
         if (const auto loaded = load_world(options); !loaded) return loaded;
+    if (options.scene == nullptr) {
+        document_.began_with(has_workpiece(options) ? options.workpiece.source : options.world);
+        if (document_of(options).empty()) opened_.kept = unsaved_work_in(options.live.journal);
+    }
+    for (const std::string& line : opened_.kept) notify_of_event(line);
     const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
     tool_options_ = options.tool;
     const bool carves = scene_.workpiece() != nullptr;
@@ -68,20 +74,20 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     return {};
 }
 
-// Opens a document, or makes the workpiece of a file or a shape.
-Result<sculpt::MadeWorkpiece> LiveSession::make_workpiece(const SculptOptions& options) {
-    if (!is_document(options.workpiece))
-        return sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
-    auto pool = std::make_unique<WorkerPool>(options.threads);
-    Result<OpenedWork> opened =
-        open_work_and_journal(options.workpiece, options.live.journal, *pool, options.undo_memory_MiB << 20);
+// Opens the document that the session goes on with.
+Result<void> LiveSession::open_saved(const SculptOptions& options) {
+    const std::string path = document_of(options);
+    if (path.empty() || options.scene != nullptr) return {};
+    Result<OpenedWork> opened = open_document_and_journal(path, options.live.journal, options.undo_memory_MiB << 20);
     if (!opened) return std::unexpected(opened.error());
     opened_ = std::move(*opened);
     if (!opened_.lost.empty()) notify(opened_.lost, MessageKind::error);
     if (!opened_.recovered.empty()) notify_of_event(opened_.recovered, MessageKind::warning);
     document_.came_from(opened_.origin);
-    // A log's session leaves the file that it began with as it is.
-    const bool is_own = opened_.version && options.live.input.empty();
+    // A log's session leaves the file that it began with as it is; so does one that has more than what is in there.
+    const bool has_all =
+        opened_.workpiece.has_value() == has_workpiece(options) && opened_.world.has_value() == has_world(options);
+    const bool is_own = opened_.version && options.live.input.empty() && has_all;
     const auto holder = is_own ? document_.hold(options.live.journal, opened_.document) : std::nullopt;
     if (holder)
         notify_of_event(opened_.document + " is open in another window, " + text_of(*holder) +
@@ -89,7 +95,14 @@ Result<sculpt::MadeWorkpiece> LiveSession::make_workpiece(const SculptOptions& o
                         MessageKind::warning);
     else if (is_own)
         document_.opened(opened_.document, *opened_.version);
-    auto made = sculpt::ready_to_carve(std::move(opened_.workpiece), options.engine, std::move(pool));
+    return {};
+}
+
+// Takes the workpiece of a document, or makes it of a file or a shape.
+Result<sculpt::MadeWorkpiece> LiveSession::make_workpiece(const SculptOptions& options) {
+    if (!opened_.workpiece) return sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
+    auto made = sculpt::ready_to_carve(std::move(*opened_.workpiece), options.engine,
+                                       std::make_unique<WorkerPool>(options.threads));
     if (!made) return made;
     if (opened_.history) made->carving->keep_history(std::move(*std::exchange(opened_.history, std::nullopt)));
     // What came from a journal, or was damaged, is in no document as it is here.
@@ -103,9 +116,6 @@ Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::opti
         if (!own) return std::unexpected(own.error());
         made = std::move(*own);
     }
-    document_.began_with(options.workpiece.source);
-    if (!is_document(options.workpiece)) opened_.kept = unsaved_work_in(options.live.journal);
-    for (const std::string& line : opened_.kept) notify_of_event(line);
     const sculpt::LoadedWorkpiece& workpiece = made->loaded;
     std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     if (!workpiece.closed.empty()) notify(workpiece.closed, MessageKind::info);
@@ -126,11 +136,15 @@ Result<void> LiveSession::take_workpiece(const SculptOptions& options, std::opti
 }
 
 Result<void> LiveSession::load_world(const SculptOptions& options) {
-    Result<scene::World> read = options.scene ? *options.scene : read_sound_world(options.world, options.world_reading);
+    const bool is_saved = opened_.world.has_value() && opened_.journal.empty() && opened_.lost.empty();
+    Result<scene::World> read = options.scene   ? *options.scene
+                                : opened_.world ? std::move(*std::exchange(opened_.world, std::nullopt))
+                                                : read_sound_world(options.world, options.world_reading);
     if (!read) return std::unexpected(read.error());
     const std::size_t count = read->objects.size();
     Result<std::unique_ptr<WorldSide>> made = WorldSide::create(std::move(*read));
     if (!made) return std::unexpected(made.error());
+    saved_world_.begin(*(*made)->objects(), is_saved);
     const Box seen = (*made)->drawn().bounds_scene();
     scene_.take(std::move(*made));
     Box& all = room_.workpiece_object;
@@ -166,6 +180,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     const double usual_m = options.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
     state_.crumbs_m = options.crumbs_m.value_or(usual_m);
     state_.carves = scene_.workpiece() != nullptr;
+    state_.saves = options.scene == nullptr && !activity_.is_there();
     state_.mirror = options.mirror;
     if (opened_.view) state_.world_from_object = *opened_.view;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
@@ -181,10 +196,9 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
                      activity_.scene_part(), activity_.tap(), start_ns_);
     if (begun && scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
-    const bool keeps_journal = !options.live.journal.empty();
-    if (scene_.carved() != nullptr && options.live.input.empty() && !activity_.is_there())
-        news_of_document_.begin(keeps_journal, !opened_.recovered.empty());
-    if (begun && scene_.carved() != nullptr && keeps_journal) keep_journal(options.live.journal);
+    const bool keeps_journal = !options.live.journal.empty() && state_.saves;
+    if (state_.saves && options.live.input.empty()) news_of_document_.begin(keeps_journal, !opened_.recovered.empty());
+    if (begun && keeps_journal) keep_journal(options.live.journal);
     return begun;
 }
 

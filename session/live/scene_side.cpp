@@ -19,7 +19,6 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
         parts.push_back(&world_->part());
     }
     if (brought != nullptr) parts.push_back(brought);
-    saved_parts_ = parts;
     if (tap != nullptr) parts.push_back(tap);
     for (const Beginning& hand : hands) spreads_m_.push_back(hand.spread_m);
     std::vector<scene::SceneHand> touched;
@@ -50,14 +49,12 @@ SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand)
 SceneSide::Order SceneSide::saving(document::SaveRequest request, document::DocumentWriter& writer) {
     auto wanted = std::make_shared<document::SaveRequest>(std::move(request));
     sculpt::SaveScene save{[this, wanted, &writer] {
-        for (scene::ScenePart* part : saved_parts_) {
-            if (wanted->refused) break;  // a part that gives its pages counts them as saved
+        if (carved_ && !wanted->refused) {  // a part that gives its pages counts them as saved
             scene::Pages pages{.whole = !wanted->changed_alone};
-            const Result<void> saved = part->save(pages);
-            if (!saved) wanted->refused = saved.error();
-            wanted->content.parts.push_back(std::move(pages));
+            if (const Result<void> saved = carved_->save(pages); !saved) wanted->refused = saved.error();
+            wanted->content.parts.insert(wanted->content.parts.begin(), std::move(pages));
+            wanted->state += carved_->state();
         }
-        wanted->state = carved_ ? carved_->state() : 0;
         writer.save(std::move(*wanted));
     }};
     return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };
@@ -65,7 +62,9 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
 
 SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
     return [this, content = std::move(content), &writer]() mutable {
-        if (carved_->copy(content.parts.emplace_back())) writer.begin_anew(std::move(content));
+        // The workpiece is the first part.
+        if (!carved_ || carved_->copy(*content.parts.emplace(content.parts.begin())))
+            writer.begin_anew(std::move(content));
     };
 }
 

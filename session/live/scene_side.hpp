@@ -47,9 +47,11 @@ public:
 
     // Orders for the scene's thread. A tool is the one of the hand in use.
     [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);
-    // Takes the pages of all parts and has them saved; one that cannot be saved has nothing saved.
+    // Adds the pages of the workpiece, before those of the request, and has all saved; where that cannot be, nothing
+    // is.
     [[nodiscard]] Order saving(document::SaveRequest request, document::DocumentWriter& writer);
-    // Has a journal begin anew with the workpiece as it is then, unless a stroke goes on.
+    // Has a journal begin anew with the workpiece as it is then, before what is in the content, unless a stroke goes
+    // on.
     [[nodiscard]] Order journalling(document::Content content, document::DocumentWriter& writer);
     [[nodiscard]] Order editing(WorldOrder order);
     [[nodiscard]] Order holding(HoldOrder order);
@@ -75,7 +77,6 @@ private:
     std::unique_ptr<sculpt::Sculpture> carving_;
     std::optional<sculpt::CarvedPart> carved_;  // with carving_
     std::unique_ptr<WorldSide> world_;
-    std::vector<scene::ScenePart*> saved_parts_;  // that a document has to hold
     std::optional<scene::SceneService> service_;
     SceneNews news_;
     std::vector<double> spreads_m_;       // of each hand, as the scene's thread has been told

@@ -5,10 +5,18 @@
 #include <utility>
 
 #include "scene/vrml_world.hpp"
+#include "session/document/opened_work.hpp"
 
 namespace burin::session {
 
 Result<scene::World> read_sound_world(const std::string& path, const scene::WorldReading& reading) {
+    if (document::is_document_name(path)) {
+        Result<OpenedWork> opened = open_document(path);
+        if (!opened) return std::unexpected(opened.error());
+        if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
+        if (!opened->world) return fail(path, "holds no world", "open it as a workpiece: burin sculpt " + path);
+        return std::move(*opened->world);
+    }
     scene::WorldOrProblems world = scene::read_any_world(path, reading);
     if (world) {
         for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());

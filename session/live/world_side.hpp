@@ -14,7 +14,7 @@
 
 namespace burin::session {
 
-// Reads a world, or a mesh as a world of one object. Where it has several problems all are printed.
+// Reads a world, that of a document, or a mesh as a world of one object. Where it has several problems all are printed.
 [[nodiscard]] Result<scene::World> read_sound_world(const std::string& path, const scene::WorldReading& reading = {});
 
 class WorldSide {

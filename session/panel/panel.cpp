@@ -355,13 +355,15 @@ private:
             panel::show_hands(kit_, model);
             panel::show_tool(kit_, model);
             panel::show_mouse(kit_, model);
-            if (model.offers_mouse) panel::show_history(kit_, model);  // a mouse alone undoes without scrolling
+            // A mouse alone undoes without scrolling; in a world what is undone was done to its objects.
+            if (model.offers_mouse) panel::show_history(kit_, model);
             panel::show_material(kit_, model);
             panel::show_objects(kit_, model);
+            if (!model.offers_mouse && !model.carves) panel::show_history(kit_, model);
             panel::show_touch(kit_, model);
             panel::show_workspace(kit_, model);
             panel::show_view(kit_, model);
-            if (!model.offers_mouse) panel::show_history(kit_, model);
+            if (!model.offers_mouse && model.carves) panel::show_history(kit_, model);
             panel::show_touch_of_others(kit_, model);
         }
         panel::show_log(kit_, model);

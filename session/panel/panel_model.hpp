@@ -194,6 +194,7 @@ struct PanelModel {
     double eye_distance_m = 0.063;
     bool force_shown = false;  // the arrow
 
+    bool saves = true;  // the work can be saved, and what is done undone
     std::uint32_t undo_count = 0, redo_count = 0;
     std::string export_path = "part.stl";
     bool exporting = false;                 // an export is running

@@ -414,24 +414,28 @@ void show_path(Kit& kit, const PanelModel& model) {
 }  // namespace
 
 void show_history(Kit& kit, const PanelModel& model) {
-    if (!model.carves) return;  // there is nothing to undo or to export
-    if (kit.begin_card("History and export", model.document ? std::string_view(model.document->name) : "")) {
+    if (!model.saves) return;  // there is nothing to undo or to export
+    if (kit.begin_card(model.carves ? "History and export" : "History",
+                       model.document ? std::string_view(model.document->name) : "")) {
         const float half = 0.5f * (kit.width() - kit.px(6.0f));
         const auto counted = [](const char* name, std::uint32_t count) {
             return count > 0 ? std::string(name) + "  " + std::to_string(count) : std::string(name);
         };
-        if (model.undo_count == 0) kit.off("There is no stroke to undo.");
+        if (model.undo_count == 0)
+            kit.off(model.carves ? "There is no stroke to undo." : "There is no change to undo.");
         if (kit.button("undo", counted("Undo", model.undo_count), half, model.undo_count > 0)) {
             kit.give(RunAction{Action::undo});
         }
         ImGui::SameLine(0.0f, kit.px(6.0f));
-        kit.off(model.redo_count == 0 ? "There is no stroke to redo: nothing was undone since the last one." : "");
+        kit.off(model.redo_count > 0 ? ""
+                : model.carves       ? "There is no stroke to redo: nothing was undone since the last one."
+                                     : "There is no change to redo: nothing was undone since the last one.");
         if (kit.button("redo", counted("Redo", model.redo_count), half, model.redo_count > 0)) {
             kit.give(RunAction{Action::redo});
         }
         kit.off({});
         if (model.document) show_document(kit, *model.document);
-        show_path(kit, model);
+        if (model.carves) show_path(kit, model);
     }
     kit.end_card();
 }

@@ -39,13 +39,13 @@ std::string state_text(const DocumentTold& told) {
     return {};
 }
 
-std::string kept_text(const DocumentTold& told) {
+std::string kept_text(const DocumentTold& told, const std::string& step) {
     if (told.is == DocumentIs::saved) return told.has_file ? "all of it is saved" : "nothing is changed yet";
     if (!told.keeps) return "kept: nothing until it is saved";
     if (told.strokes == 0) return "kept: all of it";
     if (told.kept < told.strokes)
-        return "kept: up to stroke " + std::to_string(told.kept) + " of " + std::to_string(told.strokes);
-    return told.strokes == 1 ? "kept: the one stroke" : "kept: all " + std::to_string(told.strokes) + " strokes";
+        return "kept: up to " + step + " " + std::to_string(told.kept) + " of " + std::to_string(told.strokes);
+    return told.strokes == 1 ? "kept: the one " + step : "kept: all " + std::to_string(told.strokes) + " " + step + "s";
 }
 
 void ask_or_quit(SessionState& state) {

@@ -29,9 +29,10 @@ struct DocumentTold {
     DocumentIs is = DocumentIs::saved;
     std::string name = "work.burin";  // its file's; of work that has none, the one that it would be offered
     bool has_file = false;
-    bool keeps = true;                  // a journal keeps what is not saved
-    std::size_t strokes = 0, kept = 0;  // that can be undone; the first so many are on the disk, in the journal
-    std::size_t saves = 0;              // that have ended, well or not
+    bool keeps = true;  // a journal keeps what is not saved
+    // Strokes and edits that can be undone; the first so many are on the disk, in the journal.
+    std::size_t strokes = 0, kept = 0;
+    std::size_t saves = 0;  // that have ended, well or not
     bool operator==(const DocumentTold&) const = default;
 };
 [[nodiscard]] std::span<const std::string_view> document_states();  // in the order of DocumentIs
@@ -39,8 +40,9 @@ struct DocumentTold {
 [[nodiscard]] std::string short_name(const DocumentTold& told);
 // Says for a window's title and the panel what the document is: "saved", "changed", "saving...".
 [[nodiscard]] std::string state_text(const DocumentTold& told);
-// Says what of the unsaved work would come back after a crash: "kept: up to stroke 11 of 12".
-[[nodiscard]] std::string kept_text(const DocumentTold& told);
+// Says what of the unsaved work would come back after a crash: "kept: up to stroke 11 of 12". step: what undo takes
+// back, "stroke".
+[[nodiscard]] std::string kept_text(const DocumentTold& told, const std::string& step);
 
 // How far the session's end is.
 enum class Closing : std::uint8_t {

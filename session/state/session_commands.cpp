@@ -128,7 +128,10 @@ public:
         const WorldObjects none;
         Result<EditedWorld> edited = session::edited(state_.world ? *state_.world : none, wanted);
         if (!edited) return std::unexpected(edited.error());
+        const scene::ObjectId id = edited->order.object;
+        const auto before = state_.world->objects[id - 1];
         state_.world = std::move(edited->world);
+        if (state_.saves) state_.edits.note(before, state_.world->objects[id - 1], wanted.property, state_.strokes);
         orders_.world.push_back(std::move(edited->order));
         return {};
     }
@@ -143,8 +146,9 @@ public:
 
 private:
     [[nodiscard]] Result<void> may_save() const {
-        if (state_.carves) return {};
-        return fail("the world", "cannot be saved yet", "sculpt a workpiece by itself: burin sculpt FILE");
+        if (state_.saves) return {};
+        return fail("the scene", "belongs to what is done in it, and is not saved",
+                    "open a world or a workpiece by itself: burin world FILE, burin sculpt FILE");
     }
     // Changes the tool, after checking the result; keeps the old one when something is wrong with it.
     Result<void> change_tool(const std::function<void(SessionState&)>& change) {
@@ -174,6 +178,30 @@ private:
         if (!state_.carves)
             return fail("the world", "holds no workpiece that could be carved", "open it with a --workpiece");
         orders_.carving.push_back(std::move(order));
+        return {};
+    }
+    // Strokes and edits of objects go back, and forward, in the order in which they were done.
+    Result<void> undo() {
+        const WorldStep* edit = state_.edits.back();
+        if (state_.carves && (edit == nullptr || state_.strokes > edit->strokes)) return order(sculpt::UndoStroke{});
+        if (edit == nullptr) return fail("undo", "there is nothing to take back", "");
+        if (const auto done = restore(edit->before); !done) return done;
+        state_.edits.went_back();
+        return {};
+    }
+    Result<void> redo() {
+        const WorldStep* edit = state_.edits.forward();
+        if (state_.carves && (edit == nullptr || state_.strokes < edit->strokes)) return order(sculpt::RedoStroke{});
+        if (edit == nullptr) return fail("redo", "there is nothing to repeat", "");
+        if (const auto done = restore(edit->after); !done) return done;
+        state_.edits.went_forward();
+        return {};
+    }
+    Result<void> restore(std::shared_ptr<const scene::SceneObject> object) {
+        Result<EditedWorld> changed = restored(*state_.world, std::move(object));
+        if (!changed) return std::unexpected(changed.error());
+        state_.world = std::move(changed->world);
+        orders_.world.push_back(std::move(changed->order));
         return {};
     }
     Result<void> export_to(const std::string& path) {
@@ -256,8 +284,8 @@ Result<void> Runner::operator()(const SetQuantity& set) {
 
 Result<void> Runner::operator()(const RunAction& run) {
     switch (run.action) {
-        case Action::undo: return order(sculpt::UndoStroke{});
-        case Action::redo: return order(sculpt::RedoStroke{});
+        case Action::undo: return undo();
+        case Action::redo: return redo();
         case Action::tool_1: return use(compute::Operation::cut);
         case Action::tool_2: return use(compute::Operation::fill);
         case Action::tool_3: return use(compute::Operation::paint);

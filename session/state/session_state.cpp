@@ -316,6 +316,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     step.led_hand = state.hand;
     const bool works = ((view.tool.buttons | state.desk.buttons) & 1u) != 0;
     state.asked.rests_s = works ? 0.0 : state.asked.rests_s + view.dt_s;
+    state.edits.rest(view.dt_s);
     state.seen_from = seen_from(state, room);
     if (state.handle) state.handle_reads_device = read_pose(view.tool);
     const BesideCube beside = take_presses(state, room, events, view);

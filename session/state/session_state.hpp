@@ -27,6 +27,7 @@
 #include "session/state/session_screens.hpp"
 #include "session/state/shown_guides.hpp"
 #include "session/state/smooth_stroke.hpp"
+#include "session/state/world_history.hpp"
 #include "session/state/world_objects.hpp"
 #include "wall/output_settings.hpp"
 
@@ -47,12 +48,15 @@ struct SessionState : HandState {
     sculpt::FeelSettings feel;
     bool force_shown = false;                   // as an arrow
     bool carves = true;                         // there is a workpiece
+    bool saves = true;                          // the work can be saved
     sculpt::Mirror mirror;                      // planes on whose other sides the workpiece is carved as well
     MirrorPanes mirror_panes;                   // none where nothing is carved
     Vec3 mirror_middle_object{0.0};             // of the workpiece, through which the planes go
     MouseMode mouse = MouseMode::free;          // how it leads the hand in use
     std::string no_surface;                     // why it cannot lead it along a surface; empty: it can
     std::shared_ptr<const WorldObjects> world;  // null: none
+    WorldHistory edits;                         // of its objects, where they can be saved
+    std::size_t strokes = 0;                    // that can be undone, as far as a frame knows
     scene::ObjectId selected = 0;               // on the panel; 0: the first
     wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false, devices = false;

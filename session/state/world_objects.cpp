@@ -49,6 +49,18 @@ Result<EditedWorld> edited(const WorldObjects& world, const EditObject& command)
     return EditedWorld{std::move(next), {*id, edit}};
 }
 
+Result<EditedWorld> restored(const WorldObjects& world, std::shared_ptr<const scene::SceneObject> object) {
+    const scene::ObjectId id = object->id;
+    const scene::ObjectEdit edit = scene::Restore{object};
+    if (const auto changed = scene::edited(*world.find(id), edit); !changed) return std::unexpected(changed.error());
+    auto next = std::make_shared<WorldObjects>(world);
+    next->objects[id - 1] = std::move(object);
+    if (!materials_fit(*next))
+        return fail("object " + next->objects[id - 1]->name, "cannot be made what it was: there are too many materials",
+                    "let another object feel like one more");
+    return EditedWorld{std::move(next), {id, edit}};
+}
+
 std::shared_ptr<const WorldObjects> followed(std::shared_ptr<const WorldObjects> world,
                                              std::span<const scene::ObjectUpdate> updates,
                                              const scene::MaterialTable* materials) {
@@ -60,9 +72,13 @@ std::shared_ptr<const WorldObjects> followed(std::shared_ptr<const WorldObjects>
     };
     for (const scene::ObjectUpdate& update : updates) {
         const scene::SceneObject* object = world->find(update.id);
-        if (object == nullptr || (object->pose == update.pose && object->motion == update.motion)) continue;
+        if (object == nullptr) continue;
+        const bool is_held = std::holds_alternative<scene::HeldMotion>(update.motion);
+        const Similarity& placed = update.scene_from_mesh;
+        const Pose pose = is_held ? Pose{placed.position_m, placed.orientation} : update.pose;
+        if (object->pose == pose && object->motion == update.motion) continue;
         scene::SceneObject moved = *object;
-        moved.pose = update.pose;
+        moved.pose = pose;
         moved.motion = update.motion;
         changed().objects[update.id - 1] = std::make_shared<const scene::SceneObject>(std::move(moved));
     }

@@ -56,9 +56,11 @@ struct EditedWorld {
     WorldOrder order;
 };
 [[nodiscard]] Result<EditedWorld> edited(const WorldObjects& world, const EditObject& command);
+// Likewise with the object as it is here, which was in this world before.
+[[nodiscard]] Result<EditedWorld> restored(const WorldObjects& world, std::shared_ptr<const scene::SceneObject> object);
 
-// Returns the world with objects where they are now and with the materials of these updates; the same one where nothing
-// of it has changed.
+// Returns the world with objects where they are now, also those that a hand holds, and with the materials of these
+// updates; the same one where nothing of it has changed.
 [[nodiscard]] std::shared_ptr<const WorldObjects> followed(std::shared_ptr<const WorldObjects> world,
                                                            std::span<const scene::ObjectUpdate> updates,
                                                            const scene::MaterialTable* materials);

@@ -238,11 +238,11 @@ TEST(TheDocument, IsSavedAgainOnceWhatWasChangedIsUndone) {
 
 TEST(TheDocument, OfWhichNoJournalIsKeptSaysSo) {
     DocumentTold told{.is = DocumentIs::changed, .keeps = true, .strokes = 12, .kept = 11};
-    EXPECT_EQ(kept_text(told), "kept: up to stroke 11 of 12");
+    EXPECT_EQ(kept_text(told, "stroke"), "kept: up to stroke 11 of 12");
     told.kept = 12;
-    EXPECT_EQ(kept_text(told), "kept: all 12 strokes");
+    EXPECT_EQ(kept_text(told, "stroke"), "kept: all 12 strokes");
     told.keeps = false;
-    EXPECT_EQ(kept_text(told), "kept: nothing until it is saved");
+    EXPECT_EQ(kept_text(told, "stroke"), "kept: nothing until it is saved");
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ protected:
         Result<OpenedWork> opened = open_work({.source = file}, pool, undo_bytes);
         EXPECT_TRUE(opened) << opened.error().line();
         if (!opened) return "not opened";
-        begin(std::move(opened->workpiece.solid));
+        begin(std::move(opened->workpiece->solid));
         carving->keep_history(std::move(opened->history.value()));
         if (opened->lost.empty() && opened->journal.empty()) carving->is_saved();
         return opened->lost;

@@ -72,7 +72,7 @@ public:
     [[nodiscard]] bool is_asked() const { return session->place_on_panel("question").has_value(); }
     [[nodiscard]] bool has_quit() const { return session->state().quit; }
     [[nodiscard]] const DocumentTold& told() const { return *session->state().asked.told; }
-    [[nodiscard]] std::string shown() const { return state_text(told()) + ", " + kept_text(told()); }
+    [[nodiscard]] std::string shown() const { return state_text(told()) + ", " + kept_text(told(), "stroke"); }
     // Ends the session as the program does; returns what it said.
     std::string end() {
         testing::internal::CaptureStderr();

@@ -130,7 +130,7 @@ TEST(WorldSession, RefusesWhatItDoesNotKnowAndWhatNeedsAWorkpiece) {
     OpenWorld world;
     EXPECT_TRUE(told_by(world, {{"object", {"rok", "stiffness", "3"}}}).contains("did you mean rock"));
     EXPECT_TRUE(told_by(world, {{"object", {"rock", "stiffness", "-3"}}}).contains("stiffness"));
-    EXPECT_TRUE(told_by(world, {{"undo", {}}}).contains("--workpiece"));
+    EXPECT_TRUE(told_by(world, {{"undo", {}}}).contains("nothing to take back"));
     EXPECT_TRUE(world.feels(900.0)) << "nothing has changed";
 }
 
@@ -205,6 +205,53 @@ TEST(SessionSettings, NameTheWorldOfARecording) {
     ASSERT_TRUE(again) << again.error().line();
     EXPECT_EQ(again->options.world, world.options.world);
     EXPECT_TRUE(again->options.no_workpiece);
+}
+
+TEST(WorldSession, StrokesAndEditsOfObjectsAreUndoneInTheOrderInWhichTheyWereDone) {
+    OpenWorld world(true);
+    SessionState state = world.session->state();
+    const auto orders_of = [&](const SessionCommand& command) {
+        SessionOrders orders;
+        EXPECT_TRUE(run_command(state, orders, command));
+        return orders;
+    };
+    const EditObject louder{"rock", scene::ObjectProperty::scale, {2.0}},
+        back{"bird", scene::ObjectProperty::scale, {3.0}};
+    state.strokes = 1;  // a stroke, an edit, two strokes, an edit
+    static_cast<void>(orders_of(louder));
+    state.strokes = 3;
+    static_cast<void>(orders_of(back));
+    EXPECT_EQ(orders_of(RunAction{Action::undo}).world.size(), 1u);
+    EXPECT_EQ(state.world->find(2)->scale, 1.0);
+    EXPECT_EQ(orders_of(RunAction{Action::undo}).carving.size(), 1u);
+    state.strokes = 2;
+    EXPECT_EQ(orders_of(RunAction{Action::undo}).carving.size(), 1u);
+    state.strokes = 1;
+    EXPECT_EQ(orders_of(RunAction{Action::undo}).world.size(), 1u);
+    EXPECT_EQ(state.world->find(1)->scale, 1.0);
+    EXPECT_EQ(orders_of(RunAction{Action::undo}).carving.size(), 1u);
+    state.strokes = 0;
+    EXPECT_EQ(orders_of(RunAction{Action::redo}).carving.size(), 1u);
+    state.strokes = 1;
+    EXPECT_EQ(orders_of(RunAction{Action::redo}).world.size(), 1u);
+    EXPECT_EQ(state.world->find(1)->scale, 2.0);
+    EXPECT_EQ(orders_of(RunAction{Action::redo}).carving.size(), 1u);
+}
+
+TEST(WorldSession, WhatAHandHoldsIsNotUndoneUnderIt) {
+    OpenWorld world;
+    SessionState state = world.session->state();
+    SessionOrders orders;
+    ASSERT_TRUE(run_command(state, orders, EditObject{"rock", scene::ObjectProperty::scale, {2.0}}));
+    auto held = std::make_shared<scene::SceneObject>(*state.world->find(1));
+    held->motion = scene::HeldMotion{.parts = {0}, .hand_from_object = {}};
+    auto now = std::make_shared<WorldObjects>(*state.world);
+    now->objects[0] = held;
+    state.world = now;
+    const auto undone = run_command(state, orders, RunAction{Action::undo});
+    ASSERT_FALSE(undone);
+    EXPECT_TRUE(undone.error().line().contains("is held by a hand; let go of it first")) << undone.error().line();
+    EXPECT_EQ(state.edits.undoable(), 1u);
 }
 
 }  // namespace burin::session
