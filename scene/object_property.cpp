@@ -47,6 +47,24 @@ const PropertyDescriptor& descriptor_of(ObjectProperty property) {
     return kProperties.at(static_cast<std::size_t>(property));
 }
 
+std::string_view help_of(ObjectProperty property) {
+    switch (property) {
+        case ObjectProperty::stiffness: return "How hard the object's surface is: newtons for each metre pressed in";
+        case ObjectProperty::damping: return "How much a blow on the object is swallowed";
+        case ObjectProperty::friction:
+        case ObjectProperty::dynamic_friction: return "How much the object holds what slides over it";
+        case ObjectProperty::static_friction: return "How much the object holds what rests on it";
+        case ObjectProperty::position: return "Where the object is, from where its file has it";
+        case ObjectProperty::orientation: return "Turn the object about its middle, from how its file has it";
+        case ObjectProperty::scale: return "How large the object is: 1 as its file has it";
+        case ObjectProperty::colour: return "Give the object one colour";
+        case ObjectProperty::opacity: return "How much of what is behind the object it hides";
+        case ObjectProperty::seen: return "Whether the object is in the picture";
+        case ObjectProperty::felt: return "Whether the object is felt";
+    }
+    return {};
+}
+
 PropertyValue value_of(const SceneObject& object, ObjectProperty property) {
     const HapticMaterial& m = object.material;
     switch (property) {

@@ -37,6 +37,9 @@ struct PropertyDescriptor {
 [[nodiscard]] std::span<const PropertyDescriptor> object_properties();
 [[nodiscard]] const PropertyDescriptor& descriptor_of(ObjectProperty property);
 
+// Says in a sentence what a person changes with it.
+[[nodiscard]] std::string_view help_of(ObjectProperty property);
+
 // As many numbers as the property has; of a switch the first, 0 or 1. A position in metres; an orientation as an axis,
 // which need not be a unit vector, and the angle about it in radians; a colour as sRGB from 0 to 1, an opacity from 0
 // to 1.

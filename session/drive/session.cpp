@@ -180,6 +180,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     if (const auto settled = settle_document(options); !settled) return settled;
     if (const auto taken = take_settings_of_document(options); !taken) return taken;
     if (const auto settled = settle_mouse(options); !settled) return settled;
+    settle_view(options);
     if (!log) options.workpiece.close_small_holes = true;
     settle_room(options, true);
     options.usual_crumbs = !log;

@@ -74,6 +74,7 @@ struct Steps {
 
     void operator()(const MouseMove& in) {
         const std::optional<Vec2> before = std::exchange(state.mouse_px, in.position_px);
+        if (!state.drag && !view.surface && !moves_in_depth() && stay_under_cursor()) return;
         if (!before || wall::in_right_window(*before) != wall::in_right_window(in.position_px)) return;
         const Vec2 moved =
             view.picture_px_per_px * Vec2(in.position_px.x - before->x, before->y - in.position_px.y);  // y up
@@ -130,11 +131,26 @@ struct Steps {
         return pointed.on_surface;
     }
 
+    [[nodiscard]] bool moves_in_depth() const {
+        return gesture_of(MouseUse::move, {.shift = state.modifiers.shift}) == Gesture::move_stylus_in_depth;
+    }
+
     void move_stylus(const Vec2& moved_px) {
-        const auto gesture = gesture_of(MouseUse::move, {.shift = state.modifiers.shift});
-        const Vec3 on_screen = gesture == Gesture::move_stylus_in_depth ? Vec3(moved_px.x, 0.0, -moved_px.y)
-                                                                        : Vec3(moved_px.x, moved_px.y, 0.0);
+        const Vec3 on_screen =
+            moves_in_depth() ? Vec3(moved_px.x, 0.0, -moved_px.y) : Vec3(moved_px.x, moved_px.y, 0.0);
         reach(view.device_from_screen * (view.device_m_per_px * on_screen));
+    }
+
+    // Returns whether the target is led so.
+    bool stay_under_cursor() {
+        if (!view.cursor || !state.mouse_px || (view.mouse_captured && state.buttons == 0)) return false;
+        const std::optional<Ray> ray = view.cursor->ray_object(*state.mouse_px);
+        const Vec3 out = view.device_from_screen * Vec3(0.0, 0.0, 1.0);
+        const double away = ray ? glm::dot(ray->direction, out) : 0.0;
+        if (!(away < 0.0)) return false;
+        const double along = glm::dot(state.target_device_m - ray->origin, out) / away;
+        reach(ray->origin + along * ray->direction - state.target_device_m);
+        return true;
     }
 
     void reach(const Vec3& by_device_m) {
@@ -252,8 +268,10 @@ struct Steps {
         } else if (gesture == Gesture::zoom_to_cursor) {
             zoom(std::pow(settings.scale_per_wheel_step, std::clamp(steps, -50.0, 50.0)));
         }
-        if (gesture == Gesture::stylus_depth)
+        if (gesture == Gesture::stylus_depth) {
             reach(view.device_from_screen * Vec3(0.0, 0.0, -settings.depth_per_wheel_step_m * steps));
+            stay_under_cursor();
+        }
         if (gesture == Gesture::scale_scene)
             scale(std::pow(settings.scale_per_wheel_step, std::clamp(steps, -50.0, 50.0)));
     }

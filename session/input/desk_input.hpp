@@ -2,7 +2,8 @@
 // Simulated head and stylus of a desktop session: interprets keys and mouse in one pure step function of (state,
 // events, dt).
 //
-// Stylus: mouse motion moves the hand's target relatively, as it moves a pointer. Motion beyond the workspace is
+// Stylus: mouse motion moves the hand's target relatively, as it moves a pointer, or keeps it under the pointer
+// (DeskView::cursor). Motion beyond the workspace is
 // discarded, so that the way back has no dead travel. The caller sets how far a pixel moves the target
 // (DeskView::device_m_per_px), so that the tool's picture can move as far as the pointer. Left and right button are the
 // stylus' buttons 0 and 1; a click between two frames is held for one step, so that it is not lost. Dragged with the
@@ -80,6 +81,9 @@ struct DeskView {
     double scene_scale = 1.0;  // of world_from_scene now; for the limits
     bool keyboard_captured = false, mouse_captured = false;
     std::optional<DeskSurface> surface;  // none: free flight
+    // From where the cursor is seen, with the frame of the device for that of the object: in free flight the target is
+    // kept under the cursor, as deep before the screen as it is. None: it moves as far as the mouse.
+    std::optional<CursorView> cursor;
 };
 
 // Depth of a stroke as a share of the tool's half width.

@@ -30,6 +30,7 @@ constexpr std::array kShortCuts = {
     ShortCut{Key::h, kNone, Action::next_hand, false, "Lead the next hand, of several"},
     ShortCut{Key::home, kNone, Action::reset_view, false, "Back to the first view"},
     ShortCut{Key::f, kNone, Action::fit_view, false, "Show all of the workpiece", MouseMode::surface},
+    ShortCut{Key::f, kNone, Action::fit_object, false, "Show the chosen object of a world", MouseMode::free},
     ShortCut{Key::digit_1, kCtrl, Action::view_front, false, "From the front", MouseMode::surface},
     ShortCut{Key::keypad_1, kNone, Action::view_front, false, "From the front", MouseMode::surface},
     ShortCut{Key::digit_2, kCtrl, Action::view_side, false, "From the right side", MouseMode::surface},
@@ -109,7 +110,7 @@ constexpr std::array kSurfaceGestures = {
 
 constexpr std::array<std::string_view, 2> kMouseModeNames = {"free", "surface"};
 
-constexpr std::array<std::string_view, 39> kActionNames = {"undo",
+constexpr std::array<std::string_view, 40> kActionNames = {"undo",
                                                            "redo",
                                                            "tool-1",
                                                            "tool-2",
@@ -132,6 +133,7 @@ constexpr std::array<std::string_view, 39> kActionNames = {"undo",
                                                            "save-as",
                                                            "reset-view",
                                                            "fit-view",
+                                                           "fit-object",
                                                            "view-front",
                                                            "view-side",
                                                            "view-top",

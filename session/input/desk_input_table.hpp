@@ -19,7 +19,7 @@ enum class Action : std::uint8_t {
     next_workspace_technique, toggle_panel, toggle_help, toggle_frame_figures, toggle_devices,
     toggle_full_screen, take_screenshot,
     export_mesh, save_session, save_as,
-    reset_view, fit_view, view_front, view_side, view_top, view_back, view_left, view_bottom,
+    reset_view, fit_view, fit_object, view_front, view_side, view_top, view_back, view_left, view_bottom,
     turn_left, turn_right, turn_up, turn_down, roll_left, roll_right, next_hand, put_away, first_steps, quit,
     // clang-format on
 };

@@ -51,7 +51,15 @@ void add_objects(PanelModel& m, const SessionState& state) {
     for (const auto& object : state.world->objects) m.object_names.push_back(object->name);
     const scene::SceneObject* chosen = state.world->find(state.selected);
     const scene::SceneObject& object = chosen != nullptr ? *chosen : *state.world->objects.front();
-    m.object = PanelObject{object.name, "", object.material, object.scale, {}, object.seen, object.felt};
+    m.object = PanelObject{object.name,
+                           "",
+                           object.material,
+                           object.scale,
+                           {},
+                           object.seen,
+                           object.felt,
+                           object.pose.orientation,
+                           object.corner_colours != nullptr};
     if (std::holds_alternative<scene::HeldMotion>(object.motion)) m.object->state = "held";
     if (std::holds_alternative<scene::PathMotion>(object.motion)) m.object->state = "moves";
     for (std::size_t i = 0; i < 3; ++i) m.object->colour_srgb.at(i) = object.colour.at(i) / 255.0;

@@ -68,8 +68,9 @@ double free_width_at_first(const LiveOptions& live, const Room& room) {
 void place_panel(Room& room, const LiveOptions& live) {
     room.panel_scale = live.panel_scale.value_or(1.0);
     room.first_steps = live.first_steps;
+    room.frames_world = live.frames_world;
     room.free_width = free_width_at_first(live, room);
-    if (!room.wall.desk || room.mouse != MouseMode::surface) return;
+    if (!room.wall.desk || (room.mouse != MouseMode::surface && !room.frames_world)) return;
     fit_desk_screen(room.wall, eye_at_first(live));
     // Before the middle of what the panel leaves free, so that nothing there is seen aslant.
     room.desk.home_head_world.position_m -= 0.5 * (1.0 - room.free_width) * across(room.screen());

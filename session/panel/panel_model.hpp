@@ -107,6 +107,8 @@ struct PanelObject {
     double scale = 1.0;
     std::array<double, 3> colour_srgb{};
     bool seen = true, felt = true;
+    Quat orientation{1.0, 0.0, 0.0, 0.0};
+    bool own_colours = false;  // those of its file, several
 
     bool operator==(const PanelObject&) const = default;
 };

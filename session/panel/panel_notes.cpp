@@ -206,6 +206,11 @@ void show_log(Kit& kit, const PanelModel& model) {
 std::string tip_of(std::string_view label) {
     const std::string_view name = label.substr(0, label.find(' '));
     if (name == "do") return {};  // an activity's button says itself what it does
+    if (name == "object" && label.size() > name.size()) {
+        const std::string_view rest = label.substr(name.size() + 1), property = rest.substr(0, rest.find(' '));
+        const auto known = std::ranges::find(scene::object_properties(), property, &scene::PropertyDescriptor::name);
+        return known == scene::object_properties().end() ? std::string() : std::string(help_of(known->property));
+    }
     const auto spec = std::ranges::find(commands(), name, &CommandSpec::name);
     if (spec == commands().end()) return {};
     std::string tip = spec->help, keys;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The panel's section for the objects of a world: which one is chosen, how it feels, how it looks.
+#include <array>
+#include <cmath>
 #include "session/panel/panel_sections.hpp"
+
+#include "session/state/object_turn.hpp"
 
 namespace burin::session::panel {
 namespace {
@@ -30,6 +34,23 @@ void show_switch(Kit& kit, const PanelObject& object, ObjectProperty property, s
     if (kit.toggle(label, title, on)) kit.give(EditObject{object.name, property, {on ? 0.0 : 1.0}});
 }
 
+// Three sliders: about what points up at the turned object's place, to the right and to the viewer.
+void show_turns(Kit& kit, const PanelObject& object) {
+    constexpr std::array<std::string_view, 3> kTitles{"Turn", "Nod", "Lean"};
+    constexpr std::array<double, 3> kMost_deg{180.0, 90.0, 180.0};
+    const ObjectTurn now = turn_of(object.orientation);
+    for (std::size_t i = 0; i < kTitles.size(); ++i) {
+        const std::string label = "object orientation" + (i == 0 ? std::string() : " " + std::string(kTitles.at(i)));
+        const auto part = kit.slider(label, kTitles.at(i), part_of(now.at(i), -kMost_deg.at(i), kMost_deg.at(i), false),
+                                     written("%.0f\xC2\xB0", std::round(now.at(i)) + 0.0));
+        if (!part) continue;
+        ObjectTurn wanted = now;
+        wanted.at(i) = std::round(value_at(*part, -kMost_deg.at(i), kMost_deg.at(i), false));
+        if (std::abs(wanted.at(i) - now.at(i)) < 0.5) continue;
+        give_value(kit, object, ObjectProperty::orientation, orientation_value(wanted));
+    }
+}
+
 }  // namespace
 
 void show_objects(Kit& kit, const PanelModel& model) {
@@ -53,6 +74,8 @@ void show_objects(Kit& kit, const PanelModel& model) {
                     written("%.2f", m.dynamic_friction));
         show_slider(kit, object, ObjectProperty::scale, "Size", {0.25, 4.0, true}, object.scale,
                     written("\xC3\x97 %.3g", object.scale));
+        show_turns(kit, object);
+        if (object.own_colours) kit.figure("Colour", "own colours");
         show_swatches(kit, "object colour", object.colour_srgb, [&](const std::array<double, 3>& srgb) {
             give_value(kit, object, ObjectProperty::colour, {srgb[0], srgb[1], srgb[2]});
         });

@@ -51,10 +51,10 @@ Result<Descriptor> choice_of(std::string_view command, std::string_view word, st
 }
 
 Result<bool> parse_switch(std::string_view command, std::string_view word) {
-    constexpr std::array<std::string_view, 2> kWords{"off", "on"};
+    constexpr std::array<std::string_view, 4> kWords{"off", "on", "no", "yes"};
     const auto at = choice(command, word, kWords);
     if (!at) return std::unexpected(at.error());
-    return *at == 1;
+    return *at % 2 == 1;
 }
 
 Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "session/input/input_wand.hpp"
+#include "session/state/framed_world.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
@@ -110,7 +111,7 @@ public:
         const Result<scene::ObjectId> id = object_named(state_.world ? *state_.world : none, wanted.object);
         if (!id) return std::unexpected(id.error());
         state_.selected = *id;
-        return {};
+        return uncover(*id);
     }
     Result<void> operator()(const CalibrateHandle& wanted);
     Result<void> operator()(const LeadHand& wanted) { return lead_hand(state_, wanted.hand); }
@@ -133,7 +134,7 @@ public:
         state_.world = std::move(edited->world);
         if (state_.saves) state_.edits.note(before, state_.world->objects[id - 1], wanted.property, state_.strokes);
         orders_.world.push_back(std::move(edited->order));
-        return {};
+        return moves_or_grows(wanted.property) ? uncover(id) : Result<void>{};
     }
     Result<void> operator()(const DoAct& wanted) {
         orders_.acts.push_back({wanted.words, orders_.line});
@@ -217,6 +218,20 @@ private:
     Result<void> show() {
         if (const auto may = may_turn(); !may) return may;
         state_.world_from_object = fitted(state_.seen_from, state_.world_from_object.orientation);
+        return update_touch();
+    }
+    // Shows the chosen object of a world likewise, with some of what is around it.
+    Result<void> show_object() {
+        const scene::SceneObject* object = chosen_object(state_);
+        if (object == nullptr || !state_.framed) return {};
+        state_.world_from_object = fitted_to(*object, state_.seen_from, state_.world_from_object.orientation);
+        return update_touch();
+    }
+    // Moves the scene where the panel would cover an object at work.
+    Result<void> uncover(scene::ObjectId id) {
+        const scene::SceneObject* object = state_.world ? state_.world->find(id) : nullptr;
+        if (object == nullptr || !state_.framed) return {};
+        state_.world_from_object = beside_panel(*object, state_.seen_from, state_.world_from_object);
         return update_touch();
     }
     // Straight on, turned from how it stood at first, about an axis of the screen.
@@ -316,8 +331,12 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::reset_view:
             if (const auto may = may_turn(); !may) return may;
             state_.world_from_object = state_.home_world_from_object;
+            // The window may have another shape by now.
+            if (state_.framed && state_.mouse == MouseMode::free)
+                state_.world_from_object = fitted(state_.seen_from, state_.home_world_from_object.orientation);
             return update_touch();
         case Action::fit_view: return show();
+        case Action::fit_object: return show_object();
         case Action::view_front: return show_from(0.0, Vec3(0.0, 1.0, 0.0));
         case Action::view_side: return show_from(-0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
         case Action::view_top: return show_from(0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));

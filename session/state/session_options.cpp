@@ -70,6 +70,13 @@ Result<void> settle_mouse(SculptOptions& options) {
     return {};
 }
 
+void settle_view(SculptOptions& options) {
+    const LiveOptions& live = options.live;
+    const bool has_world = !options.world.empty() || options.scene != nullptr;
+    if (has_world && live.input.empty() && live.wall.empty() && options.activity == nullptr)
+        options.live.frames_world = true;
+}
+
 void settle_room(SculptOptions& options, bool in_session) {
     if (options.workpiece.room) return;
     const bool adds = in_session ? options.live.input.empty()

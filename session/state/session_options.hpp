@@ -65,6 +65,9 @@ struct LiveOptions {
     bool panel_window = false;
     // Size of the panel's letters; none: as the display asks, 1 in simulated time.
     std::optional<double> panel_scale = std::nullopt;
+    // A person stands before a world: its picture fills what the panel leaves free, and the tool is under the cursor.
+    // Logs and recordings from before are shown as they were. No option of the command line.
+    bool frames_world = false;
     bool first_steps = false;  // a card of them is shown at first; no option of the command line
     int width = 1280, height = 720;
     std::uint32_t samples = 0;  // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
@@ -85,6 +88,9 @@ struct LiveOptions {
 // Decides what the options leave open: how the mouse leads the hand, and where that is along the surface and no device
 // was given, by which arm. Fails where it is to be led along the surface and cannot.
 [[nodiscard]] Result<void> settle_mouse(struct SculptOptions& options);
+
+// Decides whether a world is framed: where a person explores one in a desktop's window.
+void settle_view(struct SculptOptions& options);
 
 // Decides how much room a workpiece has where the options leave it open: some where a person carves, or where material
 // is added along a stroke; none for an input, because recordings and logs from before there was any have none.

@@ -57,6 +57,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--panel-window", o.live.panel_window);
     visit("--panel-scale", o.live.panel_scale, kPanelScaleBounds);
     visit("--first-steps", o.live.first_steps);
+    visit("--frames-world", o.live.frames_world);
     visit("--samples", o.live.samples, kSampleCounts);
 }
 

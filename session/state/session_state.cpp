@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sculpt/tool_mesh.hpp"
+#include "session/state/framed_world.hpp"
 #include "session/state/staging.hpp"
 #include "session/state/view_cube.hpp"
 #include "wall/projection.hpp"
@@ -88,7 +89,10 @@ Vec3 resting_hand_device(const HandRoom& hand, const HeldHandle* held, double be
 
 SeenFrom seen_from(const SessionState& state, const Room& room) {
     const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
-    return {sight.screen, wall::middle_of(wall::eyes_of(sight.viewer)), room.free_width, room.workpiece_object};
+    SeenFrom from{sight.screen, wall::middle_of(wall::eyes_of(sight.viewer)), room.free_width, room.workpiece_object};
+    if (room.frames_world && state.handle)
+        from.bounds_object = grown(from.bounds_object, size_before_viewer_m(room, state.handle.get()));
+    return from;
 }
 
 // Before a wall, moves the workpiece back or forth as far as its viewer's eyes require at the start.
@@ -156,6 +160,8 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
     view.mouse_captured = seen.captured.mouse;
     view.keyboard_captured = seen.captured.keyboard;
     if (state.mouse == MouseMode::surface && seen.surface != nullptr) view.surface = surface_of(state, room, seen);
+    if (state.mouse == MouseMode::free && room.frames_world && room.wall.desk)
+        view.cursor = cursor_of(state, room, seen);
     return view;
 }
 
@@ -203,19 +209,9 @@ bool hold_scene(SessionState& state, std::span<const haptics::ToolState> tools) 
     return changed;
 }
 
-// Keeps a large box around the whole workpiece from dimming it.
-constexpr double kBoxOpacity = 0.04;
-
 // The stiffness of the surface for a mouse, which nobody feels and the arm limits to what it renders: a stroke is as
 // deep as it is set.
 constexpr double kMouseStiffness_N_per_m = 1e5;
-
-// Returns the colour of what the tool leaves behind; a cutting tool has its own.
-Vec3 tool_colour(const HandState& hand) {
-    if (hand.tool.operation == compute::Operation::cut) return renderer::SceneTool{}.colour;
-    const auto c = sculpt::material_of(hand.tool).colour;
-    return Vec3(c[0], c[1], c[2]) / 255.0;
-}
 
 // Where a hand of several stands beside the others at the start, as a share of its workspace's width.
 constexpr double kBeside = 0.22;
@@ -256,7 +252,7 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     state.world_from_object = place_workpiece(room, state.handle.get());
     move_into_comfort(state, room);
     state.seen_from = seen_from(state, room);
-    if (room.wall.desk && room.mouse == MouseMode::surface)
+    if (room.wall.desk && (room.mouse == MouseMode::surface || room.frames_world))
         state.world_from_object = fitted(state.seen_from, state.world_from_object.orientation);
     state.home_world_from_object = state.world_from_object;
     state.middle_object = room.workpiece_object.center();
@@ -273,6 +269,7 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     }
     state.mouse = room.mouse;
     state.no_surface = room.no_surface;
+    state.framed = room.frames_world;
     state.first_steps = room.first_steps;
     begin_hands(state, room, handles, hands);
     return state;
@@ -425,74 +422,6 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     made.fills_at_hand = state.mouse == MouseMode::surface;
     return sculpt::UseTool{std::move(made), sculpt::material_of(tool),
                            material_under_tool(state, state).hardness_Ns_per_m3};
-}
-
-std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
-                                        const Vec3& lattice_origin_object, const haptics::ToolState& tool) {
-    const View sight = view_of(room.wall.setup, screen, state.head, state.interpupillary_m);
-    if (!sight.visible) return std::nullopt;
-    renderer::Scene scene;
-    scene.screen = sight.screen;
-    scene.viewer = sight.viewer;
-    const bool one_eye = wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
-    if (one_eye) scene.viewer.interpupillary_m = 0.0;
-    // Adjoining screens have no edge that could violate the window, and a fade would break the picture apart there.
-    if (!one_eye && room.wall.setup.screens.size() == 1) scene.edge_fade = 1.0;
-    scene.world_from_object = state.world_from_object;
-    scene.lattice_origin_object = lattice_origin_object;
-    scene.workpiece_object = room.workpiece_object;
-    scene.show_wall_frame = false;
-    const PlinthPlace plinth =
-        plinth_under(room.workpiece_object, state.world_from_object, wall::middle_of(wall::eyes_of(scene.viewer)));
-    scene.pedestal.visible = plinth.visible;
-    scene.pedestal.top_center_world = plinth.top_center_world;
-    scene.pedestal.radius_m = plinth.radius_m;
-    Staging staging = staging_of(tool, tool_radius_m(state), room.of(state.hand).workspace_device_m);
-    staging.held = state.held;
-    staging.contact_shown = state.force_shown;
-    staging.tool_visible = staging.tool_visible && !state.handle;
-    // Before the cursor has been over the picture nobody knows where the tool is to be; and beside the cursor, at the
-    // border of what the hand reaches, it would be a large thing in the way.
-    if (state.mouse == MouseMode::surface && (!state.desk.mouse_px || state.desk.beyond_reach))
-        staging.tool_visible = false;
-    // It is around all that is there.
-    staging.box_visible = staging.box_visible && state.mouse != MouseMode::surface;
-    stage(scene, staging, state.world_from_object);
-    if (state.handle) add_handle(scene, *state.handle, tool, tool_radius_m(state), state.world_from_object);
-    scene.tool.colour = tool_colour(state);
-    if (scene.box.face_opacity > kBoxOpacity) scene.box.face_opacity = kBoxOpacity;
-    return scene;
-}
-
-void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t number, const haptics::ToolState& tool) {
-    if (tool.tick == 0) return;
-    const HandState& hand = hand_of(state, number);
-    if (hand.handle) return add_handle(scene, *hand.handle, tool, tool_radius_m(hand), state.world_from_object);
-    static const auto kBall = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
-    Similarity object_from_tool{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
-    const bool is_ball = !hand.held->drawn;
-    if (is_ball) object_from_tool.scale = tool_radius_m(hand);
-    scene.objects.push_back(
-        {is_ball ? kBall : hand.held->drawn, state.world_from_object * object_from_tool, tool_colour(hand)});
-    // A shaft as the tool in use has one, along the tool's +Y.
-    static const auto kShaft = renderer::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{0.12, 3.2}));
-    const double from_m = is_ball ? 0.8 * tool_radius_m(hand) : hand.held->shaft_height_m;
-    Similarity object_from_shaft = object_from_tool;
-    object_from_shaft.position_m += object_from_tool.orientation * Vec3(0.0, from_m, 0.0);
-    object_from_shaft.scale = tool_radius_m(hand);
-    scene.objects.push_back({kShaft, state.world_from_object * object_from_shaft, Vec3(0.1)});
-}
-
-wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, const haptics::ToolState& tool) {
-    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
-    if (!sight.visible) return {};
-    const double scale = state.world_from_object.scale;
-    const Box& workpiece = room.workpiece_object;
-    // Bounds the workpiece by a ball, since it may be turned any way.
-    const std::array<wall::ContentBall, 2> balls{
-        {{state.world_from_object * workpiece.center(), 0.5 * scale * longest(workpiece.extent())},
-         {state.world_from_object * tool.proxy_object_m, scale * sculpt::reach_of(state.held->shape)}}};
-    return wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {balls, {}});
 }
 
 }  // namespace burin::session

@@ -49,6 +49,7 @@ struct SessionState : HandState {
     bool force_shown = false;                   // as an arrow
     bool carves = true;                         // there is a workpiece
     bool saves = true;                          // the work can be saved
+    bool framed = false;                        // a world, beside the panel (LiveOptions::frames_world)
     sculpt::Mirror mirror;                      // planes on whose other sides the workpiece is carved as well
     MirrorPanes mirror_panes;                   // none where nothing is carved
     Vec3 mirror_middle_object{0.0};             // of the workpiece, through which the planes go
@@ -141,6 +142,7 @@ struct Room : HandRoom {
     bool offers_mouse = false;          // the panel has the choice
     bool first_steps = false;           // are shown at first
     double panel_scale = 1.0;           // of the panel's letters on a desktop
+    bool frames_world = false;          // LiveOptions::frames_world
     double free_width = 1.0;            // of the main screen's picture, that the panel leaves free at its left
     // Why the mouse cannot lead the hand along a surface; empty: it can.
     std::string no_surface;
