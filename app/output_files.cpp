@@ -92,7 +92,8 @@ Result<void> check_outputs(std::span<const std::string> exports, const std::stri
 Result<void> check_felt_report(const std::string& report, std::span<const std::string> inputs) {
     if (report.empty()) return {};
     if (const auto ok = check_is_a_file(report); !ok) return ok;
-    return check_places(std::array{report, session::felt_figure_path(report), session::felt_table_path(report)},
+    return check_places(std::array{report, session::felt_figure_path(report), session::felt_table_path(report),
+                                   session::felt_depth_path(report)},
                         inputs);
 }
 

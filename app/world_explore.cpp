@@ -12,8 +12,10 @@
 #include "activities/world/world_plot.hpp"
 #include "activities/world/world_view.hpp"
 #include "app/output_files.hpp"
+#include "app/rendered_report.hpp"
 #include "app/world_digest.hpp"
 #include "base/text.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "gpu/device.hpp"
 #include "record/record_writer.hpp"
 #include "renderer/frame/renderer.hpp"
@@ -91,6 +93,7 @@ Json touches_json(const activities::WorldFigures& figures) {
                         {"touched_s", 0.01 * static_cast<double>(touch.updates)},
                         {"force_max_N", touch.force_max_N},
                         {"force_mean_N", touch.force_mean_N}});
+        add_wall(list.back(), touch.wall);
     }
     return list;
 }
@@ -99,10 +102,11 @@ void print_touches(const activities::WorldFigures& figures) {
     std::size_t width = 6;
     for (const activities::ObjectTouch& touch : figures.touches) width = std::max(width, touch.name.size());
     const int columns = static_cast<int>(std::min<std::size_t>(width, 40));
-    std::printf("  %-*s  first touched  touched  mean force  largest\n", columns, "object");
+    std::printf("  %-*s  first touched  touched  mean force  largest  %s\n", columns, "object", kWallHead);
     for (const activities::ObjectTouch& touch : figures.touches) {
-        std::printf("  %-*s  %11.2f s  %5.2f s  %8.2f N  %5.2f N\n", columns, touch.name.c_str(), touch.first_s,
-                    0.01 * static_cast<double>(touch.updates), touch.force_mean_N, touch.force_max_N);
+        std::printf("  %-*s  %11.2f s  %5.2f s  %8.2f N  %5.2f N  %s\n", columns, touch.name.c_str(), touch.first_s,
+                    0.01 * static_cast<double>(touch.updates), touch.force_mean_N, touch.force_max_N,
+                    wall_text(touch.wall).c_str());
     }
     if (figures.touches.empty()) std::printf("  nothing was touched\n");
 }
@@ -110,9 +114,11 @@ void print_touches(const activities::WorldFigures& figures) {
 Result<void> write_world_report(const WorldExploration& options, const activities::WorldFigures& figures) {
     if (options.report.empty()) return {};
     const std::string figure = session::felt_figure_path(options.report),
-                      table = session::felt_table_path(options.report);
+                      table = session::felt_table_path(options.report),
+                      depth = session::felt_depth_path(options.report);
     if (const auto written = write_text(figure, activities::world_figure(figures)); !written) return written;
     if (const auto written = write_text(table, session::felt_table(figures.felt)); !written) return written;
+    if (const auto written = write_text(depth, activities::depth_figure(figures)); !written) return written;
     const session::FeltFigures& felt = figures.felt;
     const Json report{
         {"burin", BURIN_VERSION},
@@ -126,7 +132,8 @@ Result<void> write_world_report(const WorldExploration& options, const activitie
         {"motion_scaled", felt.object_from_device.scale},
         {"objects", touches_json(figures)},
         {"plots",
-         {std::filesystem::path(figure).filename().string(), std::filesystem::path(table).filename().string()}}};
+         {std::filesystem::path(figure).filename().string(), std::filesystem::path(table).filename().string(),
+          std::filesystem::path(depth).filename().string()}}};
     return write_text(options.report, json_text(report));
 }
 
@@ -179,6 +186,9 @@ Result<void> explore_world(const WorldExploration& options) {
     scene::MaterialTable materials;
     Result<std::unique_ptr<scene::MeshPart>> part = scene::MeshPart::create(std::move(world->objects), materials);
     if (!part) return std::unexpected(part.error());
+
+    tell_what_is_not_rendered(options.world, **part, ids, devices::description_of({}),
+                              haptics::ball_probe(options.radius_m));
 
     Result<std::optional<WorldPictures>> pictures = WorldPictures::create(options.pictures);
     if (!pictures) return std::unexpected(pictures.error());

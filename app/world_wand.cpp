@@ -15,6 +15,7 @@
 #include "app/output_files.hpp"
 #include "app/picture_folder.hpp"
 #include "app/recorded_device.hpp"
+#include "app/rendered_report.hpp"
 #include "app/temporary_folder.hpp"
 #include "app/world_digest.hpp"
 #include "base/text.hpp"
@@ -102,11 +103,12 @@ void print_point_touches(const activities::WandExploredWorld& explored) {
     }
     const int first = static_cast<int>(std::min<std::size_t>(objects, 40)),
               second = static_cast<int>(std::min<std::size_t>(points, 20));
-    std::printf("  %-*s  %-*s  first touched  touched  mean force  largest\n", first, "object", second, "point");
+    std::printf("  %-*s  %-*s  first touched  touched  mean force  largest  %s\n", first, "object", second, "point",
+                kWallHead);
     for (const activities::PointTouch& touch : explored.touches)
-        std::printf("  %-*s  %-*s  %11.2f s  %5.2f s  %8.2f N  %5.2f N\n", first, touch.object_name.c_str(), second,
+        std::printf("  %-*s  %-*s  %11.2f s  %5.2f s  %8.2f N  %5.2f N  %s\n", first, touch.object_name.c_str(), second,
                     touch.point_name.c_str(), touch.first_s, 0.01 * static_cast<double>(touch.updates),
-                    touch.force_mean_N, touch.force_max_N);
+                    touch.force_mean_N, touch.force_max_N, wall_text(touch.wall).c_str());
     if (explored.touches.empty()) std::printf("  nothing was touched\n");
     const devices::WandSaturation& s = explored.run.saturation;
     std::printf(
@@ -122,13 +124,15 @@ Json report_of(const WorldExploration& options, const devices::WandDescription& 
                const std::vector<devices::WandPoint>& points, const activities::WandExploredWorld& explored) {
     Json names = Json::array(), touches = Json::array();
     for (const devices::WandPoint& point : points) names.push_back(point.name);
-    for (const activities::PointTouch& touch : explored.touches)
+    for (const activities::PointTouch& touch : explored.touches) {
         touches.push_back({{"object", touch.object_name},
                            {"point", touch.point_name},
                            {"first_touched_s", touch.first_s},
                            {"touched_s", 0.01 * static_cast<double>(touch.updates)},
                            {"force_max_N", touch.force_max_N},
                            {"force_mean_N", touch.force_mean_N}});
+        add_wall(touches.back(), touch.wall);
+    }
     const activities::WandRun& run = explored.run;
     return {{"burin", BURIN_VERSION},
             {"world", options.world},
@@ -298,6 +302,8 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
     w.feel.record = options.record;
     if (!options.record.empty()) w.feel.facts = facts_of_wand(options, w);
 
+    tell_what_is_not_rendered(options.world, *w.part, w.ids, devices::device_of(w.feel.wand),
+                              probe_of(w.feel.wand, w.feel.points));
     WandPictures pictures(*w.part, w.ids, options, w.feel.wand);
     if (const auto ready = pictures.open(options.pictures); !ready) return ready;
     const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(

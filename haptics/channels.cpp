@@ -21,6 +21,10 @@ ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks, std::uint6
     for (std::uint32_t i = 0; i < tool.point_count; ++i) tool.proxies_object_m[i] = contact.points[i].proxy_object_m;
     tool.workspace = record.motion.workspace;
     tool.stiffness_bound = contact.stiffness_bound;
+    tool.object = deepest.object;
+    tool.asked = deepest.asked;
+    tool.rendered = deepest.rendered;
+    tool.energy_share = record.passivity.share;
     tool.buttons = record.sample.buttons;
     tool.flags = record.flags;
     tool.cause = record.gate.cause;

@@ -70,6 +70,8 @@ struct TickParameters {
     // A device whose controller can is offered the law of a contact that rests (haptics/local_law.hpp).
     bool local_rendering = false;
     bool enabled = true;  // false: no contact, zero force, the proxy stays with the HIP
+    // The hand holds what it would touch: nothing pushes it, and a force that there was fades out.
+    bool holds = false;
     // The tool touches while its first button is down, and else the proxy stays with the HIP: for a hand that is led
     // from outside and may pass through the material, where its proxy would be caught on the other side.
     bool touches_while_pressed = false;
@@ -124,6 +126,9 @@ struct PointRecord {
     std::uint32_t active_triangle = kNoTriangle;
     std::uint32_t constraints = 0;  // number of planes that bear the proxy, 0 to 3
     std::uint32_t object = 0;       // that active_triangle is part of (LocalSurface::object); 0: none, or not numbered
+    // The wall of the material touched, as it says and as the device renders it now; zero in free space. What the
+    // energy account takes of the force is not in it: PassivityRecord::share.
+    CoupledWall asked, rendered;
 };
 
 // The motion of the tool: the device's, mapped into the scene.
@@ -144,6 +149,8 @@ struct ContactRecord {
     Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of the tool at its proxy; in free space the hand's
     Vec3 touched_object_m{0.0};                        // where a tool with a shape is borne; zero for balls
     bool jumped = false;                               // not continuous with the contact of the last tick
+    bool edited = false;  // what was touched has been edited or taken away since the last tick, or the probe has
+    bool eases = false;   // the force still changes from that of before an edit or a jump (haptics/forces/easing.hpp)
     StiffnessBound stiffness_bound = StiffnessBound::none;
     Vec3 surface_velocity_device_m_per_s{0.0};  // of what is touched; zero where it rests
     double spring_energy_J = 0.0;               // energy stored in the springs of the walls touched
@@ -213,6 +220,9 @@ struct ToolState {
     std::array<Vec3, kMostProbePoints> proxies_object_m{};
     WorkspacePicture workspace;
     StiffnessBound stiffness_bound = StiffnessBound::none;
+    std::uint32_t object = 0;     // touched by the deepest point, its wall as asked and as rendered (PointRecord), and
+    CoupledWall asked, rendered;  // the share of the force that the energy account affords
+    double energy_share = 1.0;
     std::uint32_t buttons = 0;
     std::uint32_t flags = 0;
     GateCause cause = GateCause::none;

@@ -48,7 +48,7 @@ LocalLawState step_local_law(const LocalLawState& state, const TickRecord& recor
                              const TickParameters& parameters, const devices::DeviceDescription& device,
                              double dt_s) noexcept {
     const bool may = parameters.local_rendering && record.sample.drive.is_one() && record.in_contact() &&
-                     record.gate.cause == GateCause::none && !record.contact.jumped &&
+                     record.gate.cause == GateCause::none && !record.contact.jumped && !record.contact.eases &&
                      (record.flags & (kTickHeldOver | kTickDoubted | kTickStaleSurface)) == 0;
     if (!may) return {};
     const Vec3 plane = plane_of(record.contact);

@@ -24,6 +24,10 @@ constexpr double kOfStart = 0.6;
 // The part of a point's share that a look of the watch may cost, at least.
 constexpr double kOfLook = 0.5;
 
+bool painting(const ProbeInput& in) {
+    return (in.sample.buttons & 1u) != 0 && in.parameters.action == ToolAction::paint;
+}
+
 static ProxyBudget less(ProxyBudget budget, const ContactWork& work) {
     budget.max_cost_ns -= cost_ns(work) - WorkCost::kTick_ns;
     return budget;
@@ -51,6 +55,10 @@ PointContact::PointContact(const ProbeInput& input, const ProbeStep& step, const
         velocity_device_m_per_s_ += glm::cross(motion.angular_velocity_device_rad_per_s, arm_device_m_);
     record_.hip_object_m = motion.object_from_device * (input.sample.position_device_m + arm_device_m_);
     record_.proxy_object_m = record_.hip_object_m;
+    rubs_ = material();
+    // Painting has no resistance.
+    if (painting(input)) rubs_.static_friction = rubs_.dynamic_friction = 0.0;
+    rubs_ = with_eased_friction(step.next.friction[index], rubs_, last_.constraints > 0, input.dt_s);
 }
 
 void PointContact::stay_with_hand() {
@@ -62,12 +70,12 @@ void PointContact::stay_with_hand() {
     record_.proxy_object_m = record_.hip_object_m;
 }
 
-PointContact::Moved PointContact::touch(bool painting, const ProxyBudget& budget, double needed_ns) {
+PointContact::Moved PointContact::touch(const ProxyBudget& budget, double needed_ns) {
     const bool was_fitting = state_.placed && state_.unfit_ticks == 0;
     const bool published = state_.surface_sequence != input_.surface.sequence;
     if (!was_fitting) left_out_m_ = 0.0;
     // With a moving body relative to it, as friction asks; the body touched in the last tick.
-    const ProxySettings settings = this->settings(painting);
+    const ProxySettings settings = this->settings();
     const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), budget);
     const Vec3 before = carried.state.position_object_m;
     ProxyBudget left = bodies_.any() ? less(budget, carried.work) : budget;
@@ -131,7 +139,7 @@ void PointContact::wait(const ProxyBudget& budget) {
     step_.flags |= kTickHeldOver;
     if (!state_.placed) return;
     const CarriedProxy carried =
-        carry(state_, bodies_, this->settings(false).contact_radius_m, kElsewhere_m * scale(), budget);
+        carry(state_, bodies_, this->settings().contact_radius_m, kElsewhere_m * scale(), budget);
     const bool carrier_is_gone = this->carrier_is_gone();
     state_ = carried.state;
     count_work(carried.work, !carried.complete);
@@ -158,7 +166,7 @@ double PointContact::bear_on_last_plane(const Vec3& proxy_object_m, const Vec3& 
     const Vec3 spring = proxy_object_m - record_.hip_object_m;
     const double depth = glm::dot(spring, last_.normal_object);
     if (!(depth > 0.0)) return 0.0;
-    const ProxySettings settings = this->settings(false);
+    const ProxySettings settings = this->settings();
     const Vec3 along = depth * last_.normal_object - spring;
     const double coefficient = state_.slipping ? settings.dynamic_friction : settings.static_friction;
     record_.proxy_object_m = proxy_object_m + sliding_share(along, depth, coefficient) * along;
@@ -195,15 +203,14 @@ double PointContact::spring_energy_J(const CoupledWall& wall, const Vec3& bearin
     return ContactWatch::share(watch_) * 0.5 * wall.stiffness_N_per_m * glm::dot(spring_device_m, spring_device_m);
 }
 
-ProxySettings PointContact::settings(bool painting) const {
+ProxySettings PointContact::settings() const {
     ProxySettings s;
     s.contact_radius_m = radius_m();
     s.shading = input_.parameters.shading;
-    if (painting) return s;
     Vec3 slip = velocity_device_m_per_s_;
     if (state_.carrier != 0) slip -= at_device(bodies_.velocity_of_body(state_.carrier, state_.position_object_m));
     const double speed = std::sqrt(glm::dot(slip, slip));
-    const FrictionCone cone = friction_at(material(), speed);
+    const FrictionCone cone = friction_at(rubs_, speed);
     s.static_friction = cone.static_friction;
     s.dynamic_friction = cone.dynamic_friction;
     return s;

@@ -25,7 +25,7 @@ public:
         bool limited = false, coarse = false;
     };
     // needed_ns: what moving the proxy is likely to cost; 0: not known.
-    Moved touch(bool painting, const ProxyBudget& budget, double needed_ns = 0.0);
+    Moved touch(const ProxyBudget& budget, double needed_ns = 0.0);
     // A part that is held over touches the plane of its last contact alone, as that moves with its body, and does not
     // look for others; in free space it waits. Its next tick goes on from where the last one has left the proxy.
     void touch_last_plane();
@@ -61,7 +61,7 @@ public:
 private:
     [[nodiscard]] double radius_m() const;
     [[nodiscard]] double reach_m() const;
-    [[nodiscard]] ProxySettings settings(bool painting) const;
+    [[nodiscard]] ProxySettings settings() const;
     [[nodiscard]] ProxyResult moved(const ProxyState& state, const Vec3& hand_object_m, const ProxySettings& settings,
                                     const ProxyBudget& budget);
     [[nodiscard]] ProxyResult moved_or_set(const ProxyState& state, const ProxySettings& settings,
@@ -91,6 +91,7 @@ private:
     WatchState& watch_;
     LastContact& last_;
     double& left_out_m_;
+    TouchMaterial rubs_;           // the material, with the friction of this tick
     double left_out_now_m_ = 0.0;  // in this tick alone
     bool has_let_go_ = false;
     PointRecord& record_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "haptics/forces/body_push.hpp"
+#include "haptics/forces/easing.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "haptics/point_contact.hpp"
 
@@ -17,11 +18,6 @@ constexpr double kLongestFollowed_s = 0.5;
 // Of the clearance: how far the proxy may be ahead of the cutting point. More than the clearance, since the facets of
 // the tool's own bed lie a little deeper than the tool did: else the tool would sink by that with each new surface.
 constexpr double kSlack = 1.25;
-
-struct RenderedWall {
-    CoupledWall wall;
-    StiffnessBound bound = StiffnessBound::none;  // why it is softer than the material
-};
 
 // The points that touch at once.
 struct Touching {
@@ -39,30 +35,21 @@ double squared_lever(const PointContact& point, const ProbeInput& in) {
     return std::max(1.0, moves * moves);
 }
 
-// The wall as the device may render it: through the coupling, and limited to the stiffness at which it stays passive.
-// Points that touch at once are parallel springs whose stiffnesses add up where their normals agree, so each gets its
-// share of the limit, as of the stiffness (ProbePoint::share); and so does the resistance to rotation that they make up
-// together.
-RenderedWall rendered(const PointContact& point, double share, const ProbeInput& input, const Touching& touching) {
+// The wall as the device may render it. Points that touch at once are parallel springs whose stiffnesses add up where
+// their normals agree, so each gets its share of the limit, as of the stiffness (ProbePoint::share).
+RenderedWall rendered_at(const PointContact& point, double share, const ProbeInput& input, const Touching& touching) {
     const TickParameters& parameters = input.parameters;
     const TouchMaterial& material = point.material();
-    const CoupledWall wall =
-        through(parameters.coupling, {share * material.stiffness_N_per_m, share * material.damping_Ns_per_m});
-    if (!parameters.limit_stiffness || share == 0.0) return {wall};
-    const double points = std::max(touching.shares / share, 1.0) * squared_lever(point, input);
-    ContactDemand demand;
-    demand.stiffness_N_per_m = wall.stiffness_N_per_m * points;
-    demand.damping_Ns_per_m = wall.damping_Ns_per_m * points;
+    WallDemand demand;
+    demand.wall = {share * material.stiffness_N_per_m, share * material.damping_Ns_per_m};
+    demand.coupling = parameters.coupling;
+    demand.limit = parameters.limit_stiffness && share != 0.0;
+    if (!demand.limit) return rendered(demand, input.device);
+    demand.points = std::max(touching.shares / share, 1.0) * squared_lever(point, input);
+    demand.squared_arms_m2 = touching.squared_arms_m2;
     demand.filter_lag_s = mean_lag_s(parameters.signals.force_alpha, input.dt_s);
     demand.period_s = input.dt_s;
-    const StiffnessLimit limit = limited(demand, input.device);
-    const CoupledWall each{limit.stiffness_N_per_m / points, limit.damping_Ns_per_m / points};
-    if (!(touching.squared_arms_m2 > 0.0)) return {each, limit.bound};
-    demand.stiffness_N_per_m = each.stiffness_N_per_m;
-    demand.damping_Ns_per_m = each.damping_Ns_per_m;
-    const StiffnessLimit turning = limited_by_rotation(demand, touching.squared_arms_m2, input.device);
-    return {{turning.stiffness_N_per_m, turning.damping_Ns_per_m},
-            turning.bound != StiffnessBound::none ? turning.bound : limit.bound};
+    return rendered(demand, input.device);
 }
 
 // What one tick may spend on contact; the parts of a device share it.
@@ -110,12 +97,12 @@ CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& 
 using PointContacts = std::array<std::optional<PointContact>, kMostProbePoints>;
 
 // Moves the proxies of all points, as far as the tick's work goes.
-void touch_points(PointContacts& points, const ProbeStep& step, const ProbeInput& input, bool painting) {
+void touch_points(PointContacts& points, const ProbeStep& step, const ProbeInput& input) {
     const std::uint32_t count = step.contact.point_count;
     const double budget = budget_of(input);
     const auto left_ns = [&] { return std::max(budget - cost_ns(step.contact.work), 0.0); };
     if (count == 1) {
-        points[0]->touch(painting, {.max_cost_ns = left_ns()});
+        points[0]->touch({.max_cost_ns = left_ns()});
         return;
     }
     PointQueue queue(step.next.turns, count, budget_ns(input.parameters.work, input.dt_s), left_ns());
@@ -126,7 +113,7 @@ void touch_points(PointContacts& points, const ProbeStep& step, const ProbeInput
             point.wait({.max_cost_ns = turn.share_ns});
             continue;
         }
-        const PointContact::Moved moved = point.touch(painting, {.max_cost_ns = turn.share_ns}, turn.needed_ns);
+        const PointContact::Moved moved = point.touch({.max_cost_ns = turn.share_ns}, turn.needed_ns);
         // What was stopped by something else than its work, as by its number of steps, has not fallen short.
         constexpr double kSpent = 0.5;
         queue.served(turn, moved.cost_ns, moved.coarse || (moved.limited && moved.cost_ns >= kSpent * moved.most_ns));
@@ -148,6 +135,79 @@ private:
     Vec3 sum_{0.0};
     double weights_ = 0.0;
 };
+
+using WallsOfPoints = std::array<CoupledWall, kMostProbePoints>;
+
+// The walls that the points render in this tick, and what is told of them.
+WallsOfPoints eased_walls(const PointContacts& points, const ProbeStep& step, const ProbeInput& input,
+                          const Touching& touching) {
+    ContactRecord& contact = step.contact;
+    std::array<std::optional<CoupledWall>, kMostProbePoints> asked;
+    WallsOfPoints walls;
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+        const double share = input.parameters.probe.points[i].share;
+        const RenderedWall wall = rendered_at(*points[i], share, input, touching);
+        walls[i] = wall.wall;
+        if (!points[i]->in_contact()) continue;
+        asked[i] = wall.wall;
+        if (wall.bound == StiffnessBound::none) continue;
+        step.flags |= kTickStiffnessLimited;
+        contact.stiffness_bound = wall.bound;
+    }
+    ease_walls(step.next.walls, asked, input.dt_s);
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+        if (!asked[i]) continue;
+        const TouchMaterial& material = points[i]->material();
+        const double share = input.parameters.probe.points[i].share;
+        walls[i] = step.next.walls[i].wall();
+        contact.points[i].asked = {share * material.stiffness_N_per_m, share * material.damping_Ns_per_m};
+        contact.points[i].rendered = walls[i];
+    }
+    return walls;
+}
+
+// The edits of an object of the surface; nothing where it is not there.
+std::optional<std::uint32_t> edits_of(std::uint32_t object, const geometry::LocalSurface& surface) {
+    if (object == geometry::LocalSurface::kUnnumbered) return surface.tiles_edits;
+    for (const geometry::TouchedMesh& mesh : surface.meshes)
+        if (mesh.object == object) return mesh.edits;
+    for (std::uint32_t i = 0; i < std::min(surface.models.count, geometry::LocalModels::kMost); ++i)
+        if (surface.models.list[i].object == object) return 0;
+    return std::nullopt;
+}
+
+// A bit for each material that can be felt.
+std::uint32_t materials_felt(const TickParameters& parameters) {
+    static_assert(kMostMaterials <= 32);
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < kMostMaterials; ++i) bits |= parameters.materials[i].enabled ? 1u << i : 0u;
+    return bits;
+}
+
+// Notes what the points touch. Returns whether something that they touched in the last tick has been edited or taken
+// away since, or they themselves have.
+bool note_what_is_touched(TouchedBefore& before, const ContactRecord& contact, const ProbeInput& input) {
+    const geometry::LocalSurface& surface = input.surface;
+    const std::uint32_t can_be_felt = materials_felt(input.parameters);
+    bool edited = (before.count != 0 && !same(before.probe, input.parameters.probe)) ||
+                  (before.materials_felt != 0 && before.materials_felt != can_be_felt);
+    const bool published = before.surface_sequence != surface.sequence;
+    for (std::uint32_t i = 0; i < before.count; ++i) {
+        const TouchedObject& touched = before.objects[i];
+        if (!published || touched.object == 0) continue;
+        edited = edited || edits_of(touched.object, surface) != touched.edits;
+    }
+    before.surface_sequence = surface.sequence;
+    before.probe = input.parameters.probe;
+    before.materials_felt = can_be_felt;
+    before.count = 0;
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+        if (contact.points[i].constraints == 0) continue;
+        const std::uint32_t object = contact.points[i].object;
+        before.objects[before.count++] = {object, edits_of(object, surface).value_or(0)};
+    }
+    return edited;
+}
 
 std::uint32_t deepest_of(const ContactRecord& contact) {
     std::uint32_t deepest = 0;
@@ -215,7 +275,6 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     ContactRecord& contact = step.contact;
     contact.point_count = input.parameters.probe.count;
     const bool pressed = (input.sample.buttons & 1u) != 0;
-    const bool painting = pressed && input.parameters.action == ToolAction::paint;
     const bool cutting = pressed && input.parameters.action == ToolAction::cut;
     const double longest_s = input.parameters.max_surface_age_s;
     const bool held_over = input.turn.held_over;
@@ -233,27 +292,23 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     if (held_over)
         wait(step.next.turns);
     else
-        touch_points(points, step, input, painting);
+        touch_points(points, step, input);
     Touching touching;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         if (!points[i]->in_contact()) continue;
         touching.shares += input.parameters.probe.points[i].share;
         if (contact.point_count > 1 || points[i]->has_shape()) touching.squared_arms_m2 += points[i]->squared_arm_m2();
     }
+    const WallsOfPoints walls = eased_walls(points, step, input, touching);
     std::array<PointForce, kMostProbePoints> forces;
     Vec3 drag_device_N(0.0);
     std::optional<Vec3> cut_torque_device_Nm;  // of the material on a tool that cuts
     SurfaceVelocity surface;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         PointContact& point = *points[i];
-        const RenderedWall rendered_wall = rendered(point, input.parameters.probe.points[i].share, input, touching);
-        if (rendered_wall.bound != StiffnessBound::none) {
-            step.flags |= kTickStiffnessLimited;
-            contact.stiffness_bound = rendered_wall.bound;
-        }
         Vec3 bearing = point.record().proxy_object_m;
         if (i == 0) {
-            const CuttingStep cut = cut_by(point, step.next.cutting, rendered_wall.wall, cutting, input, contact.work);
+            const CuttingStep cut = cut_by(point, step.next.cutting, walls[i], cutting, input, contact.work);
             if (cut.next.engaged) {
                 step.flags |= kTickCutting;
                 point.bear_on_cut(cut.bearing_object_m);
@@ -270,11 +325,12 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
             contact.tool_orientation_object =
                 point.has_shape() ? step.next.tool_orientation_object : input.motion.orientation_object;
         bearing = point.less_left_out(bearing);
-        forces[i] = point.force(rendered_wall.wall, bearing);
+        forces[i] = point.force(walls[i], bearing);
         surface.add(point.surface_velocity_device_m_per_s(), forces[i].force_device_N);
-        contact.spring_energy_J += point.spring_energy_J(rendered_wall.wall, bearing);
+        contact.spring_energy_J += point.spring_energy_J(walls[i], bearing);
     }
     if (input.surface.models.count > 0) push_points(step, input, {forces.data(), contact.point_count}, surface);
+    contact.edited = note_what_is_touched(step.next.touched, contact, input);
     contact.surface_velocity_device_m_per_s = surface.mean();
     contact.deepest = deepest_of(contact);
     contact.wrench = sum_of({forces.data(), contact.point_count});
@@ -290,6 +346,7 @@ void place_proxies(ProbeState& state, const Vec3& position_object_m, std::uint64
     state.proxies.fill(placed);
     state.watches = {};
     state.contacts = {};
+    state.walls = {};
     state.left_out_m = {};
     state.cutting.engaged = false;
 }
@@ -297,6 +354,8 @@ void place_proxies(ProbeState& state, const Vec3& position_object_m, std::uint64
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     step.contact.point_count = input.parameters.probe.count;
     step.next.bodies.count = 0;
+    step.next.walls = {};
+    step.next.touched.count = 0;
     const MovingBodies none;
     for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, none, i).stay_with_hand();
     step.contact.cut_object_m = step.contact.points[0].hip_object_m;

@@ -9,6 +9,7 @@
 #include "haptics/contact/moving_bodies.hpp"
 #include "haptics/contact/point_turns.hpp"
 #include "haptics/forces/cutting.hpp"
+#include "haptics/forces/easing.hpp"
 
 namespace burin::haptics {
 
@@ -16,6 +17,18 @@ namespace burin::haptics {
 struct LastContact {
     Vec3 normal_object{0.0};
     std::uint32_t constraints = 0;  // 0: it did not touch
+};
+
+// What the probe touched in a tick, and in which state: an edit shows by another number, or by the object's absence.
+struct TouchedObject {
+    std::uint32_t object = 0, edits = 0;
+};
+struct TouchedBefore {
+    std::array<TouchedObject, kMostProbePoints> objects{};
+    std::uint32_t count = 0;  // of the points that touched
+    std::uint64_t surface_sequence = 0;
+    std::uint32_t materials_felt = 0;  // a bit for each
+    Probe probe;
 };
 
 // What contact keeps from tick to tick.
@@ -27,6 +40,9 @@ struct ProbeState {
     // out of the spring after an unexplained motion, in the object frame.
     std::array<LastContact, kMostProbePoints> contacts{};
     std::array<double, kMostProbePoints> left_out_m{};
+    EasedWalls walls{};
+    std::array<EasedFriction, kMostProbePoints> friction{};
+    TouchedBefore touched;
     Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of a tool's shape at its proxy
     PointTurns turns;
     CuttingState cutting;

@@ -83,6 +83,7 @@ void refuse(const TickResult& t) {
     // The last known position of the tool.
     const Vec3 last_object_m = t.next.probe.proxies[0].position_object_m;
     t.next.passivity.known = false;
+    t.next.force = {};
     t.record.contact.point_count = 1;
     t.record.contact.points[0].hip_object_m = t.record.contact.points[0].proxy_object_m = last_object_m;
     t.record.motion.object_from_device = t.next.workspace.object_from_device;
@@ -131,7 +132,7 @@ PassivityStep kept_passive(const PassivityState& state, const TickRecord& record
     input.stored_J = record.contact.spring_energy_J;
     input.max_force_N = std::min(parameters.limits.max_force_N, device.max_force_N);
     input.in_contact = record.in_contact();
-    input.jumped = record.contact.jumped;
+    input.jumped = record.contact.jumped || record.contact.eases;
     input.surface_velocity_device_m_per_s = record.contact.surface_velocity_device_m_per_s;
     const devices::OneWayDrive& drive = record.sample.drive;
     if (!drive.is_one()) return keep_passive(state, input, parameters.passivity, device, dt_s);
@@ -139,6 +140,24 @@ PassivityStep kept_passive(const PassivityState& state, const TickRecord& record
     PassivityStep step = keep_passive(state, input, parameters.passivity, device, dt_s);
     step.wrench.force_device_N = step.wrench.force_device_N.x * drive.along_device;
     return step;
+}
+
+// Eases the contact's force where it has changed otherwise than by the motion of hand and bodies. After a jump from
+// free space the gate fades it in.
+void ease_contact(EasedForce& state, TickRecord& record, bool ended, const TickParameters& parameters, double dt_s) {
+    ContactRecord& contact = record.contact;
+    const devices::DeviceWrench& last = state.last.wrench;
+    const bool had_force = last.force_device_N != Vec3(0.0) || last.torque_device_Nm != Vec3(0.0);
+    double changed_s = 0.0;
+    if (had_force && contact.jumped)
+        changed_s = std::max(parameters.limits.contact_ramp_s, dt_s);
+    else if (contact.edited || ended)
+        changed_s = kEase_s;
+    const ContactForce force = eased(state, {contact.wrench, contact.spring_energy_J}, changed_s, dt_s);
+    contact.wrench = force.wrench;
+    contact.spring_energy_J = force.stored_J;
+    contact.eases = state.changes();
+    if (contact.eases) record.flags |= kTickRamping;
 }
 
 GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const TickParameters& parameters,
@@ -202,11 +221,12 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
 
     // Contact; it starts afresh after a jump of the mapping.
     const bool lifted = parameters.touches_while_pressed && (sample.buttons & 1u) == 0;
-    if (workspace.jumped || workspace.paused || !parameters.enabled || lifted) end_contact(next.probe);
+    const bool away = workspace.jumped || workspace.paused || parameters.holds;
+    if (away || !parameters.enabled || lifted) end_contact(next.probe);
     if (!next.probe.proxies[0].placed) record.flags |= kTickProxyReset;
     const bool searchable = surface.sequence > 0;
     if (!searchable) record.flags |= kTickNoSurface;
-    const bool touches = searchable && parameters.enabled && !workspace.paused && !lifted;
+    const bool touches = searchable && parameters.enabled && !parameters.holds && !workspace.paused && !lifted;
     const bool places = touches && parameters.placement.number != next.probe.placement;
     if (places) {
         place_proxies(next.probe, parameters.placement.position_object_m, surface.sequence);
@@ -229,6 +249,10 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const double alpha = parameters.signals.force_alpha;
     next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
     if (alpha > 0.0) contact.force_device_N = next.force_average.value;
+    if (parameters.enabled && !lifted)
+        ease_contact(next.force, record, away && state.in_contact, parameters, dt_s);
+    else
+        next.force = {};  // switched off
     const Vec3 pressing_device_N = contact.force_device_N;
     contact = as_driven(contact, sample.drive);
     const PassivityStep passive =
@@ -285,7 +309,7 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
     in.parameters_sensible = record.parameters_sensible;
     in.scale_felt = record.scale_felt;
     in.in_contact = record.in_contact();
-    in.contact_jumped = record.contact.jumped;
+    in.contact_jumped = record.contact.jumped && !record.contact.eases;
     in.surface_stale = (record.flags & kTickStaleSurface) != 0;
     in.outside_known = (record.flags & kTickOutsideKnown) != 0;
     in.let_go = (record.flags & kTickLetGo) != 0;

@@ -7,8 +7,8 @@
 // surface
 //   (haptics/contact/god_object.hpp) -> spring, damper, friction (haptics/forces/touch_force.hpp)
 //   -> the cutting point advances (haptics/forces/cutting.hpp) -> one force and torque (haptics/forces/touch_force.hpp)
-//   -> filter (haptics/signals/filters.hpp) -> passivity (haptics/stability/passivity.hpp) -> weight, guidance,
-// workspace force
+//   -> filter (haptics/signals/filters.hpp) -> easing of edits (haptics/forces/easing.hpp) -> passivity
+//   (haptics/stability/passivity.hpp) -> weight, guidance, workspace force
 //   -> the gate (stability/safety_gate.hpp): turns the desired wrench into the commanded wrench.
 // Position gain g: points are scaled by g, forces divided by g, so that stiffness and damping are felt at the device as
 // set, whatever the scale of the scene. Damping acts along the contact normal, in contact only, and never pulls
@@ -41,6 +41,7 @@ struct TickState {
     ProbeState probe;
     GuidanceState guidance;
     MovingAverage force_average;
+    EasedForce force;
     PassivityState passivity;
     bool in_contact = false;
     std::uint32_t refused = 0;  // ticks in a row whose input made no sense

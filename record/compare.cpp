@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "record/compare.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -84,10 +85,14 @@ Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view co
                     "compare recordings of the same devices");
     Comparison result;
     for (std::size_t hand = 0; hand < a.hands().size(); ++hand) {
-        if (a.hands()[hand].columns != b.hands()[hand].columns)
+        const std::vector<Column>& of_a = a.hands()[hand].columns;
+        const std::vector<Column>& of_b = b.hands()[hand].columns;
+        // A version may have appended columns, which the other has not.
+        const std::vector<Column>& common = of_a.size() <= of_b.size() ? of_a : of_b;
+        if (!std::equal(common.begin(), common.end(), of_a.size() <= of_b.size() ? of_b.begin() : of_a.begin()))
             return fail(b.path(), "has other columns than " + a.path() + " for " + a.hands()[hand].name,
                         "compare recordings of the same device and probe");
-        const auto chosen = choose_columns(a.hands()[hand].columns, columns);
+        const auto chosen = choose_columns(common, columns);
         if (!chosen) return std::unexpected(chosen.error());
         result.columns += chosen->size();
         if (const auto done = compare_hand(a, b, hand, *chosen, range, result); !done)

@@ -23,6 +23,13 @@ Box box_in_scene(const geometry::TouchSnapshot& snapshot, const Pose& scene_from
     return {middle - half, middle + half};
 }
 
+// Whether a tool that touches the object goes on touching the same surface at the same place. A material's change is
+// not one of the surface: the tick eases it itself.
+bool feels_alike(const SceneObject& a, const SceneObject& b) {
+    return a.mesh == b.mesh && a.scale == b.scale && a.felt == b.felt && a.both_sides == b.both_sides &&
+           a.pose == b.pose && a.motion.index() == b.motion.index();
+}
+
 }  // namespace
 
 // ---- Making and editing
@@ -73,6 +80,7 @@ Result<void> MeshPart::replace(Placed& placed, SceneObject object) {
     } else if (placed.snapshot) {
         materials_.release(placed.material);
     }
+    if (!feels_alike(placed.object, object)) ++placed.edits;
     placed.object = std::move(object);
     placed.snapshot = std::move(snapshot);
     placed.material = material;
@@ -241,6 +249,7 @@ geometry::TouchedMesh MeshPart::Placed::touched(Nanoseconds time_ns) const {
     geometry::TouchedMesh mesh{snapshot, material, object.both_sides};
     mesh.motion.object_from_mesh = scene_from_object;
     mesh.object = static_cast<std::uint32_t>(object.id);
+    mesh.edits = edits;
     if (!moves()) return mesh;
     mesh.motion.body = object.id;
     mesh.motion.velocity_object_m_per_s = velocities.linear_m_per_s;

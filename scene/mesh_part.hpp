@@ -86,7 +86,8 @@ private:
         std::uint8_t material = 0;  // index in the table; held while it is felt
         Pose scene_from_object;
         Velocities velocities;
-        bool changed = true;  // since take_object_updates()
+        bool changed = true;      // since take_object_updates()
+        std::uint32_t edits = 0;  // TouchedMesh::edits
 
         [[nodiscard]] bool moves() const { return !std::holds_alternative<FixedMotion>(object.motion); }
         [[nodiscard]] geometry::TouchedMesh touched(Nanoseconds time_ns) const;

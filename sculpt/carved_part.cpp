@@ -128,7 +128,9 @@ Result<void> CarvedPart::carve(Carver& carver) {
 
 Result<void> CarvedPart::add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) {
     if (Carver* const carver = carver_of(ball.hand)) carver->tool_object = ball.center_scene;
-    return sculpture_.local_surface(ball.center_scene, ball.radius_m, draft);
+    const auto done = sculpture_.local_surface(ball.center_scene, ball.radius_m, draft);
+    draft.tiles_edits = edits_;
+    return done;
 }
 
 bool CarvedPart::pressed() const {
@@ -257,12 +259,14 @@ void CarvedPart::use_tool(Carver& carver, const UseTool& use) {
 
 void CarvedPart::carry_out(const UndoStroke&) {
     sculpture_.end_stroke();
+    ++edits_;
     const Result<std::size_t> undone = sculpture_.undo(1);
     if (!undone) return notify(undone.error().line());
     if (*undone == 0) notify("there is no stroke to undo");
 }
 
 void CarvedPart::carry_out(const RedoStroke&) {
+    ++edits_;
     const Result<std::size_t> redone = sculpture_.redo(1);
     if (!redone) return notify(redone.error().line());
     if (*redone == 0) notify("there is no stroke to redo");

@@ -175,6 +175,7 @@ private:
     Sculpture& sculpture_;
     std::vector<Carver> carvers_;  // at least one, in the order in which they were given tools
     bool keeps_history_;
+    std::uint32_t edits_ = 0;           // LocalSurface::tiles_edits
     bool stroke_open_ = false;          // a button was down at the end of the last update
     bool status_changed_ = true;        // something other than tiles and messages has to be reported
     bool busy_ = true;                  // there was something to report after the last update

@@ -21,9 +21,10 @@ WandFelt felt_in(double time_s, const haptics::TickRecord& tick) {
     felt.time_s = time_s;
     felt.scene_from_tool = {tick.motion.object_from_device * tick.sample.position_device_m,
                             tick.motion.orientation_object};
+    const double given = session::given_share(tick);
     for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
         const haptics::PointRecord& p = tick.contact.points[i];
-        felt.points.push_back({p.hip_object_m, p.proxy_object_m, turn * p.force_device_N, p.object});
+        felt.points.push_back({p.hip_object_m, p.proxy_object_m, given * (turn * p.force_device_N), p.object});
     }
     felt.force_N = turn * tick.contact.wrench.force_device_N;
     felt.torque_Nm = turn * tick.contact.wrench.torque_device_Nm;
@@ -56,16 +57,27 @@ public:
         }
         return pressed;
     }
+    void add(const haptics::TickRecord& tick) {
+        for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+            const haptics::PointRecord& point = tick.contact.points[i];
+            if (point.object != 0 && point.constraints != 0) walls_[{point.object, i}].add(tick, i);
+        }
+    }
     [[nodiscard]] std::vector<PointTouch> all() const {
         std::vector<PointTouch> list;
-        for (const auto& [key, touch] : found_) list.push_back(touch);
+        for (const auto& [key, touch] : found_) {
+            list.push_back(touch);
+            if (const auto wall = walls_.find(key); wall != walls_.end()) list.back().wall = wall->second;
+        }
         return list;
     }
 
 private:
     const scene::MeshPart& part_;
     const std::vector<devices::WandPoint>& points_;
-    std::map<std::pair<scene::ObjectId, std::size_t>, PointTouch> found_;
+    using Key = std::pair<scene::ObjectId, std::size_t>;
+    std::map<Key, PointTouch> found_;
+    std::map<Key, session::RenderedTally> walls_;
     std::map<scene::ObjectId, bool> pictured_;
 };
 
@@ -114,6 +126,7 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::
         explored.force_max_N = std::max(explored.force_max_N, glm::length(tick.gate.given.force_device_N));
         explored.torque_max_Nm = std::max(explored.torque_max_Nm, glm::length(tick.gate.given.torque_device_Nm));
         if (tick.in_contact()) ++explored.ticks_in_contact;
+        touches.add(tick);
         if (tick.gate.cause != haptics::GateCause::none) ++explored.ticks_faulted;
     };
     const auto at_update = [&](double time_s, const haptics::TickRecord& last) -> Result<void> {

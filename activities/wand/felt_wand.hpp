@@ -15,12 +15,14 @@
 
 #include "activities/wand/wand_run.hpp"
 #include "sculpt/stroke_file.hpp"
+#include "session/felt/rendered_tally.hpp"
 
 namespace burin::activities {
 
 // A point of the wand at one time.
 struct PointFelt {
-    Vec3 place_m{0.0}, proxy_m{0.0}, force_N{0.0};
+    Vec3 place_m{0.0}, proxy_m{0.0};
+    Vec3 force_N{0.0};           // its part of what is given, but for the torque's
     scene::ObjectId object = 0;  // that it touches; 0: none
 };
 
@@ -38,7 +40,8 @@ struct PointTouch {
     std::string object_name, point_name;
     std::uint64_t updates = 0;
     double first_s = 0.0;
-    double force_max_N = 0.0, force_mean_N = 0.0;
+    double force_max_N = 0.0, force_mean_N = 0.0;  // as given
+    session::RenderedTally wall = {};              // of every tick
 };
 
 struct WandExploredWorld {

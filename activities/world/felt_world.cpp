@@ -49,15 +49,24 @@ public:
         constexpr std::uint64_t kPressed = 15;
         return touch.updates == kPressed ? std::optional(touch.name) : std::nullopt;
     }
+    void add(const haptics::TickRecord& tick) {
+        const haptics::PointRecord& point = tick.contact.points[0];
+        if (point.object == 0 || point.constraints == 0) return;
+        walls_[point.object].add(tick, 0);
+    }
     [[nodiscard]] std::vector<ObjectTouch> all() const {
         std::vector<ObjectTouch> list;
-        for (const auto& [id, touch] : found_) list.push_back(touch);
+        for (const auto& [id, touch] : found_) {
+            list.push_back(touch);
+            if (const auto wall = walls_.find(id); wall != walls_.end()) list.back().wall = wall->second;
+        }
         return list;
     }
 
 private:
     const scene::MeshPart& part_;
     std::map<scene::ObjectId, ObjectTouch> found_;
+    std::map<scene::ObjectId, session::RenderedTally> walls_;
 };
 
 Result<std::unique_ptr<WorldRecorder>> recorder_of(const scene::MeshPart& part, std::span<const scene::ObjectId> ids,
@@ -123,6 +132,7 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
         clock.sleep_until(clock.now_ns() + loop.period_ns());
         const haptics::TickRecord tick = loop.step();
         touched = scene::touched_in(tick, touched);
+        touches.add(tick);
         if (*recorder) (*recorder)->add(tick, std::array{tick.contact.points[0].object});
     }
     if (*recorder)

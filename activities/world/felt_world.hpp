@@ -18,6 +18,7 @@
 #include "scene/mesh_part.hpp"
 #include "sculpt/stroke_file.hpp"
 #include "session/felt/felt_figures.hpp"
+#include "session/felt/rendered_tally.hpp"
 
 namespace burin::activities {
 
@@ -44,6 +45,7 @@ struct ObjectTouch {
     double first_s = 0.0;       // since the beginning
     double force_max_N = 0.0, force_mean_N = 0.0;
     std::vector<TouchedPoint> course = {};
+    session::RenderedTally wall = {};  // of every tick
 };
 
 struct WorldFigures {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/plot/figures.hpp"
+#include "base/text.hpp"
 
 namespace burin::activities {
 namespace {
@@ -57,6 +58,22 @@ std::string world_figure(const WorldFigures& figures) {
          plot_of("Hand beyond where its tool rests", "mm", times_s, objects,
                  [](const TouchedPoint& p) { return 1e3 * p.beyond_m; })},
         1);
+}
+
+std::string depth_figure(const WorldFigures& figures) {
+    plot::Plot made{"Force on the hand over how far it is beyond where its tool rests", "mm", "N", {}};
+    made.x_linear = made.y_linear = true;
+    made.markers = false;
+    std::vector<const ObjectTouch*> objects;
+    for (const ObjectTouch& touch : figures.touches) objects.push_back(&touch);
+    std::ranges::stable_sort(objects, std::greater(), [](const ObjectTouch* t) { return t->wall.felt_N_per_m(); });
+    for (const ObjectTouch* object : objects) {
+        plot::PlotSeries series{formatted("%s, %.0f N/m", object->name.c_str(), object->wall.felt_N_per_m()), {}};
+        for (const TouchedPoint& point : object->course)
+            series.points.push_back({1e3 * point.beyond_m / figures.felt.object_from_device.scale, point.force_N, ""});
+        made.series.push_back(std::move(series));
+    }
+    return plot::svg_figure("What was felt of each object", {made});
 }
 
 }  // namespace burin::activities

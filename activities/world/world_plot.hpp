@@ -12,4 +12,7 @@ namespace burin::activities {
 // Returns the figure as SVG text. Objects that were touched longest come first; as many as a legend holds.
 [[nodiscard]] std::string world_figure(const WorldFigures& figures);
 
+// Returns a figure of the force over the depth, a line for each object, whose slope is the stiffness that was felt.
+[[nodiscard]] std::string depth_figure(const WorldFigures& figures);
+
 }  // namespace burin::activities

@@ -45,6 +45,7 @@ void WorldRecorder::append_objects(const haptics::TickRecord& tick, std::vector<
     }
     const bool is_there = of_tick != nullptr && of_tick->tick == tick.tick;
     for (std::uint32_t i = 0; i < points_; ++i) row.push_back(is_there ? of_tick->numbers[i] : 0u);
+    record::append_walls(tick, {.points = points_}, row);
 }
 
 Result<void> WorldRecorder::update(Nanoseconds time_ns, std::uint64_t last_tick) {

@@ -65,13 +65,6 @@ private:
     std::string path_;
 };
 
-std::vector<record::Column> columns_of_a_world() {
-    std::vector<record::Column> columns = record::columns_for(record::RowShape{0, 1});
-    const std::vector<record::Column> objects = record::touched_columns({.points = 1});
-    columns.insert(columns.end(), objects.begin(), objects.end());
-    return columns;
-}
-
 }  // namespace
 
 Result<WorldSettings> recorded_settings(const record::RecordReader& reader) {
@@ -93,7 +86,8 @@ Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::Mes
     const Result<std::unique_ptr<RepeatedHand>> hand = RepeatedHand::create(omni, touch.channels());
     if (!hand) return std::unexpected(hand.error());
     const std::vector<record::Column>& columns = reader.hands()[0].columns;
-    if (columns != columns_of_a_world())
+    constexpr record::RowShape kOneBall{0, 1};
+    if (!record::can_be_replayed(columns, kOneBall))
         return fail(reader.path(), "has other columns than this program records of a world",
                     "replay it with the program that recorded it; its data can be read and converted");
     Result<RecordedUpdates> updates = RecordedUpdates::of(reader);
@@ -119,9 +113,9 @@ Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::Mes
             return std::unexpected(ready.error());
         const haptics::TickRecord again = (*hand)->repeated(tick);
         if (tick.tick < range.from) continue;
-        std::vector<record::Word> row = record::row_of(again, {0, 1});
-        row.push_back(again.contact.points[0].object);
-        for (std::size_t c = 0; c < row.size(); ++c) {
+        std::vector<record::Word> row = record::row_of(again, kOneBall);
+        record::append_touched(again, kOneBall, row);
+        for (std::size_t c = 0; c < columns.size(); ++c) {
             if (walk.at(c) == row[c]) continue;
             result.difference =
                 record::difference_of(reader.hands()[0].name, columns[c], tick.tick, walk.at(c), row[c]);

@@ -30,20 +30,25 @@ Vec3 clamped(const Vec3& force_N, double max_N) {
 
 }  // namespace
 
+DeviceDescription description_of(const OmniModel& model) noexcept {
+    DeviceDescription device;
+    device.name = model.name;
+    device.workspace_m = model.workspace_m;
+    device.resolution_m = model.resolution_m;
+    device.max_force_N = model.max_force_N;
+    device.max_stiffness_N_per_m = model.max_stiffness_N_per_m;
+    device.felt_by_person = false;
+    device.rate_Hz = 1000.0;
+    device.apparent_mass_kg = model.apparent_mass_kg;
+    device.damping_Ns_per_m = model.damping_Ns_per_m;
+    device.friction_N = model.friction_N;
+    device.delay_s = seconds(SimulatedOmni::kDelay_ns);
+    device.watchdog_s = model.watchdog_s;
+    return device;
+}
+
 SimulatedOmni::SimulatedOmni(AnyHand hand, const OmniModel& model, Clock* clock)
-    : hand_(std::move(hand)), model_(model), clock_(clock) {
-    description_.name = model_.name;
-    description_.workspace_m = model_.workspace_m;
-    description_.resolution_m = model_.resolution_m;
-    description_.max_force_N = model_.max_force_N;
-    description_.max_stiffness_N_per_m = model_.max_stiffness_N_per_m;
-    description_.felt_by_person = false;
-    description_.rate_Hz = 1000.0;
-    description_.apparent_mass_kg = model_.apparent_mass_kg;
-    description_.damping_Ns_per_m = model_.damping_Ns_per_m;
-    description_.friction_N = model_.friction_N;
-    description_.delay_s = seconds(kDelay_ns);
-    description_.watchdog_s = model_.watchdog_s;
+    : hand_(std::move(hand)), model_(model), clock_(clock), description_(description_of(model)) {
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 half = 0.5 * model_.workspace_m;
     position_m_ = glm::clamp(target_of(hand_, 0.0).position_device_m, -half, half);

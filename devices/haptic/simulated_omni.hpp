@@ -33,6 +33,9 @@ struct OmniModel {
     double watchdog_s = 0.0;  // time without a write() after which the motors give nothing; 0: none, as the data sheet
 };
 
+// Returns the device as the tick sees it. The model's name must outlive the result.
+[[nodiscard]] DeviceDescription description_of(const OmniModel& model) noexcept;
+
 // Faults that tests and drills inject.
 enum class InjectedFault : std::uint8_t {
     none,

@@ -45,6 +45,9 @@ struct TouchedMesh {
     bool two_sided = false;
     MeshMotion motion{};       // by default none: the snapshot's place is in the object frame
     std::uint32_t object = 0;  // number of the scene's object, for records of what was touched; 0: none
+    // Counts what has changed the object's surface or place at once, not by its motion: a tick that touches it then
+    // eases from the old contact to the new one (haptics/forces/easing.hpp).
+    std::uint32_t edits = 0;
 
     [[nodiscard]] bool moves() const noexcept { return motion.body != 0; }
     // Tells whether the mesh's frame may be another than the object frame.
@@ -58,6 +61,7 @@ struct LocalSurface {
     Vec3 center_object{0.0};     // the ball within which the surface is complete
     double radius_m = 0.0;
     TileBlock tiles;
+    std::uint32_t tiles_edits = 0;  // as TouchedMesh::edits: what no tool has carved, such as a stroke that is undone
     std::shared_ptr<const GriddedTriangles> loose;  // null, or with its search built
     std::vector<TouchedMesh> meshes;                // whole meshes wherever they are; the ball does not bound them
     LocalModels models;                             // of bodies that give, for each point of the probe

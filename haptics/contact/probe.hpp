@@ -7,6 +7,7 @@
 // position), and then in the object frame by the workspace's mapping, gain included. Radii are in the object frame.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -27,6 +28,15 @@ struct Probe {
     std::uint32_t count = 1;  // 1 to kMostProbePoints
     std::array<ProbePoint, kMostProbePoints> points{};
 };
+
+[[nodiscard]] inline bool same(const Probe& a, const Probe& b) noexcept {
+    if (a.count != b.count) return false;
+    for (std::uint32_t i = 0; i < std::min(a.count, kMostProbePoints); ++i)
+        if (a.points[i].offset_device_m != b.points[i].offset_device_m ||
+            a.points[i].radius_m != b.points[i].radius_m || a.points[i].share != b.points[i].share)
+            return false;
+    return true;
+}
 
 // Where the proxies of all points begin anew, wherever the hand is: both ends of a wand at the start of a path. Each
 // number acts once, in the first tick that touches; 0: never. Where the hand is beyond a surface then, the proxies stay

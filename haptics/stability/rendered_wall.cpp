@@ -129,6 +129,36 @@ StiffnessLimit limited_by_rotation(const ContactDemand& wall, double sum_of_squa
             StiffnessBound::rotation};
 }
 
+RenderedWall rendered(const WallDemand& asked, const devices::DeviceDescription& device) noexcept {
+    const CoupledWall wall = through(asked.coupling, asked.wall);
+    if (!asked.limit) return {wall};
+    ContactDemand demand;
+    demand.stiffness_N_per_m = wall.stiffness_N_per_m * asked.points;
+    demand.damping_Ns_per_m = wall.damping_Ns_per_m * asked.points;
+    demand.filter_lag_s = asked.filter_lag_s;
+    demand.period_s = asked.period_s;
+    const StiffnessLimit limit = limited(demand, device);
+    const CoupledWall each{limit.stiffness_N_per_m / asked.points, limit.damping_Ns_per_m / asked.points};
+    if (!(asked.squared_arms_m2 > 0.0)) return {each, limit.bound};
+    demand.stiffness_N_per_m = each.stiffness_N_per_m;
+    demand.damping_Ns_per_m = each.damping_Ns_per_m;
+    const StiffnessLimit turning = limited_by_rotation(demand, asked.squared_arms_m2, device);
+    return {{turning.stiffness_N_per_m, turning.damping_Ns_per_m},
+            turning.bound != StiffnessBound::none ? turning.bound : limit.bound};
+}
+
+const char* short_text(StiffnessBound bound) noexcept {
+    switch (bound) {
+        case StiffnessBound::none: return "";
+        case StiffnessBound::sampling: return "its rate and delay";
+        case StiffnessBound::quantisation: return "its encoders' steps";
+        case StiffnessBound::device: return "its maker's limit";
+        case StiffnessBound::damping: return "its own damping";
+        case StiffnessBound::rotation: return "its torque";
+    }
+    return "";
+}
+
 const char* text(StiffnessBound bound) noexcept {
     switch (bound) {
         case StiffnessBound::none: return "as stiff as the material says";

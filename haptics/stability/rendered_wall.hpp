@@ -115,7 +115,31 @@ struct ContactDemand {
 [[nodiscard]] StiffnessLimit limited_by_rotation(const ContactDemand& wall, double sum_of_squared_arms_m2,
                                                  const devices::DeviceDescription& device) noexcept;
 
+// ---- What is rendered of a material
+
+// The wall that a point asks of its device, and what acts beside it.
+struct WallDemand {
+    CoupledWall wall;              // of the material
+    CouplingSettings coupling;     // through which it is felt
+    double points = 1.0;           // how many such walls act side by side
+    double squared_arms_m2 = 0.0;  // sum over these points; 0: they do not turn the tool
+    double filter_lag_s = 0.0;     // as in ContactDemand
+    double period_s = 0.0;
+    bool limit = true;  // false: as asked, through the coupling
+};
+
+struct RenderedWall {
+    CoupledWall wall;
+    StiffnessBound bound = StiffnessBound::none;  // why it is less than asked
+};
+
+// The wall as the device may render it: through the coupling, and limited to what stays passive. What acts side by side
+// shares the limit, and so does the resistance to rotation that it makes up together.
+[[nodiscard]] RenderedWall rendered(const WallDemand& demand, const devices::DeviceDescription& device) noexcept;
+
 // A sentence for people; static storage.
 [[nodiscard]] const char* text(StiffnessBound bound) noexcept;
+// The same in a few words: "the device", "its sampling and delay"; empty for none.
+[[nodiscard]] const char* short_text(StiffnessBound bound) noexcept;
 
 }  // namespace burin::haptics

@@ -2,7 +2,6 @@
 #include "session/drive/tick_comparison.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 
 #include "record/examination.hpp"
@@ -39,9 +38,7 @@ Result<void> TickComparison::add_part(std::size_t table) {
     const std::vector<record::Column>& columns = reader_->table(table).columns;
     const bool one_way = std::ranges::find(columns, "drive_state", &record::Column::name) != columns.end();
     const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m"), one_way};
-    std::vector<record::Column> expected = record::columns_for(shape);
-    std::ranges::copy(record::touched_columns(shape), std::back_inserter(expected));
-    if (columns != expected)
+    if (!record::can_be_replayed(columns, shape))
         return fail(reader_->path(), "has other columns than this program's recordings",
                     "replay it with the program that recorded it; its data can be read and converted");
     Result<record::MotionColumns> motion = record::MotionColumns::find(*reader_, table);
@@ -86,11 +83,11 @@ Result<void> TickComparison::take(std::size_t part, const haptics::TickRecord& a
         ++unrecorded_;
         return {};
     }
+    const record::HandRecord& hand = reader_->table(part);
     const std::vector<record::Word> row = session_row(again, own.shape);
-    for (std::size_t c = 0; c < row.size(); ++c) {
+    for (std::size_t c = 0; c < hand.columns.size(); ++c) {
         const record::Word was = own.walk.at(c);
         if (was == row[c]) continue;
-        const record::HandRecord& hand = reader_->table(part);
         found_.difference =
             record::difference_of(hand.name, hand.columns[c], static_cast<std::int64_t>(again.tick), was, row[c]);
         if (then_ == AtDifference::goes_on) return {};

@@ -107,8 +107,9 @@ private:
 // 1).
 [[nodiscard]] std::string felt_table(const FeltFigures& felt);
 
-// Paths of the two files: report.json -> report-felt.svg, report-felt.csv.
+// Paths of the files: report.json -> report-felt.svg, report-felt.csv; report-depth.svg, the force over the depth.
 [[nodiscard]] std::string felt_figure_path(const std::string& report);
 [[nodiscard]] std::string felt_table_path(const std::string& report);
+[[nodiscard]] std::string felt_depth_path(const std::string& report);
 
 }  // namespace burin::session

@@ -163,5 +163,6 @@ std::string felt_table(const FeltFigures& felt) {
 
 std::string felt_figure_path(const std::string& report) { return beside(report, "-felt.svg"); }
 std::string felt_table_path(const std::string& report) { return beside(report, "-felt.csv"); }
+std::string felt_depth_path(const std::string& report) { return beside(report, "-depth.svg"); }
 
 }  // namespace burin::session

@@ -51,18 +51,32 @@ void add_objects(PanelModel& m, const SessionState& state) {
     for (const auto& object : state.world->objects) m.object_names.push_back(object->name);
     const scene::SceneObject* chosen = state.world->find(state.selected);
     const scene::SceneObject& object = chosen != nullptr ? *chosen : *state.world->objects.front();
-    m.object = PanelObject{object.name,
-                           "",
-                           object.material,
-                           object.scale,
-                           {},
-                           object.seen,
-                           object.felt,
-                           object.pose.orientation,
-                           object.corner_colours != nullptr};
+    m.object = PanelObject{.name = object.name,
+                           .state = "",
+                           .material = object.material,
+                           .scale = object.scale,
+                           .seen = object.seen,
+                           .felt = object.felt,
+                           .orientation = object.pose.orientation,
+                           .own_colours = object.corner_colours != nullptr};
     if (std::holds_alternative<scene::HeldMotion>(object.motion)) m.object->state = "held";
     if (std::holds_alternative<scene::PathMotion>(object.motion)) m.object->state = "moves";
     for (std::size_t i = 0; i < 3; ++i) m.object->colour_srgb.at(i) = object.colour.at(i) / 255.0;
+}
+
+// Fills in what each hand's device renders of the chosen object's material.
+void add_rendered(PanelModel& m, const PanelContext& context) {
+    if (!m.object || !m.object->felt) return;
+    for (std::size_t hand = 0; hand < context.hands.hands(); ++hand) {
+        const haptics::TickParameters parameters = parameters_of(context.state, context.room, hand);
+        const devices::DeviceDescription& device = context.hands.device(context.hands.first_part(hand));
+        const auto with = [&](std::uint32_t points) {
+            return scene::rendered_material(m.object->material, device, parameters, points);
+        };
+        PanelRendered rendered{context.hands.hands() > 1 ? context.hands.name_of_hand(hand) : "", with(1), {}};
+        if (parameters.probe.count > 1) rendered.all = with(parameters.probe.count);
+        m.object->rendered.push_back(std::move(rendered));
+    }
 }
 
 // Fills in what is known of the document, and what the user is asked about it.
@@ -108,6 +122,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.show_devices = state.devices;
     m.workpiece = context.workpiece;
     add_objects(m, state);
+    add_rendered(m, context);
     const auto value = [&](Quantity quantity) { return descriptor_of(quantity).value(state); };
     m.tool = state.tool.shape;
     m.tool_sizes = context.tool_sizes;
@@ -178,7 +193,7 @@ void LivePanel::feed_times(const FrameInput& input, const PanelContext& context)
                           tool.workspace.phase != haptics::WorkspacePhase::editing;
     feed_.feed({input.time_ns, glm::length(tool.given.force_device_N), tool.late_ticks, tool.dropped_samples, stirring,
                 context.times, context.tick_duration, drawn_, context.eye(), context.acknowledged,
-                context.recording_ended, recorded_ ? &*recorded_ : nullptr});
+                context.recording_ended, recorded_ ? &*recorded_ : nullptr, tool.energy_share});
 }
 
 double panel_scale_in(const Room& room, ImageSize window) {

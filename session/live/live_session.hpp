@@ -187,6 +187,7 @@ private:
     void watch(Nanoseconds time_ns);
     void watch_journal(const Give& give);
     void watch_misfit(const sculpt::Tool& tool);
+    void tell_what_is_not_rendered();
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
 
     Clock& clock_;

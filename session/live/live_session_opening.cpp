@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/text.hpp"
+#include "scene/rendered_material.hpp"
 #include "sculpt/crumbs.hpp"
 #include "session/document/journal_folder.hpp"
 #include "session/live/live_session.hpp"
@@ -162,6 +164,18 @@ Result<void> LiveSession::load_world(const SculptOptions& options) {
     return {};
 }
 
+// Once for each hand, before anything is touched.
+void LiveSession::tell_what_is_not_rendered() {
+    if (!state_.world || activity_.is_there()) return;
+    std::vector<scene::SceneObject> objects;
+    for (const auto& object : state_.world->objects) objects.push_back(*object);
+    for (std::size_t hand = 0; hand < hands().hands(); ++hand) {
+        const std::string more = scene::more_than_rendered(objects, hands().device(hands().first_part(hand)),
+                                                           parameters_of(state_, room_, hand));
+        if (!more.empty()) notify(more, MessageKind::info);
+    }
+}
+
 Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     const Result<wall::OutputSettings> output = first_output(room_, options.live);
     if (!output) return std::unexpected(output.error());
@@ -192,6 +206,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (const auto opened = hands_.open(options.live, state_, room_, clock_); !opened) return opened;
     tools_.resize(hands().parts());
     publish_parameters();
+    tell_what_is_not_rendered();
     const auto begun =
         scene_.begin(*use, options.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
                      activity_.scene_part(), activity_.tap(), start_ns_);

@@ -2,6 +2,7 @@
 #include "session/panel/panel_feed.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace burin::session {
@@ -85,6 +86,7 @@ void PanelFeed::plot(const PanelPlotted& plotted) {
 void PanelFeed::renew_numbers(const PanelFacts& facts) {
     const double since_s = seconds(facts.time_ns - std::exchange(renewed_ns_, facts.time_ns));
     force_now_N_ = facts.force_N;
+    energy_percent_ = static_cast<int>(std::lround(100.0 * (1.0 - std::clamp(facts.energy_share, 0.0, 1.0))));
     late_ticks_ = facts.late_ticks;
     dropped_samples_ = facts.dropped_samples;
     if (facts.times.running()) measured_.numbers = new_numbers(facts, since_s);
@@ -126,6 +128,7 @@ void PanelFeed::show_on(PanelModel& model) const {
     model.tick_us = tick_us_;
     model.frame_ms = frame_ms_;
     model.touch.force_N = force_now_N_;
+    if (model.object) model.object->energy_percent = energy_percent_;
     model.touch.late_ticks = late_ticks_;
     model.touch.dropped_samples = dropped_samples_;
     if (acknowledged_) {

@@ -45,6 +45,7 @@ struct PanelFacts {
     bool recording_ended = false;
     // Recorded times to show; null: the session's own.
     const PanelMeasured* recorded = nullptr;
+    double energy_share = 1.0;  // ToolState::energy_share
 };
 
 class PanelFeed {
@@ -72,6 +73,7 @@ private:
     // Maxima since the numbers changed and since the plots advanced.
     double longest_tick_us_ = 0.0, longest_force_N_ = 0.0;
     double force_now_N_ = 0.0;
+    int energy_percent_ = 0;
     std::uint64_t late_ticks_ = 0, dropped_samples_ = 0;
     renderer::RenderStats drawn_;  // of the last frame that drew anything
     std::optional<PanelNumbers> numbers_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "haptics/stability/safety_gate.hpp"
+#include "scene/rendered_material.hpp"
 #include "session/state/activity.hpp"
 #include "session/state/command_table.hpp"
 #include "session/state/message_kind.hpp"
@@ -100,10 +101,21 @@ struct PanelWorkpiece {
     bool operator==(const PanelWorkpiece&) const = default;
 };
 
+// What a hand's device renders of the chosen object's material.
+struct PanelRendered {
+    std::string hand;                            // empty: there is one
+    scene::RenderedMaterial one;                 // with one point alone
+    std::optional<scene::RenderedMaterial> all;  // with all of its points at once; none: it has one
+
+    bool operator==(const PanelRendered&) const = default;
+};
+
 // The object of a world that is chosen.
 struct PanelObject {
     std::string name, state;  // "moves", "held"
     scene::HapticMaterial material;
+    std::vector<PanelRendered> rendered = {};  // for each hand; none where it is not felt
+    int energy_percent = 0;                    // of the force, that the energy account takes while it is touched
     double scale = 1.0;
     std::array<double, 3> colour_srgb{};
     bool seen = true, felt = true;

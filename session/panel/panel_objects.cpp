@@ -51,6 +51,25 @@ void show_turns(Kit& kit, const PanelObject& object) {
     }
 }
 
+// One line for so many points, and why it is less than asked.
+void show_rendered_line(Kit& kit, const std::string& name, const scene::RenderedMaterial& rendered) {
+    kit.figure(name,
+               written("%.0f N/m, ", rendered.stiffness_N_per_m) + written("%.2g N s/m", rendered.damping_Ns_per_m));
+    if (rendered.bound == haptics::StiffnessBound::none) return;
+    kit.paragraph(kDim, std::string("less than asked: ") + haptics::short_text(rendered.bound), kit.type.small);
+}
+
+void show_rendered(Kit& kit, const PanelObject& object) {
+    for (const PanelRendered& hand : object.rendered) {
+        const std::string of = hand.hand.empty() ? "" : ", " + hand.hand;
+        show_rendered_line(kit, hand.all ? "Rendered" + of + ", one point" : "Rendered" + of, hand.one);
+        if (hand.all) show_rendered_line(kit, "each, all touching", *hand.all);
+    }
+    if (object.energy_percent < 2) return;
+    kit.paragraph(kDim, written("now the energy account takes %.0f %% of the force", object.energy_percent),
+                  kit.type.small);
+}
+
 }  // namespace
 
 void show_objects(Kit& kit, const PanelModel& model) {
@@ -70,6 +89,7 @@ void show_objects(Kit& kit, const PanelModel& model) {
                     written("%.0f N/m", m.stiffness_N_per_m));
         show_slider(kit, object, ObjectProperty::damping, "Damping", {0.0, 10.0, false}, m.damping_Ns_per_m,
                     written("%.1f N s/m", m.damping_Ns_per_m));
+        show_rendered(kit, object);
         show_slider(kit, object, ObjectProperty::friction, "Friction", {0.0, 1.5, false}, m.dynamic_friction,
                     written("%.2f", m.dynamic_friction));
         show_slider(kit, object, ObjectProperty::scale, "Size", {0.25, 4.0, true}, object.scale,

@@ -403,7 +403,8 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
         p.signals.velocity = haptics::VelocityMethod::moving_average;
         p.signals.velocity_alpha = hand.velocity_filter;
     }
-    p.enabled = hand.force_on && !hand.holds;  // what a hand holds does not push it
+    p.enabled = hand.force_on;
+    p.holds = hand.holds.has_value();
     p.catch_drill = hand.catch_drill;
     return p;
 }

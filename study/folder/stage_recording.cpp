@@ -31,12 +31,6 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand(const devices::Wa
 
 }  // namespace
 
-std::vector<record::Column> stage_columns(const record::RowShape& shape) {
-    std::vector<record::Column> columns = record::columns_for(shape);
-    std::ranges::move(record::touched_columns(shape), std::back_inserter(columns));
-    return columns;
-}
-
 std::vector<record::Word> stage_row(const haptics::TickRecord& tick, const record::RowShape& shape) {
     std::vector<record::Word> row = record::row_of(tick, shape);
     record::append_touched(tick, shape, row);

@@ -56,9 +56,8 @@ private:
     std::optional<std::int64_t> trial_;  // that is under way
 };
 
-// The columns of a stage's recording, columns_for() and behind them object0 and object1, what each point touches
-// (felt_world.hpp); and a tick's values in their order.
-[[nodiscard]] std::vector<record::Column> stage_columns(const record::RowShape& shape);
+// A tick's values in the order of a stage's columns, columns_for() and behind them touched_columns(), where object0 and
+// object1 are what each point touches (felt_world.hpp).
 [[nodiscard]] std::vector<record::Word> stage_row(const haptics::TickRecord& tick, const record::RowShape& shape);
 
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::string& protocol_digest,

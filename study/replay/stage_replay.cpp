@@ -8,6 +8,7 @@
 
 #include "record/columns.hpp"
 #include "record/record_reader.hpp"
+#include "record/touched_columns.hpp"
 #include "study/folder/stage_recording.hpp"
 #include "study/people/recorded_trial.hpp"
 
@@ -150,7 +151,7 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
     if (!parts) return std::unexpected(parts.error());
     StageSession session(protocol, parts->stage, parts->group, world);
     const record::RowShape shape = record::shape_of(session.touch().device(), session.touch().parameters().probe);
-    if (reader->hands().size() != 1 || reader->hands().front().columns != stage_columns(shape))
+    if (reader->hands().size() != 1 || !record::can_be_replayed(reader->hands().front().columns, shape))
         return fail(file.string(), "has other columns than a study's recording of this version",
                     "replay it with the version that the study was run with");
     const record::HandRecord& hand = reader->hands().front();
@@ -178,8 +179,10 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
             const haptics::TickRecord& tick = replay.of_session ? followed : session.take(sample, now_ns, done);
             ++replay.ticks;
             if (on_tick) on_tick(session, tick);
-            if (!replay.of_session && !replay.difference)
-                replay.difference = record::difference_in_row(hand, *block, row, stage_row(tick, shape));
+            if (replay.of_session || replay.difference) continue;
+            std::vector<record::Word> again = stage_row(tick, shape);
+            again.resize(hand.columns.size());  // without the walls, where there were none
+            replay.difference = record::difference_in_row(hand, *block, row, again);
         }
     }
     replay.end = session.state();

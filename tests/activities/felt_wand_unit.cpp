@@ -92,6 +92,22 @@ TEST(FeltWand, EachPointFeelsTheObjectThatItTouches) {
     EXPECT_EQ(explored->ticks_faulted, 0u);
 }
 
+// It used to say what was asked: 100.3 N of a wand that gave 3.
+TEST(FeltWand, APointsForceIsWhatTheWandGave) {
+    Plates world;
+    const WandOptions options = options_with("top,bottom");
+    const auto explored = explore_with_wand(*world.part, world.materials, lowered(0.18, 0.1, 1.3), options, {});
+    ASSERT_TRUE(explored) << explored.error().line();
+    ASSERT_FALSE(explored->touches.empty());
+    EXPECT_GT(explored->force_max_N, 1.0);
+    for (const PointTouch& touch : explored->touches) {
+        EXPECT_GT(touch.force_max_N, 0.1) << touch.object_name;
+        EXPECT_LE(touch.force_max_N, explored->force_max_N * (1.0 + 1e-9)) << touch.object_name;
+        EXPECT_EQ(touch.wall.asked().stiffness_N_per_m, 500.0);
+        EXPECT_EQ(touch.wall.rendered().stiffness_N_per_m, 500.0);
+    }
+}
+
 TEST(FeltWand, AStrokeOutsideOfTheWorkspaceIsCentredInIt) {
     Plates world;
     sculpt::Stroke stroke = lowered(0.18, 0.14, 0.0);

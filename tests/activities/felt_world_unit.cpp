@@ -109,6 +109,23 @@ TEST(FeltWorld, EachObjectPushesBackAsItsStiffnessSays) {
     }
 }
 
+TEST(FeltWorld, MoreThanTheStylusRendersIsToldBesideWhatWasRenderedAndFelt) {
+    Explored world(row_of({300.0, 1200.0}));
+    world.explore(press_on_each(2, 0.004), {});
+    ASSERT_EQ(world.figures.touches.size(), 2u);
+    const session::RenderedTally& soft = world.figures.touches[0].wall;
+    const session::RenderedTally& hard = world.figures.touches[1].wall;
+    EXPECT_EQ(soft.asked().stiffness_N_per_m, 300.0);
+    EXPECT_EQ(soft.rendered().stiffness_N_per_m, 300.0);
+    EXPECT_EQ(soft.bound(), haptics::StiffnessBound::none);
+    EXPECT_NEAR(soft.felt_N_per_m(), 300.0, 9.0);
+    EXPECT_EQ(hard.asked().stiffness_N_per_m, 1200.0);
+    EXPECT_EQ(hard.rendered().stiffness_N_per_m, 700.0);
+    EXPECT_EQ(hard.bound(), haptics::StiffnessBound::device);
+    EXPECT_NEAR(hard.felt_N_per_m(), 700.0, 21.0);
+    EXPECT_FALSE(hard.is_limited_by_energy());
+}
+
 TEST(FeltWorld, WhatIsNotFeltIsPassedAndWhatIsNotSeenIsNotDrawn) {
     std::vector<scene::SceneObject> objects = row_of({300.0, 300.0, 300.0});
     objects[0].felt = false;

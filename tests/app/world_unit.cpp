@@ -101,6 +101,43 @@ TEST(WorldCommand, TellsWhatIsInAWorldInToml) {
     EXPECT_TRUE(tells(bad, "burin: 1 of 2 files: 2 faults; correct them and check again")) << bad.output;
 }
 
+// Nobody said that a stylus makes 700 N/m of 1200, and an end of a wand 857.7.
+TEST(WorldCommand, TellsWhatIsRenderedOfAMaterial) {
+    const Workplace place;
+    place.write("w.wrl", kWorldHead +
+                             "Transform { translation 0 0.2 -0.05 children DEF Plane Shape { geometry Box { "
+                             "size 0.4 0.4 0.1 } } }");
+    place.write("w.toml", "[[object]]\nname = \"Plane\"\nmaterial = { stiffness = 1200, damping = 0.5 }\n");
+    const auto checked = place.run(kWorldBurin + " world check w.wrl --json r.json");
+    EXPECT_EQ(checked.status, 0) << checked.output;
+    EXPECT_TRUE(tells(checked, "simulated: 700 N/m, 0.44 N s/m (its maker's limit)")) << checked.output;
+    EXPECT_TRUE(tells(checked, "simulated-wand, each end of two: 857.7 N/m")) << checked.output;
+    const Json rendered = Json::parse(place.read("r.json"))["files"][0]["felt_objects"][0]["rendered"];
+    ASSERT_EQ(rendered.size(), 3u);
+    EXPECT_EQ(rendered[0]["stiffness_N_per_m"], 700.0);
+    EXPECT_EQ(rendered[0]["limited_by"], "its maker's limit");
+    EXPECT_EQ(rendered[2]["points"], 2);
+    EXPECT_NEAR(rendered[2]["stiffness_N_per_m"].get<double>(), 857.66, 0.01);
+
+    place.write("s.csv",
+                "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n0,0,0.21,0.02,0,0,0,1,0\n1,0,0.21,0.001,0,0,0,1,0\n"
+                "2,0,0.21,0.001,0,0,0,1,0\n");
+    const auto stylus = place.run(kWorldBurin + " world w.wrl --stroke s.csv --report stylus.json");
+    EXPECT_TRUE(tells(stylus, "w.wrl: 1 of 1 objects asks for more than simulated PHANTOM Omni renders, such as Plane"))
+        << stylus.output;
+    const Json touch = Json::parse(place.read("stylus.json"))["objects"][0];
+    EXPECT_EQ(touch["asked"]["stiffness_N_per_m"], 1200.0);
+    EXPECT_EQ(touch["rendered"]["stiffness_N_per_m"], 700.0);
+    EXPECT_EQ(touch["limited_by"], "its maker's limit");
+    EXPECT_NEAR(touch["felt_N_per_m"].get<double>(), 700.0, 21.0);
+    const auto wand = place.run(kWorldBurin + " world w.wrl --stroke s.csv --device simulated-wand --report wand.json");
+    EXPECT_TRUE(tells(wand, "1200 -> 857.7 -> ")) << wand.output;
+    const Json end = Json::parse(place.read("wand.json"))["touches"][0];
+    EXPECT_EQ(end["asked"]["damping_Ns_per_m"], 0.5);
+    EXPECT_NEAR(end["rendered"]["stiffness_N_per_m"].get<double>(), 857.66, 0.01);
+    EXPECT_EQ(end["rendered"]["damping_Ns_per_m"], 0.0);
+}
+
 // What one sees through was told neither of a world in TOML nor of settings.
 TEST(WorldCommand, TellsHowOpaqueThingsAre) {
     const Workplace place;

@@ -30,6 +30,10 @@ TickRecord distinct_record() {
     r.contact.points[1].proxy_object_m = {7.0, 0.0, 0.0};
     r.contact.points[1].normal_object = {0.0, 1.0, 0.0};
     r.contact.points[2].proxy_object_m = {99.0, 0.0, 0.0};  // beyond the probe's points
+    r.contact.points[1].object = 17;
+    r.contact.points[1].asked = {1200.0, 0.5};
+    r.contact.points[1].rendered = {857.5, 0.1};
+    r.passivity.share = 0.75;
     r.contact.cut_object_m = {8.0, 0.0, 0.0};
     r.contact.stiffness_bound = StiffnessBound::quantisation;
     r.wanted.force_device_N = {9.0, 0.0, 0.0};
@@ -57,6 +61,11 @@ TEST(RecordViews, TheFrameIsToldTheDeepestPointAndWhatTheHandFeels) {
     EXPECT_EQ(t.workspace.phase, WorkspacePhase::dragging);
     EXPECT_EQ(t.workspace.bubble_radius_object_m, 0.25);
     EXPECT_EQ(t.stiffness_bound, StiffnessBound::quantisation);
+    EXPECT_EQ(t.object, 17u);
+    EXPECT_EQ(t.asked.stiffness_N_per_m, 1200.0);
+    EXPECT_EQ(t.rendered.stiffness_N_per_m, 857.5);
+    EXPECT_EQ(t.rendered.damping_Ns_per_m, 0.1);
+    EXPECT_EQ(t.energy_share, 0.75);
     EXPECT_EQ(t.buttons, 5u);
     EXPECT_EQ(t.flags, r.flags);
     EXPECT_EQ(t.cause, GateCause::overspeed);

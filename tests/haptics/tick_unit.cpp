@@ -125,11 +125,16 @@ TEST(Tick, ANewMappingPutsTheProxyBackInsteadOfDraggingIt) {
     const test::Surface plane = test::plane();
     Ticker t{plane.get(), parameters_for(0.004)};
     t.at({0.0, 0.01, 0.0});
-    EXPECT_NE(t.at({0.0, 0.001, 0.0}).flags & kTickInContact, 0u);
+    const TickRecord pressed = t.at({0.0, 0.001, 0.0});
+    EXPECT_NE(pressed.flags & kTickInContact, 0u);
     t.parameters.workspace.object_from_device.position_m = {0.0, 0.05, 0.0};  // the workspace jumps away
     const TickRecord out = t.at({0.0, 0.001, 0.0});
     EXPECT_NE(out.flags & kTickProxyReset, 0u);
-    EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
+    EXPECT_EQ(out.flags & kTickInContact, 0u);
+    // What was pressed fades out, and is not drawn along.
+    EXPECT_NEAR(out.wanted.force_device_N.y, (1.0 - kDt / kEase_s) * pressed.wanted.force_device_N.y, 1e-9);
+    for (int i = 1; i < 50; ++i) static_cast<void>(t.at({0.0, 0.001, 0.0}));
+    EXPECT_EQ(t.at({0.0, 0.001, 0.0}).wanted.force_device_N, Vec3(0.0));
 }
 
 TEST(Tick, SwitchedOffItTouchesNothing) {

@@ -132,15 +132,22 @@ TEST(TouchForce, AMaterialMayChangeWhileTheLoopRuns) {
     const test::Surface plane = test::plane();
     TouchTicker t{plane.get(), ball(300.0)};
     t.at({0.0, 0.01, 0.0});
-    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.3, 1e-5);
+    const auto pressed_N = [&](int ticks) {
+        for (int i = 1; i < ticks; ++i) static_cast<void>(t.at({0.0, 0.003, 0.0}));
+        return t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y;
+    };
+    const int eased = static_cast<int>(kEase_s / kDt) + 1;
+    EXPECT_NEAR(pressed_N(1), 0.3, 1e-5);
     t.parameters.materials[0].stiffness_N_per_m = 900.0;
-    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.9, 1e-5);
+    EXPECT_NEAR(pressed_N(1), 0.3 + 0.6 * kDt / kEase_s, 1e-5);
+    EXPECT_NEAR(pressed_N(eased), 0.9, 1e-5);
     t.parameters.materials[0].enabled = false;
-    TickRecord out = t.at({0.0, 0.003, 0.0});
-    EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
-    EXPECT_EQ(out.flags & kTickInContact, 0u);
+    EXPECT_NEAR(pressed_N(1), 0.9 * (1.0 - kDt / kEase_s), 1e-5);
+    EXPECT_EQ(t.at({0.0, 0.003, 0.0}).flags & kTickInContact, 0u);
+    EXPECT_EQ(pressed_N(eased), 0.0);
     t.parameters.materials[0].enabled = true;
-    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.9, 1e-5);
+    EXPECT_NEAR(pressed_N(1), 0.9 * kDt / kEase_s, 1e-5);
+    EXPECT_NEAR(pressed_N(eased), 0.9, 1e-5);
 }
 
 TEST(TouchForce, WhileItCutsTheHandFeelsLessThanTheUncutWallAndTheStrokeSaysWhereItIs) {

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <sstream>
 
 #include "record/export/table_export.hpp"
+#include "record/touched_columns.hpp"
 #include "tests/record/made_ticks.hpp"
 
 namespace burin::record {
@@ -53,6 +56,38 @@ TEST(Compare, TheFirstDifferenceIsNamedByTickColumnAndBothValues) {
     EXPECT_EQ(found->difference->line(), "made, tick 1234, force1_device_y_N: -1234 in the first, -0 in the second");
     EXPECT_FALSE(compare(*a, *b, "force0*,tick")->difference);
     EXPECT_FALSE(compare(*a, *b, "nothing"));
+}
+
+// A version appends columns: what the older recording has is compared, and either may be the older one.
+TEST(Compare, ARecordingFromBeforeThereWereWallsIsComparedInTheColumnsThatItHas) {
+    const RowShape shape{2, 2};
+    std::vector<Column> all = columns_for(shape), before = all;
+    std::ranges::copy(touched_columns(shape), std::back_inserter(all));
+    before.insert(before.end(), all.begin() + static_cast<std::ptrdiff_t>(before.size()),
+                  all.begin() + static_cast<std::ptrdiff_t>(before.size()) + shape.points);
+    EXPECT_EQ(before.back().name, "object1");
+    EXPECT_TRUE(can_be_replayed(all, shape));
+    EXPECT_TRUE(can_be_replayed(before, shape));
+    before.pop_back();
+    EXPECT_FALSE(can_be_replayed(before, shape)) << "no version had these";
+    std::swap(all[3], all[4]);
+    EXPECT_FALSE(can_be_replayed(all, shape));
+
+    const Workplace at;
+    recorded_so(at / "old", 300, kNanosecondsPerSecond);
+    test::Recording newer(8192);
+    newer.more_columns = {{"energy_share", "", "", ColumnType::f64}};
+    newer.more_values = [](const haptics::TickRecord&, std::vector<Word>& row) { row.push_back(0); };
+    ASSERT_TRUE(newer.begin(at / "new", {}));
+    for (std::uint64_t tick = 1; tick <= 300; ++tick) newer.ring.push(test::made_tick(tick, 2));
+    ASSERT_TRUE(newer.writer->close());
+    auto a = RecordReader::open(at / "old"), b = RecordReader::open(at / "new");
+    for (const auto& found : {compare(*a, *b), compare(*b, *a)}) {
+        ASSERT_TRUE(found);
+        EXPECT_FALSE(found->difference);
+        EXPECT_EQ(found->ticks, 300u);
+        EXPECT_EQ(found->columns, columns_for(shape).size());
+    }
 }
 
 // One bit changed in each column in turn, in the row of a stored tick: it is found, and its column named.

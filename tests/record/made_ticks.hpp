@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,7 +62,8 @@ struct Recording {
     explicit Recording(std::size_t ring_ticks = 1024) : ring(ring_ticks) {}
 
     [[nodiscard]] Result<void> begin(const std::string& path, WriterOptions options = {}) {
-        auto made = RecordWriter::create(path, {{"made", device_with(2), probe_of(2), &ring}}, std::move(options));
+        auto made = RecordWriter::create(
+            path, {{"made", device_with(2), probe_of(2), &ring, more_columns, more_values}}, std::move(options));
         if (!made) return std::unexpected(made.error());
         writer = std::move(*made);
         return {};
@@ -76,6 +78,8 @@ struct Recording {
     }
 
     Ring<haptics::TickRecord> ring;
+    std::vector<Column> more_columns = {};  // RecordedHand's
+    std::function<void(const haptics::TickRecord&, std::vector<Word>& row)> more_values = {};
     std::unique_ptr<RecordWriter> writer;
     std::uint64_t last_tick = 0;
 };

@@ -310,6 +310,7 @@ TEST(Felt, FigureAndTableHoldTheTraceAndLieBesideTheReport) {
     const Felt felt = felt_on_a_block(along(0.04), feel(6.0, 1.0));
     EXPECT_EQ(felt_figure_path("out/report.json"), "out/report-felt.svg");
     EXPECT_EQ(felt_table_path("r.json"), "r-felt.csv");
+    EXPECT_EQ(felt_depth_path("r.json"), "r-depth.svg");
     const std::string table = felt_table(felt.figures), figure = felt_figure(felt.figures);
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(table, '\n')), felt.figures.trace.size() + 1);
     EXPECT_EQ(figure.rfind("<svg", 0), 0u);
