@@ -177,6 +177,7 @@ ReplayCommand::ReplayCommand(Command app)
     command_.option("--damping", o.materials.damping_Ns_per_m, "With --through: of all objects, N s/m");
     command_.option("--static-friction", o.materials.static_friction, "With --through: of all objects");
     command_.option("--dynamic-friction", o.materials.dynamic_friction, "With --through: of all objects");
+    command_.option("--coulomb-velocity", o.materials.coulomb_velocity_m_per_s, "With --through: of all objects, m/s");
     command_.option("--json", o.json, "A file for all figures; - for standard output");
 }
 

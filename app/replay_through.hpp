@@ -18,16 +18,18 @@ namespace burin::app {
 
 // Values that all objects of a world get instead of their own.
 struct MaterialOverride {
-    std::optional<double> stiffness_N_per_m, damping_Ns_per_m, static_friction, dynamic_friction;
+    std::optional<double> stiffness_N_per_m, damping_Ns_per_m, static_friction, dynamic_friction,
+        coulomb_velocity_m_per_s;
 
     void apply(scene::HapticMaterial& material) const {
         material.stiffness_N_per_m = stiffness_N_per_m.value_or(material.stiffness_N_per_m);
         material.damping_Ns_per_m = damping_Ns_per_m.value_or(material.damping_Ns_per_m);
         material.static_friction = static_friction.value_or(material.static_friction);
         material.dynamic_friction = dynamic_friction.value_or(material.dynamic_friction);
+        material.coulomb_velocity_m_per_s = coulomb_velocity_m_per_s.value_or(material.coulomb_velocity_m_per_s);
     }
     [[nodiscard]] bool is_any() const {
-        return stiffness_N_per_m || damping_Ns_per_m || static_friction || dynamic_friction;
+        return stiffness_N_per_m || damping_Ns_per_m || static_friction || dynamic_friction || coulomb_velocity_m_per_s;
     }
 };
 

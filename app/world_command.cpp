@@ -224,6 +224,8 @@ std::string feel_text(const scene::SceneObject& object) {
     const scene::HapticMaterial& m = object.material;
     std::string text = formatted("%g N/m, %g N s/m", m.stiffness_N_per_m, m.damping_Ns_per_m);
     if (m.static_friction > 0.0) text += formatted(", friction %g and %g", m.static_friction, m.dynamic_friction);
+    if (m.coulomb_velocity_m_per_s > 0.0)
+        text += formatted(", growing up to %g mm/s", 1000.0 * m.coulomb_velocity_m_per_s);
     if (object.both_sides) text += ", from both sides";
     return text + rendered_text(rendered_on_usual_devices(m));
 }
@@ -263,6 +265,7 @@ Json object_json(const scene::SceneObject& o) {
     json["damping_Ns_per_m"] = o.material.damping_Ns_per_m;
     json["static_friction"] = o.material.static_friction;
     json["dynamic_friction"] = o.material.dynamic_friction;
+    json["coulomb_velocity_m_per_s"] = o.material.coulomb_velocity_m_per_s;
     json["rendered"] = rendered_json(rendered_on_usual_devices(o.material));
     const auto* path = std::get_if<scene::PathMotion>(&o.motion);
     json["path_s"] = path != nullptr ? Json(path->keys.back().time_s) : Json();

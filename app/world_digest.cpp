@@ -58,6 +58,7 @@ std::string world_digest(std::span<const scene::SceneObject> objects) {
             {"material", Json::array({m.stiffness_N_per_m, m.damping_Ns_per_m, m.static_friction, m.dynamic_friction})},
             {"both_sides", object.both_sides},
             {"motion", motion_json(object.motion)}};
+        if (m.coulomb_velocity_m_per_s != 0.0) json["material"].push_back(m.coulomb_velocity_m_per_s);
         if (object.opacity != 1.0) json["opacity"] = object.opacity;  // recordings from before there was any stay equal
         all += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     }

@@ -26,6 +26,7 @@ std::vector<Problem> problems(const HapticMaterial& m) {
     check_range(found, "damping", m.damping_Ns_per_m, kMaxDamping_Ns_per_m);
     check_range(found, "static_friction", m.static_friction, kMaxFriction);
     check_range(found, "dynamic_friction", m.dynamic_friction, kMaxFriction);
+    check_range(found, "coulomb_velocity", m.coulomb_velocity_m_per_s, kMaxCoulombVelocity_m_per_s);
     if (m.dynamic_friction > m.static_friction)
         found.push_back({"dynamic_friction",
                          "is above static_friction, and what slides would be held harder than what "
@@ -40,6 +41,7 @@ haptics::TouchMaterial touch_material(const HapticMaterial& material) noexcept {
     touched.damping_Ns_per_m = material.damping_Ns_per_m;
     touched.static_friction = material.static_friction;
     touched.dynamic_friction = material.dynamic_friction;
+    touched.coulomb_velocity_m_per_s = material.coulomb_velocity_m_per_s;
     // Whatever tool the hand holds: an object of a scene is not cut.
     touched.hardness_Ns_per_m3 = std::numeric_limits<double>::infinity();
     return touched;

@@ -25,12 +25,16 @@ struct HapticMaterial {
     // Coulomb friction: 0 <= dynamic_friction <= static_friction <= kMaxFriction.
     double static_friction = 0.0;
     double dynamic_friction = 0.0;
+    // Above 0, at most kMaxCoulombVelocity_m_per_s: nothing sticks, whatever static_friction is; friction grows with
+    // the speed of sliding at the device up to this speed and is dynamic_friction beyond it.
+    double coulomb_velocity_m_per_s = 0.0;
 
     bool operator==(const HapticMaterial&) const = default;
 };
 
 // Far above what any force-feedback device renders: a larger number is a mistake in the unit.
-inline constexpr double kMaxStiffness_N_per_m = 1e5, kMaxDamping_Ns_per_m = 1e3, kMaxFriction = 10.0;
+inline constexpr double kMaxStiffness_N_per_m = 1e5, kMaxDamping_Ns_per_m = 1e3, kMaxFriction = 10.0,
+                        kMaxCoulombVelocity_m_per_s = 1.0;
 
 // What is wrong with one value of a material, an object or a file.
 struct Problem {

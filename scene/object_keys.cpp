@@ -61,6 +61,7 @@ void ObjectKeys::read_material(HapticMaterial& material) {
     // One alone stands for both.
     material.static_friction = at_rest.value_or(sliding.value_or(material.static_friction));
     material.dynamic_friction = sliding.value_or(at_rest.value_or(material.dynamic_friction));
+    material.coulomb_velocity_m_per_s = m.number("coulomb_velocity").value_or(material.coulomb_velocity_m_per_s);
     m.refuse_unknown();
 }
 

@@ -7,12 +7,13 @@
 namespace burin::scene {
 namespace {
 
-constexpr std::array<PropertyDescriptor, 12> kProperties{{
+constexpr std::array<PropertyDescriptor, 13> kProperties{{
     {ObjectProperty::stiffness, "stiffness", "K", "N/m", 1},
     {ObjectProperty::damping, "damping", "B", "N s/m", 1},
     {ObjectProperty::friction, "friction", "MU", "", 1},
     {ObjectProperty::static_friction, "static-friction", "MU", "", 1},
     {ObjectProperty::dynamic_friction, "dynamic-friction", "MU", "", 1},
+    {ObjectProperty::coulomb_velocity, "coulomb-velocity", "V", "m/s", 1},
     {ObjectProperty::position, "position", "X,Y,Z", "m", 3},
     {ObjectProperty::orientation, "orientation", "AX,AY,AZ,ANGLE", "rad", 4},
     {ObjectProperty::scale, "scale", "FACTOR", "", 1},
@@ -73,6 +74,7 @@ PropertyValue value_of(const SceneObject& object, ObjectProperty property) {
         case ObjectProperty::friction:
         case ObjectProperty::dynamic_friction: return {m.dynamic_friction};
         case ObjectProperty::static_friction: return {m.static_friction};
+        case ObjectProperty::coulomb_velocity: return {m.coulomb_velocity_m_per_s};
         case ObjectProperty::position: {
             const Vec3 p = displacement_m(object);
             return {p.x, p.y, p.z};
@@ -99,6 +101,7 @@ ObjectEdit edit_of(const SceneObject& object, ObjectProperty property, const Pro
         case ObjectProperty::friction: material.static_friction = material.dynamic_friction = value[0]; break;
         case ObjectProperty::static_friction: material.static_friction = value[0]; break;
         case ObjectProperty::dynamic_friction: material.dynamic_friction = value[0]; break;
+        case ObjectProperty::coulomb_velocity: material.coulomb_velocity_m_per_s = value[0]; break;
         case ObjectProperty::position: return placed(Vec3(value[0], value[1], value[2]), object.pose.orientation);
         case ObjectProperty::orientation: return placed(displacement_m(object), turn_of(value));
         case ObjectProperty::scale: return SetScale{value[0]};

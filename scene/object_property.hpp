@@ -19,6 +19,7 @@ enum class ObjectProperty : std::uint8_t {
     friction,  // static and dynamic alike
     static_friction,
     dynamic_friction,
+    coulomb_velocity,
     position,
     orientation,
     scale,

@@ -24,7 +24,8 @@ HapticMaterial material_of(const geometry::VrmlShape& shape) {
     const std::array fields{std::pair("stiffness", &HapticMaterial::stiffness_N_per_m),
                             std::pair("damping", &HapticMaterial::damping_Ns_per_m),
                             std::pair("staticFriction", &HapticMaterial::static_friction),
-                            std::pair("dynamicFriction", &HapticMaterial::dynamic_friction)};
+                            std::pair("dynamicFriction", &HapticMaterial::dynamic_friction),
+                            std::pair("coulombVelocity", &HapticMaterial::coulomb_velocity_m_per_s)};
     for (const auto& [field, member] : fields)
         if (const auto given = shape.haptics.find(field); given != shape.haptics.end())
             material.*member = given->second;

@@ -2,8 +2,9 @@
 // Makes a world's objects of a VRML file (geometry/vrml/): shapes of one name are one object, in the world's frame.
 //
 // A material is what the numbers of a PROTO HapticMaterial say by name: stiffness (N/m), damping (N s/m),
-// staticFriction, dynamicFriction; what is left out is HapticMaterial's own. Shapes without a name are called shape-1,
-// shape-2... A surface that says solid FALSE, or that is open, is felt from both sides; a remark tells of the latter.
+// staticFriction, dynamicFriction, coulombVelocity (m/s); what is left out is HapticMaterial's own. Shapes without a
+// name are called shape-1, shape-2... A surface that says solid FALSE, or that is open, is felt from both sides; a
+// remark tells of the latter.
 // Failure: all problems at once. Threads: any; nothing shared.
 #pragma once
 

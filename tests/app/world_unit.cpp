@@ -81,24 +81,28 @@ TEST(WorldCommand, TellsWhatIsInAWorldInToml) {
     place.write("cube.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
     place.write("w.toml",
                 "name = \"Yard\"\n[[object]]\nname = \"rock\"\nmesh = \"cube.off\"\nmesh_units = \"m\"\n"
-                "scale = 0.1\ncolour = \"#102030\"\nmaterial = { stiffness = 900, static_friction = 0.5 }\n");
+                "scale = 0.1\ncolour = \"#102030\"\nmaterial = { stiffness = 900, static_friction = 0.5, "
+                "coulomb_velocity = 0.02 }\n");
     const auto outcome = place.run(kWorldBurin + " world check w.toml --json r.json");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_TRUE(tells(outcome, "w.toml: 1 object, 4 triangles, Yard")) << outcome.output;
     EXPECT_TRUE(tells(outcome,
                       "rock  4 triangles, 100 x 100 x 100 mm, #102030, 900 N/m, 0.5 N s/m, friction 0.5 and "
-                      "0.5"))
+                      "0.5, growing up to 20 mm/s"))
         << outcome.output;
     const Json object = Json::parse(place.read("r.json"))["files"][0]["objects"][0];
     EXPECT_EQ(object["highest_m"][1], 0.1);
     EXPECT_EQ(object["stiffness_N_per_m"], 900.0);
+    EXPECT_EQ(object["coulomb_velocity_m_per_s"], 0.02);
     EXPECT_TRUE(object["path_s"].is_null());
-    place.write("bad.toml", "[[object]]\nname = \"rock\"\nmesh = \"lost.off\"\nscale = 0\n");
+    place.write("bad.toml",
+                "[[object]]\nname = \"rock\"\nmesh = \"lost.off\"\nscale = 0\nmaterial = { coulomb_velocity = -1 }\n");
     const auto bad = place.run(kWorldBurin + " world check bad.toml w.toml");
     EXPECT_EQ(bad.status, 1);
     EXPECT_TRUE(tells(bad, "bad.toml:3: mesh cannot be used: ")) << bad.output;
     EXPECT_TRUE(tells(bad, "bad.toml:4: scale is 0; give a factor from 1e-6 to 1e6")) << bad.output;
-    EXPECT_TRUE(tells(bad, "burin: 1 of 2 files: 2 faults; correct them and check again")) << bad.output;
+    EXPECT_TRUE(tells(bad, "bad.toml:5: coulomb_velocity is -1; give a number from 0 to 1")) << bad.output;
+    EXPECT_TRUE(tells(bad, "burin: 1 of 2 files: 3 faults; correct them and check again")) << bad.output;
 }
 
 // Nobody said that a stylus makes 700 N/m of 1200, and an end of a wand 857.7.

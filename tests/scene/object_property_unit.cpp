@@ -26,6 +26,7 @@ TEST(ObjectProperty, WhatIsSetIsRead) {
         {ObjectProperty::damping, {1.25}},
         {ObjectProperty::friction, {0.4}},
         {ObjectProperty::static_friction, {0.6}},
+        {ObjectProperty::coulomb_velocity, {0.02}},
         {ObjectProperty::position, {0.5, -0.25, 0.125}},
         {ObjectProperty::orientation, {0.6, 0.0, 0.8, 1.2}},
         {ObjectProperty::scale, {2.5}},
@@ -58,6 +59,9 @@ TEST(ObjectProperty, ImpossibleValuesAreRefusedByTheEdit) {
              {ObjectProperty::friction, {NAN}},
              {ObjectProperty::static_friction, {-0.1}},
              {ObjectProperty::dynamic_friction, {0.5}},  // above the static one, which is 0
+             {ObjectProperty::coulomb_velocity, {-0.01}},
+             {ObjectProperty::coulomb_velocity, {INFINITY}},
+             {ObjectProperty::coulomb_velocity, {20.0}},  // mm/s
              {ObjectProperty::position, {1e9, 0.0, 0.0}},
              {ObjectProperty::scale, {0.0}},
          })

@@ -19,8 +19,8 @@ using Keys = std::vector<std::string>;
 
 TEST(HapticMaterial, EveryImpossibleValueIsNamed) {
     EXPECT_TRUE(problems(HapticMaterial{}).empty());
-    EXPECT_EQ(keys_of(problems(HapticMaterial{-1.0, NAN, 20.0, -0.5})),
-              (Keys{"stiffness", "damping", "static_friction", "dynamic_friction"}));
+    EXPECT_EQ(keys_of(problems(HapticMaterial{-1.0, NAN, 20.0, -0.5, 5.0})),
+              (Keys{"stiffness", "damping", "static_friction", "dynamic_friction", "coulomb_velocity"}));
     EXPECT_EQ(keys_of(problems(HapticMaterial{0.0, 0.0, 0.1, 0.2})), (Keys{"stiffness", "dynamic_friction"}));
 }
 
@@ -76,13 +76,14 @@ TEST(SceneObject, EveryEditIsPureAndCheckedFirst) {
     EXPECT_EQ(object.scale, 1.0);
 }
 
-// Four different numbers, so that none can stand in another's place; and no tool cuts an object of a scene.
+// Five different numbers, so that none can stand in another's place; and no tool cuts an object of a scene.
 TEST(HapticMaterial, GivesTheTickEachOfItsValuesAndIsNotCut) {
-    const haptics::TouchMaterial touched = touch_material({430.0, 0.7, 0.6, 0.25});
+    const haptics::TouchMaterial touched = touch_material({430.0, 0.7, 0.6, 0.25, 0.03});
     EXPECT_EQ(touched.stiffness_N_per_m, 430.0);
     EXPECT_EQ(touched.damping_Ns_per_m, 0.7);
     EXPECT_EQ(touched.static_friction, 0.6);
     EXPECT_EQ(touched.dynamic_friction, 0.25);
+    EXPECT_EQ(touched.coulomb_velocity_m_per_s, 0.03);
     EXPECT_EQ(touched.hardness_Ns_per_m3, std::numeric_limits<double>::infinity());
 }
 

@@ -14,7 +14,8 @@ namespace {
 
 const std::string kHead = R"(#VRML V2.0 utf8
 PROTO HapticMaterial [ field SFFloat stiffness 700 field SFFloat damping 0.5
-                       field SFFloat staticFriction 0.4 field SFFloat dynamicFriction 0.3 ] { Material { } }
+                       field SFFloat staticFriction 0.4 field SFFloat dynamicFriction 0.3
+                       field SFFloat coulombVelocity 0.02 ] { Material { } }
 )";
 
 class VrmlWorldFile : public testing::Test {
@@ -68,6 +69,7 @@ Shape { geometry Box { size 1 1 1 } }
     EXPECT_EQ(block.material.damping_Ns_per_m, 0.5);
     EXPECT_EQ(block.material.static_friction, 0.4);
     EXPECT_EQ(block.material.dynamic_friction, 0.3);
+    EXPECT_EQ(block.material.coulomb_velocity_m_per_s, 0.02);
     EXPECT_FALSE(block.both_sides);
     const Box box = bounds(block);
     EXPECT_NEAR(box.lo.y, -0.2, 1e-6);

@@ -53,7 +53,7 @@ colour = "#8a0fFF"
 seen = false
 felt = true
 both_sides = true
-material = { stiffness = 900, damping = 2, static_friction = 0.5, dynamic_friction = 0.25 }
+material = { stiffness = 900, damping = 2, static_friction = 0.5, dynamic_friction = 0.25, coulomb_velocity = 0.02 }
 repeat = false
 [[object.path]]
 time = 0
@@ -79,7 +79,7 @@ dynamic_friction = 0.3
     EXPECT_EQ(stone.colour, (Colour{0x8a, 0x0f, 0xff}));
     EXPECT_FALSE(stone.seen);
     EXPECT_TRUE(stone.both_sides);
-    EXPECT_EQ(stone.material, (HapticMaterial{900.0, 2.0, 0.5, 0.25}));
+    EXPECT_EQ(stone.material, (HapticMaterial{900.0, 2.0, 0.5, 0.25, 0.02}));
     const PathMotion path{{{0.0, {}}, {1.0, {{0.0, 0.5, 0.0}}}}, false};
     EXPECT_EQ(std::get<PathMotion>(stone.motion), path);
     EXPECT_EQ(leaf.id, 2u);

@@ -167,6 +167,7 @@ TEST(Commands, TellWhatIsWrongAndWhatWouldBeRight) {
         Wrong{"undo twice", "undo", "leave out"},
         Wrong{"object Tube", "object", "NAME WHAT VALUE"},
         Wrong{"object Tube stifness 700", "object Tube stifness", "did you mean stiffness"},
+        Wrong{"object Tube coulomb-velocity slow", "object Tube coulomb-velocity slow", "in m/s"},
         Wrong{"object Tube stiffness soft", "object Tube stiffness soft", "in N/m"},
         Wrong{"object Tube position 1,2", "object Tube position 1,2", "X,Y,Z"},
         Wrong{"object Tube seen maybe", "object Tube seen maybe", "on"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "session/drive/session_frames.hpp"
 #include "session/live/live_session.hpp"
@@ -83,6 +84,21 @@ TEST(WorldSession, ItsMaterialsAreThoseOfTheTick) {
     EXPECT_TRUE(world.feels(333.0) && world.feels(200.0));
     EXPECT_FALSE(world.feels(900.0)) << "nothing feels like it any more";
     EXPECT_EQ(world.session->state().world->find(1)->material.stiffness_N_per_m, 333.0);
+}
+
+TEST(WorldSession, FrictionThatGrowsWithTheSpeedOfSlidingIsThatOfTheTick) {
+    OpenWorld world;
+    const auto velocities = [&] {
+        std::set<double> found;
+        for (const auto& material : world.session->channels().parameters.newest().materials)
+            found.insert(material.coulomb_velocity_m_per_s);
+        return found;
+    };
+    EXPECT_EQ(velocities(), std::set{0.0}) << "friction sticks unless somebody says otherwise";
+    world.frame({{"object", {"rock", "friction", "0.4"}}, {"object", {"rock", "coulomb-velocity", "0.02"}}});
+    EXPECT_EQ(velocities(), (std::set{0.0, 0.02}));
+    EXPECT_TRUE(told_by(world, {{"object", {"rock", "coulomb-velocity", "20"}}}).contains("give a number from 0 to 1"));
+    EXPECT_EQ(world.session->state().world->find(1)->material.coulomb_velocity_m_per_s, 0.02);
 }
 
 TEST(WorldSession, CommandsMoveAndHideObjects) {
