@@ -71,6 +71,22 @@ TEST_F(DocumentOfASession, IsOpenedSavedAgainAndConvertedAsItWas) {
         EXPECT_TRUE(told.output.contains(part)) << part << " in " << told.output;
 }
 
+// The mesh was lost.
+TEST_F(DocumentOfASession, IsNotConvertedOverTheMeshOfWhichItWasMade) {
+    ASSERT_EQ(
+        place.run(std::string(kBurinCommand) + " sculpt --workpiece ball:0.1 --resolution 32 --export ball.stl").status,
+        0);
+    const std::string mesh = place.read("ball.stl");
+    const auto saved = play("ball.stl --resolution 64 --tool ball:0.012", "a",
+                            kStroke + "1.6 command save work.burin\n2.5 command quit\n");
+    ASSERT_EQ(saved.status, 0) << saved.output;
+    const auto refused = place.run(std::string(kBurinCommand) + " convert a/work.burin ball.stl");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(refused.output.contains("ball.stl: is the mesh of which a/work.burin was made")) << refused.output;
+    EXPECT_EQ(place.read("ball.stl"), mesh);
+    EXPECT_EQ(place.run(std::string(kBurinCommand) + " convert a/work.burin other.stl").status, 0);
+}
+
 TEST_F(DocumentOfASession, IsConvertedToThePlaceAndTheSizeThatAreAskedFor) {
     const auto saved = play(kBall, "a", kStroke + "1.6 command save work.burin\n2.5 command quit\n");
     ASSERT_EQ(saved.status, 0) << saved.output;
