@@ -46,6 +46,7 @@ PointContact::PointContact(const ProbeInput& input, const ProbeStep& step, const
       material_(step.next.materials[index]),
       watch_(step.next.watches[index]),
       last_(step.next.contacts[index]),
+      friction_(step.next.friction[index]),
       left_out_m_(step.next.left_out_m[index]),
       record_(step.contact.points[index]) {
     const MotionRecord& motion = input.motion;
@@ -58,7 +59,7 @@ PointContact::PointContact(const ProbeInput& input, const ProbeStep& step, const
     rubs_ = material();
     // Painting has no resistance.
     if (painting(input)) rubs_.static_friction = rubs_.dynamic_friction = 0.0;
-    rubs_ = with_eased_friction(step.next.friction[index], rubs_, last_.constraints > 0, input.dt_s);
+    rubs_ = with_eased_friction(friction_, rubs_, last_.constraints > 0, input.dt_s);
 }
 
 void PointContact::stay_with_hand() {
@@ -209,8 +210,14 @@ ProxySettings PointContact::settings() const {
     s.shading = input_.parameters.shading;
     Vec3 slip = velocity_device_m_per_s_;
     if (state_.carrier != 0) slip -= at_device(bodies_.velocity_of_body(state_.carrier, state_.position_object_m));
+    // What presses in does not rub.
+    if (last_.constraints > 0) {
+        const Quat device_from_object = glm::conjugate(input_.motion.object_from_device.orientation);
+        const Vec3 normal_device = device_from_object * last_.normal_object;
+        slip -= glm::dot(slip, normal_device) * normal_device;
+    }
     const double speed = std::sqrt(glm::dot(slip, slip));
-    const FrictionCone cone = friction_at(rubs_, speed);
+    const FrictionCone cone = eased_friction_at(friction_, rubs_, speed);
     s.static_friction = cone.static_friction;
     s.dynamic_friction = cone.dynamic_friction;
     return s;

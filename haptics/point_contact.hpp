@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "haptics/contact/shape_proxy.hpp"
+#include "haptics/forces/easing.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "haptics/probe_contact.hpp"
 
@@ -90,6 +91,7 @@ private:
     std::uint8_t& material_;
     WatchState& watch_;
     LastContact& last_;
+    EasedFriction& friction_;
     double& left_out_m_;
     TouchMaterial rubs_;           // the material, with the friction of this tick
     double left_out_now_m_ = 0.0;  // in this tick alone

@@ -249,10 +249,11 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const double alpha = parameters.signals.force_alpha;
     next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
     if (alpha > 0.0) contact.force_device_N = next.force_average.value;
-    if (parameters.enabled && !lifted)
+    // What the watch lets go is zero for safety, and does not come back.
+    if (parameters.enabled && !lifted && (record.flags & kTickLetGo) == 0)
         ease_contact(next.force, record, away && state.in_contact, parameters, dt_s);
     else
-        next.force = {};  // switched off
+        next.force = {};
     const Vec3 pressing_device_N = contact.force_device_N;
     contact = as_driven(contact, sample.drive);
     const PassivityStep passive =

@@ -55,6 +55,7 @@ std::string_view help_of(ObjectProperty property) {
         case ObjectProperty::friction:
         case ObjectProperty::dynamic_friction: return "How much the object holds what slides over it";
         case ObjectProperty::static_friction: return "How much the object holds what rests on it";
+        case ObjectProperty::coulomb_velocity: return "The speed up to which friction grows; 0: it holds at rest";
         case ObjectProperty::position: return "Where the object is, from where its file has it";
         case ObjectProperty::orientation: return "Turn the object about its middle, from how its file has it";
         case ObjectProperty::scale: return "How large the object is: 1 as its file has it";

@@ -150,7 +150,8 @@ std::optional<ReadObject> object_in(const Bytes& bytes, ObjectId id) {
     object.opacity = values.number("opacity");
     object.both_sides = values.yes("both_sides");
     object.material = {material.number("stiffness_N_per_m"), material.number("damping_Ns_per_m"),
-                       material.number("static_friction"), material.number("dynamic_friction")};
+                       material.number("static_friction"), material.number("dynamic_friction"),
+                       material.number("coulomb_velocity_m_per_s")};
     const double mesh = values.number("mesh");
     read.has_colours = values.yes("own_colours");
     if (!values.sound() || !material.sound() || !(mesh >= 0.0 && mesh < double{kMaxWorldObjects})) return {};
@@ -234,7 +235,8 @@ std::vector<std::byte> object_bytes(const SceneObject& object, std::size_t mesh)
     json["material"] = {{"stiffness_N_per_m", m.stiffness_N_per_m},
                         {"damping_Ns_per_m", m.damping_Ns_per_m},
                         {"static_friction", m.static_friction},
-                        {"dynamic_friction", m.dynamic_friction}};
+                        {"dynamic_friction", m.dynamic_friction},
+                        {"coulomb_velocity_m_per_s", m.coulomb_velocity_m_per_s}};
     if (const auto* path = std::get_if<PathMotion>(&object.motion)) json["path"] = path_json(*path);
     const std::string text = json_text(json);
     const auto bytes = std::as_bytes(std::span(text));

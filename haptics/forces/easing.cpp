@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace burin::haptics {
 namespace {
@@ -65,9 +66,29 @@ TouchMaterial with_eased_friction(EasedFriction& state, TouchMaterial material, 
     };
     move(state.static_friction, material.static_friction);
     move(state.dynamic_friction, material.dynamic_friction);
+    if (!goes_on) {
+        state.coulomb_from_m_per_s = state.coulomb_to_m_per_s = material.coulomb_velocity_m_per_s;
+        state.coulomb_share.begin(1.0, 1.0);
+    } else if (state.coulomb_to_m_per_s != material.coulomb_velocity_m_per_s) {
+        state.coulomb_from_m_per_s = std::exchange(state.coulomb_to_m_per_s, material.coulomb_velocity_m_per_s);
+        state.coulomb_share.begin(0.0, 1.0);
+    }
+    state.coulomb_share.move_to(1.0, dt_s);
     material.static_friction = state.static_friction.value;
     material.dynamic_friction = std::min(state.dynamic_friction.value, state.static_friction.value);
     return material;
+}
+
+FrictionCone eased_friction_at(const EasedFriction& state, const TouchMaterial& material,
+                               double slip_speed_m_per_s) noexcept {
+    const FrictionCone to = friction_at(material, slip_speed_m_per_s);
+    const double share = state.coulomb_share.value;
+    if (state.ticks == 0 || share >= 1.0) return to;
+    TouchMaterial before = material;
+    before.coulomb_velocity_m_per_s = state.coulomb_from_m_per_s;
+    const FrictionCone from = friction_at(before, slip_speed_m_per_s);
+    return {from.static_friction + share * (to.static_friction - from.static_friction),
+            from.dynamic_friction + share * (to.dynamic_friction - from.dynamic_friction)};
 }
 
 ContactForce eased(EasedForce& state, const ContactForce& force, double changed_s, double dt_s) noexcept {
@@ -76,7 +97,9 @@ ContactForce eased(EasedForce& state, const ContactForce& force, double changed_
     if (!state.changes()) return force;
     const double step = state.rate_per_s * dt_s;
     state.gone += step;
-    const double left = std::max(0.0, 1.0 - state.gone), come = std::max(0.0, state.gone - (state.again ? step : 0.0));
+    // What goes is gone within kEase_s, however long what comes takes.
+    const double left = std::max(0.0, 1.0 - state.gone / std::min(1.0, state.rate_per_s * kEase_s)),
+                 come = std::max(0.0, state.gone - (state.again ? step : 0.0));
     constexpr double kRounding = 1e-9;
     if (come >= 1.0 - kRounding) {
         state.rate_per_s = 0.0;

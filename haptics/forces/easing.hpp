@@ -55,6 +55,9 @@ void ease_walls(std::span<EasedWall> walls, std::span<const std::optional<Couple
 // The friction of one point, from tick to tick.
 struct EasedFriction {
     Eased static_friction, dynamic_friction;
+    // The Coulomb velocity before and after its last change, and how far friction has gone from the one to the other.
+    double coulomb_from_m_per_s = 0.0, coulomb_to_m_per_s = 0.0;
+    Eased coulomb_share;
     // Ticks of the contact before this one, as far as 2. A point learns in its first tick what it touches, so its
     // second begins with that friction.
     std::uint8_t ticks = 0;
@@ -63,6 +66,10 @@ struct EasedFriction {
 // Moves the friction of a point towards that of the material that it touches. touched: it touched in the last tick.
 [[nodiscard]] TouchMaterial with_eased_friction(EasedFriction& state, TouchMaterial material, bool touched,
                                                 double dt_s) noexcept;
+
+// Returns the cone of friction of a point whose friction has been eased (friction_at()).
+[[nodiscard]] FrictionCone eased_friction_at(const EasedFriction& state, const TouchMaterial& material,
+                                             double slip_speed_m_per_s) noexcept;
 
 // What a contact gives, and what its springs store: put in by the hand, and given out by a force that fades out.
 struct ContactForce {

@@ -128,6 +128,39 @@ TEST(TouchForce, InTheTickFrictionWithACoulombVelocityFollowsTheSlipSpeed) {
     }
 }
 
+TEST(TouchForce, PressingStraightInDoesNotRaiseTheFrictionOfACoulombVelocity) {
+    const test::Surface plane = test::plane(0.05, 20);
+    TouchTicker t{plane.get(), ball(600.0)};
+    t.parameters.materials[0].static_friction = t.parameters.materials[0].dynamic_friction = 0.4;
+    t.parameters.materials[0].coulomb_velocity_m_per_s = 0.2;
+    t.parameters.position_noise_m = 1e-9;
+    t.at({-0.03, 0.01, 0.0});
+    TickRecord out;  // slides at 20 mm/s and comes down at 60 mm/s
+    for (int i = 0; i < 50; ++i) out = t.at({-0.03 + 0.02 * kDt * i, 0.004 - 0.06 * kDt * i, 0.0});
+    EXPECT_NEAR(-out.wanted.force_device_N.x / out.wanted.force_device_N.y, 0.04, 0.01) << "0.4 times a tenth";
+}
+
+TEST(TouchForce, ACoulombVelocityThatIsGivenUnderTheHandChangesTheForceInSmallSteps) {
+    const test::Surface plane = test::plane(0.05, 20);
+    TouchTicker t{plane.get(), ball(600.0)};
+    t.parameters.materials[0].static_friction = t.parameters.materials[0].dynamic_friction = 0.4;
+    t.parameters.position_noise_m = 1e-9;
+    t.at({-0.03, 0.01, 0.0});
+    TickRecord out;
+    const auto slides = [&](int i) { return t.at({-0.03 + 0.01 * kDt * i, 0.003, 0.0}); };
+    for (int i = 0; i < 600; ++i) out = slides(i);
+    const double before_N = out.wanted.force_device_N.x;
+    t.parameters.materials[0].coulomb_velocity_m_per_s = 0.1;
+    double largest_N = 0.0, last_N = before_N;
+    for (int i = 600; i < 700; ++i) {
+        out = slides(i);
+        largest_N = std::max(largest_N, std::abs(out.wanted.force_device_N.x - last_N));
+        last_N = out.wanted.force_device_N.x;
+    }
+    EXPECT_LT(std::abs(last_N), 0.2 * std::abs(before_N));
+    EXPECT_LT(largest_N, 3.0 * std::abs(before_N) / 50.0);
+}
+
 TEST(TouchForce, AMaterialMayChangeWhileTheLoopRuns) {
     const test::Surface plane = test::plane();
     TouchTicker t{plane.get(), ball(300.0)};

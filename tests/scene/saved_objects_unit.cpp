@@ -25,7 +25,7 @@ std::vector<SceneObject> four_objects() {
     objects[0].pivot_m = {0.01, 0.02, 0.03};
     objects[0].colour = {10, 20, 255};
     objects[0].opacity = 0.25;
-    objects[0].material = {123.456, 0.125, 0.5, 0.25};
+    objects[0].material = {123.456, 0.125, 0.5, 0.25, 0.0625};
     objects[1].seen = false;
     objects[1].felt = false;
     objects[1].both_sides = true;
