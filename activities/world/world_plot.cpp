@@ -61,7 +61,7 @@ std::string world_figure(const WorldFigures& figures) {
 }
 
 std::string depth_figure(const WorldFigures& figures) {
-    plot::Plot made{"Force on the hand over how far it is beyond where its tool rests", "mm", "N", {}};
+    plot::Plot made{"Force on the hand over its depth", "mm", "N", {}};
     made.x_linear = made.y_linear = true;
     made.markers = false;
     std::vector<const ObjectTouch*> objects;

@@ -113,7 +113,7 @@ std::string marker(std::size_t style, double x, double y) {
 const char* dashes(std::size_t style) {
     constexpr std::array kDashes{"", " stroke-dasharray=\"7 3\"", " stroke-dasharray=\"2 3\"",
                                  " stroke-dasharray=\"9 3 2 3\""};
-    return kDashes[style % kDashes.size()];
+    return kDashes[(style + style / kColours.size()) % kDashes.size()];  // where colours come again, too
 }
 
 double width_of(const Plot& plot, const PlotSeries& series) {
