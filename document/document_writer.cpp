@@ -168,7 +168,8 @@ void DocumentWriter::keep_saved(Content saved, const std::string& path, const Ve
 void DocumentWriter::carry_out(JournalBeginning& begin) {
     journal_path_ = begin.path;
     replaces_ = begin.replaces;
-    named_.clear();
+    // One that begins after a save goes on from that.
+    for (const auto& [key, value] : named_) begin.content.facts[key] = value;
     for (const char* const fact : {kJournalNameFact, kJournalOfFact, kBaseIdFact, kBaseSavesFact})
         if (const auto at = begin.content.facts.find(fact); at != begin.content.facts.end()) named_.insert(*at);
     unsaved_ = begin.content.facts.contains(kUnsavedFact);

@@ -169,7 +169,7 @@ void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::TickR
     ObjectId wanted = grip.held;
     for (const haptics::TickRecord& tick : ticks) {
         const bool down = (tick.sample.buttons & grip.button) != 0;
-        const bool pressed = down && !std::exchange(grip.down, down);
+        const bool was_down = std::exchange(grip.down, down), pressed = down && !was_down;
         if (!down) wanted = 0;
         grip.touched = touched_in(tick, grip.touched);
         if (pressed && tick.motion.workspace.phase == haptics::WorkspacePhase::editing) wanted = to_take(grip.touched);

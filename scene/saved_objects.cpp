@@ -161,6 +161,9 @@ std::optional<ReadObject> object_in(const Bytes& bytes, ObjectId id) {
         if (!motion) return {};
         object.motion = std::move(*motion);
     }
+    const auto is_near = [&](const Vec3& at) { return glm::length(at) <= 2.0 * kMaxDistance_m; };
+    const auto* path = std::get_if<PathMotion>(&object.motion);
+    if (!is_near(object.scale * object.pivot_m) || (path != nullptr && !is_near(path->about_m))) return {};
     if (!problems(object).empty()) return {};
     return read;
 }
@@ -202,6 +205,16 @@ std::shared_ptr<const CornerColours> colours_in(const Bytes& bytes, std::size_t 
     auto colours = std::make_shared<CornerColours>(triangles);
     std::memcpy(colours->data(), bytes.data(), bytes.size());
     return colours;
+}
+
+// What a session takes over as it is (geometry/contact/touch_mesh.hpp refuses the rest).
+bool can_be_touched(const SceneObject& object) {
+    constexpr double kFarthest_m = 1e8;
+    const auto is_near = [&](const Vec3& p) {
+        const Vec3 at = object.scale * p;
+        return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kFarthest_m;
+    };
+    return !object.felt || (!object.mesh->triangles.empty() && std::ranges::all_of(object.mesh->positions_m, is_near));
 }
 
 // What stands for an object that is lost.
@@ -251,14 +264,15 @@ std::vector<std::size_t> mesh_numbers(std::span<const geometry::TriangleMesh* co
     return of_objects;
 }
 
-void save_object(const SceneObject& object, std::size_t mesh, std::vector<std::byte> values, Pages& pages) {
+void save_object(const SceneObject& object, const CornerColours* of_file, std::size_t mesh,
+                 std::vector<std::byte> values, Pages& pages) {
     const auto id = static_cast<std::int64_t>(object.id), number = static_cast<std::int64_t>(mesh);
     pages.pages[{kObject, id}] = std::move(values);
     if (!pages.whole) return;
     if (pages.find({kMesh, number * kPieces}) == nullptr) put_pieces(mesh_bytes(*object.mesh), kMesh, number, pages);
-    if (!object.corner_colours) return;
+    if (of_file == nullptr) return;
     Bytes colours;
-    add_bytes(colours, std::as_bytes(std::span(*object.corner_colours)));
+    add_bytes(colours, std::as_bytes(std::span(*of_file)));
     put_pieces(colours, kColours, id, pages);
 }
 
@@ -281,11 +295,13 @@ Result<LoadedObjects> load_objects(const Pages& pages, const std::string& where)
         std::optional<ReadObject> read = bytes != nullptr ? object_in(*bytes, id) : std::nullopt;
         if (read && !meshes.contains(read->mesh)) meshes[read->mesh] = mesh_in(joined_pieces(pages, kMesh, read->mesh));
         if (read) read->object.mesh = meshes[read->mesh];
-        const bool is_whole = read && read->object.mesh && names.insert(read->object.name).second;
+        const bool is_whole =
+            read && read->object.mesh && can_be_touched(read->object) && names.insert(read->object.name).second;
+        auto& colours = loaded.colours.emplace_back();
+        if (is_whole) colours = colours_in(joined_pieces(pages, kColours, number), read->object.mesh->triangles.size());
         if (is_whole && read->has_colours) {
-            read->object.corner_colours =
-                colours_in(joined_pieces(pages, kColours, number), read->object.mesh->triangles.size());
-            bare += read->object.corner_colours == nullptr ? 1 : 0;
+            read->object.corner_colours = colours;
+            bare += colours == nullptr ? 1 : 0;
         }
         lost += is_whole ? 0 : 1;
         loaded.objects.push_back(is_whole ? std::move(read->object) : lost_object(id));
@@ -303,7 +319,9 @@ Result<LoadedObjects> load_objects(const Pages& pages, const std::string& where)
 
 PageName change_of(ObjectId id) { return {std::string(kChanged) + std::to_string(id), 0}; }
 
-Result<void> apply_change(std::vector<SceneObject>& objects, const Pages& change, const std::string& where) {
+Result<void> apply_change(std::vector<SceneObject>& objects,
+                          std::span<const std::shared_ptr<const CornerColours>> colours, const Pages& change,
+                          const std::string& where) {
     std::vector<SceneObject> changed;
     for (const auto& [name, bytes] : change.pages) {
         ObjectId id = 0;
@@ -314,7 +332,8 @@ Result<void> apply_change(std::vector<SceneObject>& objects, const Pages& change
         const SceneObject& before = objects[id - 1];
         read->object.mesh = before.mesh;
         read->object.name = before.name;
-        if (read->has_colours) read->object.corner_colours = before.corner_colours;
+        if (read->has_colours) read->object.corner_colours = colours[id - 1];
+        if (!can_be_touched(read->object)) read->object.seen = read->object.felt = false;
         changed.push_back(std::move(read->object));
     }
     for (SceneObject& object : changed) objects[object.id - 1] = std::move(object);

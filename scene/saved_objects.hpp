@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,15 +34,19 @@ inline constexpr std::size_t kMostPieceBytes = std::size_t{16} << 20;
 // its pose.
 [[nodiscard]] std::vector<std::byte> object_bytes(const SceneObject& object, std::size_t mesh);
 
-// Puts an object's values, and where all pages are wanted also its mesh and its colours, into the pages.
-void save_object(const SceneObject& object, std::size_t mesh, std::vector<std::byte> values, Pages& pages);
+// Puts an object's values, and where all pages are wanted also its mesh and the colours of its file, into the pages;
+// null: it has none. They are there for an object that has been given one colour as well, since that can be undone.
+void save_object(const SceneObject& object, const CornerColours* of_file, std::size_t mesh,
+                 std::vector<std::byte> values, Pages& pages);
 
 // Returns the number of each mesh: one that several objects share has one number.
 [[nodiscard]] std::vector<std::size_t> mesh_numbers(std::span<const geometry::TriangleMesh* const> meshes);
 
 struct LoadedObjects {
     std::vector<SceneObject> objects;  // numbered from 1
-    std::string lost = {};             // what was damaged, in words; empty: nothing was
+    // Of each object's file, whether it wears them or not; null: it has none.
+    std::vector<std::shared_ptr<const CornerColours>> colours = {};
+    std::string lost = {};  // what was damaged, in words; empty: nothing was
 };
 // Makes the objects of a document's pages. Fails where there is not one whole object, and where there are more than a
 // world may have. `where` names the document in messages.
@@ -49,9 +54,10 @@ struct LoadedObjects {
 
 // Names the page of an object's values in a change.
 [[nodiscard]] PageName change_of(ObjectId id);
-// Gives objects the values of the pages of a change, which has no others. Fails, and changes nothing, where one of them
-// is damaged or of an object that there is not.
-[[nodiscard]] Result<void> apply_change(std::vector<SceneObject>& objects, const Pages& change,
-                                        const std::string& where);
+// Gives objects the values of the pages of a change, which has no others; colours: of their files. One that is lost
+// stays so. Fails, and changes nothing, where a page is damaged or of an object that there is not.
+[[nodiscard]] Result<void> apply_change(std::vector<SceneObject>& objects,
+                                        std::span<const std::shared_ptr<const CornerColours>> colours,
+                                        const Pages& change, const std::string& where);
 
 }  // namespace burin::scene

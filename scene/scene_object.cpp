@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene_object.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/contact/mesh_motion.hpp"
 #include "scene/value_text.hpp"
@@ -15,6 +17,14 @@ bool is_near_enough(const Vec3& position_m) { return finite(position_m) && glm::
 
 void append(std::vector<Problem>& to, std::vector<Problem> more) {
     to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+// As geometry/contact/touch_mesh.hpp asks for.
+bool is_small_enough(const SceneObject& object) {
+    double farthest_m = 0.0;
+    for (const Vec3& p : object.mesh->positions_m)
+        farthest_m = std::max({farthest_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return object.scale * farthest_m <= 1e8;
 }
 
 // Makes each kind of edit. Returns why it cannot be made, if so.
@@ -58,7 +68,11 @@ struct Editor {
     std::string operator()(const Restore& e) const {
         if (std::holds_alternative<HeldMotion>(object.motion)) return "is held by a hand; let go of it first";
         if (e.object->id != object.id || e.object->mesh != object.mesh) return "is another object";
-        object = *e.object;
+        const SceneObject now = std::exchange(object, *e.object);
+        if (!std::holds_alternative<HeldMotion>(object.motion)) return "";
+        // It was in a hand then, which has let go of it since: it stays where it is.
+        object.pose = now.pose;
+        object.motion = now.motion;
         return "";
     }
 };
@@ -115,6 +129,10 @@ Result<SceneObject> edited(SceneObject object, const ObjectEdit& edit) {
     if (const std::string refused = std::visit(Editor{object}, edit); !refused.empty()) return fail(name, refused);
     if (const std::vector<Problem> found = problems(object); !found.empty())
         return fail(name, found.front().key + " " + found.front().what, found.front().remedy);
+    if (object.felt && object.mesh && object.mesh->triangles.empty())
+        return fail(name, "has no triangles that could be felt", "leave it as it is");
+    if (std::holds_alternative<SetScale>(edit) && object.mesh && !is_small_enough(object))
+        return fail(name, "would be larger than 1e8 m", "give a smaller scale");
     return object;
 }
 

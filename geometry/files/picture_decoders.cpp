@@ -120,6 +120,8 @@ Result<DecodedPicture> decode_jpeg(std::span<const std::byte> bytes) {
     picture.is_grey = reader.info.num_components == 1;
     picture.rgb.resize(std::size_t{3} * picture.width * picture.height);
     if (!read_jpeg(reader, picture.rgb.data())) return refuse(std::string("is a damaged JPEG: ") + reader.failure.what);
+    // The library makes up what is missing, and warns.
+    if (reader.failure.manager.num_warnings > 0) return refuse("is a damaged JPEG: parts of it are missing");
     jpeg_destroy_decompress(&reader.info);
     return picture;
 }

@@ -80,20 +80,23 @@ Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& la
 Result<void> apply_change(const scene::Pages& change, OpenedWork& opened, const std::string& where,
                           compute::History* history) {
     if (change.part == scene::kObjectsPart)
-        return opened.world ? scene::apply_change(opened.world->objects, change, where) : Result<void>{};
+        return opened.world ? scene::apply_change(opened.world->objects, opened.colours, change, where)
+                            : Result<void>{};
     return opened.workpiece ? sculpt::apply_change(opened.workpiece->solid, change, where, history) : Result<void>{};
 }
 
 // Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
 Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened, compute::History* history) {
     for (std::int64_t number = 1; number <= reader.changes(); ++number) {
+        bool is_there = false;
         for (const document::PartPlace& part : reader.parts()) {
             const Result<scene::Pages> change = reader.change(part, number);
             if (!change) return std::unexpected(change.error());
-            const bool is_of_part = !change->pages.empty() || reader.parts().size() == 1;
-            if (!is_of_part) continue;
+            if (change->pages.empty()) continue;
+            is_there = true;
             if (const auto done = apply_change(*change, opened, reader.path(), history); !done) return done;
         }
+        if (!is_there) return fail(reader.path(), "change " + std::to_string(number) + " is missing");
         opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
     }
     return {};
@@ -154,6 +157,7 @@ Result<void> read_objects(document::DocumentReader& reader, OpenedWork& opened, 
     Result<scene::LoadedObjects> loaded = scene::load_objects(*pages, reader.path());
     if (!loaded) return std::unexpected(loaded.error());
     opened.world = {std::filesystem::path(reader.path()).stem().string(), std::move(loaded->objects), {}};
+    opened.colours = std::move(loaded->colours);
     if (!loaded->lost.empty()) add_to(lost, loaded->lost);
     return {};
 }

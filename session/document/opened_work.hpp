@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,18 +20,19 @@
 namespace burin::session {
 
 struct OpenedWork {
-    std::optional<sculpt::LoadedWorkpiece> workpiece = {};  // none: a document of a world without one
-    std::optional<scene::World> world = {};                 // of a document
-    std::string lost = {};                                  // what of a document was damaged, in words; empty: nothing
-    std::optional<compute::History> history = {};           // of a document, where one was asked for
-    std::optional<Similarity> view = {};                    // of a document
-    std::string document = {};                              // where a save goes; empty: the work has no file yet
-    std::optional<document::Version> version = {};          // of that document
-    std::string journal = {};                               // that a dead session left and this is; empty: it is none
-    std::string recovered = {};                             // what was not saved and is here, in words; empty: nothing
-    std::vector<std::string> kept = {};                     // says which other unsaved work of it there is, a line each
-    std::string name = {};                                  // of work from a journal; empty: that of its source
-    std::map<std::string, std::string> origin = {};         // the facts of a document that say from where it came
+    std::optional<sculpt::LoadedWorkpiece> workpiece = {};                  // none: a document of a world without one
+    std::optional<scene::World> world = {};                                 // of a document
+    std::vector<std::shared_ptr<const scene::CornerColours>> colours = {};  // of the files of its objects
+    std::string lost = {};                           // what of a document was damaged, in words; empty: nothing
+    std::optional<compute::History> history = {};    // of a document, where one was asked for
+    std::optional<Similarity> view = {};             // of a document
+    std::string document = {};                       // where a save goes; empty: the work has no file yet
+    std::optional<document::Version> version = {};   // of that document
+    std::string journal = {};                        // that a dead session left and this is; empty: it is none
+    std::string recovered = {};                      // what was not saved and is here, in words; empty: nothing
+    std::vector<std::string> kept = {};              // says which other unsaved work of it there is, a line each
+    std::string name = {};                           // of work from a journal; empty: that of its source
+    std::map<std::string, std::string> origin = {};  // the facts of a document that say from where it came
 };
 
 // Returns whether the source of a workpiece is a document.

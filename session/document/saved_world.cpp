@@ -9,6 +9,8 @@ void SavedWorld::begin(const WorldObjects& now, bool is_saved) {
     std::vector<const geometry::TriangleMesh*> meshes;
     for (const auto& object : now.objects) meshes.push_back(object->mesh.get());
     meshes_ = scene::mesh_numbers(meshes);
+    colours_.clear();
+    for (const auto& object : now.objects) colours_.push_back(object->corner_colours);
     saved_ = is_saved ? now.objects : Objects(now.objects.size());
     told_ = now.objects;
 }
@@ -17,7 +19,8 @@ scene::Pages SavedWorld::pages(const WorldObjects& now, const Objects* known) co
     scene::Pages pages{.part = std::string(scene::kObjectsPart), .whole = known == nullptr};
     for (std::size_t i = 0; i < now.objects.size(); ++i)
         if (known == nullptr || now.objects[i] != (*known)[i])
-            scene::save_object(*now.objects[i], meshes_[i], scene::object_bytes(*now.objects[i], meshes_[i]), pages);
+            scene::save_object(*now.objects[i], colours_[i].get(), meshes_[i],
+                               scene::object_bytes(*now.objects[i], meshes_[i]), pages);
     return pages;
 }
 

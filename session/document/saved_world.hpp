@@ -31,8 +31,9 @@ private:
     using Objects = std::vector<std::shared_ptr<const scene::SceneObject>>;
     [[nodiscard]] scene::Pages pages(const WorldObjects& now, const Objects* known) const;
 
-    std::vector<std::size_t> meshes_;  // the number of each object's mesh
-    Objects saved_, told_;             // in the document, and in the journal
+    std::vector<std::size_t> meshes_;                                   // the number of each object's mesh
+    std::vector<std::shared_ptr<const scene::CornerColours>> colours_;  // of each object's file
+    Objects saved_, told_;                                              // in the document, and in the journal
 };
 
 }  // namespace burin::session

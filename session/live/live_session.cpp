@@ -66,7 +66,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     watch(input.time_ns);
     if (input.time_ns - edits_noted_ns_ >= kEditsNoted_ns) {
         edits_noted_ns_ = input.time_ns;
-        note_edits();
+        note_edits(state_.world.get());
     }
     if (state_.world) tell_work();
     watch_journal(give);
@@ -138,14 +138,18 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
     if (orders.parameters) publish_parameters();
     if (orders.parameters) hands_.spread(state_, room_, scene_, give);
-    for (sculpt::SculptOrder& order : orders.carving) {
+    auto wanted_save = orders.saves.begin();
+    for (std::size_t given = 0; given < orders.carving.size(); ++given) {
+        for (; wanted_save != orders.saves.end() && wanted_save->after <= given; ++wanted_save)
+            save(*wanted_save, give);
+        sculpt::SculptOrder& order = orders.carving[given];
         if (const auto* use = std::get_if<sculpt::UseTool>(&order)) watch_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
         if (wanted != nullptr && !files_.write()) continue;
         if (wanted != nullptr) files_.place(*wanted);
         give(scene_.carving(std::move(order), state_.hand));
     }
-    for (const Asked& wanted : orders.saves) save(wanted, give);
+    for (; wanted_save != orders.saves.end(); ++wanted_save) save(*wanted_save, give);
     for (const Asked& wanted : orders.names)
         news_of_document_.name_looked_at(wanted.text, document_.is_taken(wanted.text, files_));
     for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
@@ -164,14 +168,14 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
 }
 
-void LiveSession::save(const Asked& wanted, const Give& give) {
+void LiveSession::save(const AskedSave& wanted, const Give& give) {
     if (!files_.write()) return;
     news_of_document_.save_ordered();
-    note_edits();  // so that a save that fails leaves them in the journal
+    note_edits(wanted.world.get());  // so that a save that fails leaves them in the journal
     document::SaveRequest request = document_.request(wanted, files_, options_, saved_content());
-    if (state_.world && !request.refused)
-        request.content.parts.push_back(saved_world_.save(*state_.world, !request.changed_alone));
-    request.state = work_state(0);
+    if (wanted.world && !request.refused)
+        request.content.parts.push_back(saved_world_.save(*wanted.world, !request.changed_alone));
+    request.state = wanted.edits_state << 32;
     give(scene_.saving(std::move(request), document_.writer()));
 }
 
@@ -181,11 +185,9 @@ document::Content LiveSession::saved_content() const {
 }
 
 // Returns the number of the state in which the workpiece and the objects are.
-std::uint64_t LiveSession::work_state(std::uint64_t of_workpiece) const {
-    return of_workpiece + (state_.edits.state() << 32);
-}
+std::uint64_t LiveSession::work_state() const { return carved_state_ + (state_.edits.state() << 32); }
 
-// Before the scene's thread starts.
+// Before the scene's thread starts, or where there is no workpiece.
 void LiveSession::keep_journal(const std::string& folder) {
     document::Content beginning = saved_content();
     if (scene_.workpiece() != nullptr) scene_.workpiece()->copy(beginning.parts.emplace_back());
@@ -201,18 +203,19 @@ void LiveSession::keep_journal(const std::string& folder) {
 }
 
 // Notes for the journal what was done to objects.
-void LiveSession::note_edits() {
-    if (!state_.world || !state_.saves || options_.live.journal.empty()) return;
-    if (std::optional<scene::Pages> change = saved_world_.take_change(*state_.world))
-        document_.writer().note({.part = state_.carves ? 1 : 0, .pages = std::move(*change)});
+void LiveSession::note_edits(const WorldObjects* world) {
+    if (world == nullptr || !state_.saves || options_.live.journal.empty()) return;
+    std::optional<scene::Pages> change = saved_world_.take_change(*world);
+    if (!change) return;
+    if (std::exchange(begins_journal_, false)) keep_journal(options_.live.journal);
+    document_.writer().note({.part = state_.carves ? 1 : 0, .pages = std::move(*change)});
 }
 
 // What was done to objects and is not noted yet will be the next change.
 void LiveSession::tell_work() {
     if (!news_of_document_.tells()) return;
     const bool waits = state_.world && saved_world_.has_change(*state_.world);
-    news_of_document_.work_is(work_state(carved_state_), undoable_ + state_.edits.undoable(),
-                              document_.noted() + (waits ? 1 : 0));
+    news_of_document_.work_is(work_state(), undoable_ + state_.edits.undoable(), document_.noted() + (waits ? 1 : 0));
 }
 
 std::vector<CommandInput> LiveSession::take_told() {
@@ -316,7 +319,7 @@ void LiveSession::stand_on_plinth(renderer::Scene& scene) const {
 
 void LiveSession::finish_scene() {
     scene_.service().finish();
-    note_edits();
+    note_edits(state_.world.get());
     document_.finish();
     for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
     if (const std::string kept = document_.end_journal(state_.discards); !kept.empty())

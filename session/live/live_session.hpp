@@ -174,11 +174,11 @@ private:
     void fit_into_mode(wall::StereoMode mode, SessionOrders& orders);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
-    void save(const Asked& wanted, const Give& give);
+    void save(const AskedSave& wanted, const Give& give);
     [[nodiscard]] document::Content saved_content() const;
-    [[nodiscard]] std::uint64_t work_state(std::uint64_t of_workpiece) const;
+    [[nodiscard]] std::uint64_t work_state() const;
     void keep_journal(const std::string& folder);
-    void note_edits();
+    void note_edits(const WorldObjects* world);
     void tell_work();
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void switch_amplifiers(const AskedAmplifiers& asked);
@@ -213,6 +213,7 @@ private:
     std::size_t undoable_ = 0, redoable_ = 0;     // strokes, as of the last update
     std::uint64_t carved_state_ = 0;              // likewise (compute::History::state)
     Nanoseconds edits_noted_ns_ = 0;              // in the journal
+    bool begins_journal_ = false;                 // with the first edit: who looks at a world alone needs none
     bool exporting_ = false;
     LivePanel panel_;
     MessageLog log_;

@@ -89,7 +89,9 @@ Result<void> LiveSession::open_saved(const SculptOptions& options) {
     // A log's session leaves the file that it began with as it is; so does one that has more than what is in there.
     const bool has_all =
         opened_.workpiece.has_value() == has_workpiece(options) && opened_.world.has_value() == has_world(options);
-    const bool is_own = opened_.version && options.live.input.empty() && has_all;
+    // A world of which something is lost is saved elsewhere, so that what may yet be saved of the file stays.
+    const bool is_whole = !opened_.world || opened_.lost.empty();
+    const bool is_own = opened_.version && options.live.input.empty() && has_all && is_whole;
     const auto holder = is_own ? document_.hold(options.live.journal, opened_.document) : std::nullopt;
     if (holder)
         notify_of_event(opened_.document + " is open in another window, " + text_of(*holder) +
@@ -213,7 +215,9 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (begun && scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
     const bool keeps_journal = !options.live.journal.empty() && state_.saves;
     if (state_.saves && options.live.input.empty()) news_of_document_.begin(keeps_journal, !opened_.recovered.empty());
-    if (begun && keeps_journal) keep_journal(options.live.journal);
+    const bool begins_at_once = scene_.carved() != nullptr || !opened_.journal.empty();
+    if (begun && keeps_journal && begins_at_once) keep_journal(options.live.journal);
+    begins_journal_ = keeps_journal && !begins_at_once;
     return begun;
 }
 

@@ -67,7 +67,14 @@ void stay(SessionState& state) {
 }
 
 void order_save(SessionState& state, SessionOrders& orders, const std::string& name, bool replaces) {
-    orders.saves.push_back({.text = name, .line = orders.line, .replaces = replaces});
+    AskedSave save;
+    save.text = name;
+    save.line = orders.line;
+    save.replaces = replaces;
+    save.after = orders.carving.size();
+    save.world = state.world;
+    save.edits_state = state.edits.state();
+    orders.saves.push_back(std::move(save));
     AskedClose& asked = state.asked;
     const bool named_to_close = asked.naming.has_value() && asked.closing == Closing::asked;
     asked.naming.reset();

@@ -2,6 +2,7 @@
 #include "session/state/framed_world.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "wall/projection.hpp"
 
@@ -9,7 +10,7 @@ namespace burin::session {
 namespace {
 
 // Around the object, of its own longest side.
-constexpr double kRoomAround = 0.5;
+constexpr double kRoomAround = 0.25;
 
 Box bounds_in_scene(const scene::SceneObject& object) {
     Box bounds;
@@ -68,8 +69,9 @@ Similarity beside_panel(const scene::SceneObject& object, const SeenFrom& from, 
             if (x > right_m) farther = away_m / to_screen_m;
             right_m = std::max(right_m, x);
         }
-        const double too_far_m = std::min(right_m - free_m, std::max(left_m, 0.0));
-        if (too_far_m <= 1e-6 * width_m) break;
+        double too_far_m = std::min(right_m - free_m, std::max(left_m, 0.0));
+        if (left_m < 0.0 && right_m < free_m) too_far_m = std::max(left_m, right_m - free_m);  // to the left
+        if (std::abs(too_far_m) <= 1e-6 * width_m) break;
         moved.position_m -= farther * too_far_m * right;
     }
     return moved;

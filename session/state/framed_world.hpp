@@ -20,8 +20,8 @@ namespace burin::session {
 // Linear in the object's places.
 [[nodiscard]] Similarity fitted_to(const scene::SceneObject& object, const SeenFrom& from,
                                    const Quat& world_from_object);
-// Returns the scene moved along the screen until the panel covers no part of the object; the same where it covers none,
-// and where the object is wider than what is free its left edge stays in the picture.
+// Returns the scene moved along the screen until the object is between the picture's left edge and the panel; the same
+// where it is. Where it is wider than what is free its left edge stays in the picture.
 [[nodiscard]] Similarity beside_panel(const scene::SceneObject& object, const SeenFrom& from,
                                       const Similarity& world_from_object);
 // Returns from where the cursor is seen, in the frame of the device of the hand in use.

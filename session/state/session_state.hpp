@@ -94,6 +94,13 @@ struct Asked {
     bool replaces = false;  // a file that is there may go
 };
 
+// A save, of the work as it was when it was asked for.
+struct AskedSave : Asked {
+    std::size_t after = 0;                           // so many of the step's orders for the workpiece
+    std::shared_ptr<const WorldObjects> world = {};  // null: there is none
+    std::uint64_t edits_state = 0;                   // WorldHistory::state()
+};
+
 // What the activity is told by a command.
 struct AskedAct {
     std::vector<std::string> words;
@@ -116,7 +123,7 @@ struct SessionOrders {
     std::vector<AskedAmplifiers> amplifiers;
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
-    std::vector<Asked> saves;        // names of documents; empty: the one that there is
+    std::vector<AskedSave> saves;    // names of documents; empty: the one that there is
     std::vector<Asked> names;        // of documents whose places are to be looked at before they are saved there
     bool full_screen = false;        // toggle between window and full screen
     bool put_away = false;           // the messages that are shown

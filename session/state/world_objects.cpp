@@ -52,9 +52,12 @@ Result<EditedWorld> edited(const WorldObjects& world, const EditObject& command)
 Result<EditedWorld> restored(const WorldObjects& world, std::shared_ptr<const scene::SceneObject> object) {
     const scene::ObjectId id = object->id;
     const scene::ObjectEdit edit = scene::Restore{object};
-    if (const auto changed = scene::edited(*world.find(id), edit); !changed) return std::unexpected(changed.error());
+    const auto changed = scene::edited(*world.find(id), edit);
+    if (!changed) return std::unexpected(changed.error());
+    const bool was_held = std::holds_alternative<scene::HeldMotion>(object->motion);
     auto next = std::make_shared<WorldObjects>(world);
-    next->objects[id - 1] = std::move(object);
+    next->objects[id - 1] =
+        was_held ? std::make_shared<const scene::SceneObject>(std::move(*changed)) : std::move(object);
     if (!materials_fit(*next))
         return fail("object " + next->objects[id - 1]->name, "cannot be made what it was: there are too many materials",
                     "let another object feel like one more");

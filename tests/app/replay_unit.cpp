@@ -76,10 +76,10 @@ TEST(ReplayOfAWorld, IsEqualToTheBitAndTellsTheFirstDifference) {
     ASSERT_EQ(record_small_world(at, kReplayBurin).status, 0);
     const auto same = at.run(kReplayBurin + " replay a.session --json r.json");
     EXPECT_EQ(same.status, 0) << same.output;
-    EXPECT_EQ(same.output, "a.session: 2400 ticks, 75 columns: equal to the bit\n");
+    EXPECT_EQ(same.output, "a.session: 2400 ticks, 80 columns: equal to the bit\n");
     EXPECT_TRUE(Json::parse(at.read("r.json"))["difference"].is_null());
     EXPECT_EQ(at.run(kReplayBurin + " replay a.session --from 500 --to 1200").output,
-              "a.session: 701 ticks, 75 columns: equal to the bit\n");
+              "a.session: 701 ticks, 80 columns: equal to the bit\n");
 
     // One parameter is another one.
     change(at, copied(at, "b.session"),
@@ -155,9 +155,9 @@ TEST(ReplayOfAWorld, OfNoTickAtAllIsAnErrorAndNoEquality) {
                 << outcome.output;
         }
     EXPECT_EQ(at.run(kReplayBurin + " replay a.session --from 0 --to 1").output,
-              "a.session: 1 ticks, 75 columns: equal to the bit\n");
+              "a.session: 1 ticks, 80 columns: equal to the bit\n");
     EXPECT_EQ(at.run(kReplayBurin + " replay a.session --from 2400 --to 9999").output,
-              "a.session: 1 ticks, 75 columns: equal to the bit\n");
+              "a.session: 1 ticks, 80 columns: equal to the bit\n");
     change(at, copied(at, "gap.session"), "DELETE FROM block WHERE id = 2");
     EXPECT_EQ(at.run(kReplayBurin + " replay gap.session --from 1001 --to 1002").status, 1) << "they are missing";
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,8 @@ scene::Pages saved(const std::vector<scene::SceneObject>& objects) {
     const std::vector<std::size_t> numbers = scene::mesh_numbers(meshes);
     scene::Pages pages{.part = std::string(scene::kObjectsPart)};
     for (std::size_t i = 0; i < objects.size(); ++i)
-        scene::save_object(objects[i], numbers[i], scene::object_bytes(objects[i], numbers[i]), pages);
+        scene::save_object(objects[i], objects[i].corner_colours.get(), numbers[i],
+                           scene::object_bytes(objects[i], numbers[i]), pages);
     return pages;
 }
 
@@ -68,6 +70,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<scene::SceneObject> objects = sound;
     scene::Pages change{.part = std::string(scene::kObjectsPart), .whole = false};
     change.pages[scene::change_of(data[0] % 3)] = at->second;
-    if (const auto done = scene::apply_change(objects, change, "fuzz"); !done) require(!done.error().where.empty());
+    const std::vector<std::shared_ptr<const scene::CornerColours>> colours{sound[0].corner_colours, nullptr};
+    if (const auto done = scene::apply_change(objects, colours, change, "fuzz"); !done)
+        require(!done.error().where.empty());
     return 0;
 }

@@ -257,6 +257,8 @@ TEST(MeshPart, AButtonTakesHoldOfWhatIsTouchedAndLetsGoOfIt) {
     update(on_top, false);
     EXPECT_EQ(part->pose(1), left) << "it stays where the hand has left it";
     EXPECT_TRUE(std::holds_alternative<FixedMotion>(part->object(1).motion));
+    update(on_top, true);
+    EXPECT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion)) << "and can be taken again";
 }
 
 // An activity gives what a button has taken into other hands: the button lets go of nothing that is not its own.

@@ -45,8 +45,15 @@ Pages saved(const std::vector<SceneObject>& objects) {
     const std::vector<std::size_t> numbers = mesh_numbers(meshes);
     Pages pages{.part = std::string(kObjectsPart)};
     for (std::size_t i = 0; i < objects.size(); ++i)
-        save_object(objects[i], numbers[i], object_bytes(objects[i], numbers[i]), pages);
+        save_object(objects[i], objects[i].corner_colours.get(), numbers[i], object_bytes(objects[i], numbers[i]),
+                    pages);
     return pages;
+}
+
+std::vector<std::shared_ptr<const CornerColours>> colours_of_all(const std::vector<SceneObject>& objects) {
+    std::vector<std::shared_ptr<const CornerColours>> colours;
+    for (const SceneObject& object : objects) colours.push_back(object.corner_colours);
+    return colours;
 }
 
 void expect_same(const SceneObject& a, const SceneObject& b) {
@@ -124,6 +131,7 @@ TEST(SavedObjects, WithWhatNoObjectCanHaveAreLostAndNothingCrashes) {
                                    {"\"mesh\": 0", "\"mesh\": 1e300"},
                                    {"\"object 1\"", "\"object 2\""},
                                    {"123.456", "1e999"},
+                                   {"0.03\n", "1e300\n"},
                                    {"\"pivot_m\"", "\"pivot\""},
                                    {"{", ""}}) {
         const auto loaded = with(from, to);
@@ -147,12 +155,41 @@ TEST(SavedObjects, FollowAChangeOfAJournalOrRefuseItWhole) {
     Pages change{.part = std::string(kObjectsPart), .whole = false};
     change.pages[change_of(3)] = object_bytes(changed[2], 1);
     change.pages[change_of(1)] = object_bytes(changed[0], 0);
-    ASSERT_TRUE(apply_change(now, change, "j.burin"));
+    const std::vector<std::shared_ptr<const CornerColours>> colours = colours_of_all(objects);
+    ASSERT_TRUE(apply_change(now, colours, change, "j.burin"));
     for (std::size_t i = 0; i < 4; ++i) expect_same(now[i], changed[i]);
     change.pages[change_of(5)] = object_bytes(objects[1], 0);
     change.pages[change_of(1)] = object_bytes(objects[0], 0);
-    EXPECT_FALSE(apply_change(now, change, "j.burin")) << "there is no object 5";
+    EXPECT_FALSE(apply_change(now, colours, change, "j.burin")) << "there is no object 5";
     expect_same(now[0], changed[0]);
+}
+
+TEST(SavedObjects, ThatAreLostStayLostWhateverAChangeSays) {
+    const std::vector<SceneObject> objects = four_objects();
+    Pages pages = saved(objects);
+    pages.pages.erase({"object", 1});
+    auto loaded = load_objects(pages, "w.burin");
+    ASSERT_TRUE(loaded);
+    Pages change{.part = std::string(kObjectsPart), .whole = false};
+    change.pages[change_of(1)] = object_bytes(objects[0], 0);
+    ASSERT_TRUE(apply_change(loaded->objects, loaded->colours, change, "j.burin"));
+    EXPECT_FALSE(loaded->objects[0].felt) << "an empty mesh cannot be felt, and the session would not open";
+}
+
+TEST(SavedObjects, GivenOneColourGetTheColoursOfTheirFileBackByAChange) {
+    std::vector<SceneObject> objects = four_objects();
+    const SceneObject coloured = objects[2];
+    objects[2].corner_colours = nullptr;
+    Pages pages{.part = std::string(kObjectsPart)};
+    for (std::size_t i = 0; i < 4; ++i)
+        save_object(objects[i], i == 2 ? coloured.corner_colours.get() : nullptr, i < 2 ? 0 : 1,
+                    object_bytes(objects[i], i < 2 ? 0 : 1), pages);
+    auto loaded = load_objects(pages, "w.burin");
+    ASSERT_TRUE(loaded && loaded->lost.empty() && loaded->objects[2].corner_colours == nullptr);
+    Pages change{.part = std::string(kObjectsPart), .whole = false};
+    change.pages[change_of(3)] = object_bytes(coloured, 1);
+    ASSERT_TRUE(apply_change(loaded->objects, loaded->colours, change, "j.burin"));
+    expect_same(loaded->objects[2], coloured);
 }
 
 TEST(SavedObjects, OfAMeshLargerThanAPageMayBeComeBackWhole) {

@@ -375,17 +375,22 @@ TEST(SessionActivity, ThatGovernsIsNotOverruledByThePanel) {
         const SessionState before = watched.session->state();
         watching->governs_from_now = governs;
         std::set<std::string> changed;
-        for (double y = 60.0; y < 680.0; y += 8.0) {
-            for (const double x : {980.0, 1110.0, 1240.0}) {
-                watched.send({MouseMove{{x, y}}, MouseClick{MouseButton::left, true, {}},
-                              MouseClick{MouseButton::left, false, {}}});
-                const SessionState& now = watched.session->state();
-                if (now.force_on != before.force_on) changed.insert("force");
-                if (now.workspace_gain != before.workspace_gain) changed.insert("scale");
-                if (!(now.tool == before.tool)) changed.insert("tool");
-                if (now.technique != before.technique) changed.insert("technique");
-            }
+        std::size_t clicked = 0;
+        for (const char* label :
+             {"tool cone", "object stiffness", "object scale", "object seen", "object felt", "force"}) {
+            const auto place = watched.session->place_on_panel(label);
+            if (!place) continue;
+            ++clicked;
+            const Vec2 at(place->x + 0.3 * place->width, place->y + 0.5 * place->height);
+            watched.send({MouseMove{at}});
+            watched.send({MouseMove{at}, MouseClick{MouseButton::left, true, {}}});
+            watched.send({MouseClick{MouseButton::left, false, {}}});
+            const SessionState& now = watched.session->state();
+            if (now.force_on != before.force_on) changed.insert("force");
+            if (!(now.tool == before.tool)) changed.insert("tool");
+            if (now.world->objects != before.world->objects) changed.insert("objects");
         }
+        EXPECT_GE(clicked, 3u);
         EXPECT_EQ(changed.empty(), governs) << testing::PrintToString(changed);
     }
 }

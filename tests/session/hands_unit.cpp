@@ -139,7 +139,7 @@ TEST(SessionHands, AHandThatHoldsTurnsThePieceUnderTheOther) {
     const Vec3 right_world_m = home * right_m;
     desk.frame({MouseClick{MouseButton::right, true, {}}});
     desk.settle();
-    EXPECT_FALSE(desk.session->channels(1).parameters.newest().enabled) << "what is held does not push its hand";
+    EXPECT_TRUE(desk.session->channels(1).parameters.newest().holds) << "what is held does not push its hand";
     desk.frame({MouseClick{MouseButton::middle, true, {.ctrl = true}}});
     desk.drag({120.0, 0.0});
     desk.frame({MouseClick{MouseButton::middle, false, {}}});

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "session/input/desk_input.hpp"
 #include "session/input/input_keys.hpp"
@@ -146,14 +149,15 @@ TEST(DeskInput, WhatThePanelCapturedPressesNothingButReleases) {
 }
 
 TEST(DeskInput, EveryShortCutOfTheTableDoesWhatItSaysAndNothingElse) {
-    std::set<std::pair<Key, std::string>> taken;
+    std::set<std::tuple<Key, std::string, std::optional<MouseMode>>> taken;
     for (const ShortCut& s : short_cuts()) {
-        EXPECT_TRUE(taken.insert({s.key, name_of(s.modifiers)}).second) << label_of(s) << " twice";
+        EXPECT_TRUE(taken.insert({s.key, name_of(s.modifiers), s.only}).second) << label_of(s) << " twice";
         UsedDesk desk;
         if (s.only) {
             UsedDesk other;
             (s.only == MouseMode::surface ? desk : other).follow_surface();
-            EXPECT_TRUE(other.step({press(s.key, s.modifiers)}).actions.empty()) << label_of(s);
+            const auto actions = other.step({press(s.key, s.modifiers)}).actions;
+            EXPECT_TRUE(std::ranges::find(actions, s.action) == actions.end()) << label_of(s);
         }
         EXPECT_EQ(desk.step({press(s.key, s.modifiers)}).actions, std::vector{s.action}) << label_of(s);
         const DeskStep again = desk.step({KeyInput{s.key, KeyMotion::repeat, s.modifiers}});

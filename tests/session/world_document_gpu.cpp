@@ -5,6 +5,7 @@
 
 #include "document/document_reader.hpp"
 #include "gpu/device.hpp"
+#include "record/database.hpp"
 #include "scene/saved_objects.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
@@ -134,6 +135,31 @@ TEST_F(DocumentOfAWorld, BesideAWorkpieceHoldsBothAndOpensBothByEitherWord) {
     done = place.run(command("sculpt a/work.burin --world w.toml", "c", "0.2 command quit\n"));
     EXPECT_NE(done.status, 0);
     EXPECT_TRUE(done.output.contains("brings its own world; leave the other out")) << done.output;
+}
+
+TEST_F(DocumentOfAWorld, HoldsWhatWasThereWhenItWasAskedForWhateverFollowsInTheSameFrame) {
+    play("world w.toml", "a",
+         "0.1 command object rock scale 2\n0.3 command save two.burin\n0.3 command object rock scale 3\n0.3 command "
+         "save "
+         "three.burin\n1 command quit\n");
+    EXPECT_EQ(objects("a/two.burin")[0].scale, 2.0);
+    EXPECT_EQ(objects("a/three.burin")[0].scale, 3.0);
+}
+
+TEST_F(DocumentOfAWorld, OfWhichAnObjectIsDamagedOpensTheOthersAndIsNotSavedOver) {
+    play("world w.toml", "a", "0.1 command save work.burin\n1 command quit\n");
+    {
+        auto database = record::Database::open(place / "a/work.burin", record::Database::Use::write);
+        ASSERT_TRUE(database);
+        ASSERT_TRUE(database->run("UPDATE page SET crc = crc + 1 WHERE kind = 'object' AND number = 1"));
+    }
+    const std::string damaged = place.read("a/work.burin");
+    play("world a/work.burin", "b", "0.1 command save found.burin\n0.5 command quit\n");
+    EXPECT_TRUE(done.output.contains("1 object cannot be read")) << done.output;
+    EXPECT_EQ(place.read("a/work.burin"), damaged);
+    EXPECT_EQ(objects("b/found.burin")[1].name, "bird");
+    done = place.run(command("world a/work.burin", "c", "0.1 command object lost-1 felt on\n0.5 command quit\n"));
+    EXPECT_TRUE(done.output.contains("has no triangles that could be felt")) << done.output;
 }
 
 }  // namespace burin::session

@@ -270,4 +270,26 @@ TEST(WorldSession, WhatAHandHoldsIsNotUndoneUnderIt) {
     EXPECT_EQ(state.edits.undoable(), 1u);
 }
 
+TEST(WorldSession, AnEditOfWhatAHandHeldIsUndoneWithoutPuttingItBackIntoTheHand) {
+    OpenWorld world;
+    SessionState state = world.session->state();
+    SessionOrders orders;
+    const auto with = [&](scene::ObjectMotion motion, double scale) {
+        auto object = std::make_shared<scene::SceneObject>(*state.world->find(1));
+        object->motion = std::move(motion);
+        object->scale = scale;
+        auto now = std::make_shared<WorldObjects>(*state.world);
+        now->objects[0] = object;
+        state.world = now;
+    };
+    with(scene::HeldMotion{.parts = {0}, .hand_from_object = {}}, 1.0);
+    ASSERT_TRUE(run_command(state, orders, EditObject{"rock", scene::ObjectProperty::stiffness, {50.0}}));
+    with(scene::FixedMotion{}, 1.0);
+    ASSERT_TRUE(run_command(state, orders, RunAction{Action::undo}));
+    EXPECT_TRUE(std::holds_alternative<scene::FixedMotion>(state.world->find(1)->motion));
+    EXPECT_EQ(state.world->find(1)->material.stiffness_N_per_m, 900.0);
+    EXPECT_TRUE(run_command(state, orders, RunAction{Action::redo}));
+    EXPECT_EQ(state.world->find(1)->material.stiffness_N_per_m, 50.0);
+}
+
 }  // namespace burin::session
