@@ -129,7 +129,7 @@ TEST(RepeatedWorld, IsEqualAndAChangedValueOfOneTickIsNamed) {
     ASSERT_TRUE(same) << same.error().line();
     EXPECT_FALSE(same->difference);
     EXPECT_EQ(same->ticks, 3400u);
-    EXPECT_EQ(same->columns, 75u);
+    EXPECT_EQ(same->columns, 80u);
     change_value(at / "a", 1500, "desired_force_device_y_N", 0.25);
     const auto changed = replayed(at / "a");
     ASSERT_TRUE(changed && changed->difference);
