@@ -124,10 +124,11 @@ FirstFaces split_faces(const MeshSoup& soup, ImportedMesh& imported) {
     for (std::size_t face = 0; face < soup.corner_counts.size(); ++face) {
         const std::uint32_t count = soup.corner_counts[face];
         const std::uint32_t* corner = soup.corners.data() + first;
-        const auto add = [&, colours = soup.corner_colours.data() + first](const std::array<std::uint32_t, 3>& t) {
+        const auto add = [&, of_face = first](const std::array<std::uint32_t, 3>& t) {
             mesh.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
-            if (!soup.corner_colours.empty())
-                imported.corner_colours.push_back({colours[t[0]], colours[t[1]], colours[t[2]]});
+            if (soup.corner_colours.empty()) return;
+            const auto* const colours = soup.corner_colours.data() + of_face;
+            imported.corner_colours.push_back({colours[t[0]], colours[t[1]], colours[t[2]]});
         };
         first += count;
         if (count < 3) {

@@ -19,13 +19,16 @@ public:
         const Vec3 size = bounds.extent();
         const double longest = std::max({size.x, size.y, size.z});
         per_length_ = longest > 0.0 ? cells / longest : 0.0;
-        for (int axis = 0; axis < 3; ++axis) along_.at(axis) = static_cast<std::size_t>(size[axis] * per_length_) + 1;
+        for (int axis = 0; axis < 3; ++axis)
+            along_.at(static_cast<std::size_t>(axis)) = static_cast<std::size_t>(size[axis] * per_length_) + 1;
     }
     [[nodiscard]] std::size_t count() const { return along_[0] * along_[1] * along_[2]; }
     [[nodiscard]] std::size_t cell_of(const Vec3& p) const {
         std::array<std::size_t, 3> at{};
-        for (int axis = 0; axis < 3; ++axis)
-            at.at(axis) = std::min(static_cast<std::size_t>((p[axis] - lo_[axis]) * per_length_), along_.at(axis) - 1);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            at.at(a) = std::min(static_cast<std::size_t>((p[axis] - lo_[axis]) * per_length_), along_.at(a) - 1);
+        }
         return (at[2] * along_[1] + at[1]) * along_[0] + at[0];
     }
 

@@ -96,7 +96,7 @@ TEST(ContactEvents, SayOfEachTickWhatItsPointsTouch) {
                 EXPECT_EQ(told.erase(event.object), 1u) << "tick " << number;
         }
         std::set<ObjectId> touched;
-        for (int i = 0; i < 3; ++i)
+        for (std::size_t i = 0; i < 3; ++i)
             if (tick.contact.points[i].object != 0) touched.insert(tick.contact.points[i].object);
         ASSERT_EQ(told, touched) << "tick " << number;
     }
