@@ -8,7 +8,7 @@
 namespace burin::devices {
 
 struct HdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4432;  // "burinHD2": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4433;  // "burinHD3": of this layout
     static constexpr const char* kPrefix = "burin-hd-";
 
     // ---- The emulator's

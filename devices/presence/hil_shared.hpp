@@ -8,7 +8,7 @@
 namespace burin::devices {
 
 struct HilShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c33;  // "burinHL3": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c34;  // "burinHL4": of this layout
     static constexpr const char* kPrefix = "burin-hil-";
 
     // ---- The emulator's

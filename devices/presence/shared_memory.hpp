@@ -25,30 +25,39 @@ namespace burin::devices {
 template <std::size_t Count>
 class SharedNumbers {
 public:
+    // There are two places, so that a writer which the system stops in the middle of one leaves the other to be read.
     void write(const std::array<double, Count>& values) noexcept {
+        const std::uint32_t next = 1 - (newest_.load(std::memory_order_relaxed) & 1u);
+        Place& to = places_[next];
         // release and acquire as of a sequence lock: numbers are atomic themselves, so nothing is torn, and the fences
         // keep them between the two counts.
-        const std::uint32_t before = sequence_.load(std::memory_order_relaxed);
-        sequence_.store(before + 1, std::memory_order_relaxed);
+        const std::uint32_t before = to.sequence.load(std::memory_order_relaxed);
+        to.sequence.store(before + 1, std::memory_order_relaxed);
         std::atomic_thread_fence(std::memory_order_release);
-        for (std::size_t i = 0; i < Count; ++i) values_[i].store(values[i], std::memory_order_relaxed);
-        sequence_.store(before + 2, std::memory_order_release);
+        for (std::size_t i = 0; i < Count; ++i) to.values[i].store(values[i], std::memory_order_relaxed);
+        to.sequence.store(before + 2, std::memory_order_release);
+        newest_.store(next, std::memory_order_release);
     }
     [[nodiscard]] std::optional<std::array<double, Count>> read() const noexcept {
         constexpr int kTries = 8;
         for (int i = 0; i < kTries; ++i) {
-            const std::uint32_t before = sequence_.load(std::memory_order_acquire);
+            const Place& from = places_[newest_.load(std::memory_order_acquire) & 1u];
+            const std::uint32_t before = from.sequence.load(std::memory_order_acquire);
             std::array<double, Count> values;
-            for (std::size_t k = 0; k < Count; ++k) values[k] = values_[k].load(std::memory_order_relaxed);
+            for (std::size_t k = 0; k < Count; ++k) values[k] = from.values[k].load(std::memory_order_relaxed);
             std::atomic_thread_fence(std::memory_order_acquire);
-            if (before % 2 == 0 && sequence_.load(std::memory_order_relaxed) == before) return values;
+            if (before % 2 == 0 && from.sequence.load(std::memory_order_relaxed) == before) return values;
         }
         return std::nullopt;
     }
 
 private:
-    std::atomic<std::uint32_t> sequence_ = 0;
-    std::array<std::atomic<double>, Count> values_{};
+    struct Place {
+        std::atomic<std::uint32_t> sequence = 0;
+        std::array<std::atomic<double>, Count> values{};
+    };
+    std::array<Place, 2> places_{};
+    std::atomic<std::uint32_t> newest_ = 0;
 };
 
 // A force that no library has renewed for so long is none.

@@ -34,7 +34,8 @@ void LineServo::run() {
     Nanoseconds due_ns = clock_.now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {
         due_ns = std::max(due_ns + kPeriod_ns, clock_.now_ns() - 5 * kPeriod_ns);
-        clock_.sleep_until(due_ns);
+        // One that cannot keep up leaves its core to others.
+        clock_.sleep_until(std::max(due_ns, clock_.now_ns() + kPeriod_ns / 2));
         if (is_open_)
             turn();
         else
