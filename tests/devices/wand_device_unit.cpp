@@ -153,7 +153,7 @@ TEST(Wand, StaysInItsJigUntilABusyMachineHasSetItsCounters) {
     constexpr std::array<std::uint32_t, kWandJoints> kChannels{0, 1, 2, 3, 4, 5};
     constexpr std::array<std::int32_t, kWandJoints> kZero{};
     HilCard card = nullptr;
-    ASSERT_EQ(api->open("emulated", own_wand().c_str(), &card), 0);
+    ASSERT_TRUE(tried([&] { return api->open("emulated", own_wand().c_str(), &card) == 0; }));
     std::array<std::int32_t, kWandJoints> at_first{}, counts{};
     const auto read = [&](auto& to) { return api->read_encoder(card, kChannels.data(), kWandJoints, to.data()) >= 0; };
     EXPECT_TRUE(read(at_first));
