@@ -142,7 +142,7 @@ Result<void> DocumentReader::count_changes() {
     const Result<bool> there = database_->has_table("change");
     if (!there) return std::unexpected(there.error());
     if (!*there) return {};
-    // As many as there are, whatever numbers they claim: whoever applies them sees a gap.
+    // Counts the changes and does not trust their numbers: a gap is found when they are applied.
     const Result<std::int64_t> last = database_->integer("SELECT count(DISTINCT number) FROM change");
     if (!last) return std::unexpected(last.error());
     changes_ = *last;

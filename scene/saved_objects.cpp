@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/json.hpp"
+#include "scene/touchable.hpp"
 #include "scene/world_file.hpp"
 
 namespace burin::scene {
@@ -207,15 +208,8 @@ std::shared_ptr<const CornerColours> colours_in(const Bytes& bytes, std::size_t 
     return colours;
 }
 
-// What a session takes over as it is (geometry/contact/touch_mesh.hpp refuses the rest).
-bool can_be_touched(const SceneObject& object) {
-    constexpr double kFarthest_m = 1e8;
-    const auto is_near = [&](const Vec3& p) {
-        const Vec3 at = object.scale * p;
-        return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kFarthest_m;
-    };
-    return !object.felt || (!object.mesh->triangles.empty() && std::ranges::all_of(object.mesh->positions_m, is_near));
-}
+// Whether a session can open it.
+bool is_sound(const SceneObject& object) { return !object.felt || can_be_touched(object); }
 
 // What stands for an object that is lost.
 SceneObject lost_object(ObjectId id) {
@@ -296,7 +290,7 @@ Result<LoadedObjects> load_objects(const Pages& pages, const std::string& where)
         if (read && !meshes.contains(read->mesh)) meshes[read->mesh] = mesh_in(joined_pieces(pages, kMesh, read->mesh));
         if (read) read->object.mesh = meshes[read->mesh];
         const bool is_whole =
-            read && read->object.mesh && can_be_touched(read->object) && names.insert(read->object.name).second;
+            read && read->object.mesh && is_sound(read->object) && names.insert(read->object.name).second;
         auto& colours = loaded.colours.emplace_back();
         if (is_whole) colours = colours_in(joined_pieces(pages, kColours, number), read->object.mesh->triangles.size());
         if (is_whole && read->has_colours) {
@@ -333,7 +327,7 @@ Result<void> apply_change(std::vector<SceneObject>& objects,
         read->object.mesh = before.mesh;
         read->object.name = before.name;
         if (read->has_colours) read->object.corner_colours = colours[id - 1];
-        if (!can_be_touched(read->object)) read->object.seen = read->object.felt = false;
+        if (!is_sound(read->object)) read->object.seen = read->object.felt = false;
         changed.push_back(std::move(read->object));
     }
     for (SceneObject& object : changed) objects[object.id - 1] = std::move(object);

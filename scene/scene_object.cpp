@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/contact/mesh_motion.hpp"
+#include "scene/touchable.hpp"
 #include "scene/value_text.hpp"
 
 namespace burin::scene {
@@ -17,14 +18,6 @@ bool is_near_enough(const Vec3& position_m) { return finite(position_m) && glm::
 
 void append(std::vector<Problem>& to, std::vector<Problem> more) {
     to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
-// As geometry/contact/touch_mesh.hpp asks for.
-bool is_small_enough(const SceneObject& object) {
-    double farthest_m = 0.0;
-    for (const Vec3& p : object.mesh->positions_m)
-        farthest_m = std::max({farthest_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    return object.scale * farthest_m <= 1e8;
 }
 
 // Makes each kind of edit. Returns why it cannot be made, if so.
@@ -131,7 +124,8 @@ Result<SceneObject> edited(SceneObject object, const ObjectEdit& edit) {
         return fail(name, found.front().key + " " + found.front().what, found.front().remedy);
     if (object.felt && object.mesh && object.mesh->triangles.empty())
         return fail(name, "has no triangles that could be felt", "leave it as it is");
-    if (std::holds_alternative<SetScale>(edit) && object.mesh && !is_small_enough(object))
+    const bool may_not_be = std::holds_alternative<SetScale>(edit) || std::holds_alternative<SetFelt>(edit);
+    if (may_not_be && object.felt && object.mesh && !can_be_touched(object))
         return fail(name, "would be larger than 1e8 m", "give a smaller scale");
     return object;
 }

@@ -106,7 +106,8 @@ void HilWand::serve() {
     const Nanoseconds period_ns = nanoseconds(1.0 / wand_.rate_Hz);
     Nanoseconds due_ns = clock_.now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {
-        // What was missed for long is not made up for, and a servo that cannot keep up leaves its core to others.
+        // A late servo makes up for five turns at most, and rests half a period before each, so that one that cannot
+        // keep up leaves its core to others.
         due_ns = std::max(due_ns + period_ns, clock_.now_ns() - 5 * period_ns);
         clock_.sleep_until(std::max(due_ns, clock_.now_ns() + period_ns / 2));
         turn(clock_.now_ns());

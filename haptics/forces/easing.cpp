@@ -97,7 +97,7 @@ ContactForce eased(EasedForce& state, const ContactForce& force, double changed_
     if (!state.changes()) return force;
     const double step = state.rate_per_s * dt_s;
     state.gone += step;
-    // What goes is gone within kEase_s, however long what comes takes.
+    // The old force fades out within kEase_s, however long the new one takes to fade in.
     const double left = std::max(0.0, 1.0 - state.gone / std::min(1.0, state.rate_per_s * kEase_s)),
                  come = std::max(0.0, state.gone - (state.again ? step : 0.0));
     constexpr double kRounding = 1e-9;

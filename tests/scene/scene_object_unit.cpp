@@ -2,6 +2,8 @@
 // Materials, objects and paths as data.
 #include <gtest/gtest.h>
 
+#include "tests/scene/scene_samples.hpp"
+
 #include <limits>
 
 #include "scene/haptic_material.hpp"
@@ -100,6 +102,17 @@ TEST(PathMotion, WhatJumpsIsNamed) {
     const Quat half = glm::angleAxis(3.0, Vec3(0.0, 1.0, 0.0));
     EXPECT_EQ(keys_of(problems(PathMotion{{start, {5.0, {Vec3(0.0), half}}}, false})), Keys{"path[1]"});
     EXPECT_EQ(keys_of(problems(PathMotion{{start, {1.0, {Vec3(NAN), half}}}, false})), Keys{"path[1]"});
+}
+
+TEST(SceneObject, ThatCouldNotBeTouchedIsNotMadeSoByAnEdit) {
+    SceneObject object = test::object_at(1, test::shared_mesh(geometry::test::cube(600.0)), Vec3(0.0));
+    EXPECT_FALSE(edited(object, SetScale{1e6})) << "the scene's thread would refuse it, and a document not open";
+    object.felt = false;
+    const auto large = edited(object, SetScale{1e6});
+    ASSERT_TRUE(large) << "it is only seen";
+    EXPECT_FALSE(edited(*large, SetFelt{true}));
+    object.mesh = test::shared_mesh({});
+    EXPECT_FALSE(edited(object, SetFelt{true}));
 }
 
 }  // namespace
