@@ -2,12 +2,11 @@
 // Materials, objects and paths as data.
 #include <gtest/gtest.h>
 
-#include "tests/scene/scene_samples.hpp"
-
 #include <limits>
 
 #include "scene/haptic_material.hpp"
 #include "scene/scene_object.hpp"
+#include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {
 namespace {
