@@ -2,10 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/frame.glsl"
+#include "shaders/shared/srgb.h"
 // The faces of the haptic workspace's boxes: a clear tint, denser at grazing angles and towards the edges. The same
 // shader draws the workspace's bubble, which has no edges: there their strength, material.x, is 0. Objects through
 // which one sees are shaded, material.y is 1: darker where they turn from the light, with a highlight. An outline of
-// what something hides, material.y is 2, is dense where the surface turns from the eye. Premultiplied.
+// what something hides, material.y is 2, is dense where the surface turns from the eye. Premultiplied linear light,
+// which the device adds up as such (FrameTargets::glass_pass); the outline alone lies in the pass of what is solid.
 
 layout(location = 0) in vec3 in_world;
 layout(location = 1) in vec3 in_normal;
@@ -30,7 +32,14 @@ void main() {
     }
     if (draw.material.y == 2.0) {
         alpha = draw.tint.a + 0.6 * smoothstep(0.45, 0.9, grazing);
-        out_colour = vec4(in_colour * alpha, alpha);
+        vec3 c = in_colour * alpha;
+        if (kEncodes) {
+            // As for the panel (panel_quad.frag): the value whose blend in sRGB equals that of linear light over the
+            // background's grey.
+            vec3 ground = frame.background.rgb;
+            c = srgb_of(c + ground * (1.0 - alpha)) - srgb_of(ground) * (1.0 - alpha);
+        }
+        out_colour = vec4(c, alpha);
         return;
     }
     alpha = min(draw.tint.a * (0.75 + 0.5 * grazing), 1.0);

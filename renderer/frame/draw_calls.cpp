@@ -3,7 +3,21 @@
 
 #include <array>
 
+#include "renderer/frame/frame_targets.hpp"
+
 namespace burin::renderer {
+
+void DrawCalls::begin(const VkRenderPassBeginInfo& wanted, const PixelRect& part, ImageSize size,
+                      VkDescriptorSet set) const {
+    VkRenderPassBeginInfo info = wanted;
+    info.renderArea = {{static_cast<std::int32_t>(part.x), static_cast<std::int32_t>(part.y)},
+                       {part.width, part.height}};
+    vk_->vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
+    const VkViewport viewport = viewport_of(size);
+    vk_->vkCmdSetViewport(commands_, 0, 1, &viewport);
+    vk_->vkCmdSetScissor(commands_, 0, 1, &info.renderArea);
+    vk_->vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set, 0, nullptr);
+}
 
 void DrawCalls::use(VkPipeline pipeline) const {
     vk_->vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);

@@ -19,6 +19,9 @@ public:
     DrawCalls(const gpu::Device& device, const gpu::Commands& commands, VkPipelineLayout layout)
         : vk_(&device.core()->vk), commands_(commands.raw()), layout_(layout) {}
 
+    // Begins a pass over a part of targets of this size, with the descriptor set of all pipelines; `wanted` tells all
+    // of the pass but its area.
+    void begin(const VkRenderPassBeginInfo& wanted, const PixelRect& part, ImageSize size, VkDescriptorSet set) const;
     void use(VkPipeline pipeline) const;
     void bind(const gpu::Buffer& vertices, const gpu::Buffer& lights, const gpu::Buffer& indices) const;
     void bind(const MeshStore& meshes) const { bind(meshes.vertices(), meshes.lights(), meshes.indices()); }

@@ -139,6 +139,8 @@ Result<void> create_images(gpu::Device& device, FrameTargets& t) {
     return {};
 }
 
+std::uint32_t view_mask_of(Views views) { return views == Views::both ? 0b11 : views == Views::left ? 0b01 : 0b10; }
+
 // Creates the pass with its attachments: the finished picture, depth,
 // and with several samples the colour that is resolved into the picture.
 Result<gpu::RenderPassHandle> create_view_pass(gpu::Device& device, const FrameTargets& t, bool whole) {
@@ -149,7 +151,7 @@ Result<gpu::RenderPassHandle> create_view_pass(gpu::Device& device, const FrameT
     const bool resolves = t.samples > 1;
     std::vector<VkAttachmentDescription> attachments{
         attachment(format, 1, !resolves, true, whole ? kUndefined : kShown, kShown),
-        attachment(FrameTargets::kDepthFormat, t.samples, true, false, kUndefined, kDepth)};
+        attachment(FrameTargets::kDepthFormat, t.samples, true, !resolves, kUndefined, kDepth)};  // glass_pass reads it
     if (resolves) attachments.push_back(attachment(format, t.samples, true, false, kUndefined, kColour));
     const VkAttachmentReference finished{0, kColour}, depth{1, kDepth}, sampled{2, kColour};
     VkSubpassDescription subpass{};
@@ -157,10 +159,30 @@ Result<gpu::RenderPassHandle> create_view_pass(gpu::Device& device, const FrameT
     subpass.pColorAttachments = resolves ? &sampled : &finished;
     subpass.pResolveAttachments = resolves ? &finished : nullptr;
     subpass.pDepthStencilAttachment = &depth;
-    return create_pass(device, attachments, subpass,
-                       t.views == Views::both   ? 0b11
-                       : t.views == Views::left ? 0b01
-                                                : 0b10);
+    return create_pass(device, attachments, subpass, view_mask_of(t.views));
+}
+
+Result<void> create_glass_pass(gpu::Device& device, FrameTargets& t) {
+    constexpr VkImageLayout kShown = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                            kColour = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            kDepth = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    std::array<VkAttachmentDescription, 2> attachments{
+        attachment(FrameTargets::kLinearFormat, 1, false, true, kShown, kShown),
+        attachment(FrameTargets::kDepthFormat, 1, false, false, kDepth, kDepth)};
+    for (VkAttachmentDescription& a : attachments) a.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    const VkAttachmentReference picture{0, kColour}, depth{1, kDepth};
+    VkSubpassDescription subpass{};
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &picture;
+    subpass.pDepthStencilAttachment = &depth;
+    auto pass = create_pass(device, attachments, subpass, view_mask_of(t.views));
+    if (!pass) return std::unexpected(pass.error());
+    const std::array<VkImageView, 2> views{t.both_eyes.raw(), t.depth.view()};
+    auto framebuffer = create_framebuffer(device, pass->raw(), views, t.size);
+    if (!framebuffer) return std::unexpected(framebuffer.error());
+    t.glass_pass = std::move(*pass);
+    t.glass_framebuffer = std::move(*framebuffer);
+    return {};
 }
 
 Result<void> create_passes(gpu::Device& device, FrameTargets& t) {
@@ -174,7 +196,7 @@ Result<void> create_passes(gpu::Device& device, FrameTargets& t) {
     auto framebuffer = create_framebuffer(device, t.whole_pass.raw(), views, t.size);
     if (!framebuffer) return std::unexpected(framebuffer.error());
     t.framebuffer = std::move(*framebuffer);
-    return {};
+    return t.encodes ? create_glass_pass(device, t) : Result<void>{};
 }
 
 std::uint64_t layer_bytes(ImageSize size) { return std::uint64_t{4} * size.width * size.height; }

@@ -3,7 +3,8 @@
 // them. A pass runs once and draws into both layers (multiview), or into one of them where only one view is shown.
 // With several samples a pixel, shaders write linear light and the device resolves and encodes it. With one sample
 // there is nothing to resolve, and shaders write sRGB values themselves (`encodes`): on a software driver that saves a
-// third of the time of a pixel.
+// third of the time of a pixel. Light that comes through glass adds up as linear light only, so glass has a pass of its
+// own there, which sees the same picture in a format that the device decodes and encodes.
 // Between frames the finished picture is in layout SHADER_READ_ONLY_OPTIMAL, ready to be sampled, or copied and read
 // back to the host.
 // Ownership: move-only. Thread: as gpu::Device.
@@ -31,6 +32,9 @@ struct FrameTargets {
     gpu::RenderPassHandle whole_pass;  // discards the previous contents
     gpu::RenderPassHandle part_pass;   // keeps what lies outside the render area
     gpu::FramebufferHandle framebuffer;
+    // Only with `encodes`: draws on top of what is there, blending linear light.
+    gpu::RenderPassHandle glass_pass;
+    gpu::FramebufferHandle glass_framebuffer;
 
     // samples is 1 or capabilities().msaa_samples.
     [[nodiscard]] static Result<FrameTargets> create(gpu::Device& device, ImageSize size, std::uint32_t samples,

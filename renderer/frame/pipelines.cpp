@@ -185,11 +185,14 @@ Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, b
     const bool software = device.info().is_software();
     if (!kept) {
         gpu::GraphicsPipelineSpec spec = spec_of(kind);
-        const std::array<std::uint32_t, 7> constants{
-            targets.encodes ? 1u : 0u, fades ? 1u : 0u,    grid ? 1u : 0u,     shadows ? 1u : 0u,
-            beside_capsules ? 1u : 0u, software ? 0u : 8u, software ? 4u : 16u};
+        const bool in_glass_pass =
+            targets.encodes && (kind == PipelineKind::glass_back || kind == PipelineKind::glass_front);
+        const bool encodes = targets.encodes && !in_glass_pass;
+        const std::array<std::uint32_t, 7> constants{encodes ? 1u : 0u,  fades ? 1u : 0u,           grid ? 1u : 0u,
+                                                     shadows ? 1u : 0u,  beside_capsules ? 1u : 0u, software ? 0u : 8u,
+                                                     software ? 4u : 16u};
         spec.layout = layout_.raw();
-        spec.render_pass = targets.whole_pass.raw();
+        spec.render_pass = in_glass_pass ? targets.glass_pass.raw() : targets.whole_pass.raw();
         spec.samples = targets.samples;
         spec.constants = constants;
         auto created = gpu::create_graphics_pipeline(device, spec);

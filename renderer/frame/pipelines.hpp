@@ -21,10 +21,11 @@ enum class PipelineKind : std::size_t {
     backdrop_without_shadows,
     backdrop_plain,   // without shadows and grid
     backdrop_shaded,  // with the shadows of the scene's objects too
-    // The far faces of the workspace's boxes and bubble, drawn before glass_front. Neither writes depth.
+    // The far faces of what is clear, drawn before its near faces. Neither writes depth. Both are for the glass pass
+    // where the targets have one.
     glass_back,
-    glass_front,  // the near faces of the same
-    hidden,       // near faces of what lies behind something else: no depth is read or written
+    glass_front,
+    hidden,  // near faces of what lies behind something else: no depth is read or written
     count
 };
 

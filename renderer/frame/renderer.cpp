@@ -83,6 +83,7 @@ private:
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
     void begin_pass(Recording& r);
+    void begin_glass_pass(Recording& r);
     Result<void> draw_shapes(Recording& r, PipelineKind kind, std::span<const Shape> shapes);
     Result<void> draw_surface(Recording& r);
     Result<void> draw_surface(Recording& r, PipelineKind kind, std::span<const DrawRange> ranges);
@@ -90,6 +91,7 @@ private:
     Result<void> draw_panel(Recording& r);
     Result<void> make_ready(StandingPanel& panel, bool fades);
     Result<void> draw_glass(Recording& r);
+    Result<void> draw_clear_objects(Recording& r);
     void draw_primitives(Recording& r, std::span<const Shape> shapes);
     void draw_meshes(Recording& r, std::span<const Shape> shapes);
     Result<void> use(Recording& r, PipelineKind kind);
@@ -308,17 +310,16 @@ void Renderer::Implementation::begin_pass(Recording& r) {
     auto info = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     info.renderPass = whole ? drawn_into().whole_pass.raw() : drawn_into().part_pass.raw();
     info.framebuffer = drawn_into().framebuffer.raw();
-    info.renderArea = {{static_cast<std::int32_t>(r.part.x), static_cast<std::int32_t>(r.part.y)},
-                       {r.part.width, r.part.height}};
     info.clearValueCount = static_cast<std::uint32_t>(clears.size());
     info.pClearValues = clears.data();
-    const VkCommandBuffer raw = r.commands.raw();
-    vk().vkCmdBeginRenderPass(raw, &info, VK_SUBPASS_CONTENTS_INLINE);
-    const VkViewport viewport = viewport_of(drawn_into().size);
-    vk().vkCmdSetViewport(raw, 0, 1, &viewport);
-    vk().vkCmdSetScissor(raw, 0, 1, &info.renderArea);
-    const VkDescriptorSet set = pipelines_.set();
-    vk().vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout(), 0, 1, &set, 0, nullptr);
+    r.calls.begin(info, r.part, drawn_into().size, pipelines_.set());
+}
+
+void Renderer::Implementation::begin_glass_pass(Recording& r) {
+    auto info = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
+    info.renderPass = drawn_into().glass_pass.raw();
+    info.framebuffer = drawn_into().glass_framebuffer.raw();
+    r.calls.begin(info, r.part, drawn_into().size, pipelines_.set());
 }
 
 Result<void> Renderer::Implementation::draw_shapes(Recording& r, PipelineKind kind, std::span<const Shape> shapes) {
@@ -407,10 +408,28 @@ Result<void> Renderer::Implementation::make_ready(StandingPanel& panel, bool fad
 
 Result<void> Renderer::Implementation::draw_glass(Recording& r) {
     if (r.shapes.glass.empty()) return {};
-    for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
-        if (const auto done = use(r, faces); !done) return done;
-        draw_meshes(r, r.shapes.glass);  // they stand within the boxes
-        draw_primitives(r, r.shapes.glass);
+    if (drawn_into().encodes) {
+        vk().vkCmdEndRenderPass(r.commands.raw());
+        begin_glass_pass(r);
+    }
+    // The objects stand within the boxes.
+    if (const auto done = use(r, PipelineKind::glass_back); !done) return done;
+    draw_primitives(r, r.shapes.glass);
+    if (const auto done = draw_clear_objects(r); !done) return done;
+    if (const auto done = use(r, PipelineKind::glass_front); !done) return done;
+    draw_primitives(r, r.shapes.glass);
+    return {};
+}
+
+// Draws the far and the near faces of one object after another, the farthest object first: what is nearer lies over it.
+Result<void> Renderer::Implementation::draw_clear_objects(Recording& r) {
+    for (const Shape& shape : r.shapes.glass) {
+        if (!shape.mesh) continue;
+        for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
+            if (const auto done = use(r, faces); !done) return done;
+            r.calls.bind(meshes_);
+            r.calls.draw(meshes_.at(*shape.mesh), shape.constants);
+        }
     }
     return {};
 }
