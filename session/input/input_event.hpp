@@ -19,7 +19,8 @@
 
 namespace burin::session {
 
-// A key by its position on a US keyboard; input_keys.hpp has the names. The order is that of the name table.
+// A key by its label, a digit by its position (session/present/key_reader.hpp); input_keys.hpp has the names. The
+// order is that of the name table.
 enum class Key : std::uint8_t {
     // clang-format off
     a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,

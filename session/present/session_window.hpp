@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "session/input/input_event.hpp"
+#include "session/present/key_reader.hpp"
 #include "session/present/session_output.hpp"
 #include "window/window.hpp"
 
@@ -38,9 +39,11 @@ public:
 private:
     explicit SessionWindow(window::Window window) : window_(std::move(window)) {}
     [[nodiscard]] Result<gpu::SurfaceHandle> make_surface(gpu::Device& device, std::uint32_t layers) override;
+    // Of events other than those of keys and text.
     [[nodiscard]] std::optional<Input> input_of(const window::WindowEvent& event);
 
     window::Window window_;
+    KeyReader keys_;
 };
 
 }  // namespace burin::session
