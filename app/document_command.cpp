@@ -8,6 +8,7 @@
 
 #include "app/convert_placing.hpp"
 #include "app/output_files.hpp"
+#include "base/length_unit.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
 #include "session/document/opened_work.hpp"
@@ -83,6 +84,11 @@ Result<void> document_info(const InfoOptions& options) {
     const Result<session::OpenedWork> opened =
         session::open_document(options.file, compute::History::kDefaultBudget_bytes);
     const std::string recovered = opened ? opened->recovered : "", lost = opened ? opened->lost : opened.error().line();
+    if (opened && opened->workpiece) {
+        const Vec3& size_m = opened->workpiece->size_m;
+        json["size_m"] = {size_m.x, size_m.y, size_m.z};
+        if (prints) std::printf("  %-20s %s\n", "size", in_millimetres(size_m).c_str());
+    }
     json["unsaved"] = recovered;
     json["lost"] = lost;
     if (prints && !recovered.empty()) std::printf("  %s\n", recovered.c_str());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "compute/rays/extent.hpp"
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
 #include "record/store_reading.hpp"
@@ -167,8 +168,11 @@ void describe_workpiece(const document::DocumentReader& reader, sculpt::LoadedWo
     const std::string& path = reader.path();
     workpiece.unit = length_unit(reader.fact(kUnit)).value_or(LengthUnit::m);
     workpiece.bounds_object = bounds_in(reader, workpiece.solid.lattice, lost);
-    workpiece.size_m = workpiece.bounds_object.extent();
-    workpiece.size = path + ": " + in_millimetres(workpiece.size_m) + ", saved from " + reader.fact(kSource);
+    // Of what is there now; the bounds are where the view was framed.
+    const Box material = compute::material_bounds(workpiece.solid);
+    workpiece.size_m = material.empty() ? Vec3(0.0) : material.extent();
+    const std::string size = material.empty() ? "nothing is left" : in_millimetres(workpiece.size_m);
+    workpiece.size = path + ": " + size + ", saved from " + reader.fact(kSource);
     workpiece.report = {{"source", path}, {"size", workpiece.size}, {"made_from", reader.fact(kSource)}};
 }
 

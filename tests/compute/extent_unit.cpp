@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "compute/rays/extent.hpp"
+
+#include <gtest/gtest.h>
+
+#include "compute/rays/room.hpp"
+
+namespace burin::compute {
+namespace {
+
+void expect_size(const Solid& solid, const Vec3& right_m, double tolerance_cells) {
+    const Vec3 size = material_bounds(solid).extent();
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(size[axis], right_m[axis], tolerance_cells * solid.lattice.spacing_m)
+            << "axis " << axis << ", " << solid.lattice.spacing_m << " m a cell";
+}
+
+}  // namespace
+
+TEST(MaterialBounds, OfABlockAreItsSidesWhateverTheLattice) {
+    for (const int resolution : {16, 96, 111, 256}) {
+        auto block = make_block({0.12, 0.08, 0.0091}, resolution, {});
+        ASSERT_TRUE(block) << block.error().line();
+        expect_size(*block, {0.12, 0.08, 0.0091}, 2.0 / shared::kUnitsPerCell);
+        const auto roomy = with_room(std::move(*block), 7);
+        ASSERT_TRUE(roomy) << roomy.error().line();
+        expect_size(*roomy, {0.12, 0.08, 0.0091}, 2.0 / shared::kUnitsPerCell);
+        const Box bounds = material_bounds(*roomy);
+        for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(bounds.lo[axis], 0.0, 1e-3 * roomy->lattice.spacing_m);
+    }
+}
+
+// No ray meets the poles of a ball.
+TEST(MaterialBounds, OfABallAreItsDiameter) {
+    for (const int resolution : {16, 33, 96, 256}) {
+        const auto ball = make_ball(0.03, resolution, {});
+        ASSERT_TRUE(ball) << ball.error().line();
+        expect_size(*ball, Vec3(0.06), 0.001);
+    }
+}
+
+TEST(MaterialBounds, AreThoseOfWhatIsLeft) {
+    auto block = make_block({0.1, 0.1, 0.1}, 64, {});
+    ASSERT_TRUE(block) << block.error().line();
+    // All rays along x lose what lies above the middle of the block.
+    const auto& lattice = block->lattice;
+    const int middle = static_cast<int>(lattice.units_from_object(Vec3(0.05)).x);
+    DexelSet& set = block->sets[0];
+    for (std::size_t ray = 0; ray < set.ray_count(); ++ray) {
+        const auto ends = set.ends(ray);
+        if (ends.empty()) continue;
+        const std::array<shared::DexelEnd, 2> left{
+            ends[0], shared::make_end(middle, shared::material_of(ends[1]), ends[1].normal)};
+        set.replace(ray, left);
+    }
+    EXPECT_NEAR(material_bounds(*block).extent().x, 0.05, lattice.unit_m());
+    for (std::size_t ray = 0; ray < set.ray_count(); ++ray) set.replace(ray, {});
+    EXPECT_TRUE(material_bounds(*block).empty());
+}
+
+}  // namespace burin::compute
