@@ -36,8 +36,17 @@ namespace burin::haptics {
 enum class ToolAction : std::uint8_t {
     touch,  // feels the surface without changing it
     cut,    // resisted by hardness and engagement
-    fill,   // deposits material at the proxy; felt as touch
+    fill,   // deposits material at the proxy; felt as touch, or not at all in free flight (FillPlace)
     paint,  // felt without friction: painting has no resistance
+};
+
+// Where a tool that fills is while its button is down. On the surface it rests on what is there. In free flight it is
+// with the hand and touches nothing: it would rest on what it has just added, be pushed off its way by that, and heap
+// up beads beside it. Once the button is up it touches again when it has come out of the material.
+enum class FillPlace : std::uint8_t {
+    surface,  // on the surface, and in the air as long as nothing is touched
+    begun,    // in free flight where the button goes down in the air, else on the surface
+    hand,     // in free flight always: for a hand that feels nothing
 };
 
 // Settings of a tick. Written by the frame or the study, never by the haptic thread. A set for which
@@ -57,6 +66,7 @@ struct TickParameters {
     bool shading = true;  // force shading, see haptics/contact/god_object.hpp
     std::array<TouchMaterial, kMostMaterials> materials{};
     ToolAction action = ToolAction::touch;
+    FillPlace fills = FillPlace::surface;
     // Limits the stiffness of materials to what the device renders passively; false: uses it as set.
     bool limit_stiffness = true;
     CouplingSettings coupling;

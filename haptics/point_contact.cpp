@@ -71,6 +71,17 @@ void PointContact::stay_with_hand() {
     record_.proxy_object_m = record_.hip_object_m;
 }
 
+bool PointContact::fits_at_hand(const ProxyBudget& budget) {
+    ProxyState there{record_.hip_object_m, input_.surface.sequence, true};
+    there.hip_object_m = record_.hip_object_m;
+    there.unfit_ticks = kMostUnfitTicks;  // as one that waits to be outside
+    const Quat turned = step_.next.tool_orientation_object;
+    const ProxyResult found = moved(there, record_.hip_object_m, settings(), budget);
+    step_.next.tool_orientation_object = turned;
+    count_work(found.work, found.work_limited);
+    return found.next.unfit_ticks == 0 && !found.work_limited;
+}
+
 PointContact::Moved PointContact::touch(const ProxyBudget& budget, double needed_ns) {
     const bool was_fitting = state_.placed && state_.unfit_ticks == 0;
     const bool published = state_.surface_sequence != input_.surface.sequence;

@@ -34,6 +34,9 @@ public:
     // of their way, for they are not where they were when its turn comes.
     void wait(const ProxyBudget& budget);
 
+    // Tells whether it would be clear of material where the hand is; moves nothing.
+    [[nodiscard]] bool fits_at_hand(const ProxyBudget& budget);
+
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
     // In free space, and not for want of a place where it fits.
     [[nodiscard]] bool is_free() const { return state_.placed && state_.unfit_ticks == 0 && !has_let_go_; }

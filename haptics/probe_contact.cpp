@@ -351,6 +351,16 @@ void place_proxies(ProbeState& state, const Vec3& position_object_m, std::uint64
     state.cutting.engaged = false;
 }
 
+bool fits_at_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
+    BodiesState unnoticed = step.next.bodies;
+    const MovingBodies bodies(unnoticed, input.surface, input.now_ns, kLongestFollowed_s);
+    for (std::uint32_t i = 0; i < input.parameters.probe.count; ++i) {
+        const double left_ns = std::max(budget_of(input) - cost_ns(step.contact.work), 0.0);
+        if (!PointContact(input, step, bodies, i).fits_at_hand({.max_cost_ns = left_ns})) return false;
+    }
+    return true;
+}
+
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     step.contact.point_count = input.parameters.probe.count;
     step.next.bodies.count = 0;

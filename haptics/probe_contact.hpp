@@ -77,6 +77,9 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept;
 // Sets the proxies of all points in one place, as if they had come there without touching anything.
 void place_proxies(ProbeState& state, const Vec3& position_object_m, std::uint64_t surface_sequence) noexcept;
 
+// Returns whether all points are clear of material where the hand is; false where the work does not suffice to tell.
+[[nodiscard]] bool fits_at_hand(const ProbeStep& step, const ProbeInput& input) noexcept;
+
 // Lets the proxies follow the hand while nothing is touched.
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept;
 

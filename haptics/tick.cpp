@@ -180,6 +180,28 @@ GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const 
                  parameters.curve, parameters.guidance);
 }
 
+// Returns the stroke in free flight that lasts in this tick.
+FreeFill with_button(const TickState& state, const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
+                     const TickParameters& parameters) {
+    const FreeFill& before = state.free_fill;
+    FreeFill now = before;
+    now.pressed = (sample.buttons & 1u) != 0;
+    const bool fills = parameters.action == ToolAction::fill && parameters.fills != FillPlace::surface;
+    const bool begins = now.pressed && !before.pressed && !state.in_contact;
+    if (fills && now.pressed && (parameters.fills == FillPlace::hand || begins)) now.lasts = true;
+    // Another tool in a hand that feels nothing works at once, though it is within what was added.
+    if (!fills && now.pressed && parameters.fills == FillPlace::hand) now.lasts = false;
+    if (before.pressed && !now.pressed) now.ended_sequence = surface.sequence;
+    return now;
+}
+
+// Tells whether the stroke has ended and the surface holds all that it has added: that of the update which was on its
+// way when the button came up does not.
+bool is_over(const FreeFill& fill, const geometry::LocalSurface& surface) {
+    constexpr std::uint64_t kSurfacesLater = 2;
+    return fill.lasts && !fill.pressed && surface.sequence >= fill.ended_sequence + kSurfacesLater;
+}
+
 void compute_tick(const TickResult& t, const TickState& state, const devices::DeviceSample& sample,
                   const geometry::LocalSurface& surface, const TickParameters& parameters,
                   const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) {
@@ -221,19 +243,22 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
 
     // Contact; it starts afresh after a jump of the mapping.
     const bool lifted = parameters.touches_while_pressed && (sample.buttons & 1u) == 0;
+    next.free_fill = with_button(state, sample, surface, parameters);
     const bool away = workspace.jumped || workspace.paused || parameters.holds;
-    if (away || !parameters.enabled || lifted) end_contact(next.probe);
+    if (away || !parameters.enabled || lifted || next.free_fill.lasts) end_contact(next.probe);
     if (!next.probe.proxies[0].placed) record.flags |= kTickProxyReset;
     const bool searchable = surface.sequence > 0;
     if (!searchable) record.flags |= kTickNoSurface;
-    const bool touches = searchable && parameters.enabled && !parameters.holds && !workspace.paused && !lifted;
+    const ProbeInput input{sample, motion, surface, parameters, device, dt_s, now_ns, record.turn};
+    const ProbeStep probe{next.probe, record.contact, record.flags};
+    if (searchable && is_over(next.free_fill, surface) && fits_at_hand(probe, input)) next.free_fill.lasts = false;
+    const bool untouched = lifted || next.free_fill.lasts;
+    const bool touches = searchable && parameters.enabled && !parameters.holds && !workspace.paused && !untouched;
     const bool places = touches && parameters.placement.number != next.probe.placement;
     if (places) {
         place_proxies(next.probe, parameters.placement.position_object_m, surface.sequence);
         next.probe.placement = parameters.placement.number;
     }
-    const ProbeInput input{sample, motion, surface, parameters, device, dt_s, now_ns, record.turn};
-    const ProbeStep probe{next.probe, record.contact, record.flags};
     if (touches)
         touch_surface(probe, input);
     else
@@ -250,7 +275,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
     if (alpha > 0.0) contact.force_device_N = next.force_average.value;
     // What the watch lets go is zero for safety, and does not come back.
-    if (parameters.enabled && !lifted && (record.flags & kTickLetGo) == 0)
+    if (parameters.enabled && !untouched && (record.flags & kTickLetGo) == 0)
         ease_contact(next.force, record, away && state.in_contact, parameters, dt_s);
     else
         next.force = {};

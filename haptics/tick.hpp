@@ -35,6 +35,13 @@ struct MotionState {
     Nanoseconds sample_ns = 0;  // of the last sample that went into the windows
 };
 
+// A stroke that adds material in free flight (FillPlace).
+struct FreeFill {
+    bool pressed = false;              // the button, in the last tick
+    bool lasts = false;                // until the button is up and the tool is clear of material
+    std::uint64_t ended_sequence = 0;  // of the surface when the button came up
+};
+
 struct TickState {
     MotionState motion;
     WorkspaceState workspace;
@@ -43,6 +50,7 @@ struct TickState {
     MovingAverage force_average;
     EasedForce force;
     PassivityState passivity;
+    FreeFill free_fill;
     bool in_contact = false;
     std::uint32_t refused = 0;  // ticks in a row whose input made no sense
 };

@@ -4,9 +4,10 @@
 // Where the tool works depends on its operation:
 //   cut            at the cutting point (ContactRecord::cut_object_m) while the tool eats its way in; material without
 //                  hardness gives way wherever the hand is
-//   fill           where the tool rests on the surface; with Tool::fills_at_hand where the hand is while it
-//                  touches: it is led along the surface, and a tool that rests on what it has just added would climb
-//                  while the hand stays. It begins when the hand has come down, and leaves no lump of its way there
+//   fill           where the tool rests on the surface; where the hand is in free flight (haptics::FillPlace), in
+//                  which the tool touches nothing; with Tool::fills_at_hand where the hand is while it touches: it
+//                  is led along the surface, and a tool that rests on what it has just added would climb while the
+//                  hand stays. It begins when the hand has come down, and leaves no lump of its way there
 //   paint          where the hand is, while it touches
 //   smooth         a ball about the place of the surface that it touches, since it would only graze what it rests on;
 //                  another tool where the hand is, while it touches

@@ -76,6 +76,13 @@ void place_panel(Room& room, const LiveOptions& live) {
     room.desk.home_head_world.position_m -= 0.5 * (1.0 - room.free_width) * across(room.screen());
 }
 
+// Logs from before the mouse could lead the tool along the surface filled on the surface alone, and still do.
+haptics::FillPlace fill_place_of(const devices::DeviceNature& nature, const LiveOptions& live) {
+    if (nature.felt_by_person) return haptics::FillPlace::begun;
+    const bool led_by_mouse = live.mouse.has_value() && !nature.leads_itself && !nature.is_worn;
+    return led_by_mouse ? haptics::FillPlace::hand : haptics::FillPlace::surface;
+}
+
 }  // namespace
 
 bool has_world(const SculptOptions& options) { return options.scene || !options.world.empty(); }
@@ -108,6 +115,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
             room.desk.leans_sideways = true;
         }
         if (hands[i].device == devices::kMouseArm) steer_over(room, devices::mouse_arm().workspace_m);
+        room.fills = fill_place_of(*nature, options.live);
         if (nature->is_worn) use_glove(room);
         if (nature->is_worn && i == 0 && options.activity != nullptr)
             if (const std::optional<LedHand> led = options.activity->led_hand()) {
