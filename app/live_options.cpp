@@ -21,6 +21,20 @@ void add_mouse_option(Command command, session::LiveOptions& options) {
         "along the screen and the wheel in depth, as usual for an --input");
 }
 
+void add_edge_option(Command command, session::LiveOptions& options) {
+    command.option(
+        "--edge-comfort",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (given.empty()) return {};
+            const auto comfort = session::parse_edge_comfort(given.back(), "--edge-comfort " + given.back());
+            if (!comfort) return std::unexpected(comfort.error());
+            options.edge_comfort = *comfort;
+            return {};
+        },
+        "on: what stands before a lone screen is shown flatter towards its edges, which spares the eyes and is not its "
+        "true depth; off: nowhere; auto: until a tracker has told where the head is");
+}
+
 void add_detail_option(Command command, session::LiveOptions& options) {
     using session::DetailChoice;
     command.choice(
@@ -52,6 +66,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
+    add_edge_option(command, options);
     command
         .option("--wall", options.wall,
                 "A wall file: its screens, each on its monitor or display, its eyes and its tracker")
@@ -66,7 +81,8 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
         .option(
             "--device",
             [&options](const std::vector<std::string>& given) { return session::set_devices(options, given); },
-            "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +
+            "The force-feedback device, else the mouse for carving in a window, and otherwise " +
+                std::string(devices::kDefaultHapticDevice) +
                 "; several hands have one each: --device right=simulated --device left=simulated-wand. There are " +
                 devices::haptic_usage() + device_help)
         .asset(AssetRoom::devices);

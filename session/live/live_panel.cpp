@@ -149,6 +149,8 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.test_pattern = state.output.test_pattern;
     m.eye_distance_m = value(Quantity::eye_distance);
     m.force_shown = state.force_shown;
+    const std::size_t main = context.room.wall.main;
+    if (could_fade_at_edges(state, context.room, main)) m.fades_at_edges = fades_at_edges(state, context.room, main);
     m.undo_count = static_cast<std::uint32_t>(context.undoable + state.edits.undoable());
     m.redo_count = static_cast<std::uint32_t>(context.redoable + state.edits.redoable());
     m.saves = state.saves;

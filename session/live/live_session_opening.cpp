@@ -198,6 +198,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     state_.carves = scene_.workpiece() != nullptr;
     state_.saves = options.scene == nullptr && !activity_.is_there();
     state_.mirror = options.mirror;
+    state_.edge_comfort = options.live.edge_comfort;
     if (opened_.view) state_.world_from_object = *opened_.view;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
     const Result<sculpt::UseTool> use = tool_of(state_);

@@ -207,6 +207,8 @@ struct PanelModel {
     wall::TestPattern test_pattern = wall::TestPattern::none;
     double eye_distance_m = 0.063;
     bool force_shown = false;  // the arrow
+    // Whether parallax fades towards the screen's edges; none: it never does on these screens.
+    std::optional<bool> fades_at_edges;
 
     bool saves = true;  // the work can be saved, and what is done undone
     std::uint32_t undo_count = 0, redo_count = 0;

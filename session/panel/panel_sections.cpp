@@ -359,6 +359,9 @@ void show_view(Kit& kit, const PanelModel& model) {
         const bool one_eye = wall::needs_of(model.stereo_mode).one_eye_point;
         if (one_eye) kit.off("Both eyes see one picture now: choose a stereo mode first.");
         if (kit.toggle("swap-eyes", "Exchange eyes", model.eyes_swapped)) kit.give(SetEyeSwap{!model.eyes_swapped});
+        if (model.fades_at_edges && kit.toggle("edge-comfort", "Flatter towards the edges", *model.fades_at_edges)) {
+            kit.give(SetEdgeComfort{*model.fades_at_edges ? EdgeComfort::off : EdgeComfort::on});
+        }
         kit.off({});
         if (kit.toggle("show-force", "Arrow of the force", model.force_shown)) {
             kit.give(SetForceShown{!model.force_shown});

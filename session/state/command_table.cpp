@@ -137,6 +137,13 @@ Parsed parse_eye_swap(Arguments words) {
     return SetEyeSwap{*on};
 }
 
+Parsed parse_edges(Arguments words) {
+    const auto comfort =
+        of_command(parse_edge_comfort(words[0], "edge-comfort " + words[0]), "edge-comfort " + words[0]);
+    if (!comfort) return std::unexpected(comfort.error());
+    return SetEdgeComfort{*comfort};
+}
+
 Parsed parse_force(Arguments words) {
     const auto on = parse_switch("force", words[0]);
     if (!on) return std::unexpected(on.error());
@@ -341,6 +348,8 @@ const std::vector<Entry>& entries() {
         entry_of<Quantity::scale>(),
         {{"stereo-mode", "NAME", "How the two eyes' pictures are shown, such as anaglyph_red_cyan"}, parse_mode},
         {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
+        {{"edge-comfort", "auto|on|off", "Whether depth fades towards the edge of a lone screen, for the eyes' ease"},
+         parse_edges},
         {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
         entry_of<Quantity::eye_distance>(),
         {{"mirror", "AXES",

@@ -21,6 +21,7 @@
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
 #include "session/state/asked_close.hpp"
+#include "session/state/edge_comfort.hpp"
 #include "session/state/world_objects.hpp"
 #include "wall/stereo_mode.hpp"
 
@@ -107,6 +108,11 @@ struct SetForceShown {
     bool on = false;
     bool operator==(const SetForceShown&) const = default;
 };
+// Whether parallax fades towards the screen's edges.
+struct SetEdgeComfort {
+    EdgeComfort comfort = EdgeComfort::automatic;
+    bool operator==(const SetEdgeComfort&) const = default;
+};
 // A drill: the search for contact stops where it is, as if its work never sufficed, until the watch lets the hand go
 // (haptics/contact/contact_watch.hpp).
 struct SetCatchDrill {
@@ -186,9 +192,9 @@ struct SetMouse {
 
 using SessionCommand =
     std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
-                 SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
-                 SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse, SetMirror, SaveTo,
-                 QuitDiscard, QuitSave, QuitStay, SaveAs, TellDocument>;
+                 SetTestPattern, SetEyeSwap, SetEdgeComfort, SetForce, SetForceShown, SetCatchDrill, ExportTo,
+                 ScreenshotTo, EditObject, SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse,
+                 SetMirror, SaveTo, QuitDiscard, QuitSave, QuitStay, SaveAs, TellDocument>;
 
 struct SessionState;
 

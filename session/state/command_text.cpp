@@ -42,6 +42,9 @@ struct Printer {
         return {"test-pattern", {std::string(file_name_of(c.pattern))}};
     }
     CommandInput operator()(const SetEyeSwap& c) const { return {"swap-eyes", {on_off(c.on)}}; }
+    CommandInput operator()(const SetEdgeComfort& c) const {
+        return {"edge-comfort", {std::string(name_of(c.comfort))}};
+    }
     CommandInput operator()(const SetForce& c) const { return {"force", {on_off(c.on)}}; }
     CommandInput operator()(const SetAmplifiers& c) const { return {"amplifiers", {on_off(c.on)}}; }
     CommandInput operator()(const ExportTo& c) const { return {"export", {c.path}}; }

@@ -12,7 +12,8 @@ template <typename State>
 auto governed_part(State& s) {
     return std::tie(s.tool, s.held, s.feel, s.world, s.technique, s.workspace_gain, s.force_filter, s.velocity_filter,
                     s.force_on, s.catch_drill, s.only_touch, s.carves, s.world_from_object, s.world_from_device,
-                    s.device_from_read, s.force_shown, s.output.mode, s.output.swap_eyes, s.output.test_pattern);
+                    s.device_from_read, s.force_shown, s.output.mode, s.output.swap_eyes, s.output.test_pattern,
+                    s.edge_comfort);
 }
 
 }  // namespace

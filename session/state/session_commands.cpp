@@ -68,6 +68,10 @@ public:
         state_.force_shown = set.on;
         return {};
     }
+    Result<void> operator()(const SetEdgeComfort& set) {
+        state_.edge_comfort = set.comfort;
+        return {};
+    }
     Result<void> operator()(const SetCatchDrill& set) {
         state_.catch_drill = set.on;
         return update_touch();

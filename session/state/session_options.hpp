@@ -17,6 +17,7 @@
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/desk_input_table.hpp"
+#include "session/state/edge_comfort.hpp"
 
 namespace burin::scene {
 struct World;  // scene/world_file.hpp
@@ -49,6 +50,7 @@ struct LiveOptions {
     bool offscreen = false;  // no window; needs an input
     std::string stereo;      // a mode's name; empty: mono in a window
     bool swap_eyes = false;
+    EdgeComfort edge_comfort = EdgeComfort::automatic;  // on a lone screen
     std::string wall;  // wall file with screens, eyes and tracker; empty: one desktop window
     // A tracker's address, "udp:PORT", a file that describes one, or "none"; empty: the wall's, or keys fly the head.
     std::string tracker;

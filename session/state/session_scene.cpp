@@ -32,8 +32,7 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     scene.viewer = sight.viewer;
     const bool one_eye = wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
     if (one_eye) scene.viewer.interpupillary_m = 0.0;
-    // Adjoining screens have no edge that could violate the window, and a fade would break the picture apart there.
-    if (!one_eye && room.wall.setup.screens.size() == 1) scene.edge_fade = 1.0;
+    if (fades_at_edges(state, room, screen)) scene.edge_fade = 1.0;
     scene.world_from_object = state.world_from_object;
     scene.lattice_origin_object = lattice_origin_object;
     scene.workpiece_object = room.workpiece_object;
@@ -77,6 +76,17 @@ void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t num
     object_from_shaft.position_m += object_from_tool.orientation * Vec3(0.0, from_m, 0.0);
     object_from_shaft.scale = hand.held->half_width_m();
     scene.objects.push_back({kShaft, state.world_from_object * object_from_shaft, Vec3(0.1)});
+}
+
+bool could_fade_at_edges(const SessionState& state, const Room& room, std::size_t screen) {
+    return room.wall.setup.screens.size() == 1 &&
+           !wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
+}
+
+bool fades_at_edges(const SessionState& state, const Room& room, std::size_t screen) {
+    const bool wanted =
+        state.edge_comfort == EdgeComfort::automatic ? !state.head.tracked : state.edge_comfort == EdgeComfort::on;
+    return wanted && could_fade_at_edges(state, room, screen);
 }
 
 wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, const haptics::ToolState& tool) {

@@ -52,6 +52,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--wall", o.live.wall);
     visit("--stereo", o.live.stereo);
     visit("--swap-eyes", o.live.swap_eyes);
+    visit("--edge-comfort", o.live.edge_comfort);
     visit("--width", o.live.width, kPictureBounds);
     visit("--height", o.live.height, kPictureBounds);
     visit("--panel-window", o.live.panel_window);
@@ -73,6 +74,9 @@ std::optional<std::string> text(compute::Operation operation) {
 std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
 std::optional<std::string> text(const sculpt::Mirror& mirror) {
     return mirror.any() ? std::optional(sculpt::name_of(mirror)) : std::nullopt;
+}
+std::optional<std::string> text(EdgeComfort comfort) {
+    return comfort == EdgeComfort::automatic ? std::nullopt : std::optional(std::string(name_of(comfort)));
 }
 std::optional<std::string> text(MouseMode mode) { return std::string(name_of(mode)); }
 std::optional<std::string> text(const std::vector<NamedDevice>& hands) {
@@ -123,6 +127,11 @@ bool read(const std::string& text, MouseMode& value) {
     const Result<MouseMode> mode = parse_mouse_mode(text, "--mouse " + text);
     value = mode.value_or(MouseMode::free);
     return mode.has_value();
+}
+bool read(const std::string& text, EdgeComfort& value) {
+    const Result<EdgeComfort> comfort = parse_edge_comfort(text, "--edge-comfort " + text);
+    value = comfort.value_or(EdgeComfort::automatic);
+    return comfort.has_value();
 }
 bool read(const std::string& text, LengthUnit& value) {
     const auto unit = length_unit(text);

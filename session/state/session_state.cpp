@@ -395,6 +395,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     if (number == state.hand && state.mouse == MouseMode::surface)
         for (haptics::TouchMaterial& material : p.materials) material.stiffness_N_per_m = kMouseStiffness_N_per_m;
     p.touches_while_pressed = number == state.hand && state.mouse == MouseMode::surface;
+    p.fills = p.touches_while_pressed ? haptics::FillPlace::surface : room.of(number).fills;
     if (state.world) state.world->materials.write(p.materials);
     if (hand.handle) hand.handle->write(p, radius_m);
     if (hand.handle && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it

@@ -20,6 +20,7 @@
 #include "session/input/input_wand.hpp"
 #include "session/state/asked_close.hpp"
 #include "session/state/command_table.hpp"
+#include "session/state/edge_comfort.hpp"
 #include "session/state/fitted_view.hpp"
 #include "session/state/hand_state.hpp"
 #include "session/state/message_kind.hpp"
@@ -46,7 +47,8 @@ struct SessionState : HandState {
     double interpupillary_m = 0.063;
     std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none
     sculpt::FeelSettings feel;
-    bool force_shown = false;                   // as an arrow
+    bool force_shown = false;  // as an arrow
+    EdgeComfort edge_comfort = EdgeComfort::automatic;
     bool carves = true;                         // there is a workpiece
     bool saves = true;                          // the work can be saved
     bool framed = false;                        // a world, beside the panel (LiveOptions::frames_world)
@@ -134,6 +136,7 @@ struct SessionOrders {
 struct HandRoom {
     Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
     DeskSettings desk;
+    haptics::FillPlace fills = haptics::FillPlace::surface;  // where the mouse does not lead it along the surface
 };
 
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
@@ -216,6 +219,12 @@ struct SessionStep {
                                                       const haptics::ToolState& tool);
 // Adds the tool of another part of the hands to a picture: the tool of a hand, where a part of it has it.
 void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t hand, const haptics::ToolState& tool);
+// Returns whether the screens are such that parallax could fade towards an edge: a lone one, which both eyes see their
+// own pictures on. Adjoining screens have no edge that could cut off what stands in front, and a fade would break the
+// picture apart there.
+[[nodiscard]] bool could_fade_at_edges(const SessionState& state, const Room& room, std::size_t screen);
+// Returns whether it does.
+[[nodiscard]] bool fades_at_edges(const SessionState& state, const Room& room, std::size_t screen);
 // Judges what in the scene strains the eyes, on the main screen.
 [[nodiscard]] wall::ComfortFinding comfort_of(const SessionState& state, const Room& room,
                                               const haptics::ToolState& tool);

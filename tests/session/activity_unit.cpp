@@ -324,6 +324,7 @@ TEST(SessionActivity, ThatGovernsHasNobodyChangeWhatIsFeltOrSeen) {
         {"arrow", [](SessionState& s) { s.force_shown = true; }},
         {"stereo", [](SessionState& s) { s.output.mode = wall::StereoMode::left; }},
         {"eyes", [](SessionState& s) { s.output.swap_eyes = true; }},
+        {"edges", [](SessionState& s) { s.edge_comfort = EdgeComfort::off; }},
         {"pattern", [](SessionState& s) { s.output.test_pattern = wall::TestPattern::ghosting; }}};
     const Room room = [] {
         Room made;
@@ -346,6 +347,7 @@ TEST(SessionActivity, ThatGovernsHasNobodyChangeWhatIsFeltOrSeen) {
         EXPECT_EQ(state.force_on, before.force_on) << what;
         EXPECT_EQ(state.output, before.output) << what;
         EXPECT_EQ(state.force_shown, before.force_shown) << what;
+        EXPECT_EQ(state.edge_comfort, before.edge_comfort) << what;
         const haptics::TickParameters now = parameters_of(state, room);
         EXPECT_EQ(now.workspace.object_from_device, felt.workspace.object_from_device) << what;
         EXPECT_EQ(now.enabled, felt.enabled) << what;

@@ -46,6 +46,13 @@ TEST(PanelScale, OfTwoMakesThePanelTwiceAsWideAsOn96Dpi) {
     EXPECT_NEAR(wide->height, 2.0 * narrow->height, 2.0);
 }
 
+TEST(PanelScale, MakesCapitalsReadableFromWhereTheyAreRead) {
+    // 3 m before a wall of 3.05 m and 1920 pixels: 21 minutes of arc are 18.3 mm, 11.5 pixels, and capitals are 9.6 at
+    // scale 1.
+    EXPECT_NEAR(panel_scale(3.0, 3.05 / 1920.0), 1.2, 0.01);
+    EXPECT_DOUBLE_EQ(panel_scale(6.0, 0.001), 2.0 * panel_scale(3.0, 0.001));
+}
+
 TEST(PanelLetters, OfChineseNamesAreShownWhereAFontHasThem) {
     const std::string notice = notice_for("\xE9\x9B\x95\xE5\x88\xBB.stl");
     if (!notice.empty()) GTEST_SKIP() << "no installed font has Chinese letters: " << notice;

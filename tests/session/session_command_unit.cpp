@@ -35,7 +35,7 @@ sculpt::ToolSpec any_tool() {
 }
 
 SessionCommand any_command() {
-    switch (*rc::gen::inRange(0, 26)) {
+    switch (*rc::gen::inRange(0, 27)) {
         case 0: return RunAction{static_cast<Action>(*rc::gen::inRange<std::size_t>(0, action_names().size()))};
         case 1: return SetTool{any_tool()};
         case 2: return SetOperation{any_of(sculpt::operations()).operation};
@@ -57,6 +57,7 @@ SessionCommand any_command() {
         case 14: return CalibrateHandle{*rc::gen::arbitrary<bool>()};
         case 13: return SetMaterial{any_of(sculpt::feel_presets()).preset};
         case 12: return SetCatchDrill{*rc::gen::arbitrary<bool>()};
+        case 25: return SetEdgeComfort{static_cast<EdgeComfort>(*rc::gen::inRange(0, 3))};
         case 11: return SetForceShown{*rc::gen::arbitrary<bool>()};
         case 10: return ExportTo{"a \"part\" # " + std::to_string(*rc::gen::inRange(0, 1000)) + ".stl"};
         case 17: return SaveTo{};
@@ -162,6 +163,7 @@ TEST(Commands, TellWhatIsWrongAndWhatWouldBeRight) {
         Wrong{"stereo-mode anaglif", "stereo-mode anaglif", "anaglyph"},
         Wrong{"test-pattern ghost", "test-pattern ghost", "ghosting"},
         Wrong{"swap-eyes maybe", "swap-eyes maybe", "on"},
+        Wrong{"edge-comfort onn", "edge-comfort onn", "on"},
         Wrong{"force", "force", "on|off"},
         Wrong{"export \"\"", "export", "part.stl"},
         Wrong{"undo twice", "undo", "leave out"},

@@ -75,6 +75,7 @@ const std::map<std::string, Commands>& fixed_commands() {
         {"technique", {}},
         {"stereo-mode", {}},
         {"swap-eyes", {{"swap-eyes", {"on"}}}},
+        {"edge-comfort", {{"edge-comfort", {"off"}}}},
         {"show-force", {{"show-force", {"on"}}}},
         {"test-pattern none", {{"test-pattern", {"none"}}}},
         {"test-pattern eye_order", {{"test-pattern", {"eye_order"}}}},
@@ -130,6 +131,7 @@ PanelModel workable_model() {
     model.hardness_Ns_per_m3 = 3e6;  // not the middle
     model.stereo_mode = wall::StereoMode::anaglyph_red_cyan;
     model.tool_sizes = tool_sizes_for(0.05);
+    model.fades_at_edges = true;
     return model;
 }
 
@@ -486,13 +488,6 @@ TEST(PanelSizes, FollowTheOneThatIsSet) {
     const sculpt::ToolSpec cone{ToolKind::cone, {0.0, 0.004, 0.012}, {}};
     EXPECT_EQ(panel::with_size(cone, 1, 0.0).sizes_m, (sculpt::ToolSizes{0.0005, 0.0, 0.012}));
     EXPECT_EQ(panel::with_size(cone, 0, 0.002).sizes_m, (sculpt::ToolSizes{0.002, 0.004, 0.012}));
-}
-
-TEST(PanelScale, MakesCapitalsReadableFromWhereTheyAreRead) {
-    // 3 m before a wall of 3.05 m and 1920 pixels: 21 minutes of arc are 18.3 mm, 11.5 pixels, and capitals are 9.6 at
-    // scale 1.
-    EXPECT_NEAR(panel_scale(3.0, 3.05 / 1920.0), 1.2, 0.01);
-    EXPECT_DOUBLE_EQ(panel_scale(6.0, 0.001), 2.0 * panel_scale(3.0, 0.001));
 }
 
 }  // namespace

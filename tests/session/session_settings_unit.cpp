@@ -103,6 +103,7 @@ const std::vector<SetOption>& every_option() {
         option("--wall", BURIN_OF(live.wall), "cave.toml"),
         option("--stereo", BURIN_OF(live.stereo), "side-by-side"),
         option("--swap-eyes", BURIN_OF(live.swap_eyes), true),
+        option("--edge-comfort", BURIN_OF(live.edge_comfort), EdgeComfort::off),
         option("--width", BURIN_OF(live.width), 640),
         option("--height", BURIN_OF(live.height), 480),
         option("--panel-window", BURIN_OF(live.panel_window), true),

@@ -55,6 +55,37 @@ TEST(SessionWall, OfADeskIsOneScreenOfItsWindowsShape) {
                 3.0 * glm::length(screen.upper_left_world - screen.lower_left_world), 1e-12);
 }
 
+// Who has a tracker asked for the true depth, near the edges too; elsewhere it is a choice, and several screens and one
+// eye have none.
+TEST(SessionWall, FadesDepthAtItsEdgesOnlyWhereNobodyTracksAHead) {
+    const Room room = room_before_wall(wall_of("powerwall.toml"));
+    SessionState state = state_in_room(room);
+    ASSERT_EQ(room.wall.setup.screens.size(), 1u);
+    const auto fade = [&](const SessionState& s, const Room& r) {
+        const auto scene = scene_of(s, r, r.wall.main, Vec3(0.0), {});
+        return scene ? scene->edge_fade : -1.0;
+    };
+    state.head = follow_head({}, room.wall.setup, {}, {}, 0, room.desk.home_head_world);
+    EXPECT_EQ(fade(state, room), 1.0);
+    const std::vector<InputEvent> told{head_at(1'000'000, room.desk.home_head_world.position_m)};
+    SessionState tracked = state;
+    tracked.head = follow_head({}, room.wall.setup, {}, told, 2'000'000, room.desk.home_head_world);
+    ASSERT_TRUE(tracked.head.tracked);
+    EXPECT_EQ(fade(tracked, room), 0.0);
+    tracked.edge_comfort = EdgeComfort::on;
+    EXPECT_EQ(fade(tracked, room), 1.0) << "whoever asks for it has it";
+    state.edge_comfort = EdgeComfort::off;
+    EXPECT_EQ(fade(state, room), 0.0);
+    state.edge_comfort = EdgeComfort::on;
+    state.output.mode = wall::StereoMode::mono;
+    EXPECT_FALSE(could_fade_at_edges(state, room, room.wall.main));
+    EXPECT_EQ(fade(state, room), 0.0);
+    const Room cave = room_before_wall(wall_of("cave.toml"));
+    SessionState inside = state_in_room(cave);
+    inside.edge_comfort = EdgeComfort::on;
+    EXPECT_FALSE(could_fade_at_edges(inside, cave, cave.wall.main));
+}
+
 TEST(SessionWall, OfACaveIsFacedAtItsFrontAndShownOnItsMonitors) {
     const SessionWall wall = wall_of("cave.toml");
     ASSERT_EQ(wall.screens.size(), 4u);
