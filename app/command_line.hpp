@@ -2,7 +2,8 @@
 // The command line: commands, subcommands, and options that write to variables. Those variables, and the CommandLine
 // itself, must outlive the parse; Command and CommandOption only refer to it. One thread.
 //
-// Hides CLI11, whose templates cost a compiler 20 seconds in every source that includes it: only command_line.cpp does.
+// Hides CLI11, whose templates cost a compiler 20 seconds in every source that includes it: only command_line.cpp
+// and command_manual.cpp do.
 #pragma once
 
 #include <cstdint>

@@ -117,7 +117,8 @@ WorldCommand::WorldCommand(Command app)
     command_.option("--report", o.exploration.report,
                     "A JSON file for what was felt of each object; plots lie beside it");
     add_live_options(command_, o.session.live);
-    check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
+    check_ = command_.subcommand(
+        "check", "What is in each file, or all that is wrong with it; exit status 1 when one cannot be used");
     check_.option("FILE", o.files, "Worlds (.toml, .wrl for VRML 2.0, or a mesh), see docs/formats.md")
         .asset(AssetRoom::worlds)
         .required();

@@ -26,6 +26,10 @@ install(FILES ${files}/burin.xml DESTINATION ${data}/mime/packages COMPONENT pro
 install(FILES ${files}/burin.metainfo.xml DESTINATION ${data}/metainfo RENAME io.github.burin.Burin.metainfo.xml
   COMPONENT program)
 install(FILES ${files}/copyright DESTINATION ${data}/doc/burin COMPONENT program)
+# Messages and helps name docs/formats.md and others: they are found from doc/burin as from the sources' root.
+install(FILES README.md DESTINATION ${data}/doc/burin COMPONENT program)
+install(DIRECTORY docs DESTINATION ${data}/doc/burin COMPONENT program
+  FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 
 # Manual, completion and changelog are made as the program is installed: by itself, from its own help.
 set(BURIN_MAINTAINER "The Burin authors <burin@users.noreply.github.com>" CACHE STRING "Who answers for the package")

@@ -9,6 +9,7 @@
 
 #include "tests/house/house_rules.hpp"
 #include "tests/house/source_tree.hpp"
+#include "tests/house/test_names.hpp"
 
 namespace burin::house {
 namespace {
@@ -61,6 +62,12 @@ TEST(Words, EveryFileThatACommentNamesExists) {
     const Findings found = missing_comment_paths(BURIN_SOURCE_FOLDER);
     for (const std::string& place : found.places) ADD_FAILURE() << place << ", which does not exist";
     EXPECT_GE(found.looked_at, 100u) << "hardly any path was found in comments";
+}
+
+TEST(Words, EveryTestThatADocumentNamesExists) {
+    const Findings found = missing_tests(BURIN_SOURCE_FOLDER);
+    for (const std::string& place : found.places) ADD_FAILURE() << place << ", which no test is called";
+    EXPECT_GE(found.looked_at, 5u) << "hardly any test was named in the documents";
 }
 
 TEST(Words, HaveCleanLineEnds) {
@@ -129,6 +136,14 @@ TEST(WordsRules, SeeThePathsThatADocumentNames) {
     EXPECT_EQ(paths("`run gpu/a.comp,\ngpu/b.comp`\n"), (Paths{{"gpu/a.comp", 1}, {"gpu/b.comp", 2}}));
     EXPECT_EQ(paths("```sh\nscript gpu/a.txt\n```\ngpu/b.txt\n"), (Paths{{"gpu/a.txt", 2}}));
     EXPECT_EQ(paths("an open ` ends here\n\nand gpu/a.hpp is none\n"), Paths{});
+}
+
+TEST(WordsRules, SeeTheTestsThatADocumentNames) {
+    EXPECT_EQ(tests_named_in("see `Carve.EqualsReference`\nand `Carve.*`, `a.B`, `README.md`, `--gtest_filter=A.B`\n"
+                             "`Felt.AToolIs*`"),
+              (std::vector<NamedPath>{{"Carve.EqualsReference", 1}, {"Felt.AToolIs*", 3}}));
+    EXPECT_EQ(tests_defined_in("TEST(A, One) {}\nTEST_F(Bb, Two2) {\nRC_GTEST_PROP(C, Three, (int x)) {\n// A.Four"),
+              (std::set<std::string>{"A.One", "Bb.Two2", "C.Three"}));
 }
 
 TEST(WordsRules, SeeWhereADocumentsLinksLead) {

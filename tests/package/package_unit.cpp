@@ -111,8 +111,10 @@ TEST_F(UnpackedPackage, BringsEveryFileThatADesktopAndUdevLookFor) {
          {"lib/udev/rules.d/70-burin-devices.rules", "share/applications/burin.desktop",
           "share/mime/packages/burin.xml", "share/icons/hicolor/scalable/apps/burin.svg",
           "share/metainfo/io.github.burin.Burin.metainfo.xml", "share/doc/burin/copyright",
-          "share/doc/burin/changelog.gz", "share/bash-completion/completions/burin", "share/man/man1/burin.1.gz",
-          "share/man/man1/burin-sculpt.1.gz", "lib/burin/emulators/libburin_emulated_hd.so"})
+          "share/doc/burin/changelog.gz", "share/doc/burin/README.md", "share/doc/burin/docs/formats.md",
+          "share/doc/burin/docs/study.md", "share/doc/burin/docs/devices.md", "share/doc/burin/docs/pictures/panes.png",
+          "share/bash-completion/completions/burin", "share/man/man1/burin.1.gz", "share/man/man1/burin-sculpt.1.gz",
+          "lib/burin/emulators/libburin_emulated_hd.so"})
         EXPECT_TRUE(fs::exists(root() / "usr" / file)) << file;
 }
 
