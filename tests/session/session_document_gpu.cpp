@@ -71,6 +71,23 @@ TEST_F(DocumentOfASession, IsOpenedSavedAgainAndConvertedAsItWas) {
         EXPECT_TRUE(told.output.contains(part)) << part << " in " << told.output;
 }
 
+// The bounds of its lattice, which are up to a cell larger, were told instead.
+TEST_F(DocumentOfASession, IsAsLargeAsItsSolidWhenItIsOpenedAgain) {
+    place.write("plate.obj",
+                "# units mm\nv 0 0 0\nv 120 0 0\nv 0 80 0\nv 120 80 0\nv 0 0 9.1\nv 120 0 9.1\nv 0 80 9.1\n"
+                "v 120 80 9.1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+    for (const std::string& made :
+         {std::string("plate.obj --resolution 111"), std::string("ball:0.03 --resolution 96")}) {
+        const std::string right = made.starts_with("ball") ? "60 x 60 x 60 mm" : "120 x 80 x 9.1 mm";
+        const auto saved = play(made, "a", "0.1 command save part.burin\n");
+        ASSERT_EQ(saved.status, 0) << saved.output;
+        const auto opened = play("a/part.burin", "b", "0.1 command quit discard\n");
+        EXPECT_TRUE(opened.output.contains("part.burin: " + right)) << opened.output;
+        const auto told = place.run(std::string(kBurinCommand) + " info a/part.burin");
+        EXPECT_TRUE(told.output.contains(right)) << told.output;
+    }
+}
+
 // The mesh was lost.
 TEST_F(DocumentOfASession, IsNotConvertedOverTheMeshOfWhichItWasMade) {
     ASSERT_EQ(
