@@ -95,6 +95,42 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
     return std::move(numbers.mesh);
 }
 
+// The colours of the triangles' corners, as long as the triangles are those of the file.
+using CornerColours = std::vector<geometry::TriangleColours>;
+
+// Says what becomes of the colours that the file cannot hold as they are.
+void tell_colours(const ConvertOptions& options, const geometry::FileColours& colours) {
+    if (colours.none()) return;
+    if (geometry::mesh_format_of(options.out) == geometry::MeshFormat::stl) {
+        std::printf("  its colours are left out, as STL has none; .ply and .obj have\n");
+    } else if (colours.flattened) {
+        std::printf("  each triangle has the mean of its corners' colours: a file has no more of a picture\n");
+    }
+}
+
+// Writes the mesh; beside an OBJ whose faces have colours its materials, over none of the inputs.
+Result<void> write_mesh(const ConvertOptions& options, const geometry::TriangleMesh& numbers, LengthUnit unit,
+                        const CornerColours& corners, std::span<const std::string> inputs) {
+    const geometry::FileColours colours = geometry::file_colours(numbers, corners);
+    tell_colours(options, colours);
+    const bool is_obj = geometry::mesh_format_of(options.out) == geometry::MeshFormat::obj;
+    const bool has_materials = is_obj && !colours.of_faces.empty();
+    const std::string materials = geometry::material_file_of(options.out).string();
+    if (has_materials)
+        if (const auto ok = check_places(std::array{materials}, inputs); !ok) return ok;
+    if (const auto written = geometry::export_numbers(numbers, options.out, unit, corners); !written) return written;
+    std::printf("%s: written in %s%s\n", options.out.c_str(), descriptor_of(unit).plural,
+                has_materials ? (", the colours of its faces in " + materials).c_str() : "");
+    return {};
+}
+
+// Makes one vertex of those at one position. Where they differ in colour, the faces keep theirs.
+void weld(geometry::TriangleMesh& mesh) {
+    if (geometry::keep_colours_of_faces_at_seams(mesh))
+        std::printf("  vertices at one place differ in colour: each triangle has one colour\n");
+    geometry::weld_vertices(mesh);
+}
+
 }  // namespace
 
 Result<void> convert(const ConvertOptions& options) {
@@ -116,7 +152,7 @@ Result<void> convert(const ConvertOptions& options) {
     for (const std::string& remark : imported->report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
     if (options.close_holes || options.weld_m) {
-        geometry::weld_vertices(mesh);
+        weld(mesh);
         const auto joined = geometry::join_open_edges(mesh, options.weld_m.value_or(report.weld_tolerance_m));
         if (joined.vertices_joined > 0) std::printf("  %s\n", in_words(joined).c_str());
         if (!options.close_holes) print_health(mesh);
@@ -131,7 +167,7 @@ Result<void> convert(const ConvertOptions& options) {
     const LengthUnit unit = options.export_units.value_or(report.unit.unit);
     if (const auto ok = place(mesh, *placing, unit); !ok) return ok;
     // Without shared vertices every edge would be a border, and decimation keeps borders.
-    if (options.simplify_m) geometry::weld_vertices(mesh);
+    if (options.simplify_m) weld(mesh);
     WorkerPool pool;
     Result<geometry::TriangleMesh> numbers = rounded_for(options.out, mesh, unit, pool);
     if (!numbers) return std::unexpected(numbers.error());
@@ -145,9 +181,9 @@ Result<void> convert(const ConvertOptions& options) {
         numbers = std::move(simplified->mesh);
         print_health(*numbers, unit);
     }
-    if (const auto written = geometry::export_numbers(*numbers, options.out, unit); !written) return written;
-    std::printf("%s: written in %s\n", options.out.c_str(), descriptor_of(unit).plural);
-    return {};
+    const bool has_its_triangles = !options.close_holes && !options.weld_m && !options.simplify_m;
+    const CornerColours corners = has_its_triangles ? std::move(imported->corner_colours) : CornerColours();
+    return write_mesh(options, *numbers, unit, corners, inputs);
 }
 
 }  // namespace burin::app

@@ -80,13 +80,4 @@ std::vector<Colour> worn_colours(const Picture& picture, std::span<const Vec2> p
     return worn;
 }
 
-Colour mean_of(std::span<const Colour> colours) {
-    std::array<std::uint64_t, 3> sum{};
-    for (const Colour& colour : colours)
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
-    const std::uint64_t n = std::max<std::uint64_t>(colours.size(), 1);
-    return {static_cast<std::uint8_t>((sum[0] + n / 2) / n), static_cast<std::uint8_t>((sum[1] + n / 2) / n),
-            static_cast<std::uint8_t>((sum[2] + n / 2) / n)};
-}
-
 }  // namespace burin::geometry

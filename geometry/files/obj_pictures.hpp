@@ -13,6 +13,7 @@
 
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/files/picture.hpp"
+#include "geometry/files/surface_colours.hpp"
 
 namespace burin::geometry {
 
@@ -41,6 +42,5 @@ private:
 
 // Returns the colours of a face's corners, of what has the colour `own` without the picture.
 [[nodiscard]] std::vector<Colour> worn_colours(const Picture& picture, std::span<const Vec2> places, const Colour& own);
-[[nodiscard]] Colour mean_of(std::span<const Colour> colours);
 
 }  // namespace burin::geometry
