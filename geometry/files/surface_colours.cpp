@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/files/text_scanner.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 
 namespace burin::geometry {
@@ -77,6 +78,14 @@ bool keep_colours_of_faces_at_seams(TriangleMesh& mesh) {
     });
     mesh.colours.clear();
     return flattened;
+}
+
+std::string flattened_in_words(const std::vector<std::string>& pictures) {
+    if (pictures.empty()) return {};
+    const std::size_t others = pictures.size() - 1;
+    return "picture " + in_quotes(pictures.front()) +
+           (others == 0 ? " is" : " and " + std::to_string(others) + (others == 1 ? " other are" : " others are")) +
+           " flattened: each triangle has the mean of its corners' colours";
 }
 
 Colour mean_of(std::span<const Colour> colours) {

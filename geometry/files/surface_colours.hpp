@@ -6,6 +6,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geometry/files/colour_scale.hpp"
@@ -32,6 +33,9 @@ struct FileColours {
 // Leaves a mesh the colours of its faces alone where vertices at one position differ in colour: to be called before
 // these become one vertex, of which one would win. Returns whether a face has lost colours, since its corners differ.
 bool keep_colours_of_faces_at_seams(TriangleMesh& mesh);
+
+// Says that pictures are flattened to one colour for each triangle: "picture 'skin.png' is flattened ...".
+[[nodiscard]] std::string flattened_in_words(const std::vector<std::string>& pictures);
 
 [[nodiscard]] Colour mean_of(std::span<const Colour> colours);
 
