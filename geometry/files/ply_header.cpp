@@ -138,6 +138,9 @@ private:
         if (!value) return wrong(in_quotes(count) + " is not a count of elements", "repair the header");
         std::string lowered;
         for (const char c : element_name) lowered += lower(c);
+        const bool is_known = std::ranges::find(header_.elements, lowered, &PlyElement::name) != header_.elements.end();
+        if (is_known && (lowered == "vertex" || lowered == "face"))
+            return wrong("element " + in_quotes(element_name) + " is declared twice", "join its rows into one element");
         header_.elements.push_back({std::move(lowered), *value, {}});
         return {};
     }

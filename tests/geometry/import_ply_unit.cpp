@@ -174,6 +174,8 @@ TEST(PlyImport, NamesTheLineOfWhatIsWrong) {
     EXPECT_EQ(refused_ply(with("float y", "float x")).substr(0, 11), "test.ply:5:");
     EXPECT_EQ(refused_ply(with("ascii", "utf8")).substr(0, 11), "test.ply:2:");
     EXPECT_EQ(refused_ply(with("vertex 3", "vertex -3")).substr(0, 11), "test.ply:3:");
+    EXPECT_EQ(refused_ply(with("element face", "element Vertex 0\nproperty float x\nelement face")).substr(0, 11),
+              "test.ply:7:");
     EXPECT_EQ(refused_ply(with("vertex_indices", "corners")).substr(0, 8), "test.ply");
 }
 
