@@ -95,6 +95,58 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
     return std::move(numbers.mesh);
 }
 
+// Says what becomes of colours that the file cannot hold as they are.
+void tell_colours(const std::string& out, const geometry::FileColours& colours, const geometry::ImportReport& report) {
+    if (colours.none()) return;
+    if (geometry::mesh_format_of(out) == geometry::MeshFormat::stl) {
+        std::printf("  its colours are left out, as STL has none; .ply and .obj have\n");
+    } else if (!report.pictures.empty()) {
+        std::printf("  %s\n", geometry::flattened_in_words(report.pictures).c_str());
+    }
+}
+
+// Writes the mesh; beside an OBJ whose faces have colours its materials, over none of the inputs.
+Result<void> write_mesh(const ConvertOptions& options, const geometry::TriangleMesh& numbers, LengthUnit unit,
+                        const geometry::ImportedMesh& imported, std::span<const std::string> inputs) {
+    const std::span<const geometry::TriangleColours> corners = imported.corner_colours;
+    const geometry::FileColours colours = geometry::file_colours(numbers, corners);
+    tell_colours(options.out, colours, imported.report);
+    const bool is_obj = geometry::mesh_format_of(options.out) == geometry::MeshFormat::obj;
+    const bool has_materials = is_obj && !colours.of_faces.empty();
+    const std::string materials = geometry::material_file_of(options.out).string();
+    if (has_materials)
+        if (const auto ok = check_places(std::array{materials}, inputs); !ok) return ok;
+    if (const auto written = geometry::export_numbers(numbers, options.out, unit, corners); !written) return written;
+    std::printf("%s: written in %s%s\n", options.out.c_str(), descriptor_of(unit).plural,
+                has_materials ? (", the colours of its faces in " + materials).c_str() : "");
+    return {};
+}
+
+// Makes one vertex of those at one position. Where they differ in colour, the faces keep theirs.
+void weld(geometry::TriangleMesh& mesh) {
+    if (geometry::keep_colours_of_faces_at_seams(mesh))
+        std::printf("  vertices at one place differ in colour: each triangle has one colour\n");
+    geometry::weld_vertices(mesh);
+}
+
+// Has the colours of corners follow triangles that were added, or turned over; where some are gone, each of the others
+// has the colour of its material.
+void follow_triangles(geometry::ImportedMesh& imported, bool some_are_gone) {
+    auto& corners = imported.corner_colours;
+    const geometry::TriangleMesh& mesh = imported.mesh;
+    if (corners.empty()) return;
+    if (some_are_gone || mesh.triangle_materials.size() != mesh.triangles.size()) {
+        if (imported.report.materials_merged > 0)
+            std::printf("  triangles are gone, and the others have the colours that a solid has room for\n");
+        return corners.clear();
+    }
+    for (geometry::TriangleColours& corner : corners) corner.fill(geometry::mean_of(corner));
+    while (corners.size() < mesh.triangles.size()) {
+        const auto colour = mesh.materials[mesh.triangle_materials[corners.size()]].colour;
+        corners.push_back({colour, colour, colour});
+    }
+}
+
 }  // namespace
 
 Result<void> convert(const ConvertOptions& options) {
@@ -116,9 +168,10 @@ Result<void> convert(const ConvertOptions& options) {
     for (const std::string& remark : imported->report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
     if (options.close_holes || options.weld_m) {
-        geometry::weld_vertices(mesh);
+        weld(mesh);
         const auto joined = geometry::join_open_edges(mesh, options.weld_m.value_or(report.weld_tolerance_m));
         if (joined.vertices_joined > 0) std::printf("  %s\n", in_words(joined).c_str());
+        follow_triangles(*imported, joined.triangles_dropped > 0);
         if (!options.close_holes) print_health(mesh);
     }
     if (options.close_holes) {
@@ -126,12 +179,13 @@ Result<void> convert(const ConvertOptions& options) {
         const geometry::OrientationReport turned = geometry::orient_outward(mesh);
         std::printf("  closed %zu holes with %zu triangles; turned %zu triangles\n", closing.holes.size(),
                     closing.triangles_added, turned.triangles_turned);
+        follow_triangles(*imported, false);
         print_health(mesh);
     }
     const LengthUnit unit = options.export_units.value_or(report.unit.unit);
     if (const auto ok = place(mesh, *placing, unit); !ok) return ok;
     // Without shared vertices every edge would be a border, and decimation keeps borders.
-    if (options.simplify_m) geometry::weld_vertices(mesh);
+    if (options.simplify_m) weld(mesh);
     WorkerPool pool;
     Result<geometry::TriangleMesh> numbers = rounded_for(options.out, mesh, unit, pool);
     if (!numbers) return std::unexpected(numbers.error());
@@ -143,11 +197,10 @@ Result<void> convert(const ConvertOptions& options) {
                     in_millimetres(simplified->figures["error_max_m"].get<double>()).c_str(),
                     in_millimetres(*options.simplify_m).c_str());
         numbers = std::move(simplified->mesh);
+        follow_triangles(*imported, true);
         print_health(*numbers, unit);
     }
-    if (const auto written = geometry::export_numbers(*numbers, options.out, unit); !written) return written;
-    std::printf("%s: written in %s\n", options.out.c_str(), descriptor_of(unit).plural);
-    return {};
+    return write_mesh(options, *numbers, unit, *imported, inputs);
 }
 
 }  // namespace burin::app

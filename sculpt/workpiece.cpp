@@ -10,6 +10,7 @@
 #include "compute/rays/room.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "geometry/files/mesh_import.hpp"
+#include "geometry/files/surface_colours.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "gpu/device.hpp"
@@ -276,7 +277,8 @@ Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options, const LoadW
     const Vec3& size_m = imported->report.size_m;
     if (const auto ok = check_weld(options.weld_m, std::max({size_m.x, size_m.y, size_m.z})); !ok)
         return std::unexpected(ok.error());
-    const geometry::ImportReport& import = imported->report;
+    geometry::ImportReport& import = imported->report;
+    if (!import.pictures.empty()) import.remarks.push_back(geometry::flattened_in_words(import.pictures));
     if (watch.look) watch.look(imported->mesh);
     if (!go_on(watch.work, 1.0)) return no_longer_wanted();
     ClosedMesh closed{std::move(imported->mesh),

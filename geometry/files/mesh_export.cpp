@@ -6,6 +6,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -19,8 +20,6 @@ namespace burin::geometry {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary files are written as the machine's own numbers");
-
-using Colour = std::array<std::uint8_t, 3>;
 
 class Bytes {
 public:
@@ -72,26 +71,6 @@ Result<void> check(const TriangleMesh& mesh, MeshFormat format, const std::strin
     return {};
 }
 
-Colour material_colour(const TriangleMesh& mesh, std::size_t triangle) {
-    const std::size_t material = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[triangle];
-    return material < mesh.materials.size() ? mesh.materials[material].colour : Material{}.colour;
-}
-
-bool has_face_colours(const TriangleMesh& mesh) {
-    return !mesh.materials.empty() && mesh.triangle_materials.size() == mesh.triangles.size();
-}
-
-// Returns a colour for each vertex, or nothing when the mesh has no colours at all.
-std::vector<Colour> vertex_colours(const TriangleMesh& mesh) {
-    if (!mesh.positions_m.empty() && mesh.colours.size() == mesh.positions_m.size()) return mesh.colours;
-    if (mesh.materials.empty()) return {};
-    std::vector<Colour> colours(mesh.positions_m.size(), material_colour(mesh, 0));
-    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // backwards, so that the first triangle decides
-        for (const std::uint32_t v : mesh.triangles[t]) colours[v] = material_colour(mesh, t);
-    }
-    return colours;
-}
-
 // Returns the unit normal, or zero for a triangle without area, as the format asks.
 Vec3f normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 n = glm::cross(b - a, c - a);
@@ -116,9 +95,8 @@ std::vector<std::byte> encode_stl(const TriangleMesh& mesh, LengthUnit unit) {
     return out.take();
 }
 
-std::vector<std::byte> encode_ply(const TriangleMesh& mesh, LengthUnit unit) {
-    const std::vector<Colour> colours = vertex_colours(mesh);
-    const bool face_colours = has_face_colours(mesh);
+std::vector<std::byte> encode_ply(const TriangleMesh& mesh, LengthUnit unit, const FileColours& colours) {
+    const bool of_vertices = !colours.of_vertices.empty(), of_faces = !colours.of_faces.empty();
     constexpr std::string_view kColourProperties = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     Bytes out;
     out.reserve(512 + 15 * mesh.positions_m.size() + 16 * mesh.triangles.size());
@@ -126,20 +104,20 @@ std::vector<std::byte> encode_ply(const TriangleMesh& mesh, LengthUnit unit) {
                  "\nelement vertex ");
     out.put_number(mesh.positions_m.size());
     out.put_text("\nproperty float x\nproperty float y\nproperty float z\n");
-    if (!colours.empty()) out.put_text(kColourProperties);
+    if (of_vertices) out.put_text(kColourProperties);
     out.put_text("element face ");
     out.put_number(mesh.triangles.size());
     out.put_text("\nproperty list uchar int vertex_indices\n");
-    if (face_colours) out.put_text(kColourProperties);
+    if (of_faces) out.put_text(kColourProperties);
     out.put_text("end_header\n");
     for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
         out.put_point(Vec3f(mesh.positions_m[v]));
-        if (!colours.empty()) out.put(colours[v]);
+        if (of_vertices) out.put(colours.of_vertices[v]);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         out.put(std::uint8_t{3});
         out.put(mesh.triangles[t]);
-        if (face_colours) out.put(material_colour(mesh, t));
+        if (of_faces) out.put(colours.of_faces[t]);
     }
     return out.take();
 }
@@ -165,25 +143,57 @@ double shortest_in_unit(double length_m, LengthUnit unit) {
     return best.value_or(quotient);
 }
 
-std::vector<std::byte> encode_obj(const TriangleMesh& mesh, LengthUnit unit) {
-    const std::vector<Colour> colours = vertex_colours(mesh);
+// A number that is read as the same byte again.
+float part_of_255(std::uint8_t channel) { return static_cast<float>(channel) / 255.0f; }
+
+std::string material_name(const Colour& colour) {
+    std::array<char, 16> name{};
+    std::snprintf(name.data(), name.size(), "colour_%02x%02x%02x", colour[0], colour[1], colour[2]);
+    return name.data();
+}
+
+std::string encode_materials(std::vector<Colour> colours) {
+    std::ranges::sort(colours);
+    const auto repeated = std::ranges::unique(colours);
+    colours.erase(repeated.begin(), repeated.end());
+    Bytes out;
+    out.put_text("# by Burin\n");
+    for (const Colour& colour : colours) {
+        out.put_text("newmtl " + material_name(colour) + "\nKd");
+        for (const std::uint8_t channel : colour) {
+            out.put_text(" ");
+            out.put_number(part_of_255(channel));
+        }
+        out.put_text("\n");
+    }
+    const std::vector<std::byte> bytes = out.take();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// `materials` names the file of the colours of faces.
+std::vector<std::byte> encode_obj(const TriangleMesh& mesh, LengthUnit unit, const FileColours& colours,
+                                  const std::string& materials) {
     Bytes out;
     out.put_text("# by Burin\n# " + comment_of(unit) + "\n");
+    if (!colours.of_faces.empty()) out.put_text("mtllib " + materials + "\n");
     for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
         out.put_text("v");
         for (int k = 0; k < 3; ++k) {
             out.put_text(" ");
             out.put_number(mesh.positions_m[v][k]);
         }
-        for (std::size_t k = 0; k < 3 && !colours.empty(); ++k) {
+        for (std::size_t k = 0; k < 3 && !colours.of_vertices.empty(); ++k) {
             out.put_text(" ");
-            out.put_number(static_cast<float>(colours[v][k]) / 255.0f);
+            out.put_number(part_of_255(colours.of_vertices[v][k]));
         }
         out.put_text("\n");
     }
-    for (const auto& t : mesh.triangles) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const bool has_colour = !colours.of_faces.empty();
+        if (has_colour && (t == 0 || colours.of_faces[t] != colours.of_faces[t - 1]))
+            out.put_text("usemtl " + material_name(colours.of_faces[t]) + "\n");
         out.put_text("f");
-        for (const std::uint32_t v : t) {
+        for (const std::uint32_t v : mesh.triangles[t]) {
             out.put_text(" ");
             out.put_number(std::uint64_t{v} + 1);
         }
@@ -213,14 +223,23 @@ void round_to_floats(FileNumbers& numbers, LengthUnit unit) {
     for (std::size_t v = 0; v < index.size(); ++v) numbers.mesh.positions_m[v] = Vec3(rounded[index[v]]);
 }
 
-std::vector<std::byte> encode(const TriangleMesh& numbers, MeshFormat format, LengthUnit unit) {
-    switch (format) {
-        case MeshFormat::stl: return encode_stl(numbers, unit);
-        case MeshFormat::ply: return encode_ply(numbers, unit);
-        case MeshFormat::obj: return encode_obj(numbers, unit);
-        case MeshFormat::off: break;  // check() has refused it
+MeshFiles encode(const TriangleMesh& numbers, MeshFormat format, const std::filesystem::path& path, LengthUnit unit,
+                 std::span<const TriangleColours> corners) {
+    if (format == MeshFormat::stl) return {encode_stl(numbers, unit), {}};
+    const FileColours colours = file_colours(numbers, corners);
+    if (format == MeshFormat::ply) return {encode_ply(numbers, unit, colours), {}};
+    const std::string materials = material_file_of(path).filename().string();
+    return {encode_obj(numbers, unit, colours, materials),
+            colours.of_faces.empty() ? std::string() : encode_materials(colours.of_faces)};
+}
+
+// The materials come first: an OBJ never names a file that is not there.
+Result<void> write_files(const MeshFiles& files, const std::filesystem::path& path) {
+    if (!files.materials.empty()) {
+        const auto bytes = std::as_bytes(std::span(files.materials));
+        if (const auto written = write_file_atomically(material_file_of(path), bytes); !written) return written;
     }
-    return {};
+    return write_file_atomically(path, files.mesh);
 }
 
 Result<MeshFormat> format_of(const std::filesystem::path& path) {
@@ -244,25 +263,30 @@ FileNumbers numbers_of_file(const TriangleMesh& mesh_m, MeshFormat format, Lengt
     return numbers;
 }
 
-Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name,
-                                           LengthUnit unit) {
-    if (const auto sound = check(mesh, format, name, unit); !sound) return std::unexpected(sound.error());
-    return encode(numbers_of_file(mesh, format, unit).mesh, format, unit);
+std::filesystem::path material_file_of(const std::filesystem::path& obj) {
+    return std::filesystem::path(obj).replace_extension(".mtl");
 }
 
-Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path, LengthUnit unit) {
+Result<MeshFiles> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name, LengthUnit unit,
+                              std::span<const TriangleColours> corners) {
+    if (const auto sound = check(mesh, format, name, unit); !sound) return std::unexpected(sound.error());
+    return encode(numbers_of_file(mesh, format, unit).mesh, format, name, unit, corners);
+}
+
+Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path, LengthUnit unit,
+                            std::span<const TriangleColours> corners) {
     const auto format = format_of(path);
     if (!format) return std::unexpected(format.error());
     if (const auto sound = check(numbers, *format, path.string(), LengthUnit::m); !sound) return sound;
-    return write_file_atomically(path, encode(numbers, *format, unit));
+    return write_files(encode(numbers, *format, path, unit, corners), path);
 }
 
 Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, LengthUnit unit) {
     const auto format = format_of(path);
     if (!format) return std::unexpected(format.error());
-    const auto bytes = encode_mesh(mesh, *format, path.string(), unit);
-    if (!bytes) return std::unexpected(bytes.error());
-    return write_file_atomically(path, *bytes);
+    const auto files = encode_mesh(mesh, *format, path.string(), unit);
+    if (!files) return std::unexpected(files.error());
+    return write_files(*files, path);
 }
 
 }  // namespace burin::geometry

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes a triangle mesh as STL (binary), PLY (binary, little endian) or OBJ, chosen by the extension.
 //
-// What each format keeps: STL the shape in float; PLY the shape in float, a colour for each vertex and, where triangles
-// have materials, for each face; OBJ the shape in double and vertex colours as v x y z r g b. A vertex's colour is
-// mesh.colours where given, else that of the material of its first triangle.
+// What each format keeps: STL the shape in float; PLY the shape in float, and colours of vertices or of faces; OBJ the
+// shape in double, and colours of vertices as v x y z r g b or of faces as materials (usemtl), whose Kd stand in a file
+// beside it, NAME.mtl. Which of the two says surface_colours.hpp; a mesh without colours has neither.
 // Numbers are in the unit asked for, which the file states in a comment that import_mesh reads: "UNITS=mm" in the
 // header of an STL, "units mm" in PLY and OBJ. In OBJ metres are kept to the last bit, and so are numbers that were
 // read from a file in the same unit; others to within two units in the last place.
@@ -16,10 +16,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "geometry/files/mesh_import.hpp"
+#include "geometry/files/surface_colours.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
 namespace burin::geometry {
@@ -35,17 +38,28 @@ struct FileNumbers {
 // stay equal. Requires finite coordinates, in float too for STL and PLY.
 [[nodiscard]] FileNumbers numbers_of_file(const TriangleMesh& mesh_m, MeshFormat format, LengthUnit unit);
 
-// Writes a mesh of numbers of the file, in the unit that the file states. Refuses as export_mesh does.
+// Files in memory.
+struct MeshFiles {
+    std::vector<std::byte> mesh;
+    std::string materials;  // of the file beside an OBJ whose faces have colours; empty: there is none
+};
+
+// Returns the file beside an OBJ that has its materials: NAME.mtl.
+[[nodiscard]] std::filesystem::path material_file_of(const std::filesystem::path& obj);
+
+// Writes a mesh of numbers of the file, in the unit that the file states, and of an OBJ first its materials. `corners`
+// are the colours where there are as many as triangles. Refuses as export_mesh does.
 [[nodiscard]] Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path,
-                                          LengthUnit unit);
+                                          LengthUnit unit, std::span<const TriangleColours> corners = {});
 
 // Writes the numbers of a mesh in metres to a file. Refuses meshes without triangles, indices out of range, coordinates
 // that are not finite (in float, for STL and PLY), and OFF.
 [[nodiscard]] Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path,
                                        LengthUnit unit = LengthUnit::m);
 
-// Encodes the file in memory; `name` stands for it in messages.
-[[nodiscard]] Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
-                                                         const std::string& name, LengthUnit unit = LengthUnit::m);
+// Encodes the files in memory; `name` stands for the mesh's in messages, and names its materials.
+[[nodiscard]] Result<MeshFiles> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name,
+                                            LengthUnit unit = LengthUnit::m,
+                                            std::span<const TriangleColours> corners = {});
 
 }  // namespace burin::geometry

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Tells which files import_mesh() opens for a mesh, so that no output overwrites one. Threads: any. Cost: of an OBJ the
-// reading of its text, of other formats none.
+// reading of its text, of a PLY that of its header, of other formats none.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace burin::geometry {
 
-// Returns the names of a line that names several material files, with blanks between them.
-[[nodiscard]] std::vector<std::string_view> material_file_names(std::string_view names);
+// Returns the names of a line that names several material files, with blanks between them and quotes around some.
+[[nodiscard]] std::vector<std::string> material_file_names(std::string_view names);
 
-// Returns the mesh itself, whether it is there or not, and the material files that an OBJ may name, with their
-// pictures: of a line with blanks in it the one file of that name, and one of each word.
+// Returns the mesh itself, whether it is there or not, the material files that an OBJ may name with their pictures, and
+// the pictures of a PLY: of a line with blanks in it the one file of that name, and one of each word.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
 }  // namespace burin::geometry

@@ -5,6 +5,7 @@
 
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/named_file.hpp"
 #include "geometry/files/text_scanner.hpp"
 
 namespace burin::geometry {
@@ -14,8 +15,8 @@ constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20, kMostPictureBytes = 25
 
 Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
                       const MaterialFileReader& material_files, const MaterialFileReader& pictures) {
-    if (format == MeshFormat::stl) return read_stl(bytes, name);  // tells itself whether it is text
-    if (format == MeshFormat::ply) return read_ply(bytes, name);  // begins with text
+    if (format == MeshFormat::stl) return read_stl(bytes, name);            // tells itself whether it is text
+    if (format == MeshFormat::ply) return read_ply(bytes, name, pictures);  // begins with text
     const Result<std::string_view> text = utf8_text(text_of(bytes), name);
     if (!text) return std::unexpected(text.error());
     return format == MeshFormat::obj ? read_obj(*text, name, material_files, pictures) : read_off(*text, name);
@@ -43,24 +44,30 @@ std::optional<Likeness> looks_like(std::span<const std::byte> bytes) {
 
 MaterialFileReader files_beside(const std::filesystem::path& obj) {
     return [folder = obj.parent_path()](std::string_view name) -> Result<std::string> {
-        return read_text_file(folder / std::filesystem::path(name), kMaxMaterialFileBytes);
+        const std::filesystem::path named(name);
+        Result<std::string> text = read_text_file(file_named(folder, named), kMaxMaterialFileBytes);
+        if (text || named.filename() == named || named.filename().empty()) return text;
+        // The path may be one of another machine.
+        Result<std::string> beside = read_text_file(file_named(folder, named.filename()), kMaxMaterialFileBytes);
+        return beside ? std::move(beside) : std::move(text);
     };
 }
 
-// Reads pictures of the OBJ's folder and below it, through no link that leads out: the file may be a stranger's.
-MaterialFileReader pictures_below(const std::filesystem::path& obj) {
-    return [folder = obj.parent_path()](std::string_view name) -> Result<std::string> {
+// Reads pictures of the mesh's folder and below it, through no link that leads out: the file may be a stranger's.
+MaterialFileReader pictures_below(const std::filesystem::path& mesh) {
+    return [folder = mesh.parent_path()](std::string_view name) -> Result<std::string> {
         constexpr const char* kRemedy = "copy that file into the mesh's folder and name it without a path";
         const std::filesystem::path below = std::filesystem::path(name).lexically_normal();
         if (below.empty() || below.is_absolute() || *below.begin() == "..")
             return fail(std::string(name), "is not in the mesh's folder", kRemedy);
         std::error_code code;
         const auto top = std::filesystem::canonical(folder.empty() ? std::filesystem::path(".") : folder, code);
-        const auto real = std::filesystem::weakly_canonical(top / below, code);
+        const std::filesystem::path found = file_named(top, below);
+        const auto real = std::filesystem::weakly_canonical(found, code);
         if (std::ranges::mismatch(top, real).in1 != top.end())
             return fail(std::string(name), "is a link that leads out of the mesh's folder", kRemedy);
-        const Result<std::vector<std::byte>> bytes = read_file(folder / below, kMostPictureBytes);
-        if (!bytes) return std::unexpected(bytes.error());
+        const Result<std::vector<std::byte>> bytes = read_file(found, kMostPictureBytes);
+        if (!bytes) return fail(std::string(name), bytes.error().what, bytes.error().remedy);
         return std::string(text_of(*bytes));
     };
 }

@@ -3,12 +3,12 @@
 // (ASCII).
 //
 // Guarantee: every face of the file is in the mesh, as it stands in the file, or counted in the report. Nothing is
-// merged, dropped, repaired or flipped here; that is for mesh_health.hpp and mesh_repair.hpp, on request. The one
-// exception is due to the format: STL has no shared vertices, so equal positions become one vertex (bit for bit; -0
-// equals 0).
+// merged, dropped, repaired or flipped here; that is for mesh_health.hpp and mesh_repair.hpp, on request. There are two
+// exceptions: STL has no shared vertices, so equal positions become one vertex (bit for bit; -0 equals 0); and a vertex
+// that no mesh can have is left out, with a remark, where no face names it.
 //
 // Units and frame: the mesh is in metres, as doubles, in the object frame. Which unit the file's numbers are in says
-// mesh_unit.hpp; the report says which it was and why. Every coordinate of a file is finite and at most kMaxCoordinate.
+// mesh_unit.hpp; the report says which it was and why. Every coordinate is finite and at most kMaxCoordinate.
 // Faces wind counter-clockwise seen from outside where the file keeps to that.
 // Failure: an Error with the file, the line (text) or byte (binary), and the remedy. Memory is bounded by a small
 // multiple of the file's size: a count in a header is compared with the bytes that follow before anything is allocated.
@@ -62,6 +62,7 @@ struct ImportReport {
     std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position
     std::uint64_t materials_merged = 0;  // number of materials removed by merging down to kMaxMaterials
     std::vector<std::string> remarks;    // one line each, for the user: what was ignored or assumed
+    std::vector<std::string> pictures;   // that faces wear: by these a face may have several colours
     // Distance up to which corners at open edges are one corner that was rounded in two ways (join_open_edges). It
     // follows from how many digits the file's numbers have; 0 where there are too few to tell.
     double weld_tolerance_m = 0.0;
@@ -72,18 +73,19 @@ struct ImportReport {
 struct ImportedMesh {
     TriangleMesh mesh;
     ImportReport report;
-    // Of an OBJ whose materials name pictures (map_Kd): the colours of each triangle's corners. The triangle's material
-    // then has their mean. Empty: there are no pictures.
+    // The colours of each triangle's corners, where the file names pictures, of which the triangle's material has the
+    // mean, or has more colours of faces than there can be materials. Empty: those of the mesh are all that it has.
     std::vector<std::array<std::array<std::uint8_t, 3>, 3>> corner_colours = {};
 };
 
 // Reads the file, whose format follows from the extension (any case). Reads an OBJ's MTL files from the OBJ's folder; a
-// missing one is a remark; so is a picture that a material names (map_Kd), which must lie in that folder or below it.
+// missing one is a remark; so is a picture that a material (map_Kd) or a PLY (comment TextureFile) names, which must
+// lie in the mesh's folder or below it. Names may differ from the files' in capitals.
 // The unit is found out where none is given.
 [[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path,
                                                std::optional<LengthUnit> given_unit = std::nullopt);
 
-// Returns the text of a material file named by an OBJ, or the bytes of a picture named by that.
+// Returns the text of a material file named by an OBJ, or the bytes of a picture named by that or by a PLY.
 using MaterialFileReader = std::function<Result<std::string>(std::string_view name)>;
 
 // Reads a mesh from memory; `name` stands for the file in messages. Without readers, OBJ materials are plain grey,

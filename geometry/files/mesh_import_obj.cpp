@@ -2,17 +2,18 @@
 // Reads OBJ: v (with w, or with a colour: x y z r g b, and perhaps its alpha), f (and the old fo) with positive or
 // negative indices, usemtl, mtllib, and vt where a material names a picture. A face may name a vertex that comes later.
 // Normals, groups and smoothing are skipped silently, since they do not change the surface; lines, points, curves and
-// free-form surfaces are counted in a remark. Reads only the diffuse colours (Kd) and their pictures (map_Kd) of
-// material files (MTL), of which a line may name several. A comment near the beginning may state the unit.
+// free-form surfaces are counted in a remark. Of material files (MTL), of which a line may name several, see
+// material_file.hpp. A comment near the beginning may state the unit.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "geometry/files/material_file.hpp"
 #include "geometry/files/mesh_files.hpp"
+#include "geometry/files/mesh_pictures.hpp"
 #include "geometry/files/mesh_soup.hpp"
-#include "geometry/files/obj_pictures.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/files/unit_statement.hpp"
 
@@ -20,78 +21,12 @@ namespace burin::geometry {
 namespace {
 
 constexpr char kObjComment = '#';
+constexpr Vec2 kNoTexturePlace{std::numeric_limits<double>::quiet_NaN()};
 constexpr std::size_t kMostLibraries = 64;  // limit for material files; a hostile file could name thousands
 
 // Keywords that do not change the surface's shape or colour.
 constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
                                          "usemap", "maplib", "lod", "bevel", "c_interp", "d_interp"};
-
-struct ObjMaterial {
-    Colour colour = kPlainColour;
-    std::string picture = {};  // map_Kd; empty: none
-};
-
-// The diffuse colours of a material file. A fault in the file never stops an import, since the shape does not depend on
-// it: it becomes a remark and the material keeps the plain colour.
-struct MaterialLibrary {
-    std::map<std::string, ObjMaterial, std::less<>> materials;
-    std::vector<std::string> remarks;
-};
-
-// Reads the numbers of a Kd statement. A single number means grey.
-std::optional<Vec3> diffuse(TextScanner& scan) {
-    Vec3 colour;
-    int count = 0;
-    for (std::string_view word = scan.token_in_line('#'); !word.empty() && count < 3; word = scan.token_in_line('#')) {
-        const auto value = number_from(word);
-        if (!value || !std::isfinite(*value)) return std::nullopt;
-        colour[count++] = *value;
-    }
-    if (count == 1) return Vec3(colour[0]);
-    return count == 3 ? std::optional(colour) : std::nullopt;
-}
-
-// A diffuse colour of a material file, with its material and its line.
-struct DiffuseColour {
-    Colour* of = nullptr;
-    Vec3 numbers{0.0};
-    std::uint64_t line = 0;
-};
-
-// Reads all materials of an MTL file. Kd numbers run from 0 to 1 and are taken as sRGB, as most programs write them.
-MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
-    MaterialLibrary library;
-    ObjMaterial* current = nullptr;
-    ColourScale scale;
-    std::vector<DiffuseColour> found;
-    std::size_t faults = 0;
-    std::uint64_t first_fault = 0;
-    for (TextScanner scan(text); !scan.at_end(); scan.next_line()) {
-        const std::string_view keyword = scan.token_in_line('#');
-        if (equals_ignoring_case(keyword, "newmtl")) {
-            current =
-                &library.materials.insert_or_assign(std::string(scan.rest_of_line()), ObjMaterial{}).first->second;
-        } else if (equals_ignoring_case(keyword, "map_kd") && current != nullptr) {
-            current->picture = picture_named(scan.rest_of_line());
-        } else if (equals_ignoring_case(keyword, "kd")) {
-            const auto colour = diffuse(scan);
-            if (colour && current != nullptr) {
-                scale.see(*colour);
-                found.push_back({&current->colour, *colour, scan.line()});
-            } else if (faults++ == 0) {
-                first_fault = scan.line();
-            }
-        }
-    }
-    for (const DiffuseColour& colour : found) *colour.of = scale.bytes_of(colour.numbers, colour.line);
-    if (auto remark = scale.remark("colours of material file " + in_quotes(name)))
-        library.remarks.push_back(std::move(*remark));
-    if (faults > 0) {
-        library.remarks.push_back(std::to_string(faults) + " colours of material file " + in_quotes(name) +
-                                  " could not be understood, the first in line " + std::to_string(first_fault));
-    }
-    return library;
-}
 
 class ObjReader {
 public:
@@ -107,7 +42,7 @@ public:
         }
         if (auto done = resolve_corners(); !done) return std::unexpected(done.error());
         if (auto done = resolve_colours(); !done) return std::unexpected(done.error());
-        wear_pictures();
+        wear_materials();
         if (undefined_ > 0) {
             soup_.report.remarks.push_back(std::to_string(undefined_) +
                                            " materials are not defined and shown grey, the first is " +
@@ -167,28 +102,22 @@ private:
         for (std::string_view w = word(); !w.empty(); w = word()) {
             const auto value = number_from(w);
             if (!value) return wrong(in_quotes(w) + " is not a number");
-            if (count < 3) soup_.precision.see(w, *value);
+            if (count < 3 && coordinate_fault(*value) == nullptr) soup_.precision.see(w, *value);
             if (count == values.size()) return wrong("a vertex has more than 7 numbers");
             values[count++] = *value;
         }
         if (count < 3) return wrong("a vertex has fewer than 3 coordinates", kTruncatedRemedy);
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (const char* fault = coordinate_fault(values[k])) return wrong(fault, kCoordinateRemedy);
-        }
-        soup_.positions.emplace_back(values[0], values[1], values[2]);
+        add_vertex(soup_, {values[0], values[1], values[2]}, scan_.line());
         if (count == values.size() && with_alpha_++ == 0) first_alpha_line_ = scan_.line();
-        return count >= 6 ? vertex_colour({values[3], values[4], values[5]}) : Done{};
+        if (count >= 6) vertex_colour({values[3], values[4], values[5]});
+        return {};
     }
 
     // Keeps the colour as it is: only the whole file tells whether colours run to 1 or to 255.
-    Done vertex_colour(const Vec3& colour) {
-        for (int k = 0; k < 3; ++k) {
-            if (!std::isfinite(colour[k])) return wrong("a vertex colour is not a number");
-        }
+    void vertex_colour(const Vec3& colour) {
         scale_.see(colour);
         colours_.push_back(colour);
         colour_lines_.push_back(scan_.line());
-        return {};
     }
 
     Done face() {
@@ -242,33 +171,23 @@ private:
     }
 
     // Gives the corners of faces whose materials have pictures the colours of these.
-    void wear_pictures() {
-        if (soup_.face_materials.empty() || std::ranges::all_of(pictures_of_, &std::string::empty)) return;
-        ObjPictures pictures(pictures_);
-        ColourMaterials means(soup_.materials);
-        std::vector<Vec2> places;
-        std::size_t first = 0;
-        for (std::size_t face = 0; face < soup_.corner_counts.size(); ++face) {
-            const std::uint32_t count = soup_.corner_counts[face];
-            std::uint32_t& material = soup_.face_materials[face];
-            const Colour own = soup_.materials[material].colour;
-            const std::string& name = pictures_of_[material];
-            const Picture* const picture = name.empty() ? nullptr : pictures.named(name);
-            places.clear();
-            for (const std::int64_t at : std::span(texture_corners_).subspan(first, count))
-                if (at >= 0 && at < std::ssize(texture_places_))
-                    places.push_back(texture_places_[static_cast<std::size_t>(at)]);
-            if (picture != nullptr && places.size() == count) {
-                const std::vector<Colour> worn = worn_colours(*picture, places, own);
-                soup_.corner_colours.insert(soup_.corner_colours.end(), worn.begin(), worn.end());
-                material = means.index_of(mean_of(worn));
-            } else {
-                soup_.corner_colours.insert(soup_.corner_colours.end(), count, own);
-            }
-            first += count;
+    void wear_materials() {
+        if (soup_.face_materials.empty()) return;
+        WornFaces worn;
+        std::vector<std::uint32_t> use_of_material;
+        for (const ObjMaterial& material : materials_) {
+            use_of_material.push_back(kNoPicture);
+            if (material.picture.names.empty()) continue;
+            use_of_material.back() = static_cast<std::uint32_t>(worn.uses.size());
+            worn.uses.push_back(material.picture);
         }
-        if (pictures.worn() == 0) soup_.corner_colours.clear();
-        std::ranges::copy(pictures.remarks(), std::back_inserter(soup_.report.remarks));
+        if (worn.uses.empty()) return;
+        for (const std::uint32_t material : soup_.face_materials) worn.use_of_face.push_back(use_of_material[material]);
+        for (const std::int64_t at : texture_corners_) {
+            const bool is_known = at >= 0 && at < std::ssize(texture_places_);
+            worn.places.push_back(is_known ? texture_places_[static_cast<std::size_t>(at)] : kNoTexturePlace);
+        }
+        wear_pictures(soup_, worn, pictures_);
     }
 
     Done resolve_corners() {
@@ -295,7 +214,7 @@ private:
         soup_.colours.reserve(colours_.size());
         for (std::size_t v = 0; v < colours_.size(); ++v)
             soup_.colours.push_back(scale_.bytes_of(colours_[v], colour_lines_[v]));
-        if (auto remark = scale_.remark("vertex colours")) soup_.report.remarks.push_back(std::move(*remark));
+        std::ranges::move(scale_.remarks("vertex colours"), std::back_inserter(soup_.report.remarks));
         return {};
     }
 
@@ -317,12 +236,12 @@ private:
         if (last_number_ && last_name_ == material) return *last_number_;
         const auto [entry, is_new] = numbers_.try_emplace(material, static_cast<std::uint32_t>(soup_.materials.size()));
         if (is_new) {
-            const auto known = library_.find(material);
-            if (known == library_.end() && !material.empty()) {
+            const ObjMaterial* const known = material_named(library_, material);
+            if (known == nullptr && !material.empty()) {
                 if (undefined_++ == 0) first_undefined_ = material;
             }
-            soup_.materials.push_back({material, known == library_.end() ? kPlainColour : known->second.colour});
-            pictures_of_.push_back(known == library_.end() ? "" : known->second.picture);
+            materials_.push_back(known == nullptr ? ObjMaterial{} : *known);
+            soup_.materials.push_back({material, materials_.back().colour});
         }
         last_name_ = material;
         last_number_ = entry->second;
@@ -343,14 +262,16 @@ private:
             return;
         }
         // A name may hold blanks, and blanks may stand between names: one file of the whole name comes first.
-        const Result<std::string> text = material_files_(names);
-        if (text) return add_materials(*text, names);
-        const std::vector<std::string_view> files = material_file_names(names);
-        if (files.size() < 2) {
-            soup_.report.remarks.push_back("material file ignored: " + text.error().line());
+        const std::vector<std::string> readings = names_in(names);
+        for (const std::string& reading : readings)
+            if (const Result<std::string> text = material_files_(reading)) return add_materials(*text, reading);
+        const std::vector<std::string> files = material_file_names(names);
+        if (files.size() > 1) {
+            for (const std::string& file : files) read_materials(file);
             return;
         }
-        for (const std::string_view file : files) read_materials(file);
+        const std::string named = readings.empty() ? "" : readings.back();
+        soup_.report.remarks.push_back("material file ignored: " + material_files_(named).error().line());
     }
 
     void add_materials(std::string_view text, std::string_view file) {
@@ -367,7 +288,7 @@ private:
     MeshSoup soup_;
     std::vector<Vec2> texture_places_;
     std::vector<std::int64_t> texture_corners_;  // into these, for each corner; below 0: none
-    std::vector<std::string> pictures_of_;       // of each material that the file uses
+    std::vector<ObjMaterial> materials_;         // that the file uses, as the soup numbers them
     std::vector<Vec3> colours_;
     std::vector<std::uint64_t> colour_lines_;
     ColourScale scale_;
@@ -380,7 +301,7 @@ private:
     std::string last_name_;
     std::optional<std::uint32_t> last_number_;
     std::map<std::string, std::uint32_t, std::less<>> numbers_;
-    std::map<std::string, ObjMaterial, std::less<>> library_;
+    ObjMaterials library_;
     std::set<std::string, std::less<>> libraries_;
     bool too_many_libraries_ = false;
     std::uint64_t undefined_ = 0;

@@ -42,6 +42,8 @@ public:
         while (soup_.corner_counts.size() < faces_) {
             if (auto done = face(); !done) return std::unexpected(done.error());
         }
+        if (has_texture_)
+            soup_.report.remarks.emplace_back("its texture coordinates were ignored: an OFF names no picture");
         if (next_line()) soup_.report.remarks.push_back("text after the last face was ignored");
         if (uncoloured_ > 0) {
             soup_.report.remarks.push_back("the colour map indices of " + std::to_string(uncoloured_) +
@@ -159,11 +161,10 @@ private:
         for (std::size_t k = 0; k < 3; ++k) {
             const auto value = number(at + k);
             if (!value) return std::unexpected(value.error());
-            if (const char* fault = coordinate_fault(*value)) return wrong(fault, kCoordinateRemedy);
             p[static_cast<int>(k)] = *value;
-            soup_.precision.see(words_[at + k], *value);
+            if (coordinate_fault(*value) == nullptr) soup_.precision.see(words_[at + k], *value);
         }
-        soup_.positions.push_back(p);
+        add_vertex(soup_, p, line_);
         return {};
     }
 
@@ -209,8 +210,7 @@ private:
         for (std::size_t k = 0; k < count; ++k) {
             const auto value = number_from(words_[at + k]);
             const bool is_alpha = k == 3;
-            if (!value || (!is_alpha && !std::isfinite(*value)))
-                return wrong(in_quotes(words_[at + k]) + " stands where a colour should", "repair the file");
+            if (!value) return wrong(in_quotes(words_[at + k]) + " stands where a colour should", "repair the file");
             if (is_alpha || count == 1) break;
             colour.numbers[static_cast<int>(k)] = *value;
             colour.has_point = colour.has_point || words_[at + k].find_first_of(".eE") != std::string_view::npos;
@@ -236,7 +236,7 @@ private:
             for (const Colour& colour : colours) soup_.face_materials.push_back(materials_.index_of(colour));
         }
         for (const ColourScale* scale : {&with_point_, &whole_}) {
-            if (auto remark = scale->remark("colours")) soup_.report.remarks.push_back(std::move(*remark));
+            std::ranges::move(scale->remarks("colours"), std::back_inserter(soup_.report.remarks));
         }
     }
 

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Reads PLY 1.0, ASCII and binary of both byte orders: element vertex (x, y, z and red, green, blue), element face
-// (vertex_indices or vertex_index, and red, green, blue). Other elements and properties are skipped; skipped elements
-// are named in a remark. Triangle strips are refused rather than lost. A header's count is compared with the bytes that
-// follow. A comment or obj_info line of the header may state the unit.
+// (vertex_indices or vertex_index, and red, green, blue). Pictures that comments name (TextureFile) are worn by
+// coordinates of the faces' corners (texcoord, with texnumber) or of the vertices (s, t or u, v). Other elements and
+// properties are skipped; skipped elements are named in a remark. Triangle strips are refused rather than lost. A
+// header's count is compared with the bytes that follow. A comment or obj_info line of the header may state the unit.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "geometry/files/mesh_pictures.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/ply_header.hpp"
 #include "geometry/files/text_scanner.hpp"
 
 namespace burin::geometry {
 namespace {
+
+constexpr Vec2 kNoPlace{std::numeric_limits<double>::quiet_NaN()};
 
 // A colour as the file has it.
 struct PlyColour {
@@ -23,11 +28,13 @@ struct PlyColour {
 
 class PlyReader {
 public:
-    PlyReader(std::span<const std::byte> bytes, const std::string& name, PlyHeader header)
-        : name_(name), header_(std::move(header)), values_(bytes, header_) {}
+    PlyReader(std::span<const std::byte> bytes, const std::string& name, PlyHeader header,
+              const MaterialFileReader& pictures)
+        : name_(name), header_(std::move(header)), values_(bytes, header_), pictures_(pictures) {}
 
     Result<MeshSoup> read() {
         soup_.stated_unit = header_.stated_unit;
+        soup_.has_bytes = header_.encoding != PlyEncoding::ascii;
         soup_.report.format = header_.encoding == PlyEncoding::ascii           ? "PLY, ASCII"
                               : header_.encoding == PlyEncoding::little_endian ? "PLY, binary little endian"
                                                                                : "PLY, binary big endian";
@@ -36,6 +43,7 @@ public:
         }
         if (auto done = check_corners(); !done) return std::unexpected(done.error());
         resolve_colours();
+        wear_textures();
         if (ignored_ > 0) {
             soup_.report.remarks.push_back(std::to_string(ignored_) +
                                            " other kinds of element were ignored, the first is " +
@@ -85,10 +93,10 @@ private:
         return *read;
     }
     // Returns the next value that counts: of an integer type it is whole, in a text as well.
-    Result<double> value(PlyType type) {
-        const auto read = any_value(type);
+    Result<double> value(PlyType type) { return whole_where_due(any_value(type), type, false); }
+    Result<double> whole_where_due(const Result<double>& read, PlyType type, bool may_be_none) const {
         const bool is_float = type == PlyType::f32 || type == PlyType::f64;
-        if (!read || is_float || *read == std::floor(*read)) return read;
+        if (!read || is_float || *read == std::floor(*read) || (may_be_none && std::isnan(*read))) return read;
         return wrong(in_quotes(values_.word()) + " stands where a whole number should, as its property's type says",
                      "declare the property as float, or write whole numbers");
     }
@@ -121,10 +129,10 @@ private:
     }
 
     // Whole numbers run to 255, or to 65535 where they have 16 bits. Of floats only the whole file tells the range.
+    // "nan" in a text is no colour, whatever the type.
     Done colour_channel(const PlyProperty& property, PlyColour& colour) {
-        const auto read = value(property.type);
+        const auto read = whole_where_due(any_value(property.type), property.type, true);
         if (!read) return std::unexpected(read.error());
-        if (!std::isfinite(*read)) return wrong("a colour is not a number");
         colour.place = values_.place();
         colour.has_floats = colour.has_floats || property.type == PlyType::f32 || property.type == PlyType::f64;
         colour.numbers[static_cast<int>(property.channel())] =
@@ -146,7 +154,7 @@ private:
         for (const PlyColour& colour : face_colours_)
             soup_.face_materials.push_back(materials_.index_of(bytes_of(colour)));
         for (const ColourScale* scale : {&floats_, &whole_}) {
-            if (auto remark = scale->remark("colours")) soup_.report.remarks.push_back(std::move(*remark));
+            std::ranges::move(scale->remarks("colours"), std::back_inserter(soup_.report.remarks));
         }
     }
 
@@ -162,26 +170,33 @@ private:
         if (!element.has_position()) {
             return element.count == 0 ? Done{} : wrong("its vertices lack x, y or z");
         }
-        const bool coloured = element.has_colour();
+        const bool coloured = element.has_colour(), placed = element.has_place();
         soup_.positions.reserve(element.count);
         if (coloured) vertex_colours_.reserve(element.count);
         for (std::uint64_t row = 0; row < element.count; ++row) {
             Vec3 p(0.0);
+            Vec2 place(0.0);
+            std::uint64_t where = 0;  // of a coordinate that no mesh can have, or of the last
             PlyColour colour;
             for (const PlyProperty& property : element.properties) {
                 if (property.role == PlyRole::x || property.role == PlyRole::y || property.role == PlyRole::z) {
                     const auto read = value(property.type);
                     if (!read) return std::unexpected(read.error());
-                    if (const char* fault = coordinate_fault(*read)) return wrong(fault, kCoordinateRemedy);
                     p[static_cast<int>(property.role) - static_cast<int>(PlyRole::x)] = *read;
-                    see_precision(*read);
+                    if (coordinate_fault(*read) == nullptr) see_precision(*read);
+                    if (where == 0 || coordinate_fault(*read) != nullptr) where = values_.place();
+                } else if (placed && property.is_place()) {
+                    const auto read = any_value(property.type);
+                    if (!read) return std::unexpected(read.error());
+                    place[property.role == PlyRole::s ? 0 : 1] = *read;
                 } else if (auto done =
                                coloured && property.is_colour() ? colour_channel(property, colour) : skip(property);
                            !done) {
                     return done;
                 }
             }
-            soup_.positions.push_back(p);
+            add_vertex(soup_, p, where);
+            if (placed) vertex_places_.push_back(place);
             if (!coloured) continue;
             see(colour);
             vertex_colours_.push_back(colour);
@@ -194,15 +209,19 @@ private:
             return element.count == 0 ? Done{} : wrong("its faces lack the list vertex_indices");
         }
         const bool coloured = element.has_colour();
+        has_face_places_ = std::ranges::any_of(element.properties, &PlyProperty::is_places);
         soup_.corner_counts.reserve(element.count);
         for (std::uint64_t row = 0; row < element.count; ++row) {
             PlyColour colour;
             for (const PlyProperty& property : element.properties) {
                 auto done = property.role == PlyRole::corners  ? corners(property)
+                            : property.is_places()             ? list(property, row_places_)
+                            : property.is_picture()            ? number(property, row_picture_)
                             : coloured && property.is_colour() ? colour_channel(property, colour)
                                                                : skip(property);
                 if (!done) return done;
             }
+            note_places();
             if (!coloured) continue;
             see(colour);
             face_colours_.push_back(colour);
@@ -229,6 +248,54 @@ private:
         return {};
     }
 
+    // ---- Pictures
+    // What is wrong with texture coordinates is no error: the surface does not depend on them.
+
+    Done number(const PlyProperty& property, double& value) {
+        const auto read = any_value(property.type);
+        if (!read) return std::unexpected(read.error());
+        value = *read;
+        return {};
+    }
+
+    Done list(const PlyProperty& property, std::vector<double>& values) {
+        values.clear();
+        const auto length = list_length(property);
+        if (!length) return std::unexpected(length.error());
+        for (std::uint64_t i = 0; i < *length; ++i) {
+            const auto read = any_value(property.type);
+            if (!read) return std::unexpected(read.error());
+            values.push_back(*read);
+        }
+        return {};
+    }
+
+    // Takes note of where the corners of the face that was read last lie in which picture.
+    void note_places() {
+        const bool is_known = row_picture_ >= 0.0 && row_picture_ < static_cast<double>(header_.pictures.size());
+        worn_.use_of_face.push_back(is_known ? static_cast<std::uint32_t>(row_picture_) : kNoPicture);
+        if (!has_face_places_) return;
+        const std::uint32_t count = soup_.corner_counts.back();
+        const bool is_sound = row_places_.size() == std::size_t{2} * count;
+        for (std::size_t k = 0; k < count; ++k)
+            worn_.places.push_back(is_sound ? Vec2(row_places_[2 * k], row_places_[2 * k + 1]) : kNoPlace);
+    }
+
+    void wear_textures() {
+        const bool has_places = has_face_places_ || !vertex_places_.empty();
+        if (header_.pictures.empty() && has_places)
+            soup_.report.remarks.emplace_back(
+                "its texture coordinates were ignored: no comment TextureFile names a picture");
+        if (!header_.pictures.empty() && !has_places)
+            soup_.report.remarks.push_back("picture " + in_quotes(header_.pictures.front()) +
+                                           " is not shown: there are no texture coordinates");
+        if (header_.pictures.empty() || !has_places) return;
+        for (const std::string& statement : header_.pictures) worn_.uses.emplace_back().names = names_in(statement);
+        if (!has_face_places_)
+            for (const std::uint32_t corner : soup_.corners) worn_.places.push_back(vertex_places_[corner]);
+        wear_pictures(soup_, worn_, pictures_);
+    }
+
     // Checks indices after reading everything, since faces may come before vertices.
     Done check_corners() {
         if (soup_.corners.empty() || farthest_corner_ < soup_.positions.size()) return {};
@@ -241,10 +308,16 @@ private:
     const std::string& name_;
     PlyHeader header_;
     PlyValues values_;
+    const MaterialFileReader& pictures_;
     MeshSoup soup_;
     ColourMaterials materials_{soup_.materials};
     std::vector<PlyColour> vertex_colours_, face_colours_;
     ColourScale floats_, whole_;
+    WornFaces worn_;
+    std::vector<Vec2> vertex_places_;
+    std::vector<double> row_places_;  // of the face that was read last
+    double row_picture_ = 0.0;
+    bool has_face_places_ = false;
     std::uint32_t farthest_corner_ = 0;
     std::uint64_t farthest_where_ = 0;
     std::uint64_t ignored_ = 0;
@@ -253,10 +326,11 @@ private:
 
 }  // namespace
 
-Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name) {
+Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name,
+                          const MaterialFileReader& pictures) {
     Result<PlyHeader> header = read_ply_header(text_of(bytes), name);
     if (!header) return std::unexpected(header.error());
-    return PlyReader(bytes, name, std::move(*header)).read();
+    return PlyReader(bytes, name, std::move(*header), pictures).read();
 }
 
 }  // namespace burin::geometry

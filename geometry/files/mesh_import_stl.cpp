@@ -2,7 +2,8 @@
 // Reads STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute),
 // little endian. ASCII: solid, facet normal, outer loop, vertex, endloop (or end loop), endfacet, endsolid; any case,
 // any number of solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the
-// winding gives them. The header of a binary file, or the name of a solid, may state the unit: "UNITS=mm".
+// winding gives them. Attributes may be colours, see StlColours. The header of a binary file, or the name of
+// a solid, may state the unit: "UNITS=mm".
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -40,6 +41,58 @@ bool is_plain_text(std::string_view text) {
     });
 }
 
+// The colours that attributes of a binary file mean, 5 bits a channel. Materialise Magics writes COLOR= and four bytes
+// (red, green, blue, alpha) for the whole into the header; a triangle whose highest bit is unset has a colour of its
+// own, red in the lowest bits. VisCAM and SolidView write no such header; a triangle whose highest bit is set has a
+// colour, blue in the lowest bits.
+class StlColours {
+public:
+    StlColours(std::span<const std::byte> title, MeshSoup& soup) : soup_(soup) {
+        constexpr std::string_view kWord = "COLOR=";
+        const std::size_t at = text_of(title).find(kWord);
+        if (at == std::string_view::npos || at + kWord.size() + 3 > title.size()) return;
+        is_magics_ = true;
+        for (std::size_t c = 0; c < 3; ++c) whole_[c] = std::to_integer<std::uint8_t>(title[at + kWord.size() + c]);
+    }
+
+    void see(std::uint16_t attribute) {
+        if (attribute != 0) ++with_attribute_;
+        if (has_own(attribute)) ++with_colour_;
+        attributes_.push_back(attribute);
+    }
+
+    // Without any colour of its own an attribute is another program's number.
+    void resolve() {
+        if (is_magics_ || with_colour_ > 0) {
+            ColourMaterials materials(soup_.materials);
+            for (const std::uint16_t attribute : attributes_)
+                soup_.face_materials.push_back(materials.index_of(has_own(attribute) ? own(attribute) : whole_));
+        } else if (with_attribute_ > 0) {
+            soup_.report.remarks.push_back("the attributes of " + std::to_string(with_attribute_) +
+                                           " triangles were ignored: they are no colours that Burin knows");
+        }
+    }
+
+private:
+    static constexpr unsigned kFlag = 0x8000;
+
+    [[nodiscard]] bool has_own(std::uint16_t attribute) const { return ((attribute & kFlag) == 0) == is_magics_; }
+    [[nodiscard]] Colour own(std::uint16_t attribute) const {
+        Colour colour{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const unsigned bits = attribute >> (5 * (is_magics_ ? c : 2 - c)) & 31u;
+            colour[c] = static_cast<std::uint8_t>((bits * 255 + 15) / 31);
+        }
+        return colour;
+    }
+
+    MeshSoup& soup_;
+    bool is_magics_ = false;
+    Colour whole_ = kPlainColour;
+    std::vector<std::uint16_t> attributes_;
+    std::uint64_t with_attribute_ = 0, with_colour_ = 0;
+};
+
 Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
         return fail(name, "has " + std::to_string(bytes.size()) + " bytes, too few for an STL file", kTruncatedRemedy);
@@ -66,7 +119,7 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     VertexWeld weld(soup.positions);
     soup.corners.reserve(3 * count);
     soup.corner_counts.assign(count, 3);
-    std::uint64_t with_attribute = 0;
+    StlColours colours(bytes.first(kTitleBytes), soup);
     for (std::uint64_t t = 0; t < count; ++t) {
         const std::byte* triangle = bytes.data() + kHeaderBytes + t * kTriangleBytes;
         float xyz[9];
@@ -79,12 +132,11 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
             }
         }
         for (std::size_t k = 0; k < 9; k += 3) soup.corners.push_back(weld.index_of({xyz[k], xyz[k + 1], xyz[k + 2]}));
-        if (triangle[48] != std::byte{0} || triangle[49] != std::byte{0}) ++with_attribute;
+        std::uint16_t attribute = 0;
+        std::memcpy(&attribute, triangle + kNormalBytes + sizeof xyz, sizeof attribute);
+        colours.see(attribute);
     }
-    if (with_attribute > 0) {
-        soup.report.remarks.push_back("the attributes (colours) of " + std::to_string(with_attribute) +
-                                      " triangles were ignored");
-    }
+    colours.resolve();
     soup.report.vertices_merged = soup.corners.size() - soup.positions.size();
     return soup;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "geometry/mesh/mesh_placing.hpp"
@@ -36,6 +37,36 @@ void materials_from_vertices(MeshSoup& soup) {
         soup.face_materials.push_back(materials.index_of(colour));
         first += count;
     }
+}
+
+// Vertices of one colour beside faces of their own say nothing where that colour is white, as programs write it that
+// have none, or where the faces differ. Else the colours of vertices count, as docs/formats.md has it.
+void choose_colours(MeshSoup& soup) {
+    if (soup.colours.empty() || soup.face_materials.empty() || !soup.corner_colours.empty()) return;
+    const auto colour_of = [&](std::uint32_t material) { return soup.materials[material].colour; };
+    const bool faces_differ = std::ranges::adjacent_find(soup.face_materials, std::ranges::not_equal_to{}, colour_of) !=
+                              soup.face_materials.end();
+    const bool vertices_differ =
+        std::ranges::adjacent_find(soup.colours, std::ranges::not_equal_to{}) != soup.colours.end();
+    const bool is_white = soup.colours.front() == Colour{255, 255, 255};
+    if (!vertices_differ && (faces_differ || is_white)) {
+        if (!is_white)
+            soup.report.remarks.emplace_back("its vertices have one colour, which does not hide those of its faces");
+        soup.colours.clear();
+        return;
+    }
+    if (faces_differ) soup.report.remarks.emplace_back("its vertices have colours, which hide those of its faces");
+    soup.face_materials.clear();
+    soup.materials.clear();
+}
+
+// Colours of faces that the palette cannot hold stay those of their corners.
+void keep_colours_beyond_palette(MeshSoup& soup) {
+    if (soup.materials.size() <= kMaxMaterials || !soup.colours.empty() || !soup.corner_colours.empty()) return;
+    soup.corner_colours.reserve(soup.corners.size());
+    for (std::size_t face = 0; face < soup.corner_counts.size(); ++face)
+        soup.corner_colours.insert(soup.corner_colours.end(), soup.corner_counts[face],
+                                   soup.materials[soup.face_materials[face]].colour);
 }
 
 // Groups colours by their leading bits, as many bits as leave at most kMaxMaterials groups. A group's colour is the
@@ -76,10 +107,39 @@ void reduce_palette(MeshSoup& soup) {
     }
     for (auto& m : soup.face_materials) m = group_of[m];
     soup.report.materials_merged = soup.materials.size() - groups;
-    soup.report.remarks.push_back("its " + std::to_string(soup.materials.size()) + " materials were merged into " +
-                                  std::to_string(groups) + "; a colour changed by up to " + std::to_string(worst) +
-                                  " of 255");
+    soup.report.remarks.push_back("its " + std::to_string(soup.materials.size()) + " materials become " +
+                                  std::to_string(groups) + " in a solid, which has room for " +
+                                  std::to_string(kMaxMaterials) + "; a colour changes by up to " +
+                                  std::to_string(worst) + " of 255");
     soup.materials = std::move(merged);
+}
+
+Result<void> leave_out_faulty(MeshSoup& soup, const std::string& name) {
+    if (soup.faulty.empty()) return {};
+    constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> number(soup.positions.size(), 0);
+    for (const FaultyVertex& faulty : soup.faulty) number[faulty.vertex] = kLeftOut;
+    const auto where = [&](std::uint64_t at) { return soup.has_bytes ? at_byte(name, at) : at_line(name, at); };
+    for (const std::uint32_t corner : soup.corners) {
+        if (number[corner] != kLeftOut) continue;
+        const auto named = std::ranges::find(soup.faulty, corner, &FaultyVertex::vertex);
+        return fail(where(named->place), named->fault, kCoordinateRemedy);
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] == kLeftOut) continue;
+        soup.positions[kept] = soup.positions[v];
+        if (!soup.colours.empty()) soup.colours[kept] = soup.colours[v];
+        number[v] = kept++;
+    }
+    soup.positions.resize(kept);
+    if (!soup.colours.empty()) soup.colours.resize(kept);
+    for (std::uint32_t& corner : soup.corners) corner = number[corner];
+    const FaultyVertex& first = soup.faulty.front();
+    soup.report.remarks.push_back(
+        std::to_string(soup.faulty.size()) + " vertices that no face names were left out, the first in " +
+        (soup.has_bytes ? "byte " : "line ") + std::to_string(first.place) + ": " + first.fault);
+    return {};
 }
 
 // The numbers of the first faces of a kind in the file, from 1.
@@ -190,13 +250,27 @@ const char* coordinate_fault(double number) {
     return nullptr;
 }
 
+void add_vertex(MeshSoup& soup, const Vec3& position, std::uint64_t place) {
+    for (int k = 0; k < 3; ++k) {
+        const char* const fault = coordinate_fault(position[k]);
+        if (fault == nullptr) continue;
+        soup.faulty.push_back({static_cast<std::uint32_t>(soup.positions.size()), place, fault});
+        break;
+    }
+    soup.positions.push_back(position);
+}
+
 Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::optional<LengthUnit> given_unit) {
+    const std::size_t faulty = soup.faulty.size();
+    if (const auto ok = leave_out_faulty(soup, name); !ok) return std::unexpected(ok.error());
+    choose_colours(soup);
     if (soup.face_materials.empty() && !soup.colours.empty()) materials_from_vertices(soup);
+    keep_colours_beyond_palette(soup);
     reduce_palette(soup);
     ImportedMesh result{{}, std::move(soup.report)};
     ImportReport& report = result.report;
     report.faces_in_file = soup.corner_counts.size();
-    report.vertices_in_file = soup.positions.size() + report.vertices_merged;
+    report.vertices_in_file = soup.positions.size() + faulty + report.vertices_merged;
     const FirstFaces first_faces = split_faces(soup, result);
     if (result.mesh.triangles.empty()) {
         return fail(name, "has no triangles", "export it again as a surface of triangles or polygons");

@@ -19,8 +19,12 @@
 
 namespace burin::geometry {
 
-// For surfaces without a colour in the file; equals Material{}.colour.
-inline constexpr Colour kPlainColour{200, 200, 200};
+// A vertex that no mesh can have. Where no face names it, it is left out.
+struct FaultyVertex {
+    std::uint32_t vertex = 0;
+    std::uint64_t place = 0;  // its line, or byte
+    const char* fault = "";
+};
 
 struct MeshSoup {
     std::vector<Vec3> positions;                // numbers of the file, in whichever unit
@@ -32,6 +36,8 @@ struct MeshSoup {
     std::vector<std::uint32_t> face_materials;  // one for each face, index into materials; or empty
     std::vector<Colour> corner_colours;         // of pictures, one for each of the corners; or empty
     std::vector<Material> materials;            // any number
+    std::vector<FaultyVertex> faulty;           // in the order of positions
+    bool has_bytes = false;                     // places are bytes, not lines
     ImportReport report;                        // the reader's part; finished() fills in the counts of faces
 };
 
@@ -55,7 +61,11 @@ private:
 inline constexpr const char* kCoordinateRemedy = "repair the file or export it again";
 inline constexpr const char* kTruncatedRemedy = "the file is cut short or damaged: export or copy it again";
 
-// Splits polygons, reduces the palette, checks that there is a triangle and brings the numbers to metres. Every corner
+// Adds a vertex, which may be a faulty one.
+void add_vertex(MeshSoup& soup, const Vec3& position, std::uint64_t place);
+
+// Leaves out the faulty vertices that no face names, with a remark; one that a face names is an error. Splits polygons,
+// reduces the palette, checks that there is a triangle and brings the numbers to metres. Every corner
 // must be a valid index.
 [[nodiscard]] Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name,
                                             std::optional<LengthUnit> given_unit);
@@ -66,7 +76,8 @@ inline constexpr const char* kTruncatedRemedy = "the file is cut short or damage
 [[nodiscard]] Result<MeshSoup> read_obj(std::string_view text, const std::string& name,
                                         const MaterialFileReader& material_files,
                                         const MaterialFileReader& pictures = {});
-[[nodiscard]] Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name,
+                                        const MaterialFileReader& pictures = {});
 [[nodiscard]] Result<MeshSoup> read_off(std::string_view text, const std::string& name);
 
 [[nodiscard]] inline std::string_view text_of(std::span<const std::byte> bytes) {

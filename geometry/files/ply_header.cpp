@@ -35,15 +35,23 @@ std::optional<PlyType> type_named(std::string_view name) {
 
 PlyRole role_of(std::string_view name, bool is_list) {
     const auto is = [&](std::string_view known) { return equals_ignoring_case(name, known); };
-    if (is_list) return is("vertex_indices") || is("vertex_index") ? PlyRole::corners : PlyRole::other;
+    if (is_list) {
+        if (is("vertex_indices") || is("vertex_index")) return PlyRole::corners;
+        return is("texcoord") ? PlyRole::places : PlyRole::other;
+    }
     if (is("x")) return PlyRole::x;
     if (is("y")) return PlyRole::y;
     if (is("z")) return PlyRole::z;
     if (is("red") || is("diffuse_red") || is("r")) return PlyRole::red;
     if (is("green") || is("diffuse_green") || is("g")) return PlyRole::green;
     if (is("blue") || is("diffuse_blue") || is("b")) return PlyRole::blue;
-    return PlyRole::other;
+    if (is("s") || is("u") || is("texture_u") || is("texture_s")) return PlyRole::s;
+    if (is("t") || is("v") || is("texture_v") || is("texture_t")) return PlyRole::t;
+    return is("texnumber") ? PlyRole::picture : PlyRole::other;
 }
+
+// Tells whether there may be but one such property: without texture coordinates a mesh is a mesh.
+bool must_be_one(PlyRole role) { return role <= PlyRole::blue || role == PlyRole::corners; }
 
 class HeaderReader {
 public:
@@ -69,7 +77,7 @@ public:
             } else if (equals_ignoring_case(keyword, "property")) {
                 done = property();
             } else if (equals_ignoring_case(keyword, "comment") || equals_ignoring_case(keyword, "obj_info")) {
-                if (!header_.stated_unit) header_.stated_unit = unit_in_line(scan_.rest_of_line(), scan_.line());
+                comment(scan_.rest_of_line());
             } else if (!keyword.empty()) {
                 done = wrong(in_quotes(keyword) + " is not a keyword of a PLY header", "repair the header");
             }
@@ -101,6 +109,13 @@ private:
         header_.data_line = scan_.line();
     }
 
+    void comment(std::string_view text) {
+        if (!header_.stated_unit) header_.stated_unit = unit_in_line(text, scan_.line());
+        TextScanner words(text);
+        if (equals_ignoring_case(words.token_in_line(), "texturefile"))
+            header_.pictures.emplace_back(words.rest_of_line());
+    }
+
     Result<void> format() {
         const std::string_view encoding = scan_.token_in_line();
         if (equals_ignoring_case(encoding, "ascii")) {
@@ -123,6 +138,9 @@ private:
         if (!value) return wrong(in_quotes(count) + " is not a count of elements", "repair the header");
         std::string lowered;
         for (const char c : element_name) lowered += lower(c);
+        const bool is_known = std::ranges::find(header_.elements, lowered, &PlyElement::name) != header_.elements.end();
+        if (is_known && (lowered == "vertex" || lowered == "face"))
+            return wrong("element " + in_quotes(element_name) + " is declared twice", "join its rows into one element");
         header_.elements.push_back({std::move(lowered), *value, {}});
         return {};
     }
@@ -145,7 +163,8 @@ private:
         property.role = role_of(scan_.token_in_line(), property.is_list);
         PlyElement& owner = header_.elements.back();
         if (property.role != PlyRole::other && owner.has(property.role)) {
-            return wrong("a property is declared twice", "repair the header");
+            if (must_be_one(property.role)) return wrong("a property is declared twice", "repair the header");
+            property.role = PlyRole::other;
         }
         owner.properties.push_back(property);
         return {};

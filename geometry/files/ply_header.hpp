@@ -19,7 +19,7 @@ namespace burin::geometry {
 
 enum class PlyEncoding : std::uint8_t { ascii, little_endian, big_endian };
 enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
-enum class PlyRole : std::uint8_t { x, y, z, red, green, blue, corners, other };
+enum class PlyRole : std::uint8_t { x, y, z, red, green, blue, s, t, corners, places, picture, other };
 
 // Returns the least bytes that one value takes: its size, or in text a digit and a blank (the last value needs no
 // blank, see PlyValues::bytes_left).
@@ -32,6 +32,9 @@ struct PlyProperty {
     PlyType count_type = PlyType::u8;
 
     [[nodiscard]] bool is_colour() const { return role >= PlyRole::red && role <= PlyRole::blue; }
+    [[nodiscard]] bool is_place() const { return role == PlyRole::s || role == PlyRole::t; }
+    [[nodiscard]] bool is_places() const { return role == PlyRole::places; }
+    [[nodiscard]] bool is_picture() const { return role == PlyRole::picture && !is_list; }
     [[nodiscard]] std::size_t channel() const {
         return static_cast<std::size_t>(role) - static_cast<std::size_t>(PlyRole::red);
     }
@@ -45,6 +48,7 @@ struct PlyElement {
     [[nodiscard]] bool has(PlyRole role) const;
     [[nodiscard]] bool has_position() const { return has(PlyRole::x) && has(PlyRole::y) && has(PlyRole::z); }
     [[nodiscard]] bool has_colour() const { return has(PlyRole::red) && has(PlyRole::green) && has(PlyRole::blue); }
+    [[nodiscard]] bool has_place() const { return has(PlyRole::s) && has(PlyRole::t); }  // in a picture
     [[nodiscard]] bool has_corners() const { return has(PlyRole::corners); }
     [[nodiscard]] std::uint64_t least_row_bytes(PlyEncoding encoding) const;
 };
@@ -53,6 +57,7 @@ struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
     std::optional<StatedUnit> stated_unit;  // by a comment
+    std::vector<std::string> pictures;      // what stands behind "comment TextureFile"
     std::size_t data_begin = 0;             // the byte after the header
     std::uint64_t data_line = 1;            // line number of that byte
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/polygon.hpp"
 #include "geometry/vrml/vrml_geometry.hpp"
 
@@ -99,7 +100,7 @@ public:
             const auto node = fields.resolved(given);
             if (!node || fields.type(*node) != "TextureCoordinate") continue;
             fields.check_names(*node);
-            const std::span<const double> numbers = fields.numbers(*node, "point", 2).values;
+            const std::span<const double> numbers = fields.numbers(*node, "point", 2, kAnyVrmlNumber).values;
             for (std::size_t i = 0; i < numbers.size(); i += 2) places_.emplace_back(numbers[i], numbers[i + 1]);
         }
         const std::span<const double> indices = fields.numbers(request.node, "texCoordIndex").values;
@@ -203,9 +204,15 @@ private:
     std::size_t first_ = 0, face_ = 0, without_area_ = 0;
 };
 
-std::vector<Vec3> points_of(const VrmlGeometryRequest& request) {
-    VrmlFields& fields = request.fields;
+// The points of a face set, with those of their numbers that no mesh can have.
+struct FacePoints {
     std::vector<Vec3> points;
+    VrmlNumbers numbers;
+};
+
+FacePoints points_of(const VrmlGeometryRequest& request) {
+    VrmlFields& fields = request.fields;
+    FacePoints found;
     for (const VrmlPlaced& given : fields.nodes(request.node, "coord")) {
         const auto node = fields.resolved(given);
         if (!node || fields.type(*node) != "Coordinate") {
@@ -213,12 +220,42 @@ std::vector<Vec3> points_of(const VrmlGeometryRequest& request) {
             continue;
         }
         fields.check_names(*node);
-        const std::span<const double> numbers = fields.numbers(*node, "point", 3).values;
-        points.reserve(numbers.size() / 3);
+        found.numbers = fields.numbers(*node, "point", 3, kAnyVrmlNumber);
+        const std::span<const double> numbers = found.numbers.values;
+        found.points.reserve(numbers.size() / 3);
         for (std::size_t i = 0; i < numbers.size(); i += 3)
-            points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+            found.points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     }
-    return points;
+    return found;
+}
+
+// Says which points no mesh can have: a fault where a face names one, else a remark. Puts these to a sound one, so that
+// they count for nothing.
+void check_points(VrmlFields& fields, FacePoints& found, const std::vector<std::int32_t>& corners) {
+    const auto is_sound = [](const Vec3& p) {
+        return glm::all(glm::lessThanEqual(glm::abs(p), Vec3(kMaxCoordinate)));  // false for nan
+    };
+    if (std::ranges::all_of(found.points, is_sound)) return;
+    std::vector<bool> named(found.points.size());
+    for (const std::int32_t corner : corners)
+        if (corner >= 0) named[static_cast<std::size_t>(corner)] = true;
+    const auto sound = std::ranges::find_if(found.points, is_sound);
+    const Vec3 instead = sound == found.points.end() ? Vec3(0.0) : *sound;
+    const std::span<const double> numbers = found.numbers.values;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t point = i / 3;
+        if (std::abs(numbers[i]) <= kMaxCoordinate || point >= found.points.size()) continue;
+        const char* const what =
+            std::isfinite(numbers[i]) ? "'point' has a number above 1e9" : "'point' has what is not a finite number";
+        // Another face set may have remarked on the same point, which it does not name.
+        const VrmlValue& value = found.numbers.value;
+        if (named[point] && !fields.full())
+            fields.fault(fields.file().place_of_value(value.file, *value.field, i), what,
+                         "repair the file or export it again");
+        else if (!named[point])
+            fields.remark_at_value(value, i, what, "no face names the point, and it is left out");
+        found.points[point] = instead;
+    }
 }
 
 // Returns a dimension of a grid, or 0 with a fault.
@@ -235,10 +272,12 @@ double dimension(const VrmlGeometryRequest& request, const char* name) {
 VrmlSurface vrml_face_set(const VrmlGeometryRequest& request) {
     VrmlSurface surface;
     VrmlFields& fields = request.fields;
-    surface.mesh.positions_m = points_of(request);
+    FacePoints points = points_of(request);
     const VrmlNumbers numbers = fields.numbers(request.node, "coordIndex");
     if (!may_make(request, static_cast<double>(numbers.values.size()) - 2.0)) return {};
-    const std::vector<std::int32_t> corners = read_indices(fields, numbers, surface.mesh.positions_m.size(), "points");
+    const std::vector<std::int32_t> corners = read_indices(fields, numbers, points.points.size(), "points");
+    check_points(fields, points, corners);
+    surface.mesh.positions_m = std::move(points.points);
     FaceColours colours(request, corners);
     const FaceTexture texture(request, corners, surface.mesh.positions_m);
     const std::size_t without_area = FaceSplitter(surface, corners, colours, texture).split_all();

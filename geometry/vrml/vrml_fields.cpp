@@ -207,6 +207,23 @@ bool VrmlFields::is_kind(const VrmlValue& value, VrmlKind kind, std::string_view
     return false;
 }
 
+// Points at each that is no finite number, and at the first that is too large.
+bool VrmlFields::are_sound(const VrmlValue& value, std::span<const double> numbers, std::string_view name,
+                           const VrmlNumberLimits& limits) {
+    bool sound = true, has_huge = false;
+    for (std::size_t i = 0; i < numbers.size() && !full(); ++i) {
+        const bool is_huge = std::abs(numbers[i]) > limits.most;
+        if (!is_huge && (limits.not_numbers || !std::isnan(numbers[i]))) continue;
+        sound = false;
+        if (std::isfinite(numbers[i]) && std::exchange(has_huge, true)) continue;
+        fault_at_value(value, i,
+                       in_quotes(name) +
+                           (std::isfinite(numbers[i]) ? " has a number above 1e9" : " has what is not a finite number"),
+                       "repair the file or export it again");
+    }
+    return sound;
+}
+
 std::span<const double> VrmlFields::exactly(const VrmlPlaced& placed, std::string_view name, std::size_t count) {
     const auto value = find(placed, name);
     if (!value) return {};
@@ -219,11 +236,7 @@ std::span<const double> VrmlFields::exactly(const VrmlPlaced& placed, std::strin
         return {};
     }
     const std::span<const double> values = std::span(file_.numbers).subspan(value->field->first, count);
-    const auto huge = std::ranges::find_if(values, [](double v) { return std::abs(v) > kMaxCoordinate; });
-    if (huge == values.end()) return values;
-    fault_at_value(*value, static_cast<std::size_t>(huge - values.begin()), in_quotes(name) + " has a number above 1e9",
-                   "repair the file or export it again");
-    return {};
+    return are_sound(*value, values, name, {}) ? values : std::span<const double>();
 }
 
 double VrmlFields::number(const VrmlPlaced& placed, std::string_view name, double otherwise) {
@@ -267,6 +280,16 @@ Vec3 VrmlFields::vector(const VrmlPlaced& placed, std::string_view name, const V
 }
 
 Vec3 VrmlFields::colour(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise) {
+    if (const auto value = find(placed, name);
+        value && value->field->kind == VrmlKind::numbers && value->field->count == 3) {
+        const auto numbers = std::span(file_.numbers).subspan(value->field->first, 3);
+        const auto none = std::ranges::find_if_not(numbers, [](double v) { return std::isfinite(v); });
+        if (none != numbers.end()) {
+            remark_at_value(*value, static_cast<std::size_t>(none - numbers.begin()),
+                            in_quotes(name) + " has a colour that is no number", "it is left out");
+            return otherwise;
+        }
+    }
     const Vec3 given = vector(placed, name, otherwise), nearer = glm::clamp(given, 0.0, 1.0);
     for (int k = 0; k < 3; ++k) {
         if (given[k] == nearer[k]) continue;
@@ -283,7 +306,8 @@ Quat VrmlFields::rotation(const VrmlPlaced& placed, std::string_view name) {
     return vrml_rotation(Vec3(values[0], values[1], values[2]), values[3]);
 }
 
-VrmlNumbers VrmlFields::numbers(const VrmlPlaced& placed, std::string_view name, std::size_t size) {
+VrmlNumbers VrmlFields::numbers(const VrmlPlaced& placed, std::string_view name, std::size_t size,
+                                const VrmlNumberLimits& limits) {
     const auto value = find(placed, name);
     if (!value) return {};
     if (value->field->kind == VrmlKind::empty) return {{}, *value};
@@ -297,11 +321,8 @@ VrmlNumbers VrmlFields::numbers(const VrmlPlaced& placed, std::string_view name,
         return {{}, *value};
     }
     const auto values = std::span(file_.numbers).subspan(value->field->first, value->field->count);
-    const auto huge = std::ranges::find_if(values, [](double v) { return std::abs(v) > kMaxCoordinate; });
-    if (huge == values.end()) return {values, *value};
-    fault_at_value(*value, static_cast<std::size_t>(huge - values.begin()), in_quotes(name) + " has a number above 1e9",
-                   "repair the file or export it again");
-    return {{}, *value};
+    if (!are_sound(*value, values, name, limits)) return {{}, *value};
+    return {values, *value};
 }
 
 std::vector<VrmlPlaced> VrmlFields::nodes(const VrmlPlaced& placed, std::string_view name) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -39,6 +40,13 @@ struct VrmlValue {
     std::uint32_t file = 0;
     const VrmlInstance* within = nullptr;  // of the nodes in it
 };
+
+// Which numbers of a list are sound. Others are a fault.
+struct VrmlNumberLimits {
+    double most = 1e9;         // in size; kMaxCoordinate
+    bool not_numbers = false;  // nan is sound: the caller judges
+};
+inline constexpr VrmlNumberLimits kAnyVrmlNumber{std::numeric_limits<double>::infinity(), true};
 
 // Numbers of a field, and the place of each.
 struct VrmlNumbers {
@@ -84,12 +92,14 @@ public:
     [[nodiscard]] std::int64_t integer(const VrmlPlaced& placed, std::string_view name, std::int64_t otherwise);
     [[nodiscard]] bool flag(const VrmlPlaced& placed, std::string_view name, bool otherwise);
     [[nodiscard]] Vec3 vector(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise);
-    // Returns red, green and blue; each that is not from 0 to 1 as from_0_to_1() does.
+    // Returns red, green and blue; each that is not from 0 to 1 as from_0_to_1() does. Where one is no number, which is
+    // remarked on, returns `otherwise`.
     [[nodiscard]] Vec3 colour(const VrmlPlaced& placed, std::string_view name, const Vec3& otherwise);
     [[nodiscard]] Quat rotation(const VrmlPlaced& placed, std::string_view name);
 
     // Returns all numbers of a field, which come in groups of `size`. No field: it is missing. Empty where it is wrong.
-    [[nodiscard]] VrmlNumbers numbers(const VrmlPlaced& placed, std::string_view name, std::size_t size = 1);
+    [[nodiscard]] VrmlNumbers numbers(const VrmlPlaced& placed, std::string_view name, std::size_t size = 1,
+                                      const VrmlNumberLimits& limits = {});
     // Returns the nodes of a field.
     [[nodiscard]] std::vector<VrmlPlaced> nodes(const VrmlPlaced& placed, std::string_view name);
 
@@ -107,6 +117,8 @@ private:
                                             std::string_view name) const;
     // Returns the field's numbers where there are exactly `count`.
     [[nodiscard]] std::span<const double> exactly(const VrmlPlaced& placed, std::string_view name, std::size_t count);
+    [[nodiscard]] bool are_sound(const VrmlValue& value, std::span<const double> numbers, std::string_view name,
+                                 const VrmlNumberLimits& limits);
     [[nodiscard]] bool is_kind(const VrmlValue& value, VrmlKind kind, std::string_view name, const char* expected);
 
     const VrmlFile& file_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "geometry/files/named_file.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/vrml/vrml_inlines.hpp"
 #include "geometry/vrml/vrml_parser.hpp"
@@ -250,12 +251,13 @@ VrmlOpener vrml_files_below(const fs::path& root) {
         const fs::path path = folder / name;
         std::error_code code;
         const fs::path top = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
-        const fs::path real = fs::weakly_canonical(top / name, code);
+        const fs::path found = file_named(top, name);
+        const fs::path real = fs::weakly_canonical(found, code);
         if (std::ranges::mismatch(top, real).in1 != top.end()) {
             return fail(path.string(), "is a link that leads out of the world's folder",
                         "copy that file into the world's folder");
         }
-        return read_vrml_bytes(path);
+        return read_vrml_bytes(fs::exists(path, code) ? path : found);
     };
 }
 

@@ -27,6 +27,11 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> lo
     return std::ranges::any_of(lower_case, [&](std::string_view known) { return equals_ignoring_case(word, known); });
 }
 
+// Tells whether the word is what programs print of a number that is none, where a number stands.
+bool is_no_number(const VrmlLexeme& next) {
+    return next.token == VrmlToken::word && is_one_of(next.text, {"nan", "inf", "infinity"});
+}
+
 }  // namespace
 
 VrmlField VrmlParser::field_at(const VrmlLexeme& name) const {
@@ -79,7 +84,7 @@ bool VrmlParser::items(VrmlField& field, std::vector<VrmlLink>& nodes) {
 bool VrmlParser::item(VrmlField& field, std::vector<VrmlLink>& nodes) {
     const VrmlLexeme next = scan_.peek();
     const auto fits = [&](VrmlKind kind) { return field.kind == VrmlKind::nothing || field.kind == kind; };
-    if (next.numeric()) {
+    if (next.numeric() || is_no_number(next)) {
         if (!fits(VrmlKind::numbers)) return false;
         number(field);
     } else if (next.is("TRUE") || next.is("FALSE")) {
@@ -114,11 +119,9 @@ bool VrmlParser::item(VrmlField& field, std::vector<VrmlLink>& nodes) {
 void VrmlParser::number(VrmlField& field) {
     const VrmlLexeme word = scan_.take();
     const auto value = vrml_number(word.text);
-    if (!value || !std::isfinite(*value)) {
-        fault(word.at, in_quotes(word.text) + (value ? " is not a finite number" : " is not a number"),
-              "repair the file or export it again");
-    }
-    append(field, VrmlKind::numbers, file_.numbers, value && std::isfinite(*value) ? *value : 0.0);
+    if (!value) fault(word.at, in_quotes(word.text) + " is not a number", "repair the file or export it again");
+    // Whoever reads the field says what is not finite; nobody reads normals.
+    append(field, VrmlKind::numbers, file_.numbers, value.value_or(0.0));
 }
 
 void VrmlParser::binding(VrmlField& field) {
@@ -139,12 +142,6 @@ void VrmlParser::odd_value(VrmlField& field) {
     if (next.token == VrmlToken::word && is_one_of(next.text, {"true", "false"})) {
         static_cast<void>(scan_.take());
         return fault(next.at, in_quotes(next.text) + " is not a value", "write TRUE or FALSE in capitals");
-    }
-    if (next.token == VrmlToken::word && is_one_of(next.text, {"nan", "inf", "infinity"})) {
-        fault(next.at, in_quotes(next.text) + " is not a finite number", "repair the file or export it again");
-        while (scan_.peek().numeric() || is_one_of(scan_.peek().text, {"nan", "inf", "infinity"}))
-            static_cast<void>(scan_.take());
-        return;
     }
     if (next.token == VrmlToken::word && scan_.peek_second().token != VrmlToken::word &&
         scan_.peek_second().token != VrmlToken::string && scan_.peek_second().token != VrmlToken::open_bracket) {

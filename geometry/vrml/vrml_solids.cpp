@@ -178,16 +178,20 @@ std::vector<VrmlColour> vrml_colours(const VrmlGeometryRequest& request) {
         const auto node = fields.resolved(given);
         if (!node || fields.type(*node) != "Color") continue;
         fields.check_names(*node);
-        const VrmlNumbers numbers = fields.numbers(*node, "color", 3);
+        const VrmlNumbers numbers = fields.numbers(*node, "color", 3, kAnyVrmlNumber);
         for (std::size_t i = 0; i < numbers.values.size(); ++i) {
             if (numbers.values[i] >= 0.0 && numbers.values[i] <= 1.0) continue;
+            const bool is_number = std::isfinite(numbers.values[i]);
             fields.remark_at_value(numbers.value, i,
-                                   formatted("a colour has the number %.9g, not from 0 to 1", numbers.values[i]),
-                                   "it is taken for the nearer of these");
+                                   is_number
+                                       ? formatted("a colour has the number %.9g, not from 0 to 1", numbers.values[i])
+                                       : std::string("a colour is no number"),
+                                   is_number ? "it is taken for the nearer of these" : "it is left out, for grey");
         }
         for (std::size_t i = 0; i < numbers.values.size(); i += 3) {
             const auto rgb = numbers.values.subspan(i, 3);
-            colours.push_back(vrml_colour(rgb[0], rgb[1], rgb[2]));
+            const bool is_colour = std::ranges::all_of(rgb, [](double v) { return std::isfinite(v); });
+            colours.push_back(is_colour ? vrml_colour(rgb[0], rgb[1], rgb[2]) : vrml_colour(0.8, 0.8, 0.8));
         }
     }
     return colours;

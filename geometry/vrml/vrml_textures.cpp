@@ -89,7 +89,7 @@ bool VrmlTextures::read_transform(const VrmlPlaced& node, VrmlTexture& texture) 
     if (fields_.type(node) != "TextureTransform") return false;
     fields_.check_names(node);
     const auto two = [&](std::string_view name, const Vec2& otherwise) {
-        const std::span<const double> numbers = fields_.numbers(node, name, 2).values;
+        const std::span<const double> numbers = fields_.numbers(node, name, 2, kAnyVrmlNumber).values;
         return numbers.size() == 2 ? Vec2(numbers[0], numbers[1]) : otherwise;
     };
     texture.translation = two("translation", Vec2(0.0));
@@ -140,12 +140,14 @@ std::shared_ptr<const Picture> VrmlTextures::pixels_of(const VrmlPlaced& node) {
         return known->second;
     std::shared_ptr<const Picture>& made = of_pixels_[node.node];
     made = nullptr;
-    const VrmlNumbers image = fields_.numbers(node, "image");
+    const VrmlNumbers image = fields_.numbers(node, "image", 1, kAnyVrmlNumber);
     const std::span<const double> numbers = image.values;
     if (numbers.size() < 3 || numbers[0] == 0.0 || numbers[1] == 0.0 || numbers[2] == 0.0) return nullptr;
+    // Four components fill 32 bits, which some programs write with a sign.
+    const auto is_pixel = [](double n) { return n == std::floor(n) && n >= -2147483648.0 && n <= 4294967295.0; };
     const bool is_sound = numbers[0] >= 1.0 && numbers[1] >= 1.0 && numbers[2] >= 1.0 && numbers[2] <= 4.0 &&
                           numbers[0] * numbers[1] + 3.0 == static_cast<double>(numbers.size()) &&
-                          std::ranges::all_of(numbers, [](double n) { return n >= 0.0 && n == std::floor(n); });
+                          std::ranges::all_of(numbers, is_pixel);
     if (!is_sound) {
         fields_.remark_at_value(image.value, 0, "a PixelTexture has no sound image",
                                 std::string("give its width, height, components and pixels; ") + kOwnColour);
@@ -155,7 +157,7 @@ std::shared_ptr<const Picture> VrmlTextures::pixels_of(const VrmlPlaced& node) {
     const auto components = static_cast<unsigned>(numbers[2]);
     std::vector<std::uint8_t> rgb(std::size_t{3} * width * height);
     for (std::size_t i = 0; i < std::size_t{width} * height; ++i) {
-        const auto packed = static_cast<std::uint64_t>(numbers[3 + i]);
+        const auto packed = static_cast<std::uint32_t>(static_cast<std::int64_t>(numbers[3 + i]));
         const std::size_t row = height - 1 - i / width, to = 3 * (row * width + i % width);
         for (unsigned c = 0; c < 3; ++c) {
             // 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha; the first in the highest byte.

@@ -181,7 +181,11 @@ TEST(ObjImport, AColourALittleOutsideItsRangeIsClampedAndTold) {
     EXPECT_EQ(bytes->mesh.colours[1], (Rgb{255, 0, 0}));
     ASSERT_EQ(bytes->report.remarks.size(), 1u);
     EXPECT_EQ(bytes->report.remarks[0], "1 vertex colours lie outside 0 to 255 and were clamped, the first in line 2");
-    EXPECT_EQ(import_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0 nan 0 0\nf 1 2 3").error().where, "test.obj:4");
+    const auto none = import_obj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 inf 0\nf 1 2 3");
+    ASSERT_TRUE(none) << none.error().line();
+    EXPECT_EQ(none->mesh.colours, (std::vector<Rgb>{{255, 0, 0}, {255, 0, 0}, {200, 200, 200}}));
+    EXPECT_EQ(none->report.remarks,
+              std::vector<std::string>{"1 vertex colours are not numbers and were left out, the first in line 3"});
 }
 
 TEST(ObjImport, MaterialColoursFollowTheSameRule) {
@@ -218,12 +222,64 @@ TEST(ObjImport, ALineMayNameSeveralMaterialFilesOrOneWithABlankInItsName) {
 
 TEST(ObjImport, NamesTheLineAndTheRemedyOfWhatIsWrong) {
     const std::string start(kTriangle);  // 3 lines
-    for (const char* bad :
-         {"f 1 2 4", "f 0 1 2", "f 1 2 -4", "f 1 2", "f 1 2 x", "f 1 2 3.5", "f 1 2 99999999999999999999", "v 1 2",
-          "v 1 2 nan", "v 1 -inf 2", "v 1 2 1e400", "v 1 2 2e9", "v 1 2 3 4 5 6 7 8", "v 1,5 2 3", "v 0 0 0 inf 0 0"}) {
+    for (const char* bad : {"f 1 2 4", "f 0 1 2", "f 1 2 -4", "f 1 2", "f 1 2 x", "f 1 2 3.5",
+                            "f 1 2 99999999999999999999", "v 1 2", "v 1 2 3 4 5 6 7 8", "v 1,5 2 3"}) {
         const std::string message = refused_obj(start + bad + "\nf 1 2 3\n");
         EXPECT_EQ(message.substr(0, 11), "test.obj:4:") << bad << " -> " << message;
         EXPECT_NE(message.find("; "), std::string::npos) << message;
+    }
+}
+
+TEST(ObjImport, AVertexThatNoMeshCanHaveIsLeftOutUnlessAFaceNamesIt) {
+    const std::string start(kTriangle);  // 3 lines
+    for (const char* const bad : {"v 1 2 nan", "v 1 -inf 2", "v 1 2 1e400", "v 1 2 2e9"}) {
+        EXPECT_EQ(refused_obj(start + bad + "\nf 1 2 4\n").substr(0, 11), "test.obj:4:") << bad;
+        const auto read = import_obj(start + bad + "\nv 0 0 1\nf 1 2 5\nf -1 2 3\n");
+        ASSERT_TRUE(read) << read.error().line();
+        EXPECT_EQ(read->mesh.positions_m.size(), 4u) << bad;
+        EXPECT_EQ(read->mesh.triangles, (std::vector<Corners3>{{0, 1, 3}, {3, 1, 2}})) << bad;
+        ASSERT_EQ(read->report.remarks.size(), 1u);
+        EXPECT_TRUE(read->report.remarks[0].starts_with(
+            "1 vertices that no face names were left out, the first in line 4: a coordinate "))
+            << bad;
+    }
+    const auto coloured = import_obj("v nan 0 0 9 9 9\nv 0 0 0 255 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 255\nf 2 3 4\n");
+    ASSERT_TRUE(coloured) << coloured.error().line();
+    EXPECT_EQ(coloured->mesh.colours, (std::vector<Rgb>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
+}
+
+TEST(ObjImport, WhiteVerticesHideNoMaterials) {
+    const auto read = [](const std::string& last) {
+        return geometry::import_mesh(
+            bytes_of("mtllib m\nv 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 " + last + "\nusemtl a\nf 1 2 3\n"),
+            MeshFormat::obj, "test.obj",
+            [](std::string_view) -> Result<std::string> { return "newmtl a\nKd 1 0 0\n"; });
+    };
+    EXPECT_TRUE(read("1 1 1")->mesh.colours.empty());
+    EXPECT_EQ(read("1 1 1")->mesh.materials.at(0).colour, (Rgb{255, 0, 0}));
+    EXPECT_EQ(read("0 1 1")->mesh.colours.at(2), (Rgb{0, 255, 255}));
+}
+
+TEST(ObjImport, NamesOfMaterialsAndFilesMayHaveQuotesCommentsAndOtherCapitals) {
+    const TemporaryFolder folder;
+    folder.write("paints.mtl",
+                 "newmtl red # the lid\nKd 1 0 0\nnewmtl Material #25\nKd 0 0 1\nnewmtl Material #26\nKd 0 1 0\n");
+    const std::string rest = std::string(kTriangle) +
+                             "usemtl red\nf 1 2 3\nusemtl Material #25\nf 1 2 3\nusemtl Material #26 # too\nf 1 2 3\n";
+    for (const char* const name : {"paints.mtl", "PAINTS.MTL", "\"paints.mtl\"", "paints.mtl # of the lid",
+                                   ".\\Paints.mtl", "C:\\models\\paints.mtl", "\"paints.mtl\" # both"}) {
+        const auto obj = folder.write("part.obj", "mtllib " + std::string(name) + "\n" + rest);
+        const auto read = geometry::import_mesh(obj);
+        ASSERT_TRUE(read) << read.error().line();
+        EXPECT_TRUE(read->report.remarks.empty()) << name << ": " << read->report.remarks[0];
+        const auto colour = [&](std::size_t t) {
+            return read->mesh.materials.at(read->mesh.triangle_materials.at(t)).colour;
+        };
+        EXPECT_EQ(colour(0), (Rgb{255, 0, 0})) << name;
+        EXPECT_EQ(colour(1), (Rgb{0, 0, 255})) << name;
+        EXPECT_EQ(colour(2), (Rgb{0, 255, 0})) << name;
+        const std::vector<std::filesystem::path> files = files_of_mesh(obj);
+        EXPECT_NE(std::ranges::find(files, folder.path() / "paints.mtl"), files.end()) << name;
     }
 }
 

@@ -131,11 +131,11 @@ TEST(OffImport, AColourOutsideItsRangeIsClampedAndNamedAtItsLine) {
     EXPECT_EQ(points->mesh.materials.at(1).colour, (Rgb{0, 255, 0}));
 }
 
-TEST(OffImport, AColourThatIsNoNumberIsAnErrorAtItsLineAndAnAlphaIsIgnored) {
+TEST(OffImport, AColourThatIsAWordIsAnErrorAtItsLineAndAnAlphaIsIgnored) {
     const auto face = [](const std::string& colour) {
         return refused_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 " + colour + "\n");
     };
-    for (const char* colour : {"red", "0xff0000", "red green blue", "1 0 nan", "1 0 inf 1", "1 0 0 opaque"}) {
+    for (const char* colour : {"red", "0xff0000", "red green blue", "1 0 0 opaque"}) {
         EXPECT_EQ(face(colour).substr(0, 11), "test.off:6:") << colour;
     }
     EXPECT_EQ(face("1 0 0 nan"), "");
@@ -145,6 +145,25 @@ TEST(OffImport, AColourThatIsNoNumberIsAnErrorAtItsLineAndAnAlphaIsIgnored) {
     };
     EXPECT_EQ(vertex("red").substr(0, 11), "test.off:4:");
     EXPECT_EQ(vertex("1 0 0 nan"), "");
+}
+
+TEST(OffImport, LeavesOutAColourThatIsNoNumberAndAVertexThatNoFaceNames) {
+    const auto read = import_off(
+        "COFF\n4 2 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 inf 1 0 0 9\n0 1 0 255 0 0\n3 0 1 3 1 0 nan\n3 0 1 3 9 8 7\n");
+    ASSERT_TRUE(read) << read.error().line();
+    EXPECT_EQ(read->mesh.positions_m.size(), 3u);
+    EXPECT_EQ(read->mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
+    EXPECT_EQ(read->mesh.materials.at(read->mesh.triangle_materials.at(0)).colour, (Rgb{200, 200, 200}));
+    EXPECT_EQ(read->mesh.materials.at(read->mesh.triangle_materials.at(1)).colour, (Rgb{9, 8, 7}));
+    const std::vector<std::string> expected{
+        "1 colours are not numbers and were left out, the first in line 7",
+        "1 vertices that no face names were left out, the first in line 5: a coordinate is infinite"};
+    for (const std::string& remark : expected)
+        EXPECT_NE(std::ranges::find(read->report.remarks, remark), read->report.remarks.end()) << remark;
+    const auto placed = import_off("STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+    ASSERT_TRUE(placed) << placed.error().line();
+    EXPECT_EQ(placed->report.remarks,
+              std::vector<std::string>{"its texture coordinates were ignored: an OFF names no picture"});
 }
 
 TEST(OffImport, SaysThatTextAfterTheLastFaceWasIgnored) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 
 #include "tests/geometry/mesh_samples.hpp"
@@ -77,6 +78,31 @@ TEST(StlImport, RefusesABinaryFileCutAnywhere) {
     for (std::size_t size = 0; size < whole.size(); ++size) {
         EXPECT_FALSE(import_bytes({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)})) << size;
     }
+}
+
+// Materialise Magics and VisCAM write the same colours, with their channels and the highest bit the other way round.
+TEST(StlImport, ReadsTheColoursOfBothProgramsThatWriteSome) {
+    const auto coloured = [](const std::string& title, std::uint16_t first, std::uint16_t second) {
+        std::vector<std::byte> bytes = binary_stl(kTwoTriangles, 2);
+        std::memcpy(bytes.data(), title.data(), title.size());
+        std::memcpy(bytes.data() + 84 + 48, &first, 2);
+        std::memcpy(bytes.data() + 84 + 98, &second, 2);
+        const auto read = import_bytes(bytes);
+        EXPECT_TRUE(read) << read.error().line();
+        std::vector<std::array<std::uint8_t, 3>> colours;
+        for (const std::uint8_t material : read->mesh.triangle_materials)
+            colours.push_back(read->mesh.materials.at(material).colour);
+        return std::pair(colours, read->report.remarks);
+    };
+    using Colours = std::vector<std::array<std::uint8_t, 3>>;
+    const std::string magics("COLOR=\x0a\x14\x1e\xff,MATERIAL=", 20);
+    EXPECT_EQ(coloured(magics, 31 | 16 << 5, 0x8000).first, (Colours{{255, 132, 0}, {10, 20, 30}}));
+    EXPECT_EQ(coloured("viscam", 0x8000 | 31 << 10 | 16 << 5, 0).first, (Colours{{255, 132, 0}, {200, 200, 200}}));
+    EXPECT_TRUE(coloured(magics, 0, 0x8000).second.empty());
+    const auto other = coloured("another", 7, 0);
+    EXPECT_TRUE(other.first.empty());
+    EXPECT_EQ(other.second, std::vector<std::string>{"the attributes of 1 triangles were ignored: they are no colours "
+                                                     "that Burin knows"});
 }
 
 TEST(StlImport, SaysThatBytesAfterTheLastTriangleWereIgnored) {

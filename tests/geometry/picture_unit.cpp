@@ -6,7 +6,8 @@
 
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_import.hpp"
-#include "geometry/files/obj_pictures.hpp"
+#include "geometry/files/mesh_pictures.hpp"
+#include "geometry/files/surface_colours.hpp"
 #include "tests/geometry/picture_samples.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -92,6 +93,130 @@ TEST(Pictures, AnObjWearsThePictureOfItsMaterial) {
     }
     const auto files = files_of_mesh(place / "s.obj");
     EXPECT_NE(std::ranges::find(files, place / "tex.png"), files.end()) << "no output may take its place";
+}
+
+struct MapStatement {
+    const char* statement;
+    const char* colours;  // at the corners of the square: each the first letter of blue, white, green, red
+};
+
+char name_of_colour(const Colour& c) {
+    if (c[0] > 127 && c[1] > 127) return 'w';
+    return c[0] > 127 ? 'r' : c[1] > 127 ? 'g' : 'b';
+}
+
+std::string corners_of_square(const ImportedMesh& mesh) {
+    std::string corners(4, '-');
+    for (std::size_t t = 0; t < mesh.corner_colours.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            corners.at(mesh.mesh.triangles[t][k]) = name_of_colour(mesh.corner_colours[t][k]);
+    return corners;
+}
+
+TEST(Pictures, EveryOptionOfAMapStatementCountsOrIsARemark) {
+    const Workplace place;
+    place.write("tex.png", test::png_file(16, 16, test::four_colours()));
+    for (const auto& [statement, colours] : {MapStatement{"tex.png", "bwgr"},
+                                             {"-s 0.4 0.4 1 -o 0.05 0.05 tex.png", "bbbb"},
+                                             {"-s 0.4 0.4 1 -o 0.55 0.55 0 tex.png", "gggg"},
+                                             {"-o 0 0.5 tex.png", "rgwb"},
+                                             {"-o 3 -4 -clamp on tex.png", "wwww"},
+                                             {"-CLAMP off -o 3 -4 tex.png", "bwgr"},
+                                             {"-mm 0 1 tex.png", "bwgr"},
+                                             {"-mm 1 tex.png", "wwww"},
+                                             {"-blendu on -blendv on -cc off -t 0 0 0 tex.png", "bwgr"},
+                                             {"tex.png -s 0.4 0.4 -o 0.05 0.05", "bbbb"},
+                                             {"\"tex.png\"", "bwgr"},
+                                             {"TEX.Png", "bwgr"},
+                                             {"tex.png # the scan", "bwgr"},
+                                             {"-s 0.4 0.4 1 -o 0.05 0.05 \"C:\\scans\\TEX.PNG\" # the scan", "bbbb"}}) {
+        const ImportedMesh mesh = square(place, std::string("map_Kd ") + statement);
+        EXPECT_EQ(corners_of_square(mesh), colours) << statement;
+        EXPECT_TRUE(mesh.report.remarks.empty()) << statement << ": " << mesh.report.remarks[0];
+    }
+    for (const char* const option : {"-blendu off", "-blendv off", "-boost 2", "-t 1 1 1", "-texres 512", "-bm 0.5",
+                                     "-imfchan l", "-type sphere", "-cc on", "-clamp perhaps", "-of 3 on"}) {
+        const ImportedMesh mesh = square(place, std::string("map_Kd ") + option + " tex.png");
+        EXPECT_EQ(corners_of_square(mesh), "bwgr") << option;
+        const std::string word = std::string(option).substr(0, std::string(option).find(' '));
+        EXPECT_TRUE(remarks_hold(mesh.report,
+                                 "1 options of pictures of material file 'm.mtl' have no effect here, the "
+                                 "first ('" +
+                                     word))
+            << option;
+    }
+}
+
+// A plate of 8 by 8 squares that wears a picture of 4 by 4 pixels, each quarter of one colour: red, green above; blue,
+// yellow below. `further` moves the plate's place in the picture, `vertex` stands behind each vertex.
+std::string plate(const Vec2& further, const std::string& vertex) {
+    std::string text = "# units mm\nmtllib plate.mtl\n";
+    for (int i = 0; i < 81; ++i) {
+        text += "v " + std::to_string(5 * (i % 9)) + " " + std::to_string(5 * (i / 9)) + " 0" + vertex + "\n";
+        text += "vt " + std::to_string(further.x + i % 9 / 8.0) + " " + std::to_string(further.y + i / 9 / 8.0) + "\n";
+    }
+    text += "usemtl m\n";
+    for (int i = 0; i < 72; ++i) {
+        if (i % 9 == 8) continue;
+        text += "f";
+        for (const int at : {i + 1, i + 2, i + 11, i + 10}) text += " " + std::to_string(at) + "/" + std::to_string(at);
+        text += "\n";
+    }
+    return text;
+}
+
+TEST(Pictures, APlateWearsWhatItsStatementSaysEverywhere) {
+    const Workplace place;
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < 16; ++i) {
+        const bool right = i % 4 >= 2, below = i / 4 >= 2;
+        pixels.push_back(right == below ? 255 : 0);  // red and yellow
+        pixels.push_back(right ? 255 : 0);           // green and yellow
+        pixels.push_back(below && !right ? 255 : 0);
+    }
+    place.write("quad.png", test::png_file(4, 4, pixels));
+    const auto name_at = [](const Colour& c) { return c[0] > 127 ? (c[1] > 127 ? 'y' : 'r') : c[1] > 127 ? 'g' : 'b'; };
+    struct Case {
+        const char *statement, *vertex;
+        Vec2 further;
+        const char* quarters;  // at the left and right below, the left and right above
+    };
+    for (const Case& c : {Case{"-s 0.5 0.5 1 quad.png", "", Vec2(0.0), "bbbb"},
+                          {"-clamp on quad.png", "", Vec2(0.0, -5.0), "byby"},
+                          {"quad.png", " 1 1 1", Vec2(0.0), "byrg"},
+                          {"QUAD.PNG", "", Vec2(0.0), "byrg"},
+                          {"quad.png # the scan", "", Vec2(0.0), "byrg"}}) {
+        place.write("plate.mtl", std::string("newmtl m\nKd 1 1 1\nmap_Kd ") + c.statement + "\n");
+        place.write("plate.obj", plate(c.further, c.vertex));
+        const auto read = import_mesh(place / "plate.obj");
+        ASSERT_TRUE(read) << read.error().line();
+        EXPECT_TRUE(read->report.remarks.empty()) << c.statement;
+        ASSERT_EQ(read->corner_colours.size(), 128u) << c.statement;
+        for (std::size_t t = 0; t < 128; ++t) {
+            const std::size_t square = t / 2, quarter = (square % 8 >= 4 ? 1 : 0) + (square / 8 >= 4 ? 2 : 0);
+            EXPECT_EQ(name_at(mean_of(read->corner_colours[t])), c.quarters[quarter]) << c.statement << " " << t;
+        }
+    }
+}
+
+TEST(Pictures, ColoursOfVerticesMultiplyWithThem) {
+    const Workplace place;
+    place.write("tex.png", test::png_file(16, 16, test::four_colours()));
+    place.write("m.mtl", "newmtl m\nKd 0.2 0.2 0.2\nmap_Kd tex.png\n");
+    const auto worn = [&](const std::string& colour) {
+        std::string text = kSquare;
+        for (const char* const at : {"v 0 0 0", "v 1 0 0", "v 1 1 0", "v 0 1 0"})
+            text.replace(text.find(at), 7, at + (" " + colour));
+        place.write("s.obj", text);
+        const auto read = import_mesh(place / "s.obj");
+        EXPECT_TRUE(read && read->mesh.colours.empty());
+        return read ? *read : ImportedMesh{};
+    };
+    EXPECT_EQ(corners_of_square(worn("1 1 1")), "bwgr");
+    EXPECT_EQ(corners_of_square(worn("1 0 0")), "brbr") << "of white red is left, of blue and green nothing";
+    const ImportedMesh half = worn("0.5 0.5 0.5"), whole = worn("1 1 1");
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(half.corner_colours[0][0][c], 0.5 * whole.corner_colours[0][0][c], 1.0);
 }
 
 TEST(Pictures, WhatCannotBeReadIsARemarkAndTheMaterialKeepsItsColour) {

@@ -193,6 +193,31 @@ TEST(OddWorlds, InLatin1HaveTheirNamesInUtf8) {
     EXPECT_FALSE(tells(vrml_world("DEF T\xc3\xbcr " + kBox), "Latin-1"));
 }
 
+// A point that no face names, a colour, a normal: the shape does not depend on these.
+TEST(OddWorlds, LeaveOutWhatIsNoNumberWhereTheShapeDoesNotNeedIt) {
+    const std::string start =
+        "Shape { appearance Appearance { material Material { diffuseColor nan 0 0 } } geometry IndexedFaceSet { "
+        "coordIndex [0 1 2] coord Coordinate { point [0 0 0, 1 0 0, 0 1 0, ";
+    const std::string rest =
+        "] } color Color { color [1 0 0, nan 0 1, 0 0 1, 0 0 1] } normal Normal { vector [nan nan nan] } } }";
+    for (const char* const point : {"nan 0 0", "0 -inf 0", "0 0 2e9", "-nan 1e999 0"}) {
+        const VrmlWorld world = vrml_world(start + point + rest);
+        ASSERT_EQ(world.shapes.size(), 1u) << point;
+        const VrmlSurface& surface = *world.shapes[0].surface;
+        ASSERT_EQ(surface.corner_colours.size(), 1u);
+        EXPECT_EQ(surface.corner_colours[0][0], (VrmlColour{255, 0, 0}));
+        EXPECT_EQ(surface.corner_colours[0][1], (VrmlColour{204, 204, 204}));
+        EXPECT_EQ(examine(surface.mesh).bounds_m.extent(), Vec3(1.0, 1.0, 0.0)) << point;
+        EXPECT_TRUE(tells(world, "no face names the point"));
+        EXPECT_TRUE(tells(world, "a colour is no number"));
+        EXPECT_TRUE(tells(world, "'diffuseColor' has a colour that is no number"));
+    }
+    std::string used = start + "nan 0 0" + rest;
+    const auto faults = vrml_faults(kVrmlHead + used.replace(used.find("[0 1 2]"), 7, "[0 1 3]"));
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_TRUE(faults[0].contains("is not a finite number")) << faults[0];
+}
+
 TEST(OddWorlds, OfAnyBytesAreUtf8OrLatin1) {
     for (const char* const sound : {"", "a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xef\xbf\xbf",
                                     "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})

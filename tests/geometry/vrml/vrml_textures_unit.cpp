@@ -121,8 +121,34 @@ TEST(VrmlTextures, AGreyPictureDarkensAndWhatGlowsIsSeenInThatColour) {
     EXPECT_EQ(glowing.shapes[0].colour, (VrmlColour{255, 51, 0}));
 }
 
+// ISO 14772, 5.5: with four components red stands in the highest byte and alpha in the lowest, which fills all 32 bits.
+TEST(VrmlTextures, APixelTextureMayHaveAnAlphaWrittenWithASignOrWithout) {
+    for (const char* const image : {"1 2 4 0xFF0000FF 0xFF0000FF", "1 2 4 4278190335 -16776961", "1 1 4 0xFF0000FF",
+                                    "1 1 3 0xFF0000", "1 1 4 0xFF000000"}) {
+        const VrmlWorld world =
+            test::vrml_world("DEF Plate Shape { appearance Appearance { texture PixelTexture { image " +
+                             std::string(image) + " } } geometry Box { size 0.1 0.1 0.1 } }");
+        ASSERT_EQ(world.shapes.size(), 1u) << image;
+        EXPECT_TRUE(world.remarks.empty()) << image;
+        for (const auto& corner : world.shapes[0].surface->corner_colours)
+            EXPECT_EQ(corner[0], (VrmlColour{255, 0, 0})) << image;
+        EXPECT_FALSE(world.shapes[0].surface->corner_colours.empty()) << image;
+    }
+}
+
+TEST(VrmlTextures, WhatIsNoNumberInATextureLosesNoShape) {
+    const VrmlWorld world = test::vrml_world(
+        "Shape { " + kWorn +
+        "PixelTexture { image 1 1 3 0xFF0000 } textureTransform TextureTransform { scale nan 1 } } "
+        "geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 1 0 0, 1 1 0] } coordIndex [0 1 2] "
+        "texCoord TextureCoordinate { point [nan 0, 1e30 0, 1 1] } } }");
+    ASSERT_EQ(world.shapes.size(), 1u);
+    EXPECT_EQ(colour_at(world.shapes[0], Vec3(0.0)), (VrmlColour{255, 0, 0}));
+}
+
 TEST(VrmlTextures, AnUnsoundPixelTextureIsARemark) {
-    for (const char* const image : {"2 2 3 0 0 0", "2 2 9 0 0 0 0", "1 1 3 -5", "1e9 1e9 1 0"}) {
+    for (const char* const image :
+         {"2 2 3 0 0 0", "2 2 9 0 0 0 0", "1 1 3 0.5", "1 1 3 nan", "1 1 4 4294967296", "1e9 1e9 1 0"}) {
         const VrmlWorld world =
             test::vrml_world("Shape { " + kWorn + "PixelTexture { image " + image + " } } " + kQuad + " } }");
         EXPECT_EQ(world.remarks.size(), 1u) << image;
