@@ -22,8 +22,7 @@ Result<void> check_reach(const study::Protocol& protocol, const std::string& nam
     }
     std::fflush(stdout);
     if (faults == 0) return {};
-    return fail(name, "has a path that cannot be done",
-                "correct what is listed");
+    return fail(name, "has a path that cannot be done", "correct what is listed");
 }
 
 }  // namespace burin::app

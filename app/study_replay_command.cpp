@@ -85,10 +85,8 @@ private:
         if (visit.file.empty()) return again.is_null() ? "" : visit.recording + ": gives figures, and none were kept";
         const auto kept = study_.recorded(visit);
         if (!kept) return kept.error().line();
-        // Trials of studies before November 2026 have no torque. As text, as which both are kept: what is not a number
-        // is null there.
-        Json same = again;
-        if (same.is_object() && !kept->contains(study::kTorqueFigure)) same.erase(study::kTorqueFigure);
+        // As text, as which both are kept: what is not a number is null there.
+        const Json same = study::as_kept_before(again, *kept);
         if (json_text(*kept) == json_text(same)) return {};
         return visit.file + ": the recording gives other figures than were kept";
     }

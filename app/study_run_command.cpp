@@ -8,6 +8,7 @@
 #include "activities/train/scripted_visit.hpp"
 #include "activities/train/simulated_study.hpp"
 #include "app/study_command.hpp"
+#include "app/study_device.hpp"
 #include "app/study_live.hpp"
 #include "app/study_pictures.hpp"
 #include "app/study_trials.hpp"
@@ -72,6 +73,7 @@ Result<void> take_learners(study::StudyFolder& study, const StudyRunOptions& opt
     simulation.threads = options.threads;
     simulation.records = !options.without_motion;
     simulation.resumes_late = options.resume;
+    simulation.provenance = provenance_of(options);
     simulation.tell = [](const std::string& line) {
         std::printf("%s\n", line.c_str());
         std::fflush(stdout);
@@ -82,9 +84,9 @@ Result<void> take_learners(study::StudyFolder& study, const StudyRunOptions& opt
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     const auto made = make_trials(options.study);
     if (!made) return std::unexpected(made.error());
-    std::printf("%zu stages, %.0f s of simulated time in %.1f s, %.0f times real time; %s/trials.csv: %zu trials\n",
+    std::printf("%zu stages, %.0f s of simulated time in %.1f s, %.0f times real time; %s/trials.csv: %s\n",
                 went->stages, went->simulated_s, took.count(), went->simulated_s / took.count(), options.study.c_str(),
-                made->trials);
+                made->count_text().c_str());
     return {};
 }
 
@@ -132,6 +134,7 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
     std::printf("%s by a script, in simulated time: hand and wand are simulated.\n", options.participant.c_str());
     activities::VisitOptions visit;
     visit.records = !options.without_motion;
+    visit.provenance = provenance_of(options);
     visit.leave = {.resumes_late = options.resume, .any_delay = options.any_delay};
     OperatorLog log;
     visit.on_frame = [&](double time_s, const activities::TrainingShown& shown,
@@ -145,9 +148,9 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
     std::printf("%zu stages ended in %.1f s of simulated time, %llu ticks; %zu of the day are left%s\n", went->stages,
                 went->simulated_s, static_cast<unsigned long long>(went->ticks), went->left,
                 went->interrupted ? "; the script ended within a stage, which is to be done again" : "");
-    // Without a valid trial yet there is no table.
+    // Before the first trial there is no table.
     if (const auto made = make_trials(options.study))
-        std::printf("%s/trials.csv: %zu trials\n", options.study.c_str(), made->trials);
+        std::printf("%s/trials.csv: %s\n", options.study.c_str(), made->count_text().c_str());
     if (went->without_effect == 0) return {};
     std::fflush(stdout);
     return fail(options.live.input, formatted("%zu of its words had no effect, as told above", went->without_effect),

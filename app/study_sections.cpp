@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "study/people/recorded_trial.hpp"
+#include "study/people/trial_rows.hpp"
 #include "study/replay/stage_replay.hpp"
 #include "study/report/study_figures.hpp"
 #include "study/report/trial_figures.hpp"
@@ -25,54 +25,60 @@ bool is_outcome_trial(const study::Protocol& protocol, const StageVisit& visit) 
     return stage != nullptr && stage->outcome && visit.status == StageStatus::ended;
 }
 
-study::ReportSection flow_of(const study::StudyFolder& study) {
-    const std::size_t stages = study::places_of(study.protocol()).size();
-    std::vector<study::FlowOfGroup> groups;
-    for (const study::Group& group : study.protocol().groups) {
-        study::FlowOfGroup flow{.group = group.code};
-        for (const Participant& p : study.participants()) {
-            if (p.group != group.code) continue;
-            ++flow.allocated;
-            std::size_t ended = 0, valid = 0;
-            for (const StageVisit& v : p.visits) {
-                ended += v.status == StageStatus::ended ? 1 : 0;
-                valid += is_outcome_trial(study.protocol(), v) && !v.file.empty() ? 1 : 0;
-            }
-            flow.withdrew += p.withdrawn ? 1 : 0;
-            flow.unfinished += !p.withdrawn && ended < stages ? 1 : 0;
-            flow.without_valid_trial += !p.withdrawn && ended >= stages && valid == 0 ? 1 : 0;
-            flow.analysed += !p.withdrawn && valid > 0 ? 1 : 0;
-        }
-        groups.push_back(std::move(flow));
-    }
-    return {"Flow of participants", {}, {study::flow_figure(groups)}};
+study::ReportSection flow_of(const study::StudyFolder& study, const study::TrialRows& trials) {
+    const std::vector<study::FlowOfGroup> groups = study::flow_of_groups(study, trials);
+    study::ReportSection section{"Flow of participants", {}, {study::flow_figure(groups)}};
+    const std::size_t outcomes = study::outcome_trials(study.protocol());
+    for (const study::FlowOfGroup& g : groups)
+        section.sentences.push_back(formatted(
+            "Group %s: of %zu allocated %zu withdrew, %zu have stages left and no valid outcome trial, %zu went "
+            "through "
+            "all stages without one, and %zu are analysed: %zu with all %zu outcome trials of the protocol, %zu with "
+            "some of them.",
+            g.group.c_str(), g.allocated, g.withdrew, g.unfinished, g.without_valid_trial, g.analysed(), g.with_all,
+            outcomes, g.with_some));
+    return section;
 }
 
-// Why attempts failed, by group: a task that nobody can do shows here first.
+std::string listed(const std::map<std::string, std::size_t>& reasons) {
+    std::string text;
+    const char* between = " (";
+    for (const auto& [why, times] : reasons) {
+        text += between + formatted("%s %zu", why.c_str(), times);
+        between = ", ";
+    }
+    return reasons.empty() ? text : text + ")";
+}
+
+// Why attempts failed, by group: a task that nobody can do shows here first. What the operator or the device
+// interrupted is told beside it, and is no failure of a participant.
 study::ReportSection failures_of(const study::StudyFolder& study) {
     study::ReportSection section{"Failed attempts", {}, {}};
     for (const study::Group& group : study.protocol().groups) {
-        std::size_t trials = 0, failed = 0;
-        std::map<std::string, std::size_t> reasons;
+        std::size_t trials = 0, failed = 0, interrupted = 0, never_begun = 0;
+        std::map<std::string, std::size_t> of_person, of_others;
         for (const Participant& p : study.participants()) {
             if (p.group != group.code || p.withdrawn) continue;
             for (const StageVisit& v : p.visits) {
                 const study::Stage* stage = study.protocol().stage(v.stage);
                 const bool trial = stage != nullptr && stage->kind == study::StageKind::trial;
                 trials += trial && v.status == StageStatus::ended ? 1 : 0;
-                for (const auto& [why, times] : v.failures) {
-                    reasons[why] += times;
-                    failed += times;
-                }
+                const study::FailureCounts counts = study::failure_counts(v);
+                failed += counts.of_person;
+                interrupted += counts.of_operator_or_device;
+                never_begun += counts.never_begun ? 1 : 0;
+                for (const auto& [why, times] : v.failures)
+                    if (const auto failure = study::failure_named(why))
+                        (study::is_of_person(*failure) ? of_person : of_others)[why] += times;
             }
         }
         std::string sentence =
-            formatted("Group %s: %zu failed attempts in %zu trials", group.code.c_str(), failed, trials);
-        const char* between = ": ";
-        for (const auto& [why, times] : reasons) {
-            sentence += between + formatted("%s %zu", why.c_str(), times);
-            between = ", ";
-        }
+            formatted("Group %s: %zu failed attempts in %zu trials", group.code.c_str(), failed, trials) +
+            listed(of_person);
+        if (interrupted > 0)
+            sentence += formatted("; %zu more attempts were interrupted by the operator or the device", interrupted) +
+                        listed(of_others);
+        if (never_begun > 0) sentence += formatted("; in %zu trials nobody came into the start cap", never_begun);
         section.sentences.push_back(sentence + ".");
     }
     return section;
@@ -199,7 +205,8 @@ study::ReportSection trial_section(const study::StudyFolder& study, const std::s
 }  // namespace
 
 std::vector<study::ReportSection> report_sections(const study::StudyFolder& study) {
-    std::vector<study::ReportSection> sections{flow_of(study), failures_of(study), deviations_of(study)};
+    std::vector<study::ReportSection> sections{flow_of(study, study::trial_rows(study)), failures_of(study),
+                                               deviations_of(study)};
     for (const study::Group& group : study.protocol().groups) sections.push_back(trial_section(study, group.code));
     return sections;
 }

@@ -22,8 +22,9 @@ Result<void> study_status(const std::string& folder) {
             if (v.status == study::StageStatus::aborted)
                 aborted += formatted("; aborted: %s (day %zu, stage %zu)", v.stage.c_str(), v.day, v.place);
         }
-        std::printf("%-12s %-10s %-10s %zu of %zu stages%s%s\n", p.id.c_str(), p.stratum.c_str(), p.group.c_str(),
-                    ended, stages, aborted.c_str(),
+        const std::string with = p.held && !p.simulated ? "; with " + text_of(*p.held) : "";
+        std::printf("%-12s %-10s %-10s %zu of %zu stages%s%s%s\n", p.id.c_str(), p.stratum.c_str(), p.group.c_str(),
+                    ended, stages, with.c_str(), aborted.c_str(),
                     p.erased      ? "; erased"
                     : p.withdrawn ? "; withdrawn"
                                   : "");

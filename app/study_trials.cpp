@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "app/output_files.hpp"
 #include "base/text.hpp"
-#include "study/people/recorded_trial.hpp"
+#include "study/people/trial_rows.hpp"
 
 namespace burin::app {
 namespace {
@@ -15,11 +18,6 @@ namespace {
 using study::Participant;
 using study::StageStatus;
 using study::StageVisit;
-
-bool is_outcome(const study::Protocol& protocol, const StageVisit& visit) {
-    const study::Stage* stage = protocol.stage(visit.stage);
-    return stage != nullptr && stage->outcome && visit.status == StageStatus::ended && !visit.file.empty();
-}
 
 bool is_chosen(const TrialChoice& choice, const study::TrialRow& row) {
     return (!choice.day || *choice.day == row.day) && (choice.stage.empty() || choice.stage == row.stage);
@@ -41,31 +39,50 @@ std::string pooled_fact(const study::Protocol& protocol) {
         days.size(), worlds.size());
 }
 
-study::Hand hand_of(const Participant& p, const StageVisit& visit) {
-    if (p.simulated) return study::Hand::learner;
-    if (visit.device == study::StudyFolder::kScriptedDevice) return study::Hand::script;
-    return visit.device.starts_with("simulated") ? study::Hand::simulated_device : study::Hand::device;
+// A damaged file is named; the others are used.
+study::TrialRows rows_of(const study::StudyFolder& study) {
+    study::TrialRows made = study::trial_rows(study);
+    for (const std::string& line : made.damage) std::fprintf(stderr, "without measures: %s\n", line.c_str());
+    return made;
 }
 
-// A damaged file is left out and named; the others are used.
-std::vector<study::TrialRow> rows_of(const study::StudyFolder& study) {
-    std::vector<study::TrialRow> rows;
-    for (const Participant& p : study.participants()) {
-        if (p.withdrawn) continue;
-        std::size_t number = 0;
-        for (const StageVisit& visit : p.visits) {
-            if (!is_outcome(study.protocol(), visit)) continue;
-            ++number;
-            auto record = study.recorded(visit);
-            if (!record) {
-                std::fprintf(stderr, "left out: %s\n", record.error().line().c_str());
-                continue;
-            }
-            rows.push_back(
-                {p.id, p.group, p.stratum, visit.stage, visit.day, number, std::move(*record), hand_of(p, visit)});
+const char* what_of(study::Hand hand) {
+    switch (hand) {
+        case study::Hand::learner: return "";
+        case study::Hand::script: return "by a script, in simulated time: no person took part";
+        case study::Hand::recording: return "as a recording that was played again: no person took part";
+        case study::Hand::simulated_device:
+            return "with a simulated device, led by mouse, keys or a log: no person felt it";
+        case study::Hand::emulated_device:
+            return "with a device's driver and an emulated device behind it: no person felt it";
+        case study::Hand::untold:
+            return "with what an earlier Burin calls a simulated wand, as it did every wand: whether a person felt it "
+                   "is not told";
+        case study::Hand::device: return "with a device that a person held and felt";
+    }
+    return "";
+}
+
+// How participants went through, and with what; one who came with several devices is counted with each.
+std::vector<std::string> hand_facts(const std::vector<Participant>& people) {
+    std::map<study::Hand, std::pair<std::size_t, std::set<std::string>>> held;
+    for (const Participant& p : people) {
+        std::map<study::Hand, std::set<std::string>> of_person;
+        if (p.held && p.visits.empty()) of_person[p.held->hand].insert(p.held->device);
+        for (const StageVisit& v : p.visits) of_person[v.held.hand].insert(v.held.device);
+        for (const auto& [hand, devices] : of_person) {
+            ++held[hand].first;
+            held[hand].second.insert(devices.begin(), devices.end());
         }
     }
-    return rows;
+    std::vector<std::string> facts;
+    for (const auto& [hand, of] : held) {
+        if (hand == study::Hand::learner) continue;
+        const std::vector<std::string_view> names(of.second.begin(), of.second.end());
+        facts.push_back(formatted("%zu of %zu participants went through %s (%s).", of.first, people.size(),
+                                  what_of(hand), joined(names).c_str()));
+    }
+    return facts;
 }
 
 }  // namespace
@@ -73,7 +90,7 @@ std::vector<study::TrialRow> rows_of(const study::StudyFolder& study) {
 std::vector<std::string> study_facts(const study::StudyFolder& study) {
     const std::vector<Participant> people = study.participants();
     const std::size_t stages = study::places_of(study.protocol()).size();
-    std::size_t finished = 0, withdrawn = 0, simulated = 0, aborted = 0, invalid = 0, scripted = 0;
+    std::size_t finished = 0, withdrawn = 0, simulated = 0, aborted = 0, invalid = 0;
     for (const Participant& p : people) {
         std::size_t ended = 0;
         for (const StageVisit& v : p.visits) {
@@ -86,7 +103,6 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
         finished += !p.withdrawn && ended >= stages ? 1 : 0;
         withdrawn += p.withdrawn ? 1 : 0;
         simulated += p.simulated ? 1 : 0;
-        scripted += p.device.starts_with("simulated") ? 1 : 0;
     }
     std::vector<std::string> facts;
     if (simulated > 0)
@@ -94,10 +110,7 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
             "%zu of %zu participants are simulated learners: no person took part, hand and wand are simulated; "
             "effect %g SD.",
             simulated, people.size(), study.simulated_effect().value_or(0.0)));
-    if (scripted > 0)
-        facts.push_back(formatted(
-            "%zu of %zu participants went through with a simulated device, whose hand is a script or a mouse.",
-            scripted, people.size()));
+    std::ranges::move(hand_facts(people), std::back_inserter(facts));
     facts.push_back("Protocol " + study.protocol().name + ", SHA-256 " + study.facts().protocol_digest + ", " +
                     (study.facts().seed_given ? "allocation by seed " + std::to_string(study.facts().seed)
                                               : "allocation drawn by the system's randomness") +
@@ -130,14 +143,19 @@ Result<TrialsMade> make_trials(const std::string& folder) {
     const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
-    const std::vector<study::TrialRow> rows = rows_of(*study);
-    if (rows.empty()) return fail(folder, "has no valid outcome trial yet", "run it first: burin study run");
+    const study::TrialRows made = rows_of(*study);
+    if (made.rows.empty()) return fail(folder, "has no trial yet", "run it first: burin study run");
     const std::string path = (study->path() / "trials.csv").string();
-    if (const auto ok = write_text(path, study::trials_csv(rows)); !ok) return std::unexpected(ok.error());
+    if (const auto ok = write_text(path, study::trials_csv(made.rows)); !ok) return std::unexpected(ok.error());
     std::vector<std::string> groups;
     for (const study::Group& group : study->protocol().groups) groups.push_back(group.code);
-    return TrialsMade{rows.size(), study_facts(*study), std::move(groups), study::simulated_fact(rows),
-                      pooled_fact(study->protocol())};
+    return TrialsMade{made.valid(),      made.rows.size() - made.valid(),  study_facts(*study),
+                      std::move(groups), study::simulated_fact(made.rows), pooled_fact(study->protocol())};
+}
+
+std::string TrialsMade::count_text() const {
+    return formatted("%zu trials", trials) +
+           (without > 0 ? formatted(", and %zu rows without measures (lost, or a baseline)", without) : "");
 }
 
 Result<ChosenTrials> chosen_trials(const std::string& folder, const TrialChoice& choice) {
@@ -151,9 +169,10 @@ Result<ChosenTrials> chosen_trials(const std::string& folder, const TrialChoice&
     if (!choice.stage.empty() && (stage == nullptr || !stage->outcome))
         return fail("--stage " + choice.stage, "is no stage with outcome = true in the protocol",
                     "name one whose trials are analysed");
-    std::vector<study::TrialRow> rows = rows_of(*study);
+    std::vector<study::TrialRow> rows = rows_of(*study).rows;
     std::erase_if(rows, [&](const study::TrialRow& row) { return !is_chosen(choice, row); });
-    if (rows.empty()) return fail(folder, "has no valid trial of that day and stage", "leave --day or --stage out");
+    if (std::ranges::none_of(rows, [](const study::TrialRow& row) { return row.reason.empty(); }))
+        return fail(folder, "has no valid trial of that day and stage", "leave --day or --stage out");
     return ChosenTrials{study::trials_csv(rows), study::simulated_fact(rows)};
 }
 

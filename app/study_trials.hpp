@@ -18,13 +18,16 @@ namespace burin::app {
 void warn_of_journal(const study::StudyFolder& study);
 
 // Writes the folder's trials.csv anew from journal and data. The trials of withdrawn participants are left out. Fails
-// where there is no valid outcome trial yet.
+// where nobody has come to a trial yet.
 struct TrialsMade {
-    std::size_t trials = 0;
+    std::size_t trials = 0;   // valid outcome trials
+    std::size_t without = 0;  // rows without measures: lost, or a baseline
     std::vector<std::string> facts;
     std::vector<std::string> groups;  // in the protocol's order
     std::string simulated;            // a sentence where not all participants are persons with a device
     std::string pooled;  // a sentence where they are of several days or worlds, whose means are taken together
+
+    [[nodiscard]] std::string count_text() const;  // "2 trials, and 1 rows without measures (lost, or a baseline)"
 };
 [[nodiscard]] Result<TrialsMade> make_trials(const std::string& folder);
 

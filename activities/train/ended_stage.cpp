@@ -8,8 +8,7 @@ namespace burin::activities {
 
 EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stage, const study::FeltWorld& world,
                        const study::StageSession& session) {
-    EndedStage ended{session.state(), session.events(), {}, session.ticks(), session.time_s(),
-                     session.forces()};
+    EndedStage ended{session.state(), session.events(), {}, session.ticks(), session.time_s(), session.forces()};
     if (stage.kind == study::StageKind::trial) {
         ended.record = study::trial_record(world.world(), session.state(), session.events(),
                                            study::touch_by_model(protocol, stage, world, session.attempt()));

@@ -128,11 +128,12 @@ Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::st
     const devices::WandDescription wand = study::study_wand(study.protocol());
     auto hand = devices::SimulatedHand::create(at_device(script.hand, wand));
     if (!hand) return std::unexpected(hand.error());
-    if (const auto ok = begin_visit(study, participant, study::StudyFolder::kScriptedDevice, *plan); !ok)
-        return std::unexpected(ok.error());
+    const study::HeldDevice held{study::kScriptedDevice, study::Hand::script};
+    if (const auto ok = begin_visit(study, participant, held, *plan); !ok) return std::unexpected(ok.error());
     TrainingRun run(study.protocol(), *group, *worlds, plan->places);
     StageOnDisk disk(study, participant, *group,
-                     options.records ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none);
+                     options.records ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none, held,
+                     options.provenance);
     auto figures = ScriptedVisit(run, disk, script, options, std::move(*hand), wand).go();
     if (figures) figures->left = wanted - figures->stages;
     return figures;

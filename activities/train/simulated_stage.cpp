@@ -13,7 +13,7 @@ using study::OperatorAct;
 constexpr Nanoseconds kPeriod_ns = 1'000'000;
 // Without anything new in a trial for so long, the operator stops it: nobody who can do it needs as long.
 constexpr double kLongestAttempt_s = 120.0;
-constexpr double kLimpDamping = 0.5;              // of the grip's, in a hand that gives way
+constexpr double kLimpDamping = 0.5;  // of the grip's, in a hand that gives way
 
 // Only the time of a page passes: a tick a second, and one at its end.
 EndedStage page(const StageInputs& in) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -153,16 +154,19 @@ private:
         if (has_motion) {
             const study::StageTouch touch(protocol, *at.stage, *group, *in.world);
             auto facts = study::facts_of_stage(study_.facts().protocol_digest, *group, *at.stage, *in.world, touch);
-            facts.emplace_back("participant", person.id);
+            const study::HeldDevice held{study::kLearnersDevice, study::Hand::learner};
+            std::ranges::move(study::facts_of_hand(person.id, held), std::back_inserter(facts));
+            facts.insert(facts.end(), options_.provenance.begin(), options_.provenance.end());
             auto made =
                 study::StageRecording::create(study_.path() / files->recording, touch, std::move(facts), kBlock_ns);
             if (!made) return std::unexpected(made.error());
             recording = std::move(*made);
         }
-        EndedStage stage = simulate_stage(in, random, [&](const haptics::TickRecord& record, study::OperatorAct act,
-                                                            const study::StageSession& session) {
-            if (recording) recording->take(record, act, session);
-        });
+        EndedStage stage = simulate_stage(
+            in, random,
+            [&](const haptics::TickRecord& record, study::OperatorAct act, const study::StageSession& session) {
+                if (recording) recording->take(record, act, session);
+            });
         if (recording) {
             if (const auto closed = recording->close(); !closed) return std::unexpected(closed.error());
         }

@@ -17,10 +17,12 @@
 namespace burin::activities {
 
 struct SimulationOptions {
-    double effect = 0.0;                                // study::LearnerPopulation
-    unsigned threads = 0;                               // 0: one for each core
-    bool records = true;                                // the motion of stages that the protocol has recorded
-    bool resumes_late = false;                          // as VisitLeave; the journal names the deviation
+    double effect = 0.0;        // study::LearnerPopulation
+    unsigned threads = 0;       // 0: one for each core
+    bool records = true;        // the motion of stages that the protocol has recorded
+    bool resumes_late = false;  // as VisitLeave; the journal names the deviation
+    // Facts for each recording: program, version, compiler, settings.
+    std::vector<std::pair<std::string, std::string>> provenance = {};
     std::function<void(const std::string& line)> tell;  // one person has gone through; null: nobody is told
 };
 

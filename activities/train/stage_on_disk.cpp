@@ -2,6 +2,7 @@
 #include "activities/train/stage_on_disk.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -70,9 +71,9 @@ Result<VisitPlan> plan_visit(const study::StudyFolder& study, const std::string&
     return plan;
 }
 
-Result<void> begin_visit(study::StudyFolder& study, const std::string& participant, const std::string& device,
+Result<void> begin_visit(study::StudyFolder& study, const std::string& participant, const study::HeldDevice& held,
                          const VisitPlan& plan) {
-    if (const auto ok = study.begin_visit(participant, device); !ok) return ok;
+    if (const auto ok = study.begin_visit(participant, held); !ok) return ok;
     for (const std::string& text : plan.deviations)
         if (const auto ok = study.note_deviation(participant, text); !ok) return ok;
     return {};
@@ -89,11 +90,9 @@ Result<void> StageOnDisk::begin(const TrainingRun& run) {
     if (!has_motion) return {};
     auto facts =
         study::facts_of_stage(study_.facts().protocol_digest, group_, *at_.stage, *run.world(), session->touch());
-    facts.emplace_back("participant", participant_);
-    if (motion_ == Motion::session_ticks)
-        facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
-    else
-        facts.emplace_back("hand", "scripted");
+    std::ranges::move(study::facts_of_hand(participant_, held_), std::back_inserter(facts));
+    facts.insert(facts.end(), provenance_.begin(), provenance_.end());
+    if (motion_ == Motion::session_ticks) facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
     auto made = study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
                                               kVisitBlock_ns);
     if (!made) return std::unexpected(made.error());

@@ -29,16 +29,25 @@ struct VisitPlan {
                                            const VisitLeave& leave, std::int64_t now_utc_ns);
 // Writes to the journal that the visit begins, with its deviations from the protocol.
 [[nodiscard]] Result<void> begin_visit(study::StudyFolder& study, const std::string& participant,
-                                       const std::string& device, const VisitPlan& plan);
+                                       const study::HeldDevice& held, const VisitPlan& plan);
+
+// Facts of the program that runs a visit, for its recordings: program, version, compiler, settings.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 class StageOnDisk {
 public:
     // Whether the motion is recorded tick by tick, where the protocol has it recorded, and whose ticks they are.
     enum class Motion { none, ticks, session_ticks };
 
-    // Study and group must outlive it.
-    StageOnDisk(study::StudyFolder& study, std::string participant, const study::Group& group, Motion motion)
-        : study_(study), participant_(std::move(participant)), group_(group), motion_(motion) {}
+    // Study and group must outlive it. provenance: facts of the program and its settings for each recording.
+    StageOnDisk(study::StudyFolder& study, std::string participant, const study::Group& group, Motion motion,
+                study::HeldDevice held, Provenance provenance)
+        : study_(study),
+          participant_(std::move(participant)),
+          group_(group),
+          motion_(motion),
+          held_(std::move(held)),
+          provenance_(std::move(provenance)) {}
 
     // The run has begun a stage.
     [[nodiscard]] Result<void> begin(const TrainingRun& run);
@@ -53,6 +62,8 @@ private:
     std::string participant_;
     const study::Group& group_;
     Motion motion_;
+    study::HeldDevice held_;
+    Provenance provenance_;
     study::StagePlace at_;
     study::StageFiles files_;
     std::unique_ptr<study::StageRecording> recording_;

@@ -22,6 +22,7 @@ struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;  // joined in this order
     double width = 0.0;             // of the line, in pixels; 0: as the plot's others
+    std::string like = {};          // the name of the series whose colour and sign it shares; empty: it has its own
 };
 
 struct Plot {

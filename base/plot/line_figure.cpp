@@ -120,16 +120,38 @@ double width_of(const Plot& plot, const PlotSeries& series) {
     return series.width > 0.0 ? series.width : plot.markers ? 1.8 : 1.0;
 }
 
-// Draws what stands before a name in the legend: the series' marker, or a piece of its line where it has none.
-std::string legend_sign(const std::vector<Plot>& plots, const std::string& name, std::size_t style, double x,
-                        double y) {
+// A name of the legend and how its series are drawn.
+struct NamedStyle {
+    std::string name;
+    std::size_t style = 0;
+};
+
+// Each name once, in the order of the series; one that is like another has its style.
+std::vector<NamedStyle> styles_of(const std::vector<Plot>& plots) {
+    std::vector<NamedStyle> styles;
+    std::size_t next = 0;
     for (const Plot& plot : plots) {
-        const auto series = std::ranges::find(plot.series, name, &PlotSeries::name);
-        if (series == plot.series.end() || plot.markers) continue;
-        return line(x - 20, y, x + 6, y, colour_of(style),
-                    formatted(" stroke-width=\"%g\"%s", width_of(plot, *series), dashes(style)).c_str());
+        for (const PlotSeries& s : plot.series) {
+            if (std::ranges::find(styles, s.name, &NamedStyle::name) != styles.end()) continue;
+            const auto like = std::ranges::find(styles, s.like, &NamedStyle::name);
+            styles.push_back({s.name, s.like.empty() || like == styles.end() ? next++ : like->style});
+        }
     }
-    return marker(style, x, y);
+    return styles;
+}
+
+// Draws what stands before a name in the legend: a piece of the series' line where it has no marker or a width of its
+// own, and its marker.
+std::string legend_sign(const std::vector<Plot>& plots, const NamedStyle& of, double x, double y) {
+    for (const Plot& plot : plots) {
+        const auto series = std::ranges::find(plot.series, of.name, &PlotSeries::name);
+        if (series == plot.series.end() || (plot.markers && !(series->width > 0.0))) continue;
+        return line(x - 20, y, x + 6, y, colour_of(of.style),
+                    formatted(" stroke-width=\"%g\"%s", width_of(plot, *series), plot.markers ? "" : dashes(of.style))
+                        .c_str()) +
+               (plot.markers ? marker(of.style, x - 7, y) : "");
+    }
+    return marker(of.style, x, y);
 }
 
 std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t style, const Frame& f) {
@@ -152,7 +174,7 @@ std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t
            points;
 }
 
-std::string plot_text(const Plot& plot, double left, double top, const std::vector<std::string>& names) {
+std::string plot_text(const Plot& plot, double left, double top, const std::vector<NamedStyle>& names) {
     Frame f;
     f.left = left + kFrameLeft;
     f.top = top + kFrameTop;
@@ -182,21 +204,15 @@ std::string plot_text(const Plot& plot, double left, double top, const std::vect
     text += write(middle, f.top - 12, "text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\"", plot.title);
     text += write(middle, f.top + kFrameHeight + 38, "text-anchor=\"middle\"", plot.x_label);
     text += write_upright(left + 16, half_up, plot.y_label);
-    for (const PlotSeries& s : plot.series) {
-        text += line_through(plot, s, static_cast<std::size_t>(std::ranges::find(names, s.name) - names.begin()), f);
-    }
+    for (const PlotSeries& s : plot.series)
+        text += line_through(plot, s, std::ranges::find(names, s.name, &NamedStyle::name)->style, f);
     return text;
 }
 
 }  // namespace
 
 std::string svg_figure(const std::string& title, const std::vector<Plot>& plots, std::size_t columns) {
-    std::vector<std::string> names;
-    for (const Plot& plot : plots) {
-        for (const PlotSeries& s : plot.series) {
-            if (std::ranges::find(names, s.name) == names.end()) names.push_back(s.name);
-        }
-    }
+    const std::vector<NamedStyle> names = styles_of(plots);
     const std::size_t across = std::max<std::size_t>(1, columns > 0 ? std::min(columns, plots.size()) : plots.size());
     const std::size_t rows = std::max<std::size_t>(1, (plots.size() + across - 1) / across);
     const double width = kCellWidth * static_cast<double>(across);
@@ -211,7 +227,7 @@ std::string svg_figure(const std::string& title, const std::vector<Plot>& plots,
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double x = kFrameLeft + kLegendColumn * static_cast<double>(i % legends);
         const double y = legend_top + kLegendRow * static_cast<double>(i / legends);
-        text += legend_sign(plots, names[i], i, x, y) + write(x + 12, y + 4, "font-size=\"12\"", names[i]);
+        text += legend_sign(plots, names[i], x, y) + write(x + 12, y + 4, "font-size=\"12\"", names[i].name);
     }
     return text + "</svg>\n";
 }

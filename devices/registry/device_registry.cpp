@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "base/text.hpp"
@@ -16,6 +18,7 @@
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
+#include "devices/presence/emulator_socket.hpp"
 #include "devices/spacemouse/spacemouse_device.hpp"
 #include "devices/trackers/tracker.hpp"
 
@@ -165,7 +168,8 @@ constexpr std::array kKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_mouse_arm},
+               .open = open_mouse_arm,
+               .has_force = false},
     HapticKind{.name = kSimulatedWand,
                .usage = "a wand that is driven in three forces and two torques, in a simulated hand; "
                         "simulated-wand:FILE.toml as FILE describes it",
@@ -265,7 +269,8 @@ constexpr std::array kKinds{
                .handle = nullptr,
                .open = open_spacemouse_by,
                .look = look_for_spacemice,
-               .leads_itself = true},
+               .leads_itself = true,
+               .has_force = false},
     HapticKind{.name = kSpaceMouseWand,
                .usage = "a simulated wand whose hand a SpaceMouse leads, likewise; and FILE.toml as FILE describes it",
                .parts = 1,
@@ -277,7 +282,8 @@ constexpr std::array kKinds{
                .open = open_spacemouse_wand_by,
                .look = look_for_spacemouse_wands,
                .file_of = spacemouse_file_of,
-               .leads_itself = true},
+               .leads_itself = true,
+               .has_force = false},
     HapticKind{.name = kRecordedDevice,
                .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
                         "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",
@@ -288,7 +294,8 @@ constexpr std::array kKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_recorded,
-               .look = look_for_recordings},
+               .look = look_for_recordings,
+               .has_force = false},
 };
 
 struct ChosenKind {
@@ -334,6 +341,30 @@ Result<std::string> played_by(std::string_view name, const Recordings* recording
     return fail("haptic device " + std::string(name), "plays a recording that plays itself", "name another recording");
 }
 
+// Whether a driver's device is one of burin devices emulate: by the name of the emulator, or, of a line, by a
+// pseudo-terminal, which no cable ends in.
+bool is_emulated(const ChosenKind& wanted) {
+    if (wanted.kind->look == nullptr || wanted.kind->name == kRecordedDevice) return false;
+    if (wanted.kind->name != kGlove) return wanted.file.starts_with(kEmulatedName);
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(wanted.file, ignored).string().starts_with("/dev/pts/");
+}
+
+DeviceNature nature_of(const ChosenKind& wanted) {
+    const HapticKind& kind = *wanted.kind;
+    const bool emulated = is_emulated(wanted);
+    return {.parts = kind.parts,
+            .is_upright = kind.is_upright,
+            .is_worn = kind.is_worn,
+            .felt_by_person = kind.felt_by_person && !emulated,
+            .is_emulated = emulated,
+            .has_force = kind.has_force,
+            .has_amplifiers = kind.has_amplifiers,
+            .is_played = kind.name == kRecordedDevice,
+            .leads_itself = kind.leads_itself || kind.name == kRecordedDevice,
+            .handle = {}};
+}
+
 }  // namespace
 
 std::span<const HapticKind> haptic_kinds() { return kKinds; }
@@ -344,22 +375,22 @@ Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) 
     return wanted->kind->open(std::move(host), wanted->file);
 }
 
+Result<DeviceNature> nature_of_name(std::string_view name) {
+    const Result<ChosenKind> wanted = chosen(name);
+    if (!wanted) return std::unexpected(wanted.error());
+    return nature_of(*wanted);
+}
+
 Result<DeviceNature> nature_of_device(std::string_view name, const Recordings* recordings) {
     const Result<std::string> of = played_by(name, recordings);
     if (!of) return std::unexpected(of.error());
     const Result<ChosenKind> wanted = chosen(*of);
     if (!wanted) return std::unexpected(wanted.error());
     const HapticKind& kind = *wanted->kind;
-    DeviceNature nature{.parts = kind.parts,
-                        .is_upright = kind.is_upright,
-                        .is_worn = kind.is_worn,
-                        .felt_by_person = kind.felt_by_person,
-                        .has_amplifiers = kind.has_amplifiers,
-                        .leads_itself = kind.leads_itself,
-                        .handle = {}};
-    nature.is_played = name.starts_with(std::string(kRecordedDevice) + ":") || kind.name == kRecordedDevice;
+    DeviceNature nature = nature_of(*wanted);
+    nature.is_played = nature.is_played || name.starts_with(std::string(kRecordedDevice) + ":");
     if (nature.is_played) {
-        nature.felt_by_person = nature.has_amplifiers = false;
+        nature.felt_by_person = nature.is_emulated = nature.has_amplifiers = nature.has_force = false;
         nature.leads_itself = true;
     }
     if (kind.handle == nullptr) return nature;

@@ -37,7 +37,9 @@ struct DeviceNature {
     std::size_t parts = 1;        // that move by themselves
     bool is_upright = false;      // held as a handle or a hand is, not as a pen
     bool is_worn = false;         // on a hand, whose bending fingers are its parts
-    bool felt_by_person = true;   // false: by a simulated hand alone
+    bool felt_by_person = true;   // false: by a simulated hand alone, or by an emulator's
+    bool is_emulated = false;     // its driver is real, and speaks with `burin devices emulate` in place of the device
+    bool has_force = true;        // pushes whatever hand leads it; false: nobody's, as with a mouse
     bool has_amplifiers = false;  // that the program can switch
     bool is_played = false;       // by a recording: it asks nobody, and takes no force
     bool leads_itself = false;    // simulated, and led by neither a script nor the mouse
@@ -60,8 +62,8 @@ struct HapticKind {
     std::vector<DevicePresence> (*look)() = nullptr;
     // Returns the file in what follows the name, where more than a file can; null: all of it is the file.
     std::string (*file_of)(const std::string& text) = nullptr;
-    // Means what it means in DeviceNature.
-    bool leads_itself = false;
+    // Mean what they mean in DeviceNature.
+    bool leads_itself = false, has_force = true;
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 
@@ -69,6 +71,9 @@ struct HapticKind {
 // which there are, and where its description cannot be read. A recorded device is of the nature of the one that was
 // recorded.
 [[nodiscard]] Result<DeviceNature> nature_of_device(std::string_view name, const Recordings* recordings = nullptr);
+// Returns the same of the name alone: no file is read, so that there is no handle, and what a recording plays is not
+// known.
+[[nodiscard]] Result<DeviceNature> nature_of_name(std::string_view name);
 // Returns whether the device of that name has a handle, whatever its description says of it; false where there is no
 // such device.
 [[nodiscard]] bool has_handle(std::string_view name, const Recordings* recordings = nullptr);

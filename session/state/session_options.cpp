@@ -55,7 +55,7 @@ std::optional<Error> no_surface(const SculptOptions& options) {
     if (nature->leads_itself)
         return Error{"leads the hand, and that of " + options.live.device + " leads itself", where,
                      "leave --mouse out, or --device"};
-    if (nature->handle || nature->is_worn || nature->felt_by_person || nature->parts != 1)
+    if (nature->handle || nature->is_worn || nature->felt_by_person || nature->is_emulated || nature->parts != 1)
         return Error{"leads a tool that nobody holds, and the device is " + options.live.device, where,
                      "leave --device out, or --mouse"};
     return std::nullopt;

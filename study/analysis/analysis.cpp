@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/text.hpp"
@@ -134,6 +135,48 @@ void warn_of_sizes(UnitAnalysis& analysis) {
     }
 }
 
+// "trial 2 (transfer)", as the table tells it.
+std::string name_of_place(const Trial& trial) {
+    std::string name = formatted("trial %d", trial.number);
+    if (!trial.stage.empty()) name += " (" + trial.stage + ")";
+    return name;
+}
+
+// Warns of who has only some of the trials that others have: the mean of one is of other tasks or days than another's.
+// Asked of tables that tell the trials' stages alone; elsewhere a number is no place of a protocol.
+void warn_of_places(UnitAnalysis& analysis, const TrialTable& table) {
+    constexpr std::size_t kMostSets = 8;
+    if (std::ranges::all_of(table.trials, [](const Trial& t) { return t.stage.empty(); })) return;
+    std::map<std::string, std::map<int, std::string>> of_person;
+    std::map<std::string, std::string> group_of;
+    for (const Trial& trial : table.trials) {
+        of_person[trial.participant][trial.number] = name_of_place(trial);
+        group_of[trial.participant] = trial.group;
+    }
+    std::map<std::string, std::map<std::string, std::size_t>> sets;  // by what they have, then by group
+    for (const auto& [person, places] : of_person) {
+        std::string names;
+        for (const auto& [number, name] : places) names += (names.empty() ? "" : ", ") + name;
+        ++sets[names][group_of[person]];
+    }
+    if (sets.size() < 2) return;
+    std::string text =
+        "Participants do not have valid trials of the same places of the protocol, so that means of different trials "
+        "stand against each other";
+    std::size_t told = 0;
+    for (const auto& [names, groups] : sets) {
+        if (++told > kMostSets) break;
+        text += (told == 1 ? ": " : "; ") + names + ":";
+        const char* between = " ";
+        for (const auto& [group, count] : groups) {
+            text += between + formatted("%zu of ", count) + group;
+            between = ", ";
+        }
+    }
+    if (sets.size() > kMostSets) text += formatted("; %zu more ways", sets.size() - kMostSets);
+    analysis.warnings.push_back(text + ". Take a stage or a day alone to compare like with like.");
+}
+
 UnitAnalysis of_participants(const TrialTable& table, const std::vector<ParticipantTrials>& participants,
                              std::uint64_t seed) {
     UnitAnalysis analysis = empty_analysis(Unit::participant, table);
@@ -143,6 +186,7 @@ UnitAnalysis of_participants(const TrialTable& table, const std::vector<Particip
               exact_means(samples_of(participants, &ParticipantTrials::deviations)));
     compare_groups(analysis, table, seed);
     warn_of_sizes(analysis);
+    warn_of_places(analysis, table);
     const auto trials = [](const ParticipantTrials& one) { return one.times.size(); };
     const auto [fewest, most] = std::ranges::minmax(participants, {}, trials);
     if (trials(fewest) != trials(most)) {
@@ -197,6 +241,30 @@ std::vector<Agreement> agreement_of(const std::vector<ParticipantTrials>& partic
              .intraclass = exact_intraclass_correlation(exact_trials(participants, &ParticipantTrials::deviations))}};
 }
 
+// How many rows have no measures and why, in the table's order of the reasons, and which groups have nothing else.
+void note_lost(Analysis& analysis) {
+    const std::vector<LostTrial>& lost = analysis.table.lost;
+    if (lost.empty()) return;
+    std::vector<std::pair<std::string, std::size_t>> reasons;
+    std::set<std::string> without;
+    for (const LostTrial& one : lost) {
+        const std::string reason = one.reason.substr(0, one.reason.find(':'));
+        const auto found = std::ranges::find(reasons, reason, [](const auto& r) { return r.first; });
+        if (found == reasons.end())
+            reasons.emplace_back(reason, 1);
+        else
+            ++found->second;
+        if (std::ranges::find(analysis.table.groups, one.group) == analysis.table.groups.end())
+            without.insert(one.group);
+    }
+    std::string text = formatted("%zu rows have no measures and are not analysed", lost.size());
+    for (std::size_t i = 0; i < reasons.size(); ++i)
+        text += (i == 0 ? ": " : ", ") + formatted("%zu ", reasons[i].second) + reasons[i].first;
+    analysis.notes.push_back(text + ".");
+    for (const std::string& group : without)
+        analysis.notes.push_back("Group " + group + " has no valid trial, and is not compared.");
+}
+
 }  // namespace
 
 const char* name_of(Unit unit) { return unit == Unit::participant ? "participant" : "trial"; }
@@ -205,9 +273,10 @@ Analysis analyse(TrialTable table, std::uint64_t seed) {
     Analysis analysis;
     analysis.table = std::move(table);
     analysis.seed = seed;
+    note_lost(analysis);
     const std::vector<ParticipantTrials> participants = by_participant(analysis.table);
     if (participants.empty()) {
-        analysis.notes.emplace_back("The table holds no trial.");
+        analysis.notes.emplace_back("The table holds no valid trial, so that nothing is analysed.");
         return analysis;
     }
     analysis.participants = of_participants(analysis.table, participants, seed);

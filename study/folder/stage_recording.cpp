@@ -98,7 +98,6 @@ std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::strin
         {kWorldFact, world.digest()},
         {kGroupFact, group.code},
         {kStageFact, stage.name},
-        {"device", touch.device().name},
         {"tube", formatted("%.17g N/m, %.17g Ns/m", p.materials[kTubeMaterial].stiffness_N_per_m,
                            p.materials[kTubeMaterial].damping_Ns_per_m)},
         {"funnels", formatted("%.17g N/m, %.17g Ns/m", p.materials[kFunnelMaterial].stiffness_N_per_m,
@@ -107,6 +106,13 @@ std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::strin
         {"led by the device", touch.leads() ? "yes" : "no"}};
     std::ranges::move(facts_of_wand(touch.wand()), std::back_inserter(facts));
     return facts;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of_hand(const std::string& participant, const HeldDevice& held) {
+    return {{"participant", participant},
+            {"device", held.device},
+            {"hand", name_of(held.hand)},
+            {"felt by a person", held.felt_by_person() ? "yes" : "no"}};
 }
 
 }  // namespace burin::study

@@ -16,6 +16,7 @@
 #include "record/record_writer.hpp"
 #include "study/felt/stage_session.hpp"
 #include "study/felt/trial_marks.hpp"
+#include "study/folder/held_device.hpp"
 
 namespace burin::study {
 
@@ -64,5 +65,8 @@ private:
                                                                               const Group& group, const Stage& stage,
                                                                               const FeltWorld& world,
                                                                               const StageTouch& touch);
+// Facts of who went through a stage and with what; `device` and `hand` as the journal and trials.csv have them.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_hand(const std::string& participant,
+                                                                             const HeldDevice& held);
 
 }  // namespace burin::study

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <random>
 #include <span>
 #include <system_error>
@@ -92,7 +93,25 @@ Participant enrolled_by(const Json& entry) {
     p.group = text_in(entry, "group");
     p.position = count_in(entry, "position");
     p.simulated = flag_in(entry, "simulated");
+    if (p.simulated) p.held = HeldDevice{kLearnersDevice, Hand::learner};
     return p;
+}
+
+// Journals of before December 2026 do not number the runs; where the motion was recorded its file is numbered.
+std::size_t run_begun(const Participant& p, const Json& entry, const StageVisit& begun) {
+    if (const std::size_t run = count_in(entry, "run"); run > 0) return run;
+    std::size_t day = 0, place = 0, run = 0;
+    const std::size_t name = begun.recording.rfind('/') + 1;
+    if (std::sscanf(begun.recording.c_str() + name, "day%zu-%zu-run%zu", &day, &place, &run) == 3 && run > 0)
+        return run;
+    return 1 + static_cast<std::size_t>(std::ranges::count_if(
+                   p.visits, [&](const StageVisit& v) { return v.day == begun.day && v.place == begun.place; }));
+}
+
+HeldDevice held_in(const Json& entry) {
+    const std::string device = text_in(entry, "device");
+    const std::optional<Hand> hand = hand_named(text_in(entry, "hand"));
+    return hand ? HeldDevice{device, *hand} : held_by_name(device);
 }
 
 void visit(Participant& p, const Json& entry, const std::string& event) {
@@ -100,7 +119,8 @@ void visit(Participant& p, const Json& entry, const std::string& event) {
     if (event == "stage begun") {
         StageVisit begun{.day = day, .place = place, .stage = text_in(entry, "stage")};
         begun.recording = text_in(entry, "recording");
-        begun.device = p.device;
+        begun.held = p.held.value_or(HeldDevice{});
+        begun.run = run_begun(p, entry, begun);
         begun.begun_utc = text_in(entry, "time");
         begun.clock_s = number_in(entry, "clock_s");
         p.visits.push_back(std::move(begun));
@@ -169,7 +189,7 @@ std::vector<Participant> participants_of(const Journal& journal) {
             found->withdrawn = true;
             found->erased = found->erased || flag_in(entry.value, "erase");
         }
-        if (event == "visit") found->device = text_in(entry.value, "device");
+        if (event == "visit") found->held = held_in(entry.value);
         if (event == "deviation")
             found->deviations.push_back({text_in(entry.value, "time"), text_in(entry.value, "text")});
         if (event == "stage begun" || event == "stage ended") visit(*found, entry.value, event);
@@ -385,8 +405,28 @@ Result<void> StudyFolder::note_deviation(const std::string& id, const std::strin
     return note(Json{{"event", "deviation"}, {"participant", id}, {"text", text}});
 }
 
-Result<void> StudyFolder::begin_visit(const std::string& id, const std::string& device) {
-    return note(Json{{"event", "visit"}, {"participant", id}, {"device", device}});
+Result<void> StudyFolder::begin_visit(const std::string& id, const HeldDevice& held) {
+    return note(Json{{"event", "visit"},
+                     {"participant", id},
+                     {"device", held.device},
+                     {"hand", name_of(held.hand)},
+                     {"felt_by_person", held.felt_by_person()}});
+}
+
+std::string files_begin(const std::string& id, std::size_t day, std::size_t place, std::size_t run) {
+    return "data/" + id + formatted("/day%zu-%02zu-run%zu", day, place, run);
+}
+
+// The number of the run that comes next.
+std::size_t StudyFolder::run_after(const std::string& id, const StagePlace& at) const {
+    std::size_t run = 0;
+    for (const JournalEntry& entry : journal_.entries) {
+        const Json& value = entry.value;
+        if (text_in(value, "participant") != id || text_in(value, "event") != "stage begun") continue;
+        if (count_in(value, "day") == at.day && count_in(value, "place") == at.place)
+            run = std::max(run + 1, count_in(value, "run"));
+    }
+    return run + 1;
 }
 
 Result<StageFiles> StudyFolder::begin_stage(const std::string& id, const StagePlace& at, bool has_motion,
@@ -394,17 +434,17 @@ Result<StageFiles> StudyFolder::begin_stage(const std::string& id, const StagePl
     std::error_code error;
     fs::create_directories(path_ / "data" / id, error);
     if (error) return fail((path_ / "data" / id).string(), "cannot be made: " + error.message());
-    StageFiles files;
-    std::string base;
     // Files that an interrupted run left are kept: the next run's have a number of their own.
-    for (std::size_t run = 1;
-         base.empty() || fs::exists(path_ / (base + ".json"), error) || fs::exists(path_ / (base + ".session"), error);
-         ++run)
-        base = "data/" + id + formatted("/day%zu-%02zu-run%zu", at.day, at.place, run);
-    files.measured = base + ".json";
-    if (has_motion) files.recording = base + ".session";
-    Json entry{
-        {"event", "stage begun"}, {"participant", id}, {"day", at.day}, {"place", at.place}, {"stage", at.stage->name}};
+    StageFiles files{run_after(id, at), {}, {}};
+    std::string begin;
+    for (begin = files_begin(id, at.day, at.place, files.run);
+         fs::exists(path_ / (begin + ".json"), error) || fs::exists(path_ / (begin + ".session"), error);
+         begin = files_begin(id, at.day, at.place, files.run))
+        ++files.run;
+    files.measured = begin + ".json";
+    if (has_motion) files.recording = begin + ".session";
+    Json entry{{"event", "stage begun"}, {"participant", id},       {"day", at.day},
+               {"place", at.place},      {"stage", at.stage->name}, {"run", files.run}};
     if (has_motion) entry["recording"] = files.recording;
     if (clock_s) entry["clock_s"] = *clock_s;
     if (const auto ok = note(std::move(entry)); !ok) return std::unexpected(ok.error());

@@ -24,6 +24,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "study/folder/held_device.hpp"
 #include "study/folder/journal.hpp"
 #include "study/protocol/protocol.hpp"
 
@@ -49,14 +50,18 @@ struct StageVisit {
     std::string file_digest{};  // SHA-256
     // The motion, likewise; named from the stage's beginning on, its digest known at its end.
     std::string recording{}, recording_digest{};
-    std::string device{};                              // of a visit with an operator; empty: a learner's
-    std::string begun_utc{}, ended_utc{};              // as the journal has them
+    HeldDevice held{};                     // what moved the wand
+    std::size_t run = 1;                   // how often the stage was begun, this time included; as its files are named
+    std::string begun_utc{}, ended_utc{};  // as the journal has them
     std::optional<double> clock_s{}, ended_clock_s{};  // of a simulated participant's clock
     std::map<std::string, std::size_t> failures{};     // of a trial's attempts, how many by the reason's name
 };
 
 // The reason of a trial that nobody came to begin.
 inline constexpr const char* kNeverTouched = "start cap never touched";
+
+// Where a stage's files are, within the folder and without their ends: "data/p01/day1-03-run1".
+[[nodiscard]] std::string files_begin(const std::string& id, std::size_t day, std::size_t place, std::size_t run);
 
 // What was done otherwise than the protocol has it, as the journal tells it.
 struct ProtocolDeviation {
@@ -68,7 +73,7 @@ struct Participant {
     std::vector<std::string> codes;
     std::size_t position = 0;  // in the stratum's list, from 1
     bool withdrawn = false, erased = false, simulated = false;
-    std::string device{};  // of the last visit with an operator; empty: none
+    std::optional<HeldDevice> held{};  // of the last visit; none: there was none
     std::vector<StageVisit> visits{};
     std::vector<ProtocolDeviation> deviations{};
     bool has_words = false;  // the journal holds more of it than its code and group
@@ -102,6 +107,7 @@ struct StudyMaking {
 
 // Within the study's folder.
 struct StageFiles {
+    std::size_t run = 1;
     std::string measured;
     std::string recording;  // empty: the motion is not recorded
 };
@@ -144,12 +150,10 @@ public:
     [[nodiscard]] std::optional<double> simulated_effect() const;  // nothing before the first run
     // What an operator wrote about a participant; it must name nobody.
     [[nodiscard]] Result<void> note_of(const std::string& id, const std::string& text);
-    // That the hand is scripted and the device simulated, so that nobody takes it for a person's visit.
-    static constexpr const char* kScriptedDevice = "simulated wand, scripted hand";
     // What is done otherwise than the protocol has it; reports name it.
     [[nodiscard]] Result<void> note_deviation(const std::string& id, const std::string& text);
     // A participant comes for some stages, with this device: before the first of them.
-    [[nodiscard]] Result<void> begin_visit(const std::string& id, const std::string& device);
+    [[nodiscard]] Result<void> begin_visit(const std::string& id, const HeldDevice& held);
     // Names the files of the stage, of which there are none yet. `has_motion`: its motion will be recorded. `clock_s`:
     // of a simulated participant's clock.
     [[nodiscard]] Result<StageFiles> begin_stage(const std::string& id, const StagePlace& at, bool has_motion,
@@ -169,6 +173,7 @@ private:
     StudyFolder() = default;
     [[nodiscard]] Result<void> note(Json value);
     [[nodiscard]] std::vector<std::size_t> places_taken() const;
+    [[nodiscard]] std::size_t run_after(const std::string& id, const StagePlace& at) const;
     [[nodiscard]] Result<std::vector<std::string>> erase(const std::string& id);
     [[nodiscard]] Result<void> erase_words(const std::string& id);
     [[nodiscard]] Result<std::string> sealed_list() const;

@@ -32,7 +32,8 @@ constexpr std::array kColumns{"deviation_mm",
                               "sparc",
                               "ldlj",
                               "effectiveness_index",
-                              "failed_attempts",
+                              kFailedFigure,
+                              kInterruptedFigure,
                               "proxy_deviation_mm",
                               "deviations_differ",
                               "contact_s",
@@ -111,8 +112,11 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
     const bool differ = deviation.differ_mm() > kDeviationsAgree_mm;
     const Distances nearest = distances_to_centreline(middle_m, world.spine_m, tick_seconds(model.times_ns));
     const MotionFigures motion = motion_figures(middle_m, model.times_ns);
-    std::size_t failed = 0;
-    for (const StageEvent& e : events) failed += e.kind == StageEventKind::attempt_failed ? 1 : 0;
+    std::size_t failed = 0, interrupted = 0;
+    for (const StageEvent& e : events) {
+        if (e.kind != StageEventKind::attempt_failed) continue;
+        ++(is_of_person(e.failure) ? failed : interrupted);
+    }
     Json record{{"deviation_mm", top_mm + bottom_mm},
                 {"time_s", trial_time_s(end)},
                 {"deviation_top_mm", top_mm},
@@ -131,10 +135,20 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
                 {"ldlj", motion.log_dimensionless_jerk},
                 {"low_pass_Hz", kMotionCutoff_Hz},
                 {"effectiveness_index", effectiveness_index(top_mm, bottom_mm)},
-                {"failed_attempts", failed}};
+                {kFailedFigure, failed},
+                {kInterruptedFigure, interrupted}};
     // The forces of a proxy that hangs where the hand is not say nothing of the wall.
     if (!differ) add_contact(record, model);
     return record;
+}
+
+Json as_kept_before(Json figures, const Json& kept) {
+    if (!figures.is_object()) return figures;
+    if (!kept.contains(kTorqueFigure)) figures.erase(kTorqueFigure);
+    if (kept.contains(kInterruptedFigure) || !figures.contains(kInterruptedFigure)) return figures;
+    figures[kFailedFigure] = figures[kFailedFigure].get<std::size_t>() + figures[kInterruptedFigure].get<std::size_t>();
+    figures.erase(kInterruptedFigure);
+    return figures;
 }
 
 Json forces_record(const FeltForces& forces) {
@@ -149,19 +163,10 @@ Json forces_record(const FeltForces& forces) {
                 {"ticks", forces.ticks}};
 }
 
-const char* name_of(Hand hand) {
-    switch (hand) {
-        case Hand::learner: return "learner";
-        case Hand::script: return "script";
-        case Hand::simulated_device: return "simulated device";
-        case Hand::device: return "device";
-    }
-    return "unknown";
-}
-
 std::string simulated_fact(std::span<const TrialRow> rows) {
     std::map<std::string, Hand> hands;  // of each participant the least real one
     for (const TrialRow& row : rows) {
+        if (!row.reason.empty()) continue;
         const auto [at, fresh] = hands.emplace(row.participant, row.hand);
         if (!fresh) at->second = std::min(at->second, row.hand);
     }
@@ -175,30 +180,57 @@ std::string simulated_fact(std::span<const TrialRow> rows) {
         fact = formatted(
             "%zu of %zu participants of these trials are simulated, no person (learners: %zu, by a script: %zu).",
             learners + scripts, hands.size(), learners, scripts);
-    if (const std::size_t live = count(Hand::simulated_device); live > 0)
-        fact += formatted("%s%zu of %zu held a simulated device (mouse, keys or a log).", fact.empty() ? "" : " ", live,
-                          hands.size());
+    const auto add = [&](Hand hand, const char* what) {
+        if (const std::size_t held = count(hand); held > 0)
+            fact += formatted("%s%zu of %zu ", fact.empty() ? "" : " ", held, hands.size()) + what;
+    };
+    add(Hand::recording, "are a recording that was played again, no person.");
+    add(Hand::simulated_device, "held a simulated device (mouse, keys or a log).");
+    add(Hand::emulated_device, "held a device's driver with an emulated device behind it, which no person felt.");
+    add(Hand::untold, "held what an earlier Burin calls a simulated wand, be it one or not.");
     return fact;
 }
+
+namespace {
+
+std::string csv_count(const std::optional<std::size_t>& count) { return count ? std::to_string(*count) : ""; }
+
+// As in the table, without what it begins and ends with.
+std::string measures_of(const TrialRow& row) {
+    std::string text;
+    for (const std::string_view column : kColumns) {
+        text += ",";
+        if (column == kFailedFigure) {
+            text += csv_count(row.failed_attempts);
+        } else if (column == kInterruptedFigure) {
+            text += csv_count(row.interrupted_attempts);
+        } else if (row.reason.empty()) {
+            const auto found = row.record.find(column);
+            if (found != row.record.end() && found->is_number()) text += csv_number(found->get<double>());
+        }
+    }
+    return text;
+}
+
+}  // namespace
 
 std::string trials_csv(std::span<const TrialRow> rows) {
     std::string text =
         "# made by burin study of the folder's journal and data; deviation is by distance to the tube's wall, "
         "proxy_deviation to the proxy of the haptic model; path_m, economy, sparc and ldlj are of the middle's motion "
         "after a low-pass of " +
-        formatted("%g Hz\n", kMotionCutoff_Hz);
+        formatted("%g Hz\n", kMotionCutoff_Hz) +
+        "# trial counts the protocol's trials, valid or not; a row with a reason has no measures and is not analysed; "
+        "failed_attempts are the person's, interrupted_attempts the operator's and the device's\n";
     if (const std::string fact = simulated_fact(rows); !fact.empty()) text += "# " + fact + " See the column hand.\n";
     text += "participant,group,trial";
     for (const char* column : kColumns) text += std::string(",") + column;
-    text += ",day,stage,stratum,hand\n";
+    text += ",day,place,run,reason,world,stage,stratum,hand\n";
     for (const TrialRow& row : rows) {
-        text += row.participant + "," + row.group + "," + std::to_string(row.number);
-        for (const char* column : kColumns) {
-            const auto found = row.record.find(column);
-            const bool known = found != row.record.end() && found->is_number();
-            text += known ? "," + csv_number(found->get<double>()) : ",";
-        }
-        text += "," + std::to_string(row.day) + "," + row.stage + "," + row.stratum + "," + name_of(row.hand) + "\n";
+        text += row.participant + "," + row.group + "," + std::to_string(row.number) + measures_of(row);
+        text += formatted(",%zu,%zu,%zu,", row.day, row.place, row.run) + csv_field(row.reason) + "," +
+                csv_field(row.world) + "," + csv_field(row.stage) + "," + csv_field(row.stratum) + "," +
+                name_of(row.hand) + "\n";
     }
     return text;
 }

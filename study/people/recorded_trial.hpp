@@ -3,12 +3,14 @@
 // any thread.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/json.hpp"
 #include "study/felt/stage_session.hpp"
+#include "study/folder/held_device.hpp"
 
 namespace burin::study {
 
@@ -21,26 +23,35 @@ namespace burin::study {
                                 const ModelTouch& model);
 inline constexpr double kDeviationsAgree_mm = 1.0;
 inline constexpr const char* kTorqueFigure = "torque_largest_Nm";
+// Trials of before December 2026 have the first alone, in which both are counted.
+inline constexpr const char* kFailedFigure = "failed_attempts";
+inline constexpr const char* kInterruptedFigure = "interrupted_attempts";
+
+// Returns the figures as the version had them that kept the others: a trial of before November 2026 has no torque, one
+// of before December 2026 counts all attempts that failed as one number.
+[[nodiscard]] Json as_kept_before(Json figures, const Json& kept);
 
 // Of any other stage in which something was felt: contact and force as they were given to the hand.
 [[nodiscard]] Json forces_record(const FeltForces& forces);
 
-// What moved the wand: a simulated learner or a script, which are no persons; mouse, keys or a log, with a simulated
-// device in a live session; or a device.
-enum class Hand { learner, script, simulated_device, device };
-[[nodiscard]] const char* name_of(Hand hand);  // "learner", "script", "simulated device", "device"
-
+// Of one trial of the protocol and one participant, who has come to it. One without measures is a row too: lost, or a
+// baseline, which is not analysed.
 struct TrialRow {
     std::string participant, group, stratum, stage;
-    std::size_t day = 1, number = 1;  // which outcome trial of the participant
+    std::size_t day = 1, number = 1;  // which of the protocol's trials, of all days, whether valid or not
     Json record;                      // by trial_record
     Hand hand = Hand::device;
+    std::string world = {};
+    std::size_t place = 1, run = 1;  // in the day's list of stages, and how often it was begun
+    std::string reason = {};         // why there are no measures: "no attempt left: went back 3"; empty: they are there
+    // Of attempts that failed: by what the person did, and by the operator or the device. Nothing: not told.
+    std::optional<std::size_t> failed_attempts = {}, interrupted_attempts = {};
 };
 // CSV, with lines that say how the numbers came about and whose hands were simulated.
 [[nodiscard]] std::string trials_csv(std::span<const TrialRow> rows);
 
-// A whole sentence that says how many of the rows' participants are no persons, or held a simulated device; empty where
-// all held a device.
+// A whole sentence that says how many of the rows' participants are no persons, or held a device that no person felt;
+// empty where all held one that is felt. Of rows with measures.
 [[nodiscard]] std::string simulated_fact(std::span<const TrialRow> rows);
 
 }  // namespace burin::study

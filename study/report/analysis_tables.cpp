@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/report/analysis_tables.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -74,9 +75,19 @@ Json unit_json(const UnitAnalysis& analysis) {
 // ---- CSV
 
 std::string trials_csv(const TrialTable& table) {
-    const std::string deviation = table.deviation_unit.empty() ? "deviation" : "deviation_" + table.deviation_unit;
-    std::string text = csv_line("participant", "group", "trial", deviation, "time_" + table.time_unit);
-    for (const Trial& t : table.trials) text += csv_line(t.participant, t.group, t.number, t.deviation, t.time);
+    const std::string deviation = table.deviation_unit.empty() ? "deviation" : "deviation_" + table.deviation_unit,
+                      time = "time_" + table.time_unit;
+    const auto has_stage = [](const auto& trial) { return !trial.stage.empty(); };
+    if (table.lost.empty() && std::ranges::none_of(table.trials, has_stage)) {
+        std::string text = csv_line("participant", "group", "trial", deviation, time);
+        for (const Trial& t : table.trials) text += csv_line(t.participant, t.group, t.number, t.deviation, t.time);
+        return text;
+    }
+    std::string text = csv_line("participant", "group", "trial", deviation, time, "stage", "world", "day", "reason");
+    for (const Trial& t : table.trials)
+        text += csv_line(t.participant, t.group, t.number, t.deviation, t.time, t.stage, t.world, t.day, "");
+    for (const LostTrial& t : table.lost)
+        text += csv_line(t.participant, t.group, t.number, "", "", t.stage, t.world, t.day, t.reason);
     return text;
 }
 
@@ -173,6 +184,7 @@ std::string tests_csv(const Analysis& analysis) {
 
 Json analysis_json(const Analysis& analysis) {
     Json json = {{"trials", analysis.table.trials.size()},
+                 {"rows_without_measures", analysis.table.lost.size()},
                  {"groups", analysis.table.groups},
                  {"time_unit", analysis.table.time_unit},
                  {"deviation_unit", analysis.table.deviation_unit},

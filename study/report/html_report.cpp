@@ -127,12 +127,15 @@ std::string effects_section(const Analysis& analysis) {
 }
 
 std::string learning_section(const Analysis& analysis) {
-    const bool several = std::ranges::any_of(analysis.table.trials, [](const Trial& t) { return t.number > 1; });
+    const TrialTable& table = analysis.table;
+    const bool several = std::ranges::any_of(table.trials, [](const Trial& t) { return t.number > 1; });
     if (!several) return "";
     return element("h2", "Learning curves") +
-           figures_of(
-               {learning_figure(analysis.trials, "deviation", analysis.table.deviation_unit, &GroupSummary::deviations),
-                learning_figure(analysis.trials, "time", analysis.table.time_unit, &GroupSummary::times)});
+           element("p",
+                   "A line for each participant within a stage, its world and a day; it is broken where a trial was "
+                   "lost. The thick line is the group's median.") +
+           figures_of({learning_figure(table, "deviation", table.deviation_unit, &Trial::deviation),
+                       learning_figure(table, "time", table.time_unit, &Trial::time)});
 }
 
 std::string agreement_section(const Analysis& analysis) {
@@ -142,16 +145,24 @@ std::string agreement_section(const Analysis& analysis) {
 }
 
 std::string data_section(const TrialTable& table) {
+    const auto has_stage = [](const auto& trial) { return !trial.stage.empty(); };
+    const bool staged = std::ranges::any_of(table.trials, has_stage) || std::ranges::any_of(table.lost, has_stage);
+    const auto begin = [&](const auto& t) {
+        return "<tr>" + cell(t.participant) + cell(t.group) + number_cell(std::to_string(t.number)) +
+               (staged ? cell(t.stage) + cell(t.world) + cell(t.day) : "");
+    };
     std::string rows;
-    for (const Trial& t : table.trials) {
-        rows += "<tr>" + cell(t.participant) + cell(t.group) + number_cell(std::to_string(t.number)) +
-                number_cell(number_text(t.deviation)) + number_cell(number_text(t.time)) + "</tr>\n";
-    }
+    for (const Trial& t : table.trials)
+        rows += begin(t) + number_cell(number_text(t.deviation)) + number_cell(number_text(t.time)) +
+                (table.lost.empty() ? "" : cell("")) + "</tr>\n";
+    for (const LostTrial& t : table.lost)
+        rows += begin(t) + number_cell("") + number_cell("") + cell(t.reason) + "</tr>\n";
     const std::string unit = table.deviation_unit.empty() ? "" : " (" + table.deviation_unit + ")";
     return element("h2", "The data") +
-           "<div class=\"wide\"><table>\n<tr><th>participant</th><th>group</th><th>trial</th><th>deviation" +
-           plot::escaped(unit) + "</th><th>time (" + plot::escaped(table.time_unit) + ")</th></tr>\n" + rows +
-           "</table></div>\n";
+           "<div class=\"wide\"><table>\n<tr><th>participant</th><th>group</th><th>trial</th>" +
+           (staged ? "<th>stage</th><th>world</th><th>day</th>" : "") + "<th>deviation" + plot::escaped(unit) +
+           "</th><th>time (" + plot::escaped(table.time_unit) + ")</th>" +
+           (table.lost.empty() ? "" : "<th>no measures, since</th>") + "</tr>\n" + rows + "</table></div>\n";
 }
 
 }  // namespace

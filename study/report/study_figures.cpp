@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/plot/figures.hpp"
@@ -13,7 +14,7 @@
 namespace burin::study {
 namespace {
 
-constexpr double kBoxWidth = 190.0, kBoxHeight = 46.0, kBoxGap = 24.0, kFlowTop = 44.0;
+constexpr double kBoxWidth = 270.0, kBoxHeight = 46.0, kBoxGap = 24.0, kFlowTop = 44.0;
 constexpr double kRowHeight = 30.0, kNames = 200.0, kAxisWidth = 230.0, kNumbers = 150.0, kIntervalTop = 46.0;
 
 std::string box(double middle, double top, const std::string& first, const std::string& second) {
@@ -70,6 +71,67 @@ std::string interval_row(const IntervalRow& row, double y, const Range& range) {
     return text + plot::write(kNames + kAxisWidth + 12.0, y + 4.0, "", formatted("%.3g", e.value) + interval);
 }
 
+// The trials of one stage and world.
+struct LearningPanel {
+    std::string title, stage, world;
+    std::vector<const Trial*> trials;
+    std::map<std::string, std::set<int>> lost;  // by participant, the numbers
+};
+
+std::vector<LearningPanel> panels_of(const TrialTable& table) {
+    std::vector<LearningPanel> panels;
+    const auto panel_of = [&](const auto& trial) {
+        return std::ranges::find_if(
+            panels, [&](const LearningPanel& p) { return p.stage == trial.stage && p.world == trial.world; });
+    };
+    for (const Trial& trial : table.trials) {
+        if (panel_of(trial) == panels.end())
+            panels.push_back({trial.stage + (trial.world.empty() ? "" : ", world " + trial.world),
+                              trial.stage,
+                              trial.world,
+                              {},
+                              {}});
+        panel_of(trial)->trials.push_back(&trial);
+    }
+    for (const LostTrial& lost : table.lost)
+        if (const auto panel = panel_of(lost); panel != panels.end()) panel->lost[lost.participant].insert(lost.number);
+    return panels;
+}
+
+// A line for each participant of a group; it ends where another day begins or a trial was lost.
+void add_people(plot::Plot& plot, const LearningPanel& panel, const std::string& group, double Trial::* values) {
+    std::map<std::string, std::vector<const Trial*>> people;
+    for (const Trial* trial : panel.trials)
+        if (trial->group == group) people[trial->participant].push_back(trial);
+    for (auto& [person, trials] : people) {
+        std::ranges::stable_sort(trials, {}, &Trial::number);
+        const auto lost = panel.lost.find(person);
+        const auto is_between = [&](const Trial* before, const Trial* after) {
+            if (lost == panel.lost.end()) return false;
+            const auto next = lost->second.upper_bound(before->number);
+            return next != lost->second.end() && *next < after->number;
+        };
+        for (std::size_t i = 0; i < trials.size(); ++i) {
+            if (i == 0 || trials[i]->day != trials[i - 1]->day || is_between(trials[i - 1], trials[i]))
+                plot.series.push_back({group, {}, 0.7, {}});
+            plot.series.back().points.push_back({static_cast<double>(trials[i]->number), trials[i]->*values, ""});
+        }
+    }
+}
+
+// A line for each day.
+void add_median(plot::Plot& plot, const LearningPanel& panel, const std::string& group, double Trial::* values) {
+    std::map<std::string, std::map<int, std::vector<double>>> by_day;
+    for (const Trial* trial : panel.trials)
+        if (trial->group == group) by_day[trial->day][trial->number].push_back(trial->*values);
+    for (const auto& [day, trials] : by_day) {
+        plot::PlotSeries middle{group + ", median", {}, 3.0, group};
+        for (const auto& [number, all] : trials)
+            middle.points.push_back({static_cast<double>(number), middle_of_known(all), ""});
+        plot.series.push_back(std::move(middle));
+    }
+}
+
 }  // namespace
 
 std::string flow_figure(const std::vector<FlowOfGroup>& groups) {
@@ -86,44 +148,40 @@ std::string flow_figure(const std::vector<FlowOfGroup>& groups) {
         text += arrow(0.5 * width, kFlowTop + kBoxHeight, middle, kFlowTop + step);
         text += box(middle, kFlowTop + step, formatted("%s: %zu", g.group.c_str(), g.allocated), "allocated");
         text += arrow(middle, kFlowTop + step + kBoxHeight, middle, kFlowTop + 2.0 * step);
-        text += box(middle, kFlowTop + 2.0 * step, formatted("%zu withdrew", g.withdrew),
-                    formatted("%zu unfinished, %zu no valid trial", g.unfinished, g.without_valid_trial));
+        text += box(middle, kFlowTop + 2.0 * step, formatted("%zu not analysed", g.not_analysed()),
+                    formatted("%zu withdrew, %zu not finished, %zu no valid trial", g.withdrew, g.unfinished,
+                              g.without_valid_trial));
         text += arrow(middle, kFlowTop + 2.0 * step + kBoxHeight, middle, kFlowTop + 3.0 * step);
-        text +=
-            box(middle, kFlowTop + 3.0 * step, formatted("%zu analysed", g.analysed), "with all their valid trials");
+        text += box(middle, kFlowTop + 3.0 * step, formatted("%zu analysed", g.analysed()),
+                    formatted("%zu with all outcome trials, %zu with some", g.with_all, g.with_some));
     }
     return text + "</svg>\n";
 }
 
-std::string learning_figure(const UnitAnalysis& trials, const std::string& measure, const std::string& unit,
-                            std::vector<double> GroupSummary::* values) {
-    plot::Plot plot{measure + " from trial to trial",
-                    "trial",
-                    unit.empty() ? measure : measure + " (" + unit + ")",
-                    {},
-                    true,
-                    true,
-                    true};
-    for (const GroupSummary& group : trials.groups) {
-        std::map<std::string, plot::PlotSeries> lines;
-        std::map<int, std::vector<double>> by_trial;
-        for (std::size_t i = 0; i < group.participants.size(); ++i) {
-            const double value = (group.*values)[i];
-            plot::PlotSeries& line = lines[group.participants[i]];
-            line.name = group.group;
-            line.width = 0.7;
-            line.points.push_back({static_cast<double>(group.trial_numbers[i]), value, ""});
-            by_trial[group.trial_numbers[i]].push_back(value);
+std::string learning_figure(const TrialTable& table, const std::string& measure, const std::string& unit,
+                            double Trial::* values) {
+    std::vector<LearningPanel> panels = panels_of(table);
+    std::vector<plot::Plot> plots;
+    double highest = 1e-9;
+    for (const Trial& trial : table.trials) highest = std::max(highest, trial.*values);
+    for (const LearningPanel& panel : panels) {
+        plot::Plot plot{panel.title.empty() ? measure + " from trial to trial" : panel.title,
+                        "trial of the protocol",
+                        unit.empty() ? measure : measure + " (" + unit + ")",
+                        {},
+                        true,
+                        true,
+                        true};
+        for (const std::string& group : table.groups) {
+            add_people(plot, panel, group, values);
+            add_median(plot, panel, group, values);
         }
-        for (auto& [person, line] : lines) plot.series.push_back(std::move(line));
-        plot::PlotSeries middle{group.group + ", median", {}, 3.0};
-        for (const auto& [trial, all] : by_trial)
-            middle.points.push_back({static_cast<double>(trial), middle_of_known(all), ""});
-        plot.series.push_back(std::move(middle));
+        plot.x_whole = true;
+        plot.y_lowest = 0.0;
+        plot.y_highest = highest;
+        plots.push_back(std::move(plot));
     }
-    plot.y_lowest = 0.0;
-    plot.y_highest = 1e-9;
-    return plot::svg_figure("Learning: " + measure, {plot}, 1);
+    return plot::svg_figure("Learning: " + measure, plots, 2);
 }
 
 std::string interval_figure(const std::string& title, const std::string& axis, const std::vector<IntervalRow>& rows) {

@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "study/analysis/analysis.hpp"
+#include "study/people/trial_rows.hpp"
 
 namespace burin::study {
 
-struct FlowOfGroup {
-    std::string group;
-    std::size_t allocated = 0, withdrew = 0, unfinished = 0, without_valid_trial = 0, analysed = 0;
-};
+// Each participant is in one box of each row: allocated are those that are not analysed and those that are.
 [[nodiscard]] std::string flow_figure(const std::vector<FlowOfGroup>& groups);
 
-// A line for each participant over their outcome trials, and each group's median. `values`: times or deviations.
-[[nodiscard]] std::string learning_figure(const UnitAnalysis& trials, const std::string& measure,
-                                          const std::string& unit, std::vector<double> GroupSummary::* values);
+// A plot for each stage and world, over the protocol's trials by their numbers: a line for each participant, which ends
+// where another day begins or a trial was lost, and each group's median in the group's colour. `values`: times or
+// deviations.
+[[nodiscard]] std::string learning_figure(const TrialTable& table, const std::string& measure, const std::string& unit,
+                                          double Trial::* values);
 
 // A row for each estimate: a dot with its interval.
 struct IntervalRow {

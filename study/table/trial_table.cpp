@@ -14,8 +14,8 @@
 namespace burin::study {
 namespace {
 
-enum class Quantity { participant, group, trial, deviation, time };
-constexpr std::size_t kQuantities = 5;
+enum class Quantity { participant, group, trial, deviation, time, stage, world, day, reason };
+constexpr std::size_t kNeeded = 5, kQuantities = 9;  // the needed ones come first
 
 struct ColumnName {
     const char* name;
@@ -30,10 +30,14 @@ constexpr std::array kColumnNames{ColumnName{"participant", Quantity::participan
                                   ColumnName{"deviation_m", Quantity::deviation, "m"},
                                   ColumnName{"deviation_mm", Quantity::deviation, "mm"},
                                   ColumnName{"time_s", Quantity::time, "s"},
-                                  ColumnName{"time_min", Quantity::time, "min"}};
+                                  ColumnName{"time_min", Quantity::time, "min"},
+                                  ColumnName{"stage", Quantity::stage, ""},
+                                  ColumnName{"world", Quantity::world, ""},
+                                  ColumnName{"day", Quantity::day, ""},
+                                  ColumnName{"reason", Quantity::reason, ""}};
 
-constexpr std::array<const char*, kQuantities> kWays{"participant (or user)", "group", "trial",
-                                                     "deviation, deviation_m or deviation_mm", "time_s or time_min"};
+constexpr std::array<const char*, kNeeded> kWays{"participant (or user)", "group", "trial",
+                                                 "deviation, deviation_m or deviation_mm", "time_s or time_min"};
 constexpr double kLargestNumber = 1e9;  // far from overflow in squares and sums, far above any time or distance
 constexpr int kMostTrials = 1'000'000;
 constexpr std::size_t kMostGroups = 20;  // every two are compared
@@ -99,7 +103,7 @@ private:
         columns_ = split.fields.size();
         for (std::size_t i = 0; i < columns_; ++i) name_column(split.fields[i], i);
         columns_known_ = true;
-        for (std::size_t q = 0; q < kQuantities; ++q) {
+        for (std::size_t q = 0; q < kNeeded; ++q) {
             if (place_[q]) continue;
             columns_known_ = false;
             complain(line_, 1, std::string("has no column ") + kWays[q], remedy_for_columns(line));
@@ -121,6 +125,10 @@ private:
             return;
         }
         std::optional<std::size_t>& place = place_[static_cast<std::size_t>(known->quantity)];
+        if (place && static_cast<std::size_t>(known->quantity) >= kNeeded) {
+            parsed_.table.other_columns.push_back(field.text);
+            return;
+        }
         if (place) {
             complain(line_, field.column, "column " + field.text + " says again what a column before it says",
                      "keep one of them, or give this one another name");
@@ -135,6 +143,7 @@ private:
         ++rows_seen_;
         const CsvLine split = split_csv(line, *separator_);
         if (!quotes_closed(split) || !columns_known_ || !has_all_fields(split)) return;
+        if (is_lost(split)) return read_lost(split);
         const std::size_t faults_before = parsed_.faults.size();
         const Trial trial{.participant = code(split, Quantity::participant),
                           .group = code(split, Quantity::group),
@@ -142,11 +151,38 @@ private:
                           .deviation = number(split, Quantity::deviation, false),
                           .time = number(split, Quantity::time, true),
                           .exact_deviation = decimal_of(field(split, Quantity::deviation).text),
-                          .exact_time = decimal_of(field(split, Quantity::time).text)};
-        check_against_rows_before(split, trial);
+                          .exact_time = decimal_of(field(split, Quantity::time).text),
+                          .stage = text(split, Quantity::stage),
+                          .world = text(split, Quantity::world),
+                          .day = text(split, Quantity::day)};
+        check_against_rows_before(split, {trial.participant, trial.group, trial.number});
         if (parsed_.faults.size() > faults_before) return;
         add_group(split, trial.group);
         parsed_.table.trials.push_back(trial);
+    }
+
+    // Of a column that a table need not have; empty where it has none.
+    [[nodiscard]] std::string text(const CsvLine& split, Quantity quantity) const {
+        return place_[static_cast<std::size_t>(quantity)] ? field(split, quantity).text : std::string();
+    }
+
+    // Whether a row has neither measure and says why.
+    [[nodiscard]] bool is_lost(const CsvLine& split) const {
+        return field(split, Quantity::deviation).text.empty() && field(split, Quantity::time).text.empty() &&
+               !text(split, Quantity::reason).empty();
+    }
+
+    void read_lost(const CsvLine& split) {
+        const std::size_t faults_before = parsed_.faults.size();
+        LostTrial lost{.participant = code(split, Quantity::participant),
+                       .group = code(split, Quantity::group),
+                       .number = trial_number(split),
+                       .stage = text(split, Quantity::stage),
+                       .world = text(split, Quantity::world),
+                       .day = text(split, Quantity::day),
+                       .reason = text(split, Quantity::reason)};
+        check_against_rows_before(split, {lost.participant, lost.group, lost.number});
+        if (parsed_.faults.size() == faults_before) parsed_.table.lost.push_back(std::move(lost));
     }
 
     [[nodiscard]] bool has_all_fields(const CsvLine& split) {
@@ -202,7 +238,8 @@ private:
         if (!value) {
             complain(line_, f.column, what + " '" + f.text + "' is not a finite number",
                      f.text.contains(',') ? "write a decimal point, not a comma"
-                                          : "write a number such as 2.5; leave the row out where there is none");
+                                          : "write a number such as 2.5; where there is none leave the row out, or "
+                                            "leave deviation and time empty and say why in a column reason");
         } else if (*value < 0.0 || (above_0 && *value == 0.0)) {
             complain(line_, f.column, what + " " + f.text + (above_0 ? " is not above 0" : " is below 0"),
                      "correct the number");
@@ -212,7 +249,12 @@ private:
         return value.value_or(0.0);
     }
 
-    void check_against_rows_before(const CsvLine& split, const Trial& trial) {
+    struct WhoseTrial {
+        const std::string &participant, &group;
+        int number = 0;
+    };
+
+    void check_against_rows_before(const CsvLine& split, const WhoseTrial& trial) {
         const auto [group, fresh] = group_of_.emplace(trial.participant, std::pair(trial.group, line_));
         if (!fresh && group->second.first != trial.group) {
             complain(line_, field(split, Quantity::group).column,

@@ -23,11 +23,20 @@ struct Trial {
     double deviation = 0.0;               // at least 0, in the table's unit
     double time = 0.0;                    // above 0, in the table's unit
     Decimal exact_deviation, exact_time;  // the same as they are written
+    std::string stage{}, world{}, day{};  // of a study's trials; empty: the table does not say
+};
+
+// A row without measures that says why: it is shown and not analysed.
+struct LostTrial {
+    std::string participant, group;
+    int number = 0;
+    std::string stage{}, world{}, day{}, reason{};
 };
 
 struct TrialTable {
     std::vector<Trial> trials;               // in the file's order
-    std::vector<std::string> groups;         // each once, in the order in which they appear
+    std::vector<LostTrial> lost;             // likewise
+    std::vector<std::string> groups;         // of trials, each once, in the order in which they appear
     std::string time_unit;                   // "s" or "min"
     std::string deviation_unit;              // "m", "mm", or empty where the column's name states none
     std::vector<std::string> other_columns;  // read by nobody

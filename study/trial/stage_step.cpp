@@ -57,8 +57,7 @@ private:
         s_.phase = StagePhase::waiting;
         s_.both_in_start = s_.been_away = false;
         s_.in_end_properly = {};
-        const bool of_person = failure == Failure::strayed || failure == Failure::wrong_exit ||
-                               failure == Failure::went_back || failure == Failure::laid_down;
+        const bool of_person = is_of_person(failure);
         if (of_person && s_.attempt >= setup_.attempts) return end(StageResult::no_attempt_left, time_s);
         if (of_person) ++s_.attempt;
     }
@@ -234,6 +233,19 @@ const char* name_of(Failure failure) {
         case Failure::repeated: return "repeated";
     }
     return "unknown";
+}
+
+std::optional<Failure> failure_named(std::string_view name) {
+    for (const Failure failure : {Failure::strayed, Failure::wrong_exit, Failure::went_back, Failure::laid_down,
+                                  Failure::amplifiers, Failure::gap, Failure::paused, Failure::repeated}) {
+        if (name == name_of(failure)) return failure;
+    }
+    return std::nullopt;
+}
+
+bool is_of_person(Failure failure) {
+    return failure == Failure::strayed || failure == Failure::wrong_exit || failure == Failure::went_back ||
+           failure == Failure::laid_down;
 }
 
 const char* name_of(StageResult result) {

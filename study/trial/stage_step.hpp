@@ -73,6 +73,9 @@ enum class StagePhase { begin, waiting, armed, running, paused, done };
 // Why an attempt failed or a trial is invalid.
 enum class Failure { none, strayed, wrong_exit, went_back, laid_down, amplifiers, gap, paused, repeated };
 [[nodiscard]] const char* name_of(Failure failure);
+[[nodiscard]] std::optional<Failure> failure_named(std::string_view name);  // none is no failure that has a name
+// Returns whether an attempt failed by what the person did, which uses it up; else by the operator or the device.
+[[nodiscard]] bool is_of_person(Failure failure);
 enum class StageResult { open, time_over, valid_exit, by_operator, no_attempt_left, stopped };
 [[nodiscard]] const char* name_of(StageResult result);
 
