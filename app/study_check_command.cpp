@@ -7,7 +7,9 @@
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "study/felt/stage_touch.hpp"
+#include "study/folder/interruption.hpp"
 #include "study/folder/study_folder.hpp"
+#include "study/folder/unnamed_files.hpp"
 #include "study/trial/stage_step.hpp"
 
 namespace burin::app {
@@ -78,10 +80,21 @@ Result<void> check_folder(const std::string& folder) {
             if (!visit.recording.empty()) look(study->check_recording(visit));
         }
     }
+    for (const study::UnnamedFile& unnamed : study::unnamed_files(*study)) {
+        ++faults;
+        std::fprintf(stderr, "%s\n",
+                     Error{unnamed.what, (study->path() / unnamed.file).string(), unnamed.remedy}.line().c_str());
+    }
+    const std::vector<study::Interruption> interruptions = study::interruptions_of(*study);
+    for (const study::Interruption& one : interruptions) {
+        faults += one.unreadable ? 1 : 0;
+        std::fprintf(stderr, "interrupted: %s\n", one.text().c_str());
+    }
     if (faults > 0)
         return fail(folder, std::to_string(faults) + " faults", "see above; what is not named there can be used");
-    std::printf("%s: protocol as frozen, %zu lines of journal chained, %zu files of data as recorded\n", folder.c_str(),
-                study->journal().entries.size(), files);
+    std::printf(
+        "%s: protocol as frozen, %zu lines of journal chained, %zu files of data as recorded, %zu stages interrupted\n",
+        folder.c_str(), study->journal().entries.size(), files, interruptions.size());
     if (const auto ok = check_reach(study->protocol(), folder); !ok) return ok;
     return place_worlds(study->protocol());
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/output_files.hpp"
+#include "app/study_live.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -90,11 +91,12 @@ Result<ParticipantDevice> participant_device(const std::string& asked, const stu
 }
 
 activities::Provenance provenance_of(const StudyRunOptions& options) {
-    std::string settings = options.simulated            ? formatted("--simulated --effect %g", options.effect)
-                           : options.live.input.empty() ? "--participant"
-                                                        : "--participant --input";
-    if (options.resume) settings += " --resume";
-    if (options.any_delay) settings += " --any-delay";
+    std::string settings = options.simulated            ? formatted("simulated learners, effect %g SD", options.effect)
+                           : options.live.input.empty() ? "a participant in a live session"
+                           : is_session_log(options.live.input) ? "a participant in a live session, by a log"
+                                                                : "a participant by a script";
+    if (options.resume) settings += ", --resume";
+    if (options.any_delay) settings += ", --any-delay";
     return {{"program", "burin"},
             {"version", BURIN_VERSION},
             {"compiler", __VERSION__},

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "activities/train/recorded_visit.hpp"
 #include "activities/train/stage_on_disk.hpp"
@@ -97,13 +98,19 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     if (group->feels_tube && !device->held.felt_by_person())
         begun.deviations.push_back("group " + group->code + " feels the tube, and the visit was with " +
                                    text_of(device->held));
-    if (const auto ok = activities::begin_visit(study, options.participant, device->held, begun); !ok) return ok;
     activities::StageOnDisk disk(
         study, options.participant, *group,
         options.without_motion ? activities::StageOnDisk::Motion::none : activities::StageOnDisk::Motion::session_ticks,
         device->held, provenance_of(options));
+    bool has_begun = false;
     const activities::StageKeeper keeper{
-        [&](const activities::TrainingRun& run) { return disk.begin(run); },
+        [&](const activities::TrainingRun& run) -> Result<void> {
+            // A visit whose device or window did not open, or that began no stage, has not been.
+            if (!std::exchange(has_begun, true))
+                if (const auto ok = activities::begin_visit(study, options.participant, device->held, begun); !ok)
+                    return ok;
+            return disk.begin(run);
+        },
         [&](const activities::TrainingRun::Ticked& ticked) { disk.take(ticked); },
         [&](const std::vector<activities::RunEvent>& events) { return disk.take(events); },
         [&](const activities::EndedStage& ended) { return disk.end(ended); }, [&] { return disk.close(); }};

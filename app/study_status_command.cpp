@@ -5,6 +5,7 @@
 #include "app/study_trials.hpp"
 #include "base/text.hpp"
 #include "study/folder/interruption.hpp"
+#include "study/folder/unnamed_files.hpp"
 
 namespace burin::app {
 
@@ -22,7 +23,7 @@ Result<void> study_status(const std::string& folder) {
             if (v.status == study::StageStatus::aborted)
                 aborted += formatted("; aborted: %s (day %zu, stage %zu)", v.stage.c_str(), v.day, v.place);
         }
-        const std::string with = p.held && !p.simulated ? "; with " + text_of(*p.held) : "";
+        const std::string with = p.held && !p.simulated && !p.visits.empty() ? "; with " + text_of(*p.held) : "";
         std::printf("%-12s %-10s %-10s %zu of %zu stages%s%s%s\n", p.id.c_str(), p.stratum.c_str(), p.group.c_str(),
                     ended, stages, with.c_str(), aborted.c_str(),
                     p.erased      ? "; erased"
@@ -32,12 +33,11 @@ Result<void> study_status(const std::string& folder) {
     for (const study::Participant& p : study->participants())
         for (const study::ProtocolDeviation& d : p.withdrawn ? std::vector<study::ProtocolDeviation>{} : p.deviations)
             std::printf("deviation from the protocol: %s, %s: %s\n", p.id.c_str(), d.utc.c_str(), d.text.c_str());
-    for (const study::Interruption& one : study::interruptions_of(*study)) {
-        std::printf("interrupted: %s, %s (day %zu, stage %zu), known until %s, %llu ticks of its motion are kept; %s\n",
-                    one.participant.c_str(), one.visit.stage.c_str(), one.visit.day, one.visit.place,
-                    study::utc_text(one.known_utc_ns).c_str(), static_cast<unsigned long long>(one.ticks_kept),
-                    one.done_again ? "done again" : "to be done again");
-    }
+    for (const study::Interruption& one : study::interruptions_of(*study))
+        std::printf("interrupted: %s\n", one.text().c_str());
+    const std::size_t unnamed = study::unnamed_files(*study).size();
+    if (unnamed > 0)
+        std::printf("%zu files of data stand in no line of the journal: burin study check names them\n", unnamed);
     std::printf("last digest of the journal: %s\n", study->journal().last_digest.c_str());
     return {};
 }

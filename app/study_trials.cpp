@@ -49,7 +49,7 @@ study::TrialRows rows_of(const study::StudyFolder& study) {
 const char* what_of(study::Hand hand) {
     switch (hand) {
         case study::Hand::learner: return "";
-        case study::Hand::script: return "by a script, in simulated time: no person took part";
+        case study::Hand::script: return "by a script, with a simulated device in simulated time: no person took part";
         case study::Hand::recording: return "as a recording that was played again: no person took part";
         case study::Hand::simulated_device:
             return "with a simulated device, led by mouse, keys or a log: no person felt it";
@@ -68,7 +68,6 @@ std::vector<std::string> hand_facts(const std::vector<Participant>& people) {
     std::map<study::Hand, std::pair<std::size_t, std::set<std::string>>> held;
     for (const Participant& p : people) {
         std::map<study::Hand, std::set<std::string>> of_person;
-        if (p.held && p.visits.empty()) of_person[p.held->hand].insert(p.held->device);
         for (const StageVisit& v : p.visits) of_person[v.held.hand].insert(v.held.device);
         for (const auto& [hand, devices] : of_person) {
             ++held[hand].first;

@@ -39,7 +39,7 @@ struct VisitScript {
 struct VisitOptions {
     bool records = true;  // the motion of stages that the protocol has recorded
     VisitLeave leave;
-    Provenance provenance;
+    Provenance provenance = {};
     std::function<Result<void>(double time_s, const TrainingShown& shown, const TrainingRun& run)> on_frame;
     // A whole line of each stage that has ended, and of each word that had no effect, with its line of the script.
     std::function<void(double time_s, const std::string& line)> tell;

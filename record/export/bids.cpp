@@ -197,6 +197,11 @@ Result<void> write_motion(RecordReader& reader, std::size_t table, const std::ve
     return file->finish();
 }
 
+std::string fact_of(const RecordReader& reader, const char* key) {
+    const auto found = reader.facts().find(key);
+    return found != reader.facts().end() ? found->second : std::string();
+}
+
 Json motion_json(const std::vector<BidsChannel>& channels, const BidsSpan& span, const RecordReader& reader,
                  const HandRecord& table, const BidsLabels& labels, std::uint64_t rows) {
     const double rate = span.rate_Hz(), whole = std::round(rate);
@@ -206,9 +211,9 @@ Json motion_json(const std::vector<BidsChannel>& channels, const BidsSpan& span,
     json["SamplingFrequencyEffective"] =
         span.duration_s() > 0.0 && rows > 1 ? static_cast<double>(rows - 1) / span.duration_s() : rate;
     json["TrackingSystemName"] = table.name;
-    json["ManufacturersModelName"] = table.name;
-    const auto version = reader.facts().find("version");
-    json["SoftwareVersions"] = "Burin " + (version != reader.facts().end() ? version->second : std::string("n/a"));
+    const std::string device = fact_of(reader, "device"), version = fact_of(reader, "version");
+    json["ManufacturersModelName"] = device.empty() ? table.name : device;
+    if (!version.empty()) json["SoftwareVersions"] = "Burin " + version;  // else nobody knows: the key may be missing
     json["RecordingDuration"] = span.duration_s();
     json["MissingValues"] = "n/a";
     json["MotionChannelCount"] = channels.size();
@@ -222,10 +227,10 @@ Json motion_json(const std::vector<BidsChannel>& channels, const BidsSpan& span,
     return json;
 }
 
+// Orientations are quaternions, which have no RotationOrder: that is of Euler angles, and has no word for none.
 Json frames_json() {
     const auto frame = [](const char* words) {
-        return Json{
-            {"SpatialAxes", "RSP"}, {"RotationRule", "right-hand"}, {"RotationOrder", "n/a"}, {"Description", words}};
+        return Json{{"SpatialAxes", "RSP"}, {"RotationRule", "right-hand"}, {"Description", words}};
     };
     Json json;
     json["reference_frame"]["Description"] = "x to the right, y up, z to the person; metres";
@@ -237,7 +242,7 @@ Json frames_json() {
 // A row of the table of events.
 struct BidsEvent {
     std::int64_t onset_ns = 0;
-    std::string duration, type, state;
+    std::string duration, type, value, state;
 };
 
 // What stands in a cell of a table.
@@ -258,21 +263,44 @@ Result<std::string> events_table(RecordReader& reader, std::int64_t first_ns) {
         if (__builtin_sub_overflow(trial.begun_ns, first_ns, &onset_ns) ||
             __builtin_sub_overflow(trial.ended_ns, trial.begun_ns, &length_ns))
             continue;
-        rows.push_back({onset_ns, trial.state == "open" ? "n/a" : bids_seconds(length_ns), bids_cell(trial.name),
+        rows.push_back({onset_ns, trial.state == "open" ? "n/a" : bids_seconds(length_ns), bids_cell(trial.name), "n/a",
                         bids_cell(trial.state)});
     }
     for (const EventRecord& event : *events) {
         std::int64_t onset_ns = 0;
         if (__builtin_sub_overflow(event.time_ns, first_ns, &onset_ns)) continue;
-        const std::string type = event.value.empty() ? event.name : event.name + " " + event.value;
-        rows.push_back({onset_ns, "0", bids_cell(type), "n/a"});
+        rows.push_back({onset_ns, "0", bids_cell(event.name), bids_cell(event.value), "n/a"});
     }
     if (rows.empty()) return std::string();
     std::ranges::stable_sort(rows, {}, &BidsEvent::onset_ns);
-    std::string text = "onset\tduration\ttrial_type\tstate\n";
+    std::string text = "onset\tduration\ttrial_type\tvalue\tstate\n";
     for (const BidsEvent& row : rows)
-        text += bids_seconds(row.onset_ns) + "\t" + row.duration + "\t" + row.type + "\t" + row.state + "\n";
+        text += bids_seconds(row.onset_ns) + "\t" + row.duration + "\t" + row.type + "\t" + row.value + "\t" +
+                row.state + "\n";
     return text;
+}
+
+Json events_json() {
+    Json json;
+    json["trial_type"]["Description"] =
+        "what happened: the name of a trial, from its beginning to its end, or of an event, which has no duration";
+    json["value"]["Description"] = "what was noted with an event, such as why an attempt failed";
+    json["state"]["Description"] = "how a trial ended: done, or why it failed; open: it has no end";
+    return json;
+}
+
+// The group of a study's participant is the recording's own fact; other recordings have none.
+struct BidsPeople {
+    std::string table;
+    Json described;  // null: there is nothing but the code
+};
+
+BidsPeople people_of(const RecordReader& reader, const std::string& subject) {
+    const std::string group = fact_of(reader, "study group");
+    if (group.empty()) return {"participant_id\n" + subject + "\n", {}};
+    Json json;
+    json["group"]["Description"] = "the group of the study that the participant was allocated to";
+    return {"participant_id\tgroup\n" + subject + "\t" + bids_cell(group) + "\n", std::move(json)};
 }
 
 }  // namespace
@@ -310,18 +338,27 @@ Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const 
     if (!moved) return std::unexpected(moved.error());
     const Result<std::string> events = events_table(reader, span.first_ns);
     if (!events) return std::unexpected(events.error());
+    const BidsPeople people = people_of(reader, subject);
     const Json set{{"Name", "Burin session"},
                    {"BIDSVersion", "1.9.0"},
                    {"DatasetType", "raw"},
                    {"GeneratedBy", Json::array({Json{{"Name", "burin convert"}}})}};
     std::vector<std::pair<fs::path, std::string>> texts{
         {*folder / "dataset_description.json", json_text(set)},
-        {*folder / "README", "Ticks of a Burin session, as motion. Columns and frames: the files *_channels.*.\n"},
-        {*folder / "participants.tsv", "participant_id\n" + subject + "\n"},
+        {*folder / "README",
+         "Ticks of a Burin session, as motion: one line a tick of the haptic loop. Columns and frames stand in the "
+         "files "
+         "*_channels.*, what program and device recorded them in *_motion.json. Events and trials, where there are "
+         "any, are in *_events.tsv, the participant's group in participants.tsv.\n"},
+        {*folder / "participants.tsv", people.table},
         {begin + "channels.tsv", channels_table(channels)},
         {begin + "channels.json", json_text(frames_json())},
         {begin + "motion.json", json_text(motion_json(channels, span, reader, of, labels, report.rows))}};
-    if (!events->empty()) texts.emplace_back(begin + "events.tsv", *events);
+    if (!people.described.is_null()) texts.emplace_back(*folder / "participants.json", json_text(people.described));
+    if (!events->empty()) {
+        texts.emplace_back(begin + "events.tsv", *events);
+        texts.emplace_back(begin + "events.json", json_text(events_json()));
+    }
     for (const auto& [place, text] : texts)
         if (const auto written = folder->write(place, text); !written) return std::unexpected(written.error());
     if (const auto ended = folder->finish(); !ended) return std::unexpected(ended.error());

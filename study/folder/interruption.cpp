@@ -18,8 +18,14 @@ namespace {
 void look_at_recording(Interruption& one, const std::filesystem::path& file) {
     if (one.visit.recording.empty()) return;
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) return;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (error) {
+        one.unreadable = Error{"cannot be found", file.string(), "restore it from a copy"};
+        return;
+    }
+    if (bytes == 0) return;  // it was cut off before its first transaction
     auto reader = record::RecordReader::open(file.string());
+    if (!reader) one.unreadable = reader.error();
     if (!reader || reader->hands().empty()) return;
     one.ticks_kept = reader->hands().front().rows();
     const auto clocks = reader->clocks();
@@ -31,7 +37,12 @@ std::vector<Interruption> of_person(const StudyFolder& study, const Participant&
     if (person.withdrawn) return all;
     for (const StageVisit& visit : person.visits) {
         if (visit.status != StageStatus::aborted) continue;
-        Interruption one{person.id, visit, 0, utc_of(visit.begun_utc), person.has_ended(visit.day, visit.place)};
+        Interruption one{person.id,
+                         visit,
+                         0,
+                         std::nullopt,
+                         utc_of(visit.begun_utc),
+                         person.has_ended(visit.day, visit.place)};
         look_at_recording(one, study.path() / visit.recording);
         all.push_back(std::move(one));
     }
@@ -44,6 +55,17 @@ std::vector<Interruption> interruptions_of(const StudyFolder& study) {
     std::vector<Interruption> all;
     for (const Participant& p : study.participants()) std::ranges::move(of_person(study, p), std::back_inserter(all));
     return all;
+}
+
+std::string Interruption::text() const {
+    const std::string motion = visit.recording.empty() ? "its motion was not recorded"
+                               : unreadable
+                                   ? "its motion cannot be read (" + unreadable->line() + ")"
+                                   : formatted("%llu ticks of its motion are kept",
+                                               static_cast<unsigned long long>(ticks_kept));
+    return formatted("%s, %s (day %zu, stage %zu), known until %s; ", participant.c_str(), visit.stage.c_str(),
+                     visit.day, visit.place, utc_text(known_utc_ns).c_str()) +
+           motion + (done_again ? "; done again" : "; to be done again");
 }
 
 std::string LateResumption::text(const Protocol& protocol) const {

@@ -14,9 +14,13 @@ namespace burin::study {
 struct Interruption {
     std::string participant;
     StageVisit visit;
-    std::uint64_t ticks_kept = 0;   // of the motion
+    std::uint64_t ticks_kept = 0;   // of the motion, as far as the recording can be read
+    std::optional<Error> unreadable = {};  // why it cannot, where it should
     std::int64_t known_utc_ns = 0;  // of the last transaction of its recording, else of its beginning in the journal
     bool done_again = false;        // the stage was ended by a later run
+
+    // "test (day 1, stage 3) of p01, known until TIME; 5000 ticks of its motion are kept; to be done again"
+    [[nodiscard]] std::string text() const;
 };
 
 // In the order of participants and stages; those of withdrawn participants are left out.

@@ -225,11 +225,11 @@ std::string trials_csv(std::span<const TrialRow> rows) {
     if (const std::string fact = simulated_fact(rows); !fact.empty()) text += "# " + fact + " See the column hand.\n";
     text += "participant,group,trial";
     for (const char* column : kColumns) text += std::string(",") + column;
-    text += ",day,place,run,reason,world,stage,stratum,hand\n";
+    text += ",place,run,reason,world,day,stage,stratum,hand\n";
     for (const TrialRow& row : rows) {
         text += row.participant + "," + row.group + "," + std::to_string(row.number) + measures_of(row);
-        text += formatted(",%zu,%zu,%zu,", row.day, row.place, row.run) + csv_field(row.reason) + "," +
-                csv_field(row.world) + "," + csv_field(row.stage) + "," + csv_field(row.stratum) + "," +
+        text += formatted(",%zu,%zu,", row.place, row.run) + csv_field(row.reason) + "," + csv_field(row.world) +
+                formatted(",%zu,", row.day) + csv_field(row.stage) + "," + csv_field(row.stratum) + "," +
                 name_of(row.hand) + "\n";
     }
     return text;

@@ -14,11 +14,12 @@
 namespace burin::study {
 namespace {
 
-constexpr double kBoxWidth = 270.0, kBoxHeight = 46.0, kBoxGap = 24.0, kFlowTop = 44.0;
+constexpr double kBoxWidth = 300.0, kAside = 40.0, kBoxHeight = 46.0, kBoxGap = 24.0, kFlowTop = 44.0;
 constexpr double kRowHeight = 30.0, kNames = 200.0, kAxisWidth = 230.0, kNumbers = 150.0, kIntervalTop = 46.0;
 
-std::string box(double middle, double top, const std::string& first, const std::string& second) {
-    return plot::rectangle(middle - 0.5 * kBoxWidth, top, kBoxWidth, kBoxHeight, "#f6f6f6", "#333333") +
+std::string box(double middle, double top, const std::string& first, const std::string& second,
+                double width = kBoxWidth) {
+    return plot::rectangle(middle - 0.5 * width, top, width, kBoxHeight, "#f6f6f6", "#333333") +
            plot::write(middle, top + 19.0, "text-anchor=\"middle\" font-size=\"12\"", first) +
            plot::write(middle, top + 36.0, "text-anchor=\"middle\"", second);
 }
@@ -147,11 +148,14 @@ std::string flow_figure(const std::vector<FlowOfGroup>& groups) {
         const double middle = kBoxGap + 0.5 * kBoxWidth + static_cast<double>(i) * (kBoxWidth + kBoxGap);
         text += arrow(0.5 * width, kFlowTop + kBoxHeight, middle, kFlowTop + step);
         text += box(middle, kFlowTop + step, formatted("%s: %zu", g.group.c_str(), g.allocated), "allocated");
-        text += arrow(middle, kFlowTop + step + kBoxHeight, middle, kFlowTop + 2.0 * step);
-        text += box(middle, kFlowTop + 2.0 * step, formatted("%zu not analysed", g.not_analysed()),
+        // Who is not analysed stands beside the way of those who are.
+        const double way = middle - 0.5 * kBoxWidth + 0.5 * kAside, aside = kFlowTop + 2.0 * step + 0.5 * kBoxHeight;
+        text += arrow(way, kFlowTop + step + kBoxHeight, way, kFlowTop + 3.0 * step);
+        text += plot::line(way, aside, way + 0.5 * kAside, aside, "#333333");
+        text += box(middle + 0.5 * kAside, kFlowTop + 2.0 * step, formatted("%zu not analysed", g.not_analysed()),
                     formatted("%zu withdrew, %zu not finished, %zu no valid trial", g.withdrew, g.unfinished,
-                              g.without_valid_trial));
-        text += arrow(middle, kFlowTop + 2.0 * step + kBoxHeight, middle, kFlowTop + 3.0 * step);
+                              g.without_valid_trial),
+                    kBoxWidth - kAside);
         text += box(middle, kFlowTop + 3.0 * step, formatted("%zu analysed", g.analysed()),
                     formatted("%zu with all outcome trials, %zu with some", g.with_all, g.with_some));
     }

@@ -271,7 +271,7 @@ TEST_F(VisitPlans, WriteWhatIsNotKeptToTheJournalWhenTheVisitBegins) {
     auto study = study::StudyFolder::open(place_ / "s", study::StudyAccess::write);
     ASSERT_TRUE(study);
     EXPECT_FALSE(run_scripted_visit(*study, "p01", *script, {.leave = {false, true}, .on_frame = {}, .tell = {}}));
-    EXPECT_TRUE(study->participants()[0].device.empty()) << "a visit that is refused has not begun";
+    EXPECT_FALSE(study->participants()[0].held) << "a visit that is refused has not begun";
     ASSERT_TRUE(run_scripted_visit(*study, "p01", *script, {.leave = {true, false}, .on_frame = {}, .tell = {}}));
     const study::Participant person = study->participants()[0];
     ASSERT_EQ(person.deviations.size(), 1u);

@@ -337,4 +337,37 @@ TEST(LiveStudy, StandsStillWhereTheWandReadsFartherOffInItsJigThanAllowed) {
     EXPECT_FALSE(journal.contains("stage ended")) << journal;
 }
 
+// The journal said "simulated wand" of every wand, and took a mouse for a person's device.
+TEST(LiveStudy, TellsTheDeviceThatWasHeldInJournalTableAndRecording) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    DeskLog log;
+    log.say("start");
+    log.wait(0.5);
+    log.say("stop");
+    for (const std::string device : {"simulated-wand", "mouse"}) {
+        const Workplace place;
+        make_live_study(place);
+        ASSERT_EQ(place.run(kLiveStudy + "enrol s p02").status, 0);
+        place.write("visit.txt", log.closed());
+        // One of the two is in the group that sees, which may have a device without force.
+        const auto by = [&](const std::string& id) {
+            return place.run(kLiveStudy + "run s --participant " + id + " --input visit.txt --offscreen --device " +
+                             device);
+        };
+        const std::string id = by("p01").status == 0 ? "p01" : "p02";
+        if (id == "p02") {
+            ASSERT_EQ(by(id).status, 0);
+        }
+        EXPECT_TRUE(
+            place.read("s/journal.jsonl")
+                .contains("\"device\":\"" + device + "\",\"hand\":\"simulated device\",\"felt_by_person\":false"));
+        EXPECT_TRUE(place.read("s/trials.csv").contains(",simulated device\n")) << place.read("s/trials.csv");
+        const std::string facts =
+            place.run(std::string(kBurinCommand) + " convert s/data/" + id + "/day1-01-run1.session - --to log").output;
+        for (const std::string& fact : {"# device: " + device, std::string("# hand: simulated device"),
+                                        std::string("# felt by a person: no"), std::string("# version: ")})
+            EXPECT_TRUE(facts.contains(fact)) << facts.substr(0, 2000);
+    }
+}
+
 }  // namespace burin::app

@@ -188,8 +188,13 @@ assert sum(v for k, v in motion.items() if k.endswith('ChannelCount') and k[0:6]
 frames = json.load(open(begin + 'channels.json'))['reference_frame']['Levels']
 assert set(frames) == {c['reference_frame'] for c in channels} - {'n/a'}
 events = list(csv.DictReader(open(begin + 'events.tsv'), delimiter='\t'))
-assert events == [{'onset': '0.049000000', 'duration': '0', 'trial_type': 'button pressed hard', 'state': 'n/a'},
-                  {'onset': '0.199000000', 'duration': '0.800000000', 'trial_type': 'first', 'state': 'done'}], events
+assert events == [{'onset': '0.049000000', 'duration': '0', 'trial_type': 'button', 'value': 'pressed hard',
+                   'state': 'n/a'},
+                  {'onset': '0.199000000', 'duration': '0.800000000', 'trial_type': 'first', 'value': 'n/a',
+                   'state': 'done'}], events
+assert set(json.load(open(begin + 'events.json'))) == {'trial_type', 'value', 'state'}
+assert all('RotationOrder' not in frame for frame in frames.values()), 'orientations are quaternions'
+assert motion['SoftwareVersions'] == 'Burin 1.2'
 assert json.load(open('set/dataset_description.json'))['BIDSVersion'] == '1.9.0'
 assert open('set/participants.tsv').read() == 'participant_id\nsub-07\n'
 print('equal')
