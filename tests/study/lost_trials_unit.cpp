@@ -216,4 +216,38 @@ TEST(LostTrials, WithoutAReasonAreAFaultOfATable) {
     EXPECT_EQ(parsed.faults[2].line, 4u) << "a lost trial has its number";
 }
 
+// Journals and figures of a Burin that counted all attempts together, numbered no runs and called any wand simulated.
+TEST(EarlierStudies, AreReadAsFarAsTheyTell) {
+    std::string text;
+    const auto add = [&](const Json& value) { text += journal_line(parse_journal(text).last_digest, value); };
+    const auto at = [](Json value) {
+        value["time"] = "2026-11-01T10:00:00Z";
+        value["participant"] = "p01";
+        return value;
+    };
+    add(Json{{"event", "study made"}, {"time", "2026-11-01T09:00:00Z"}});
+    add(at({{"event", "enrolled"}, {"stratum", "all"}, {"position", 1u}, {"group", "touch"}, {"simulated", false}}));
+    add(at({{"event", "visit"}, {"device", "simulated wand"}}));
+    const Json stage{{"day", 1u}, {"place", 3u}, {"stage", "test"}};
+    Json begun = stage, ended = stage;
+    begun.update({{"event", "stage begun"}, {"recording", "data/p01/day1-03-run2.session"}});
+    ended.update({{"event", "stage ended"}, {"result", "valid exit"}, {"failures", {{"paused", 2u}, {"strayed", 1u}}}});
+    add(at(begun));
+    add(at(ended));
+    const Journal journal = parse_journal(text);
+    ASSERT_TRUE(journal.faults.empty()) << journal.faults.front().what;
+    const std::vector<Participant> people = participants_of(journal);
+    ASSERT_EQ(people.size(), 1u);
+    ASSERT_EQ(people[0].visits.size(), 1u);
+    const StageVisit& visit = people[0].visits[0];
+    EXPECT_EQ(visit.run, 2u) << "its file says so";
+    EXPECT_EQ(visit.held.hand, Hand::untold);
+    EXPECT_EQ(failure_counts(visit).of_person, 1u);
+    EXPECT_EQ(failure_counts(visit).of_operator_or_device, 2u);
+    const Json figures{{"time_s", 2.0}, {kTorqueFigure, 0.1}, {kFailedFigure, 1u}, {kInterruptedFigure, 2u}};
+    const Json before{{"time_s", 2.0}, {kFailedFigure, 3u}};
+    EXPECT_EQ(json_text(as_kept_before(figures, before)), json_text(before));
+    EXPECT_EQ(json_text(as_kept_before(figures, figures)), json_text(figures));
+}
+
 }  // namespace burin::study
