@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reads ASCII OFF as Geomview defines it: OFF (which may be missing) with ST, C and N before it in any order, the counts
-// of vertices, faces and edges (the last may be missing), then the vertices, x y z [normal] [colour] [texture], and the
-// faces, n i1 .. in [colour]. Comments start with #. All numbers may stand in lines as they like, but a face's colour
-// ends with its line.
+// Reads ASCII OFF as Geomview defines it: OFF (which may be missing) with ST, C and N before it in any order, the
+// counts of vertices, faces and edges (the last may be missing), then the vertices, x y z [normal] [colour] [texture],
+// and the faces, n i1 .. in [colour]. Comments start with #. All numbers may stand in lines as they like, but a face's
+// colour ends with its line.
 // Most files have a vertex or a face in each line, and there a number too many or too few is a fault of its own line
 // that moves no other one. So a file is read that way first. Where rows do not keep to lines, nothing may be left over
 // behind the last face, and these are faults: lines as many as rows, and a face that goes over lines with a colour that

@@ -283,7 +283,7 @@ private:
     std::uint64_t ignored_ = 0;
     std::string first_ignored_;
     std::uint64_t whole_rows_ = 0, rows_read_ = 0;      // of one element; those with no number too many
-    std::uint64_t long_rows_ = 0, first_long_row_ = 0;    // with more numbers than the header says
+    std::uint64_t long_rows_ = 0, first_long_row_ = 0;  // with more numbers than the header says
 };
 
 }  // namespace

@@ -168,6 +168,25 @@ TEST(OutputFiles, BesideAReportOverwriteNoInput) {
 }
 
 // A script's export took the place of the world's own mesh, where --outputs was the world's folder.
+TEST(OutputFiles, OfACommandInADeletedFolderHaveNoPlaceAndItSaysSoInALine) {
+    const Workplace place;
+    place.write("part.obj", "# units mm\nv 0 0 0\nv 40 0 0\nv 0 30 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string mesh = (place / "part.obj").string(), burin = kBurinCommand;
+    for (const std::string& command :
+         {burin + " convert " + mesh + " x.stl", burin + " convert x.obj " + mesh + ".stl",
+          burin + " combine " + mesh + " " + mesh + " --operation union --export x.stl", burin + " film pictures x.png",
+          burin + " sculpt block:0.01,0.01,0.01 --tool ball:0.002 --export x.stl --resolution 16",
+          burin + " study analyse x.csv --json x.json", burin + " bench document --json x.json"}) {
+        const auto outcome = place.run("mkdir -p gone && cd gone && rmdir ../gone && " + command);
+        EXPECT_EQ(outcome.status, 1) << command << "\n" << outcome.output;
+        EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << command << "\n" << outcome.output;
+        EXPECT_NE(outcome.output.find("working folder"), std::string::npos) << command << "\n" << outcome.output;
+    }
+    const auto whole =
+        place.run("mkdir -p gone && cd gone && rmdir ../gone && " + burin + " convert " + mesh + " " + mesh + ".stl");
+    EXPECT_EQ(whole.status, 0) << whole.output;
+}
+
 TEST(OutputFiles, OfAScriptOverwriteNothingThatTheSessionReads) {
     const Workplace place;
     write_worlds(place);
