@@ -111,7 +111,8 @@ Result<void> convert(const ConvertOptions& options) {
     const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in, options.units);
+    Result<geometry::ImportedMesh> imported = geometry::import_mesh(
+        options.in, options.units, placing->middle_m ? geometry::MeshOrigin::middle : geometry::MeshOrigin::of_file);
     if (!imported) return std::unexpected(imported.error());
     geometry::TriangleMesh& mesh = imported->mesh;
     std::printf("%s: %s, %zu triangles, %zu vertices\n", options.in.c_str(), imported->report.format.c_str(),

@@ -174,6 +174,7 @@ private:
         if (count < 3) return wrong("a vertex has fewer than 3 coordinates", kTruncatedRemedy);
         for (std::size_t k = 0; k < 3; ++k) {
             if (const char* fault = coordinate_fault(values[k])) return wrong(fault, kCoordinateRemedy);
+            if (is_far(values[k]) && soup_.far.empty()) soup_.far = at_line(name_, scan_.line());
         }
         soup_.positions.emplace_back(values[0], values[1], values[2]);
         if (count == values.size() && with_alpha_++ == 0) first_alpha_line_ = scan_.line();

@@ -228,6 +228,7 @@ private:
             if (!value) return wrong(in_quotes(words_[k]) + " is not a number");
             if (k >= 3) continue;
             if (const char* fault = coordinate_fault(*value)) return wrong(fault, kCoordinateRemedy);
+            if (is_far(*value) && soup_.far.empty()) soup_.far = at_line(name_, line_);
             p[static_cast<int>(k)] = *value;
             soup_.precision.see(words_[k], *value);
         }

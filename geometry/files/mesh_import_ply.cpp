@@ -204,6 +204,7 @@ private:
                     const auto read = value(property.type);
                     if (!read) return std::unexpected(read.error());
                     if (const char* fault = coordinate_fault(*read)) return wrong(fault, kCoordinateRemedy);
+                    if (is_far(*read) && soup_.far.empty()) soup_.far = values_.where(name_);
                     p[static_cast<int>(property.role) - static_cast<int>(PlyRole::x)] = *read;
                     see_precision(*read);
                 } else if (auto done =

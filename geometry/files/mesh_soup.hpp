@@ -26,6 +26,7 @@ struct MeshSoup {
     std::vector<Vec3> positions;                // numbers of the file, in whichever unit
     std::optional<StatedUnit> stated_unit;      // by a comment or a header of the file
     CoordinatePrecision precision;              // of the positions
+    std::string far = {};                       // where one lies beyond kMaxCoordinate first; empty: none does
     std::vector<Colour> colours;                // one for each vertex, or empty
     std::vector<std::uint32_t> corners;         // corners of all faces, one face after another
     std::vector<std::uint32_t> corner_counts;   // one for each face
@@ -52,13 +53,15 @@ private:
 
 // Describes the fault of a coordinate, a number of the file; nullptr when there is none.
 [[nodiscard]] const char* coordinate_fault(double number);
+// Tells whether a coordinate without a fault is too far from the origin for a mesh that stays where it lies.
+[[nodiscard]] inline bool is_far(double number) { return number > kMaxCoordinate || number < -kMaxCoordinate; }
 inline constexpr const char* kCoordinateRemedy = "repair the file or export it again";
 inline constexpr const char* kTruncatedRemedy = "the file is cut short or damaged: export or copy it again";
 
-// Splits polygons, reduces the palette, checks that there is a triangle and brings the numbers to metres. Every corner
-// must be a valid index.
+// Splits polygons, reduces the palette, checks that there is a triangle, moves the mesh as asked and brings the numbers
+// to metres. Every corner must be a valid index.
 [[nodiscard]] Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name,
-                                            std::optional<LengthUnit> given_unit);
+                                            std::optional<LengthUnit> given_unit, MeshOrigin origin);
 
 // Tells whether the bytes are exactly as many as a binary STL's count of triangles takes.
 [[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);
