@@ -187,6 +187,27 @@ TEST(OutputFiles, OfACommandInADeletedFolderHaveNoPlaceAndItSaysSoInALine) {
     EXPECT_EQ(whole.status, 0) << whole.output;
 }
 
+TEST(Remedies, NameNoEngineThatWasAskedForWherePicturesNeedADriver) {
+    const Workplace place;
+    place.write("quit.txt", "burin-input 1\n0.5 command quit\n");
+    const auto session = [&](const std::string& engine) {
+        return place.run("VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent " + std::string(kBurinCommand) +
+                         " sculpt ball:0.05 " + engine + " --resolution 16 --offscreen --input quit.txt");
+    };
+    const auto refused = session("--engine cpu");
+    EXPECT_EQ(refused.status, 1) << refused.output;
+    EXPECT_TRUE(refused.output.contains("install mesa-vulkan-drivers")) << refused.output;
+    EXPECT_FALSE(refused.output.contains("--engine")) << refused.output;
+    place.write("stroke.csv", kStrokeHeader + "0,0,0,0,0,0,0,1,1\n");
+    const std::string stroke = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent " +
+                               std::string(kBurinCommand) +
+                               " sculpt --workpiece ball:0.05 --resolution 16 --stroke stroke.csv --export x.obj ";
+    const auto on_gpu = place.run(stroke + "--engine vulkan");
+    EXPECT_EQ(on_gpu.status, 1) << on_gpu.output;
+    EXPECT_TRUE(on_gpu.output.contains("or use --engine cpu")) << on_gpu.output;
+    EXPECT_EQ(place.run(stroke + "--engine cpu").status, 0) << "a stroke needs no driver";
+}
+
 TEST(OutputFiles, OfAScriptOverwriteNothingThatTheSessionReads) {
     const Workplace place;
     write_worlds(place);
