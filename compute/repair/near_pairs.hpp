@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the pairs of triangles that could meet beyond what they share (geometry/mesh/triangle_contact.hpp) if vertices
-// moved a little: what rounding can do to a mesh is among these, and where there are none nothing needs to be looked at.
+// moved a little: what rounding can do to a mesh is among these, and where there are none nothing needs to be looked
+// at.
 //
 // Near-linear on meshes that defeat boxes along the axes. Long and narrow triangles across the axes are told apart by
 // boxes along the triangles themselves, in a tree over the mesh. Triangles of one large fan all touch in its vertex:
@@ -31,8 +32,8 @@ struct NearSearch {
     std::span<const std::uint8_t> wanted = {};
 };
 
-// Requires a mesh in which different vertices are at different positions. Triangles with a repeated vertex are left out.
-// Cost: about n log n; 0.1 s for 100,000 triangles on one core. Bounded at kMostTestsATriangle for each triangle.
+// Requires a mesh in which different vertices are at different positions. Triangles with a repeated vertex are left
+// out. Cost: about n log n; 0.1 s for 100,000 triangles on one core. Bounded at kMostTestsATriangle for each triangle.
 inline constexpr std::uint64_t kMostTestsATriangle = 400;
 [[nodiscard]] NearPairs near_pairs(const geometry::TriangleMesh& mesh, const NearSearch& search, WorkerPool& pool);
 

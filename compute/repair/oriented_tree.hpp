@@ -2,10 +2,10 @@
 // A tree of boxes over a mesh's triangles, each box along the triangles within it. It tells long and narrow triangles
 // apart that lie side by side across the axes, where all boxes along the axes (geometry/mesh/triangle_tree.hpp) meet.
 //
-// Layout: two nodes below each, in preorder (the left one is next, the right one behind all of that), up to kLeaf triangles in a leaf. Triangles of a large fan lie side by side in the order, so
-// that nearly all nodes above them have its vertex in common. Lengths are in the mesh's unit. The tree copies what it
-// needs. Read-only after construction, hence usable from many threads.
-// Cost: n log n to build, about 1 us a triangle; 100 bytes a triangle.
+// Layout: two nodes below each, in preorder (the left one is next, the right one behind all of that), up to kLeaf
+// triangles in a leaf. Triangles of a large fan lie side by side in the order, so that nearly all nodes above them have
+// its vertex in common. Lengths are in the mesh's unit. The tree copies what it needs. Read-only after construction,
+// hence usable from many threads. Cost: n log n to build, about 1 us a triangle; 100 bytes a triangle.
 #pragma once
 
 #include <array>

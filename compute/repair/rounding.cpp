@@ -17,7 +17,8 @@ namespace {
 constexpr int kPasses = 6;
 constexpr int kSteps = 2;  // of a float, along each axis
 // Of a vertex that is moved: the triangles around it, those near these, with which each place is compared, and the
-// pairs that it is in. A vertex in more is in a tangle of triangles narrower than a step of a float, which no step ends.
+// pairs that it is in. A vertex in more is in a tangle of triangles narrower than a step of a float, which no step
+// ends.
 constexpr std::size_t kMostTriangles = 64, kMostNear = 2000, kMostFaults = 8;
 
 // Both meshes with one vertex for each position, and which of them each vertex of the originals is.

@@ -23,8 +23,8 @@ struct RoundingReport {
 // leaves fewer pairs of intersecting triangles. Vertices at one position stay together, and different positions
 // different. `exact` is the mesh before rounding, in any unit: of the same triangles, with vertices at one position
 // where the rounded mesh has them there. `show` is called with the progress from 0 to 1 and may be empty.
-// Only pairs that rounding can bring together are looked at (near_pairs.hpp), and vertices of small fans are moved only.
-// Cost: about n log n for the search; for the repair at most kMostRepairTests and kRepairTestsATriangle for each
+// Only pairs that rounding can bring together are looked at (near_pairs.hpp), and vertices of small fans are moved
+// only. Cost: about n log n for the search; for the repair at most kMostRepairTests and kRepairTestsATriangle for each
 // triangle.
 inline constexpr std::uint64_t kMostRepairTests = 500'000, kRepairTestsATriangle = 1;
 [[nodiscard]] RoundingReport repair_rounding(const geometry::TriangleMesh& exact, geometry::TriangleMesh& rounded,

@@ -17,7 +17,8 @@ namespace {
 
 using geometry::TriangleMesh;
 
-// A rod of n sides, 1 x 300 mm along (1,1,1), in millimetres: all boxes along the axes meet, and its ends are fans of n.
+// A rod of n sides, 1 x 300 mm along (1,1,1), in millimetres: all boxes along the axes meet, and its ends are fans of
+// n.
 TriangleMesh rod(std::uint32_t n) {
     const Vec3 along = glm::normalize(Vec3(1, 1, 1)), u = glm::normalize(Vec3(1, -1, 0)), w = glm::cross(along, u);
     TriangleMesh mesh;
