@@ -37,7 +37,8 @@ bench::FrameOptions frame_options(const FrameBench& options) {
 
 Result<void> check(const FrameBench& options) {
     if (const auto ok = check_places(std::array{options.json, options.csv, options.ratios}); !ok) return ok;
-    if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures)) {
+    std::error_code ignored;
+    if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures, ignored)) {
         return fail(options.pictures, "is not a folder", "make it first");
     }
     if (!options.peer.empty() && !bench::has_frame_peers()) {

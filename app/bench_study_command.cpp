@@ -14,6 +14,7 @@
 #include "app/output_files.hpp"
 #include "app/study_command.hpp"
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "base/text.hpp"
 #include "study/statistics/mann_whitney.hpp"
 #include "study/statistics/spearman.hpp"
@@ -47,8 +48,8 @@ private:
 std::uintmax_t bytes_in(const fs::path& folder) {
     std::error_code error;
     std::uintmax_t sum = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
-        if (entry.is_regular_file(error)) sum += entry.file_size(error);
+    for (const fs::path& entry : entries_below(folder).value_or(std::vector<fs::path>()))
+        if (fs::is_regular_file(entry, error)) sum += fs::file_size(entry, error);
     return sum;
 }
 

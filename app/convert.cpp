@@ -13,6 +13,7 @@
 #include "geometry/mesh/mesh_placing.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "sculpt/finishing.hpp"
+#include "sculpt/progress.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/record/input_files.hpp"
 
@@ -81,17 +82,23 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
                     numbers.steps_apart);
     if (numbers.is_rounded) tell_rounding(mesh_m, numbers.mesh, unit);
     if (!numbers.is_rounded || format == geometry::MeshFormat::obj) return std::move(numbers.mesh);
-    const compute::RoundingReport repair = compute::repair_rounding(mesh_m, numbers.mesh, pool);
+    sculpt::Progress progress("repairing what rounding has turned over");
+    const compute::RoundingReport repair =
+        compute::repair_rounding(mesh_m, numbers.mesh, pool, [&](double done) { progress.show(done); });
     if (repair.vertices_moved > 0)
         std::printf(
             "  %s vertices were moved by a step or two of a float, so that triangles do not pass through each "
             "other by rounding\n",
             std::to_string(repair.vertices_moved).c_str());
-    if (repair.left != repair.before)
+    if (repair.left > 0)
         std::printf(
-            "  %s pairs of triangles pass through each other in the file's single-precision numbers, %s before; "
-            ".obj has double precision\n",
-            std::to_string(repair.left).c_str(), std::to_string(repair.before).c_str());
+            "  %s of %s pairs of triangles still pass through each other by rounding to the file's single-precision "
+            "numbers; .obj has double precision\n",
+            std::to_string(repair.left).c_str(), std::to_string(repair.found).c_str());
+    if (!repair.complete)
+        std::printf(
+            "  so many triangles lie within a rounding of each other that the repair was ended at its bound; .obj has "
+            "double precision\n");
     return std::move(numbers.mesh);
 }
 
@@ -156,7 +163,8 @@ Result<void> convert(const ConvertOptions& options) {
     const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in, options.units);
+    Result<geometry::ImportedMesh> imported = geometry::import_mesh(
+        options.in, options.units, placing->middle_m ? geometry::MeshOrigin::middle : geometry::MeshOrigin::of_file);
     if (!imported) return std::unexpected(imported.error());
     geometry::TriangleMesh& mesh = imported->mesh;
     std::printf("%s: %s, %zu triangles, %zu vertices\n", options.in.c_str(), imported->report.format.c_str(),

@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "base/text.hpp"
 #include "renderer/film.hpp"
 #include "renderer/png.hpp"
@@ -22,14 +23,12 @@ double number_in(const fs::path& path) {
 }
 
 Result<std::vector<fs::path>> pictures_in(const std::string& folder) {
-    std::error_code failed;
-    std::vector<fs::path> pictures;
-    for (const auto& entry : fs::directory_iterator(folder, failed))
-        if (entry.path().extension() == ".png") pictures.push_back(entry.path());
-    if (failed) return fail(folder, failed.message(), "name a folder with pictures");
-    if (pictures.empty())
+    Result<std::vector<fs::path>> pictures = entries_of(folder);
+    if (!pictures) return fail(folder, pictures.error().what, "name a folder with pictures");
+    std::erase_if(*pictures, [](const fs::path& file) { return file.extension() != ".png"; });
+    if (pictures->empty())
         return fail(folder, "holds no .png", "burin replay FILE --pictures FOLDER --every 0.1 makes some");
-    std::ranges::sort(pictures, [](const fs::path& a, const fs::path& b) {
+    std::ranges::sort(*pictures, [](const fs::path& a, const fs::path& b) {
         const double first = number_in(a), second = number_in(b);
         return first != second ? first < second : a < b;
     });

@@ -25,7 +25,8 @@ Result<void> make_folder_of(const std::string& path) {
     if (path == kStandardOutput || folder.empty()) return {};
     std::error_code error;
     fs::create_directories(folder, error);
-    if (fs::is_directory(folder)) return {};
+    std::error_code ignored;
+    if (fs::is_directory(folder, ignored)) return {};
     return fail(path, "cannot be written: folder " + folder.string() + " cannot be made (" + error.message() + ")",
                 "choose another place");
 }

@@ -12,6 +12,7 @@
 #include "app/study_command.hpp"
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "study/analysis/analysis.hpp"
 #include "study/folder/study_folder.hpp"
 #include "study/published/published.hpp"
@@ -83,10 +84,9 @@ Result<std::vector<study::PublishedComparison>> comparisons(const std::string& f
 
 // Returns whether a file is one that a study consists of, whether it is there yet or not.
 bool is_of_study(const fs::path& file, const std::string& study) {
-    std::error_code failed;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(study), failed),
-                   name = fs::weakly_canonical(fs::absolute(file), failed).lexically_relative(folder);
-    if (failed || name.empty()) return false;
+    const auto folder = resolved_path(study), place = resolved_path(file);
+    const fs::path name = folder && place ? place->lexically_relative(*folder) : fs::path();
+    if (name.empty()) return false;
     if (*name.begin() == "data") return true;
     return std::ranges::find(study::kFilesOfStudy, name.string()) != study::kFilesOfStudy.end();
 }

@@ -13,6 +13,7 @@
 #include "activities/train/study_activity.hpp"
 #include "app/study_device.hpp"
 #include "app/study_trials.hpp"
+#include "base/places.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "session/drive/session.hpp"
@@ -28,9 +29,8 @@ namespace fs = std::filesystem;
 // done again.
 Result<void> check_record(const std::string& record, const fs::path& study) {
     if (record.empty()) return {};
-    std::error_code ignored;
-    const fs::path there = fs::weakly_canonical(fs::absolute(record), ignored);
-    const fs::path folder = fs::weakly_canonical(fs::absolute(study), ignored);
+    if (const auto ok = check_working_folder(record); !ok) return ok;
+    const fs::path there = resolved_path(record).value_or(record), folder = resolved_path(study).value_or(study);
     if (const auto below = there.lexically_relative(folder); !below.empty() && *below.begin() != "..")
         return fail(record,
                     "lies in the study's folder, whose files are its own: a withdrawal would not erase it there",

@@ -37,7 +37,7 @@ std::vector<CsvField> fields_of(std::string_view line) {
 
 bool is_header(std::string_view line) {
     constexpr std::array kNames{"place", "x", "y", "z"};
-    return std::ranges::equal(fields_of(line), kNames, {}, &CsvField::text);
+    return std::ranges::equal(fields_of(line), kNames, {}, [](const CsvField& f) { return column_name(f.text); });
 }
 
 // Parses a line. `asked` is the place of a line of three numbers; empty: the line must name its place.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/assets.hpp"
 
+#include "base/places.hpp"
+
 #include <sys/auxv.h>
 
 #include <algorithm>
@@ -118,12 +120,10 @@ std::string asset_named(AssetRoom room, std::string_view name) {
 std::vector<std::string> asset_names(AssetRoom room) {
     const RoomOfAssets& known = room_of(room);
     std::vector<std::string> names;
-    std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(assets_folder() / known.folder, failed)) {
-        const std::string ending = entry.path().extension().string();
+    for (const fs::path& file : entries_of(assets_folder() / known.folder).value_or(std::vector<fs::path>())) {
+        const std::string ending = file.extension().string();
         const auto is_known = [&](const char* one) { return one != nullptr && ending == one; };
-        if (std::ranges::any_of(known.endings, is_known) && is_file(entry.path()))
-            names.push_back(entry.path().stem().string());
+        if (std::ranges::any_of(known.endings, is_known) && is_file(file)) names.push_back(file.stem().string());
     }
     std::ranges::sort(names);
     names.erase(std::unique(names.begin(), names.end()), names.end());

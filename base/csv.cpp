@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <system_error>
 
 namespace burin {
@@ -29,6 +30,38 @@ std::size_t characters_in(std::string_view text) {
 }
 
 }  // namespace
+
+CsvRecord take_record(std::string_view& text, std::optional<char> separator) {
+    enum class In : std::uint8_t { blanks, quotes, behind_quotes, plain };
+    const std::size_t first_end = std::min(text.find('\n'), text.size());
+    std::size_t end = 0, lines = 1;
+    In in = text.front() == '#' ? In::plain : In::blanks;
+    for (; end < text.size() && lines <= kMostLinesOfField; ++end) {
+        const char c = text[end];
+        if (c == '\n' && in != In::quotes) break;
+        lines += c == '\n' ? 1 : 0;
+        const bool separates = separator ? c == *separator : std::ranges::find(kSeparators, c) != kSeparators.end();
+        if (in == In::quotes || (c == '"' && in != In::plain))
+            in = in != In::quotes || c != '"' ? In::quotes : In::behind_quotes;  // a doubled quote opens again
+        else if (separates && text.front() != '#')
+            in = In::blanks;
+        else if (in != In::blanks || (c != ' ' && c != '\t'))
+            in = In::plain;
+    }
+    if (in == In::quotes || lines > kMostLinesOfField) end = first_end, lines = 1;
+    const CsvRecord record{text.substr(0, end), lines};
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return record;
+}
+
+std::string column_name(std::string_view field) {
+    std::string name(field);
+    for (char& c : name) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        if (c == '\n') c = ' ';
+    }
+    return name;
+}
 
 CsvLine split_csv(std::string_view line, char separator) {
     const char* const blanks = blanks_beside(separator);

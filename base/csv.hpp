@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One line of a CSV text (RFC 4180, but for line ends within quotes) with commas, semicolons or tabs between fields, as
-// spreadsheets of different countries write them. Numbers have a decimal point whatever the separator. Any thread.
+// The records of a CSV text (RFC 4180) with commas, semicolons or tabs between fields, as spreadsheets of different
+// countries write them. Numbers have a decimal point whatever the separator. Any thread.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,19 @@ struct CsvLine {
     std::vector<CsvField> fields;
     std::size_t unclosed_quote = 0;  // its column; 0: none
 };
+
+// A record of a text: a line, or several where line ends stand within a field in double quotes.
+struct CsvRecord {
+    std::string_view text;  // without the line end behind it
+    std::size_t lines = 1;
+};
+// Takes the next record off the text, which must not be empty. A quote that is not closed within kMostLinesOfField
+// lines ends with its line, so that split_csv() finds it unclosed there; so does a line that begins with #.
+inline constexpr std::size_t kMostLinesOfField = 100;
+[[nodiscard]] CsvRecord take_record(std::string_view& text, std::optional<char> separator);
+
+// The name of a column as programs compare it: in lower case, and with a blank for each line end.
+[[nodiscard]] std::string column_name(std::string_view field);
 
 // Splits at the separator. "a ""b"", c" in double quotes is one field: a "b", c.
 [[nodiscard]] CsvLine split_csv(std::string_view line, char separator = ',');

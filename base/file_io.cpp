@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/file_io.hpp"
 
+#include "base/places.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -67,10 +69,12 @@ const char* writing_remedy(int code) {
 }
 
 std::unexpected<Error> cannot_read(const fs::path& path, int code) {
+    if (const auto ok = check_working_folder(path); !ok) return std::unexpected(ok.error());
     return fail(path.string(), "cannot be read: " + reason(code), reading_remedy(code));
 }
 
 std::unexpected<Error> cannot_write(const fs::path& path, int code) {
+    if (const auto ok = check_working_folder(path); !ok) return std::unexpected(ok.error());
     return fail(path.string(), "cannot be written: " + reason(code), writing_remedy(code));
 }
 
@@ -234,16 +238,17 @@ Result<std::string> read_text_file(const fs::path& path, std::uint64_t max_bytes
 }
 
 Result<void> check_writable(const fs::path& path) {
+    if (const auto ok = check_working_folder(path); !ok) return ok;
     const Result<Target> target = examine_target(path);
     if (!target) return std::unexpected(target.error());
     const fs::path parent = target->path.parent_path(), folder = parent.empty() ? "." : parent;
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) {
-        return fail(path.string(), "cannot be written: there is no folder " + fs::absolute(folder).string(),
+        return fail(path.string(), "cannot be written: there is no folder " + absolute_path(folder).string(),
                     "make the folder, or choose another place");
     }
     if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
-    return fail(path.string(), "cannot be written: no permission in folder " + fs::absolute(folder).string(),
+    return fail(path.string(), "cannot be written: no permission in folder " + absolute_path(folder).string(),
                 "choose another place");
 }
 

@@ -16,6 +16,7 @@
 #include <random>
 #include <system_error>
 
+#include "base/places.hpp"
 #include "document/document_rows.hpp"
 
 namespace burin::document {
@@ -94,14 +95,14 @@ void remove_leftovers(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     std::error_code failed;
     std::vector<std::string> left;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, failed)) {
-        const std::string name = entry.path().filename().string();
+    for (const fs::path& file : entries_of(folder.empty() ? "." : folder).value_or(std::vector<fs::path>())) {
+        const std::string name = file.filename().string();
         const std::string process = name.starts_with(begin) ? name.substr(begin.size()) : "";
         pid_t number = 0;
         const auto [end, wrong] = std::from_chars(process.data(), process.data() + process.size(), number);
         if (process.empty() || wrong != std::errc() || end != process.data() + process.size() || number <= 0) continue;
         const bool is_dead = ::kill(number, 0) != 0 && errno == ESRCH;
-        if (is_dead && !is_locked(entry.path().string())) left.push_back(entry.path().string());
+        if (is_dead && !is_locked(file.string())) left.push_back(file.string());
     }
     for (const std::string& file : left)
         for (const char* ending : {"-wal", "-shm", "-journal", ""}) fs::remove(file + ending, failed);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/places.hpp"
 #include "document/document_reader.hpp"
 #include "document/document_rows.hpp"
 #include "document/log_check.hpp"
@@ -121,11 +122,9 @@ bool is_in_use(const Error& error) { return error.what == record::kInUse; }
 
 std::vector<LeftJournal> left_journals(const std::string& folder) {
     std::vector<LeftJournal> left;
-    std::error_code failed;
     std::vector<std::string> paths;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed))
-        if (is_document_name(entry.path().string())) paths.push_back(entry.path().string());
-    std::ranges::sort(paths);
+    for (const fs::path& file : entries_of(folder).value_or(std::vector<fs::path>()))
+        if (is_document_name(file.string())) paths.push_back(file.string());
     for (const std::string& path : paths) {
         const Result<DocumentReader> reader = DocumentReader::open(path);
         if (!reader) {

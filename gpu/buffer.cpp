@@ -49,14 +49,14 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
         return fail(where,
                     mebibytes(size_bytes) + " were asked for, but " + core->info.name + " allows " +
                         mebibytes(core->capabilities.max_storage_buffer_bytes) + " in one buffer",
-                    "lower the resolution or use --engine cpu");
+                    "lower the resolution");
     }
     if (needs.addressed && !core->capabilities.buffer_address) {
-        return fail(where, core->info.name + " does not let shaders reach buffers by address", "use --engine cpu");
+        return fail(where, core->info.name + " does not let shaders reach buffers by address", "update the GPU driver");
     }
     if (size_bytes > core->max_allocation_bytes) {
         return fail(where, mebibytes(size_bytes) + " exceed what " + core->info.name + " allocates at once",
-                    "lower the resolution or use --engine cpu");
+                    "lower the resolution");
     }
     auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = size_bytes;
@@ -72,7 +72,7 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
     VkMemoryRequirements requirements{};
     core->vk.vkGetBufferMemoryRequirements(core->device, raw, &requirements);
     const int type = core->memory_type(requirements.memoryTypeBits, needs.required, needs.preferred);
-    if (type < 0) return fail(where, core->info.name + " has no memory of this kind", "use --engine cpu");
+    if (type < 0) return fail(where, core->info.name + " has no memory of this kind", "update the GPU driver");
     auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     auto flags_info = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags_info.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;

@@ -56,7 +56,7 @@ Result<void> Core::wait_for(std::uint64_t serial) {
     wait.pValues = &serial;
     const VkResult result = vk.vkWaitSemaphores(device, &wait, kWaitLimit_ns);
     if (result == VK_TIMEOUT) {
-        return fail(info.name, "the GPU has not finished within 120 s", "lower the resolution or use --engine cpu");
+        return fail(info.name, "the GPU has not finished within 120 s", "lower the resolution");
     }
     if (result == VK_ERROR_DEVICE_LOST) lost = true;
     if (result != VK_SUCCESS) return vulkan_failure(info.name, "waiting for the GPU failed", result);

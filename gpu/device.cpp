@@ -17,7 +17,7 @@ namespace burin::gpu {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* kNoDriver = "install mesa-vulkan-drivers or use --engine cpu";
+constexpr const char* kNoDriver = "install mesa-vulkan-drivers";
 
 std::atomic<std::uint64_t> g_validation_messages{0};  // a statistic; orders nothing
 

@@ -34,7 +34,7 @@ std::unexpected<Error> vulkan_failure(std::string where, std::string what, VkRes
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
         remedy = "lower the resolution or close other programs that use the GPU";
     } else if (result == VK_ERROR_DEVICE_LOST) {
-        remedy = "start again; if it repeats, update the GPU driver or use --engine cpu";
+        remedy = "start again; if it repeats, update the GPU driver";
     }
     return fail(std::move(where), std::move(what) + ": " + result_name(result), std::move(remedy));
 }

@@ -23,6 +23,22 @@ Result<void> use_log(Database& database, const std::string& path, const StoreKin
     return database.run("PRAGMA synchronous = FULL");
 }
 
+// SQLite takes what is shorter than its smallest page for a database that is still empty.
+constexpr std::uintmax_t kSmallestDatabase = 512;
+
+// Says what a file is that has not the mark it should.
+std::string what_else(Database& database, const std::string& path, std::int64_t mark) {
+    std::error_code unknown;
+    const std::uintmax_t bytes = fs::file_size(path, unknown);
+    if (!unknown && bytes == 0) return "is empty";
+    if (!unknown && bytes < kSmallestDatabase)
+        return "is not an SQLite file: it has " + std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
+    if ((mark & ~0xff) == (kApplicationId & ~0xff))
+        return mark == kApplicationId ? "is a recording" : "is another file of Burin, such as a document";
+    const Result<std::int64_t> tables = database.integer("SELECT count(*) FROM sqlite_schema");
+    return tables && *tables == 0 ? "is an SQLite file that holds nothing" : "is an SQLite file of another program";
+}
+
 }  // namespace
 
 std::unexpected<Error> cannot_make(const std::string& path, int code, const StoreKind& kind) {
@@ -59,7 +75,7 @@ Result<void> check_no_log_of(const std::string& path) {
 Result<void> check_marks(Database& database, const std::string& path, const StoreKind& kind) {
     const Result<std::int64_t> mark = database.integer("PRAGMA application_id");
     if (!mark) return std::unexpected(mark.error());
-    if (*mark != kind.application_id) return fail(path, "is an SQLite file of another program", kind.words.wrong_file);
+    if (*mark != kind.application_id) return fail(path, what_else(database, path, *mark), kind.words.wrong_file);
     const Result<std::int64_t> version = database.integer("PRAGMA user_version");
     if (!version) return std::unexpected(version.error());
     if (*version > kind.version)

@@ -32,7 +32,8 @@ std::string_view trimmed(std::string_view text) {
 // The names of a first line with commas between them, whatever separates them in the file.
 std::string names_in(std::string_view line, char separator) {
     std::string names;
-    for (const CsvField& field : split_csv(line, separator).fields) names += (names.empty() ? "" : ",") + field.text;
+    for (const CsvField& field : split_csv(line, separator).fields)
+        names += (names.empty() ? "" : ",") + column_name(field.text);
     return names;
 }
 

@@ -352,7 +352,7 @@ Result<ChosenEngine> choose_engine(EngineChoice choice, compute::Solid solid, Wo
     if (choice == EngineChoice::cpu) return native(std::move(solid), pool, "");
     Result<gpu::Device> device = gpu::Device::create();
     if (choice == EngineChoice::vulkan) {
-        if (!device) return std::unexpected(device.error());
+        if (!device) return std::unexpected(compute::with_the_other_engine(device.error()));
         return on_vulkan(std::move(solid), *device, "");
     }
     if (!device) return native(std::move(solid), pool, "no Vulkan device");

@@ -245,8 +245,10 @@ Result<void> measure_size(const sculpt::Sculpture& sculpture, const OwnFolder& f
     const std::string stl = folder.file("work.stl");
     if (const auto written = geometry::export_mesh(sculpture.surface().welded(LengthUnit::mm), stl); !written)
         return written;
-    figures.document_bytes = fs::file_size(path);
-    figures.stl_bytes = fs::file_size(stl);
+    std::error_code error;
+    figures.document_bytes = fs::file_size(path, error);
+    if (!error) figures.stl_bytes = fs::file_size(stl, error);
+    if (error) return fail(path, "cannot be measured: " + error.message(), "check the folder and its disk");
     return {};
 }
 

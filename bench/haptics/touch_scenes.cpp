@@ -114,7 +114,7 @@ Result<TouchScenes> touch_scenes(const TouchSceneOptions& options) {
     add("file", false, [] { return file_plate(); });
     add("machined", false, [n = options.sides] { return machined_part(n); });
     add("needles", false, [n = options.needles] { return needle_comb(n); });
-    if (std::filesystem::exists(options.workpiece))
+    if (std::error_code ignored; std::filesystem::exists(options.workpiece, ignored))
         all.scenes.push_back(of_file(options.workpiece));
     else
         all.notes.push_back(options.workpiece + " is not here: run in the repository's folder to touch it");

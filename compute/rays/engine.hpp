@@ -71,5 +71,8 @@ public:
 // buffers too small for the solid. The engine keeps the device open, and must be called from the device's thread
 // (vulkan_engine.hpp).
 [[nodiscard]] Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Device& device);
+// Adds the other engine to the remedies of a failure of this one. Of gpu/ alone it is no remedy, since pictures are
+// drawn by the GPU whichever engine carves.
+[[nodiscard]] Error with_the_other_engine(Error failure);
 
 }  // namespace burin::compute

@@ -57,6 +57,13 @@ Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Devi
     return std::unique_ptr<CarvingEngine>(std::move(*engine));
 }
 
+Error with_the_other_engine(Error failure) {
+    constexpr const char* kOther = "use --engine cpu";
+    if (!failure.remedy.contains("--engine cpu"))
+        failure.remedy = failure.remedy.empty() ? kOther : failure.remedy + ", or " + kOther;
+    return failure;
+}
+
 Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gpu::Device& device,
                                                            const VulkanEngineOptions& options) {
     const gpu::Capabilities& can = device.capabilities();
@@ -82,7 +89,7 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gp
     if (made) made = compile(engine->patch_rays_, k_patch_rays_comp, 4, "patch");
     if (made) made = compile(engine->export_rays_, k_export_rays_comp, 5, "read back");
     if (made) made = engine->synchronize();
-    if (!made) return std::unexpected(made.error());
+    if (!made) return std::unexpected(with_the_other_engine(made.error()));
     return engine;
 }
 
@@ -90,11 +97,11 @@ VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, const VulkanE
     : solid_(std::move(solid)), device_(device), options_(options) {}
 
 Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
-    if (const auto done = read_back(); !done) return std::unexpected(done.error());
-    if (const auto sent = synchronize(); !sent) return std::unexpected(sent.error());
+    if (const auto done = read_back(); !done) return std::unexpected(with_the_other_engine(done.error()));
+    if (const auto sent = synchronize(); !sent) return std::unexpected(with_the_other_engine(sent.error()));
     if (const auto patched = patch(rays); !patched) {
         synchronized_ = false;
-        return std::unexpected(patched.error());
+        return std::unexpected(with_the_other_engine(patched.error()));
     }
     CarveStats stats;
     for (const RayBatch::Ray& ray : rays.rays) {
@@ -156,12 +163,12 @@ Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
     if (!capsules) return std::unexpected(capsules.error());
     const CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
     if (tasks.tasks.empty()) return CarveStats{};
-    if (const auto done = read_back(); !done) return std::unexpected(done.error());
-    if (const auto sent = synchronize(); !sent) return std::unexpected(sent.error());
+    if (const auto done = read_back(); !done) return std::unexpected(with_the_other_engine(done.error()));
+    if (const auto sent = synchronize(); !sent) return std::unexpected(with_the_other_engine(sent.error()));
     const auto stats = cut_on_device(*capsules, tasks);
     if (!stats) {
         synchronized_ = false;
-        return stats;
+        return std::unexpected(with_the_other_engine(stats.error()));
     }
     apply_changes();
     ++counts_.cuts;

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/places.hpp"
 #include "devices/gloves/glove_device.hpp"
 
 namespace burin::devices {
 
 std::vector<DevicePresence> look_for_gloves() {
     std::vector<DevicePresence> found;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored)) {
-        const std::string path = entry.path().string();
+    for (const auto& entry : entries_of("/dev").value_or(std::vector<std::filesystem::path>())) {
+        const std::string path = entry.string();
         if (!path.starts_with("/dev/ttyUSB") && !path.starts_with("/dev/ttyACM")) continue;
         const std::string name = "glove:" + path;
         if (::access(path.c_str(), R_OK | W_OK) == 0)

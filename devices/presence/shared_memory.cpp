@@ -76,8 +76,9 @@ std::vector<std::string> shared_names(const char* prefix) {
     std::vector<std::string> names;
     std::error_code ignored;
     const std::string start = start_of(prefix);
-    for (const auto& entry : std::filesystem::directory_iterator("/dev/shm", ignored)) {
-        const std::string file = entry.path().filename().string();
+    for (std::filesystem::directory_iterator at("/dev/shm", ignored), end; !ignored && at != end;
+         at.increment(ignored)) {
+        const std::string file = at->path().filename().string();
         if (file.starts_with(start)) names.push_back(file.substr(start.size()));
     }
     std::ranges::sort(names);

@@ -9,7 +9,7 @@
 namespace burin::geometry {
 namespace {
 
-constexpr int kFewDigits = 4;            // numbers of no more are exact
+constexpr int kFewDigits = 4;            // numbers of no more are exact, as far as a double is
 constexpr int kDigitsOfAnyFloat = 8;     // up to here every number looks like a float
 constexpr double kDecimalPlaces = 1.75;  // one last place along each axis, sqrt(3) of them in space, and a little
 constexpr double kFloatPlaces = 3.5;     // two, as of what was computed in floats
@@ -53,7 +53,9 @@ void CoordinatePrecision::see(std::string_view word, double value) {
 
 double CoordinatePrecision::weld_tolerance(double largest) const {
     const bool is_text = digits_ > 0;
-    if ((is_text && digits_ <= kFewDigits) || !(largest > 0.0)) return 0.0;
+    if (!(largest > 0.0)) return 0.0;
+    if (is_text && digits_ <= kFewDigits)
+        return kDoublePlaces * last_place_of(largest, std::numeric_limits<double>::digits);
     const double binary = all_floats_ ? kFloatPlaces * last_place_of(largest, std::numeric_limits<float>::digits)
                                       : kDoublePlaces * last_place_of(largest, std::numeric_limits<double>::digits);
     if (!is_text) return binary;

@@ -17,7 +17,8 @@ public:
     // Returns the distance, in numbers of the file, up to which corners count as one where the surface is open between
     // them: `largest` is the largest absolute coordinate. It follows from the last place in which this number is
     // written: one of a text's decimals, two of a float, along each axis; of doubles, which programs compute from
-    // others, 512. 0 for texts of few digits, which somebody has typed as they are.
+    // others, 512. Texts of few digits somebody has typed as they are: then 512 of a double as well, which is what
+    // differs by no more than arithmetic does.
     [[nodiscard]] double weld_tolerance(double largest) const;
 
 private:

@@ -83,7 +83,8 @@ std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optional<LengthUnit> given_unit) {
+Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optional<LengthUnit> given_unit,
+                                 MeshOrigin origin) {
     const std::string name = path.string();
     const auto format = mesh_format_of(path);
     if (name.empty()) return fail("\"\"", "names no file", "name one, or leave the option out");
@@ -96,16 +97,16 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optiona
     }
     const auto bytes = read_file(path);
     if (!bytes) return std::unexpected(bytes.error());
-    return import_mesh(*bytes, *format, name, files_beside(path), given_unit, pictures_below(path));
+    return import_mesh(*bytes, *format, name, files_beside(path), given_unit, pictures_below(path), origin);
 }
 
 Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
                                  const MaterialFileReader& material_files, std::optional<LengthUnit> given_unit,
-                                 const MaterialFileReader& pictures) {
+                                 const MaterialFileReader& pictures, MeshOrigin origin) {
     if (bytes.empty()) return fail(name, "is empty", "export it again");
     Result<MeshSoup> soup = read(bytes, format, name, material_files, pictures);
-    Result<ImportedMesh> mesh =
-        soup ? finished(std::move(*soup), name, given_unit) : Result<ImportedMesh>(std::unexpected(soup.error()));
+    Result<ImportedMesh> mesh = soup ? finished(std::move(*soup), name, given_unit, origin)
+                                     : Result<ImportedMesh>(std::unexpected(soup.error()));
     if (mesh) return mesh;
     const std::optional<Likeness> other = looks_like(bytes);
     if (!other || other->format == format) return mesh;

@@ -42,6 +42,8 @@
 namespace burin::geometry {
 
 inline constexpr double kMaxCoordinate = 1e9;  // keeps areas and volumes far from overflow
+// That of a mesh that is brought to its middle; there a double still has an eighth.
+inline constexpr double kFarthestCoordinate = 1e15;
 // A material is one byte; two values stay free for the solid's own use.
 inline constexpr std::size_t kMaxMaterials = 254;
 
@@ -70,6 +72,10 @@ struct ImportReport {
     Vec3 size_m{0.0};  // of the box around all triangles; describe_size() says both in a line
 };
 
+// Where the mesh's frame has its origin: where the file's has it, or in the middle of the box around all triangles. The
+// latter moves the file's own numbers, before they are metres, and takes those of up to kFarthestCoordinate.
+enum class MeshOrigin : std::uint8_t { of_file, middle };
+
 struct ImportedMesh {
     TriangleMesh mesh;
     ImportReport report;
@@ -83,7 +89,8 @@ struct ImportedMesh {
 // lie in the mesh's folder or below it. Names may differ from the files' in capitals.
 // The unit is found out where none is given.
 [[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path,
-                                               std::optional<LengthUnit> given_unit = std::nullopt);
+                                               std::optional<LengthUnit> given_unit = std::nullopt,
+                                               MeshOrigin origin = MeshOrigin::of_file);
 
 // Returns the text of a material file named by an OBJ, or the bytes of a picture named by that or by a PLY.
 using MaterialFileReader = std::function<Result<std::string>(std::string_view name)>;
@@ -93,7 +100,8 @@ using MaterialFileReader = std::function<Result<std::string>(std::string_view na
 [[nodiscard]] Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format,
                                                const std::string& name, const MaterialFileReader& material_files = {},
                                                std::optional<LengthUnit> given_unit = std::nullopt,
-                                               const MaterialFileReader& pictures = {});
+                                               const MaterialFileReader& pictures = {},
+                                               MeshOrigin origin = MeshOrigin::of_file);
 
 // Returns the format that an extension stands for (".stl", any case), if any.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);

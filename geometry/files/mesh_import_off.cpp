@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Reads ASCII OFF: OFF with ST, C and N before it in any order, the counts of vertices, faces and edges (the last may
-// be missing), then a line for each vertex, x y z [normal] [colour] [texture], and for each face, n i1 .. in [colour].
-// Comments start with #. Lines count: a number too many or too few is a fault of its own line and moves no other one. A
-// file of fewer lines than that may have several vertices in a line.
+// Reads ASCII OFF as Geomview defines it: OFF (which may be missing) with ST, C and N before it in any order, the
+// counts of vertices, faces and edges (the last may be missing), then the vertices, x y z [normal] [colour] [texture],
+// and the faces, n i1 .. in [colour]. Comments start with #. All numbers may stand in lines as they like, but a face's
+// colour ends with its line.
+// Most files have a vertex or a face in each line, and there a number too many or too few is a fault of its own line
+// that moves no other one. So a file is read that way first. Where rows do not keep to lines, nothing may be left over
+// behind the last face, and these are faults: lines as many as rows, and a face that goes over lines with a colour that
+// others do not have.
 // Colours are 3 or 4 numbers: with a decimal point they run from 0 to 1, else as ColourScale says; a single number is
 // an index into a map that the file does not hold. A comment near the beginning may state the unit.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
@@ -18,7 +23,7 @@ namespace {
 
 constexpr char kOffComment = '#';
 constexpr const char* kOneALine = "write one vertex or face a line";
-constexpr std::size_t kMostColourNumbers = 4;
+constexpr std::size_t kMostColourNumbers = 4, kCounts = 3;
 
 // A colour as the file has it, of which vertex or face, and in which line.
 struct FileColour {
@@ -28,23 +33,31 @@ struct FileColour {
     std::size_t of = 0;
 };
 
+// How the numbers of vertices stand: each vertex in a line of its own, or anyhow, with so many numbers of colour each
+// and behind two or three counts.
+struct OffLayout {
+    bool keeps_to_lines = true;
+    std::size_t colour_numbers = 0;
+    bool counts_edges = false;
+};
+
 class OffReader {
 public:
-    OffReader(std::string_view text, const std::string& name) : text_(text), scan_(text), name_(name) {}
+    OffReader(std::string_view text, const std::string& name, const OffLayout& layout)
+        : text_(text), scan_(text), name_(name), layout_(layout) {}
 
     Result<MeshSoup> read() {
         soup_.report.format = "OFF";
         soup_.stated_unit = unit_in_comments(text_);
         if (auto done = header(); !done) return std::unexpected(done.error());
-        while (soup_.positions.size() < vertices_) {
-            if (auto done = vertices(); !done) return std::unexpected(done.error());
-        }
+        if (auto done = layout_.keeps_to_lines ? vertices_in_lines() : vertices_anyhow(); !done)
+            return std::unexpected(done.error());
         while (soup_.corner_counts.size() < faces_) {
             if (auto done = face(); !done) return std::unexpected(done.error());
         }
         if (has_texture_)
             soup_.report.remarks.emplace_back("its texture coordinates were ignored: an OFF names no picture");
-        if (next_line()) soup_.report.remarks.push_back("text after the last face was ignored");
+        if (auto done = end(); !done) return std::unexpected(done.error());
         if (uncoloured_ > 0) {
             soup_.report.remarks.push_back("the colour map indices of " + std::to_string(uncoloured_) +
                                            " faces were ignored");
@@ -60,13 +73,26 @@ private:
         return fail(at_line(name_, line_), what, remedy);
     }
 
+    // Returns the next word, in this line or a later one; empty at the end of the text.
+    std::string_view next_word() {
+        const std::string_view word = scan_.token(kOffComment);
+        if (!word.empty()) line_ = scan_.line();
+        return word;
+    }
+
+    // Reads the words that are left of this line.
+    void rest_of_line() {
+        words_.clear();
+        for (auto word = scan_.token_in_line(kOffComment); !word.empty(); word = scan_.token_in_line(kOffComment))
+            words_.push_back(word);
+    }
+
     // Reads the words of the next line that has any; false at the end of the text.
     bool next_line() {
         words_.clear();
         for (; !scan_.at_end() && words_.empty(); scan_.next_line()) {
             line_ = scan_.line();
-            for (auto word = scan_.token_in_line(kOffComment); !word.empty(); word = scan_.token_in_line(kOffComment))
-                words_.push_back(word);
+            rest_of_line();
         }
         return !words_.empty();
     }
@@ -74,19 +100,18 @@ private:
     // ---- Header
 
     Done header() {
-        if (!next_line()) return wrong("does not begin with OFF", "check that it is an OFF file");
-        std::string_view keyword = words_.front();
+        TextScanner behind = scan_;
+        std::string_view keyword = behind.token(kOffComment);
+        if (keyword.empty()) return wrong("does not begin with OFF", "check that it is an OFF file");
+        if (integer_from<std::uint64_t>(keyword)) return counts("");  // the keyword is missing
+        scan_ = behind;
+        line_ = scan_.line();
         take_kind(keyword);
         if (keyword.size() < 3 || !equals_ignoring_case(keyword.substr(0, 3), "off")) {
             return wrong("does not begin with OFF, or with a kind of OFF other than [ST][C][N]OFF",
                          "convert it to PLY");
         }
-        keyword.remove_prefix(3);  // the counts may stand right behind it
-        words_.erase(words_.begin());
-        if (!keyword.empty()) words_.insert(words_.begin(), keyword);
-        if (words_.empty() && !next_line()) return wrong("ends before its counts");
-        if (equals_ignoring_case(words_.front(), "binary")) return wrong("is a binary OFF file", "convert it to PLY");
-        return counts();
+        return counts(keyword.substr(3));  // the counts may stand right behind it
     }
 
     // Takes the letters before OFF off the keyword; programs disagree on their order.
@@ -101,19 +126,49 @@ private:
         return has = true;
     }
 
-    Done counts() {
-        std::array<std::uint64_t, 3> counts{};  // of vertices, faces and edges; the last may be missing
-        for (std::size_t i = 0; i < std::min(words_.size(), counts.size()); ++i) {
+    // Reads the counts of vertices, faces and edges, of which the last may be missing.
+    Done counts(std::string_view first) {
+        if (first.empty()) first = next_word();
+        if (first.empty()) return wrong("ends before its counts");
+        if (equals_ignoring_case(first, "binary")) return wrong("is a binary OFF file", "convert it to PLY");
+        const TextScanner behind_first = scan_;
+        rest_of_line();
+        words_.insert(words_.begin(), first);
+        if (layout_.counts_edges) {  // vertices may follow in the same line
+            words_ = {first};
+            scan_ = behind_first;
+            while (words_.size() < kCounts) words_.push_back(next_word());
+        }
+        while (words_.size() < kCounts && take_short_line(kCounts - words_.size())) {
+        }
+        std::array<std::uint64_t, kCounts> counts{};
+        for (std::size_t i = 0; i < std::min(words_.size(), kCounts); ++i) {
             const auto value = integer_from<std::uint64_t>(words_[i]);
             if (!value) return wrong(in_quotes(words_[i]) + " stands where a count should");
             counts[i] = *value;
         }
-        if (words_.size() < 2 || words_.size() > 3) {
+        if (words_.size() < 2 || words_.size() > kCounts) {
             return wrong("has " + std::to_string(words_.size()) + " counts in a line",
                          "write the numbers of vertices, faces and edges into one line");
         }
-        vertices_ = counts[0];
-        faces_ = counts[1];
+        return check_counts(counts[0], counts[1]);
+    }
+
+    // Adds the words of the next line to those of this one, if they are at most so many.
+    bool take_short_line(std::size_t most) {
+        TextScanner next = scan_;
+        std::vector<std::string_view> words{next.token(kOffComment)};
+        for (auto word = next.token_in_line(kOffComment); !word.empty(); word = next.token_in_line(kOffComment))
+            words.push_back(word);
+        if (words.size() > most || !integer_from<std::uint64_t>(words.front())) return false;
+        words_.insert(words_.end(), words.begin(), words.end());
+        scan_ = next;
+        return true;
+    }
+
+    Done check_counts(std::uint64_t vertices, std::uint64_t faces) {
+        vertices_ = vertices;
+        faces_ = faces;
         // A vertex takes at least three digits and three blanks, a face a digit and a blank; allows a little less for
         // the file's end.
         const std::uint64_t room = (text_.size() - scan_.position()) / 2 + 1;
@@ -121,58 +176,69 @@ private:
             return wrong("claims " + std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
                          " faces, more than the file can hold");
         }
-        // Fewer lines than vertices and faces: some lines hold several vertices.
         TextScanner rest = scan_;
-        std::uint64_t lines = 0;
-        for (; !rest.at_end() && lines < vertices_ + faces_; rest.next_line())
-            lines += rest.token_in_line(kOffComment).empty() ? 0 : 1;
-        may_share_lines_ = lines < vertices_ + faces_;
+        for (std::uint64_t lines = 0; lines <= vertices_ + faces_ && !rest.token(kOffComment).empty(); rest.next_line())
+            lines_behind_counts_ = ++lines;
         return {};
     }
 
+    // Tells whether the lines are as many as vertices and faces: then each is to be one of these.
+    [[nodiscard]] bool has_a_line_for_each_row() const { return lines_behind_counts_ == vertices_ + faces_; }
+
     // ---- Vertices
 
-    // Reads the vertex of a line, or several.
-    Done vertices() {
+    Done vertices_in_lines() {
+        scan_.next_line();
+        while (soup_.positions.size() < vertices_) {
+            if (auto done = vertex_of_a_line(); !done) return done;
+        }
+        return {};
+    }
+
+    Done vertex_of_a_line() {
         if (!next_line()) return wrong("ends in the middle of its vertices");
         const std::size_t before = has_normals_ ? 6 : 3, behind = has_texture_ ? 2 : 0;
-        if (may_share_lines_ && before == 3 && behind == 0 && !has_colours_ && words_.size() % 3 == 0) {
-            for (std::size_t at = 0; at < words_.size() && soup_.positions.size() < vertices_; at += 3) {
-                if (auto done = position(at); !done) return done;
-            }
-            return {};
-        }
         if (words_.size() < before + behind) return wrong("a vertex has " + numbers(words_.size()) + ", too few");
         const std::size_t colour_numbers = words_.size() - before - behind;
         if (colour_numbers > (has_colours_ ? kMostColourNumbers : 0)) {
             return wrong("a vertex has " + numbers(words_.size()) + ", too many",
                          has_colours_ ? kOneALine : "write one vertex a line, and COFF or NOFF for colours or normals");
         }
-        if (auto done = position(0); !done) return done;
-        for (std::size_t i = 3; i < words_.size(); ++i) {
-            if (const auto value = number(i); !value) return std::unexpected(value.error());
-        }
-        if (!has_colours_) return {};
-        return colour(before, colour_numbers, soup_.positions.size() - 1, vertex_colours_);
+        return vertex(before, colour_numbers);
     }
 
-    Done position(std::size_t at) {
-        Vec3 p;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto value = number(at + k);
-            if (!value) return std::unexpected(value.error());
-            p[static_cast<int>(k)] = *value;
-            if (coordinate_fault(*value) == nullptr) soup_.precision.see(words_[at + k], *value);
+    Done vertices_anyhow() {
+        if (has_a_line_for_each_row()) return wrong("a line is no vertex", kOneALine);
+        const std::size_t before = has_normals_ ? 6 : 3, behind = has_texture_ ? 2 : 0;
+        const std::size_t colour_numbers = has_colours_ ? layout_.colour_numbers : 0;
+        while (soup_.positions.size() < vertices_) {
+            words_.clear();
+            while (words_.size() < before + colour_numbers + behind) {
+                words_.push_back(next_word());
+                if (words_.back().empty()) return wrong("ends in the middle of its vertices");
+            }
+            if (auto done = vertex(before, colour_numbers); !done) return done;
         }
-        add_vertex(soup_, p, line_);
         return {};
     }
 
-    Result<double> number(std::size_t at) const {
-        const auto value = number_from(words_[at]);
-        if (!value) return wrong(in_quotes(words_[at]) + " is not a number");
-        return *value;
+    // Takes the words for a vertex, of which so many stand before its colour.
+    Done vertex(std::size_t before, std::size_t colour_numbers) {
+        Vec3 p;
+        for (std::size_t k = 0; k < words_.size(); ++k) {
+            const auto value = number_from(words_[k]);
+            if (!value) return wrong(in_quotes(words_[k]) + " is not a number");
+            if (k >= 3) continue;
+            p[static_cast<int>(k)] = *value;
+            if (coordinate_fault(*value) == nullptr) soup_.precision.see(words_[k], *value);
+        }
+        add_vertex(soup_, p, line_);
+        if (!has_colours_) return {};
+        most_colour_numbers_ = std::max(most_colour_numbers_, colour_numbers);
+        colours_differ_ = colours_differ_ || colour_numbers < most_colour_numbers_;
+        return colour(before, colour_numbers, soup_.positions.size() - 1, vertex_colours_);
     }
+
     static std::string numbers(std::size_t count) {
         return std::to_string(count) + (count == 1 ? " number" : " numbers");
     }
@@ -180,23 +246,60 @@ private:
     // ---- Faces
 
     Done face() {
-        if (!next_line()) return wrong("ends in the middle of its faces");
-        const auto count = integer_from<std::uint32_t>(words_.front());
-        if (!count) return wrong(in_quotes(words_.front()) + " stands where a face's number of corners should");
-        if (words_.size() <= *count)
-            return wrong("a face of " + std::to_string(*count) + " corners names " + std::to_string(words_.size() - 1));
-        for (std::uint32_t i = 1; i <= *count; ++i) {
-            const auto index = integer_from<std::uint32_t>(words_[i]);
-            if (!index) return wrong(in_quotes(words_[i]) + " is not a vertex index");
+        const std::string_view first = next_word();
+        if (first.empty()) return wrong_face("ends in the middle of its faces");
+        const auto count = integer_from<std::uint32_t>(first);
+        if (!count) return wrong_face(in_quotes(first) + " stands where a face's number of corners should");
+        const std::uint64_t begins = line_;
+        for (std::uint32_t i = 0; i < *count; ++i) {
+            const std::string_view word = next_word();
+            if (line_ != begins) take_note_of_a_parted_face(begins, *count, i);
+            if (word.empty())
+                return wrong_face("a face of " + std::to_string(*count) + " corners names " + std::to_string(i));
+            const auto index = integer_from<std::uint32_t>(word);
+            if (!index) return wrong_face(in_quotes(word) + " is not a vertex index");
             if (*index >= vertices_) {
-                return wrong("a face names vertex " + std::to_string(*index) + ", but there are only " +
-                                 std::to_string(vertices_) + " (counted from 0)",
-                             "repair the file");
+                return wrong_face("a face names vertex " + std::to_string(*index) + ", but there are only " +
+                                      std::to_string(vertices_) + " (counted from 0)",
+                                  "repair the file");
             }
             soup_.corners.push_back(*index);
         }
         soup_.corner_counts.push_back(*count);
-        return colour(*count + 1, words_.size() - *count - 1, soup_.corner_counts.size() - 1, face_colours_);
+        const bool is_whole = line_ == begins;
+        rest_of_line();
+        if (is_whole && !colour_of_whole_) colour_of_whole_ = words_.size();
+        if (!is_whole && !colour_of_parted_) colour_of_parted_ = words_.size();
+        return colour(0, words_.size(), soup_.corner_counts.size() - 1, face_colours_);
+    }
+
+    // The first face that goes over lines, which is what a corner too few looks like.
+    void take_note_of_a_parted_face(std::uint64_t line, std::uint32_t corners, std::uint32_t names) {
+        if (parted_line_ > 0) return;
+        parted_line_ = line;
+        parted_ = "a face of " + std::to_string(corners) + " corners names " + std::to_string(names);
+    }
+
+    // What is wrong behind a face that goes over lines may follow from that one.
+    std::unexpected<Error> wrong_face(const std::string& what, const char* remedy = kTruncatedRemedy) const {
+        if (parted_line_ == 0) return wrong(what, remedy);
+        return fail(at_line(name_, parted_line_),
+                    parted_ + " in its line, and with those of the next lines the counts do not fit: line " +
+                        std::to_string(line_) + " " + what,
+                    "give each face all of its corners");
+    }
+
+    Done end() {
+        const bool is_odd = colour_of_whole_ && colour_of_parted_ && *colour_of_whole_ != *colour_of_parted_;
+        if (parted_line_ > 0 && (is_odd || has_a_line_for_each_row())) {
+            line_ = parted_line_;
+            return wrong(parted_, "give each face all of its corners");
+        }
+        if (next_word().empty()) return {};
+        if (parted_line_ > 0) return wrong_face("stands behind the last face");
+        if (!layout_.keeps_to_lines || colours_differ_) return wrong("text stands behind the last face", kOneALine);
+        soup_.report.remarks.push_back("text after the last face was ignored");
+        return {};
     }
 
     // ---- Colours
@@ -243,18 +346,35 @@ private:
     std::string_view text_;
     TextScanner scan_;
     const std::string& name_;
-    std::vector<std::string_view> words_;  // of the line read last
+    const OffLayout layout_;
+    std::vector<std::string_view> words_;  // of the line or the vertex read last
     std::uint64_t line_ = 1;
     MeshSoup soup_;
     ColourMaterials materials_{soup_.materials};
     std::vector<FileColour> vertex_colours_, face_colours_;
     ColourScale with_point_, whole_;
-    bool has_texture_ = false, has_colours_ = false, has_normals_ = false, may_share_lines_ = false;
+    bool has_texture_ = false, has_colours_ = false, has_normals_ = false;
     std::uint64_t vertices_ = 0, faces_ = 0, uncoloured_ = 0;
+    std::uint64_t lines_behind_counts_ = 0;  // that are not empty, up to one more than rows
+    std::uint64_t parted_line_ = 0;          // of the first face that goes over lines; 0: none does
+    std::string parted_;                     // what that line lacks
+    // Of the first face in one line, and of the first that goes over lines: how many numbers its colour has.
+    std::optional<std::size_t> colour_of_whole_, colour_of_parted_;
+    std::size_t most_colour_numbers_ = 0;  // of a vertex
+    bool colours_differ_ = false;          // the vertices' in their number of numbers
 };
 
 }  // namespace
 
-Result<MeshSoup> read_off(std::string_view text, const std::string& name) { return OffReader(text, name).read(); }
+Result<MeshSoup> read_off(std::string_view text, const std::string& name) {
+    Result<MeshSoup> in_lines = OffReader(text, name, {}).read();
+    if (in_lines) return in_lines;
+    for (const bool counts_edges : {true, false})
+        for (const std::size_t colour_numbers : {4, 3}) {  // 4 by Geomview's definition; many programs write 3
+            Result<MeshSoup> anyhow = OffReader(text, name, {false, colour_numbers, counts_edges}).read();
+            if (anyhow) return anyhow;
+        }
+    return in_lines;
+}
 
 }  // namespace burin::geometry

@@ -4,6 +4,9 @@
 // coordinates of the faces' corners (texcoord, with texnumber) or of the vertices (s, t or u, v). Other elements and
 // properties are skipped; skipped elements are named in a remark. Triangle strips are refused rather than lost. A
 // header's count is compared with the bytes that follow. A comment or obj_info line of the header may state the unit.
+// In ASCII a row is a line: what is too much in it is skipped, and named in a remark, and what it lacks is a fault of
+// that line. A text may have its rows anyhow where they do not keep to lines from the first on, and where lines are
+// more or fewer than rows; then it must end with the last row.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,9 +31,9 @@ struct PlyColour {
 
 class PlyReader {
 public:
-    PlyReader(std::span<const std::byte> bytes, const std::string& name, PlyHeader header,
+    PlyReader(std::span<const std::byte> bytes, const std::string& name, PlyHeader header, PlyRows rows,
               const MaterialFileReader& pictures)
-        : name_(name), header_(std::move(header)), values_(bytes, header_), pictures_(pictures) {}
+        : name_(name), header_(std::move(header)), rows_(rows), values_(bytes, header_, rows), pictures_(pictures) {}
 
     Result<MeshSoup> read() {
         soup_.stated_unit = header_.stated_unit;
@@ -38,9 +41,11 @@ public:
         soup_.report.format = header_.encoding == PlyEncoding::ascii           ? "PLY, ASCII"
                               : header_.encoding == PlyEncoding::little_endian ? "PLY, binary little endian"
                                                                                : "PLY, binary big endian";
+        if (rows_ == PlyRows::anyhow && has_a_line_for_each_row()) return wrong("a line is no row");
         for (const PlyElement& element : header_.elements) {
             if (auto done = read_element(element); !done) return std::unexpected(done.error());
         }
+        if (rows_ == PlyRows::anyhow && !values_.only_blanks_left()) return wrong("data stand behind the last element");
         if (auto done = check_corners(); !done) return std::unexpected(done.error());
         resolve_colours();
         wear_textures();
@@ -49,9 +54,17 @@ public:
                                            " other kinds of element were ignored, the first is " +
                                            in_quotes(first_ignored_));
         }
+        if (long_rows_ > 0) {
+            soup_.report.remarks.push_back(std::to_string(long_rows_) +
+                                           " rows have more numbers than the header says, the first in line " +
+                                           std::to_string(first_long_row_) + "; what is too much was skipped");
+        }
         if (!values_.only_blanks_left()) soup_.report.remarks.push_back("data after the last element were ignored");
         return std::move(soup_);
     }
+
+    // Tells whether most rows were lines of the element that was read last: then the others have a fault.
+    [[nodiscard]] bool keeps_to_lines() const { return whole_rows_ > 0 && 2 * whole_rows_ >= rows_read_; }
 
 private:
     using Done = Result<void>;
@@ -61,7 +74,22 @@ private:
         return fail(values_.where(name_), what, remedy);
     }
 
+    [[nodiscard]] bool has_a_line_for_each_row() const {
+        std::uint64_t rows = 0;
+        for (const PlyElement& element : header_.elements) rows += element.properties.empty() ? 0 : element.count;
+        return values_.lines(rows + 1) == rows;
+    }
+
+    void end_row() {
+        const std::uint64_t line = values_.place();
+        const bool is_long = values_.end_row() > 0;
+        if (is_long && long_rows_++ == 0) first_long_row_ = line;
+        whole_rows_ += is_long ? 0 : 1;
+        ++rows_read_;
+    }
+
     Done read_element(const PlyElement& element) {
+        whole_rows_ = rows_read_ = 0;
         if (element.least_row_bytes(header_.encoding) > 0 &&
             element.count > values_.bytes_left() / element.least_row_bytes(header_.encoding)) {
             return wrong("claims " + std::to_string(element.count) + " of " + in_quotes(element.name) +
@@ -79,9 +107,11 @@ private:
 
     Done skip_rows(const PlyElement& element) {
         for (std::uint64_t row = 0; row < element.count; ++row) {
+            values_.begin_row();
             for (const PlyProperty& property : element.properties) {
                 if (auto done = skip(property); !done) return done;
             }
+            end_row();
         }
         return {};
     }
@@ -173,7 +203,8 @@ private:
         const bool coloured = element.has_colour(), placed = element.has_place();
         soup_.positions.reserve(element.count);
         if (coloured) vertex_colours_.reserve(element.count);
-        for (std::uint64_t row = 0; row < element.count; ++row) {
+        for (std::uint64_t row = 0; row < element.count; ++row, end_row()) {
+            values_.begin_row();
             Vec3 p(0.0);
             Vec2 place(0.0);
             std::uint64_t where = 0;  // of a coordinate that no mesh can have, or of the last
@@ -211,7 +242,8 @@ private:
         const bool coloured = element.has_colour();
         has_face_places_ = std::ranges::any_of(element.properties, &PlyProperty::is_places);
         soup_.corner_counts.reserve(element.count);
-        for (std::uint64_t row = 0; row < element.count; ++row) {
+        for (std::uint64_t row = 0; row < element.count; ++row, end_row()) {
+            values_.begin_row();
             PlyColour colour;
             for (const PlyProperty& property : element.properties) {
                 auto done = property.role == PlyRole::corners  ? corners(property)
@@ -307,6 +339,7 @@ private:
 
     const std::string& name_;
     PlyHeader header_;
+    const PlyRows rows_;
     PlyValues values_;
     const MaterialFileReader& pictures_;
     MeshSoup soup_;
@@ -322,6 +355,8 @@ private:
     std::uint64_t farthest_where_ = 0;
     std::uint64_t ignored_ = 0;
     std::string first_ignored_;
+    std::uint64_t whole_rows_ = 0, rows_read_ = 0;      // of one element; those with no number too many
+    std::uint64_t long_rows_ = 0, first_long_row_ = 0;  // with more numbers than the header says
 };
 
 }  // namespace
@@ -330,7 +365,11 @@ Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& n
                           const MaterialFileReader& pictures) {
     Result<PlyHeader> header = read_ply_header(text_of(bytes), name);
     if (!header) return std::unexpected(header.error());
-    return PlyReader(bytes, name, std::move(*header), pictures).read();
+    PlyReader reader(bytes, name, *header, PlyRows::in_lines, pictures);
+    Result<MeshSoup> in_lines = reader.read();
+    if (in_lines || header->encoding != PlyEncoding::ascii || reader.keeps_to_lines()) return in_lines;
+    Result<MeshSoup> anyhow = PlyReader(bytes, name, std::move(*header), PlyRows::anyhow, pictures).read();
+    return anyhow ? std::move(anyhow) : std::move(in_lines);
 }
 
 }  // namespace burin::geometry

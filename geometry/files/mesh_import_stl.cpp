@@ -97,8 +97,17 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     if (bytes.size() < kHeaderBytes) {
         return fail(name, "has " + std::to_string(bytes.size()) + " bytes, too few for an STL file", kTruncatedRemedy);
     }
-    const std::uint64_t claimed = bytes_claimed(bytes);
-    const std::uint64_t count = (claimed - kHeaderBytes) / kTriangleBytes;
+    const std::uint64_t follow = (bytes.size() - kHeaderBytes) / kTriangleBytes;
+    std::uint64_t claimed = bytes_claimed(bytes);
+    std::uint64_t count = (claimed - kHeaderBytes) / kTriangleBytes;
+    // A program that writes triangles as they come may leave such a count behind.
+    const bool is_open = count == 0 && follow > 0;
+    if (is_open && bytes.size() != kHeaderBytes + kTriangleBytes * follow)
+        return fail(name,
+                    "counts 0 triangles in its header, and the " + std::to_string(bytes.size() - kHeaderBytes) +
+                        " bytes behind it are no whole number of them",
+                    kTruncatedRemedy);
+    if (is_open) claimed = bytes.size(), count = follow;
     if (claimed > bytes.size()) {
         if (is_plain_text(text_of(bytes)))
             return fail(name, "is a text, but no STL file: that begins with the word solid",
@@ -110,6 +119,10 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     }
     MeshSoup soup;
     soup.report.format = "STL, binary";
+    if (is_open) {
+        soup.report.remarks.push_back("its header counts 0 triangles, and " + std::to_string(follow) +
+                                      " follow: all of them were read");
+    }
     if (const auto unit = unit_in_header(text_of(bytes.first(kTitleBytes))))
         soup.stated_unit = {*unit, "in its header"};
     if (claimed < bytes.size()) {
@@ -126,8 +139,9 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
         std::memcpy(xyz, triangle + kNormalBytes, sizeof xyz);
         for (std::size_t k = 0; k < 9; ++k) {
             soup.precision.see(xyz[k]);
+            const auto byte = kHeaderBytes + t * kTriangleBytes + kNormalBytes + 4 * k;
+            if (is_far(xyz[k]) && soup.far.empty()) soup.far = at_byte(name, byte);
             if (const char* fault = coordinate_fault(xyz[k])) {
-                const auto byte = kHeaderBytes + t * kTriangleBytes + kNormalBytes + 4 * k;
                 return fail(at_byte(name, byte), fault, kCoordinateRemedy);
             }
         }
@@ -206,6 +220,7 @@ private:
             if (const char* fault = coordinate_fault(*value)) {
                 return fail(at_line(name_, scan_.line()), fault, kCoordinateRemedy);
             }
+            if (is_far(*value) && soup_.far.empty()) soup_.far = at_line(name_, scan_.line());
             p[k] = *value;
             soup_.precision.see(word, *value);
         }

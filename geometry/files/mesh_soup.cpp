@@ -114,6 +114,21 @@ void reduce_palette(MeshSoup& soup) {
     soup.materials = std::move(merged);
 }
 
+// Decides what becomes of vertices far from the origin: faulty are all of them in a mesh that stays where it lies, and
+// those that no face names in one that is brought to its middle.
+void judge_distant(MeshSoup& soup, const std::string& name, MeshOrigin origin) {
+    if (soup.distant.empty()) return;
+    std::vector<bool> is_named(soup.positions.size(), false);
+    for (const std::uint32_t corner : soup.corners) is_named[corner] = true;
+    for (const FaultyVertex& vertex : soup.distant) {
+        if (origin == MeshOrigin::of_file || !is_named[vertex.vertex])
+            soup.faulty.push_back(vertex);
+        else if (soup.far.empty())
+            soup.far = soup.has_bytes ? at_byte(name, vertex.place) : at_line(name, vertex.place);
+    }
+    std::ranges::sort(soup.faulty, {}, &FaultyVertex::vertex);
+}
+
 Result<void> leave_out_faulty(MeshSoup& soup, const std::string& name) {
     if (soup.faulty.empty()) return {};
     constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
@@ -123,7 +138,7 @@ Result<void> leave_out_faulty(MeshSoup& soup, const std::string& name) {
     for (const std::uint32_t corner : soup.corners) {
         if (number[corner] != kLeftOut) continue;
         const auto named = std::ranges::find(soup.faulty, corner, &FaultyVertex::vertex);
-        return fail(where(named->place), named->fault, kCoordinateRemedy);
+        return fail(where(named->place), named->fault, named->remedy);
     }
     std::uint32_t kept = 0;
     for (std::size_t v = 0; v < number.size(); ++v) {
@@ -212,16 +227,29 @@ FirstFaces split_faces(const MeshSoup& soup, ImportedMesh& imported) {
     return first_faces;
 }
 
+double largest_coordinate(const TriangleMesh& mesh) {
+    const Box bounds = bounds_of(mesh);
+    const Vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+    return std::max({farthest.x, farthest.y, farthest.z});
+}
+
+// Moves the numbers of the file so that the middle of the box around all triangles is at the origin. Near it their
+// differences are exact, so that nothing is lost by a place far away. False where some lie too far from others.
+bool bring_to_middle(TriangleMesh& mesh) {
+    const Vec3 middle = bounds_of(mesh).center();
+    for (Vec3& p : mesh.positions_m) p -= middle;
+    return std::ranges::none_of(mesh.positions_m,
+                                [](const Vec3& p) { return is_far(p.x) || is_far(p.y) || is_far(p.z); });
+}
+
 // Brings the mesh, whose positions are numbers of the file, to metres. Metres stay as they are to the last bit.
 void bring_to_metres(ImportedMesh& imported, std::optional<LengthUnit> given, const std::optional<StatedUnit>& stated,
-                     const CoordinatePrecision& precision) {
-    const Box bounds = bounds_of(imported.mesh);
-    const Vec3 size = bounds.extent(), farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+                     double tolerance) {
+    const Vec3 size = bounds_of(imported.mesh).extent();
     ImportReport& report = imported.report;
     report.unit = choose_unit(given, stated, std::max({size.x, size.y, size.z}));
     const LengthUnit unit = report.unit.unit;
     report.size_m = to_metres(size, unit);
-    const double tolerance = precision.weld_tolerance(std::max({farthest.x, farthest.y, farthest.z}));
     report.weld_tolerance_m = to_metres(tolerance, unit);
     if (unit == LengthUnit::m) return;
     for (Vec3& p : imported.mesh.positions_m) p = to_metres(p, unit);
@@ -246,23 +274,30 @@ std::string at_byte(const std::string& name, std::uint64_t byte) { return name +
 const char* coordinate_fault(double number) {
     if (std::isnan(number)) return "a coordinate is not a number";
     if (std::isinf(number)) return "a coordinate is infinite";
-    if (std::abs(number) > kMaxCoordinate) return "a coordinate lies beyond 1e9";
+    if (std::abs(number) > kFarthestCoordinate) return "a coordinate lies beyond 1e15";
     return nullptr;
 }
 
 void add_vertex(MeshSoup& soup, const Vec3& position, std::uint64_t place) {
+    const auto vertex = static_cast<std::uint32_t>(soup.positions.size());
+    soup.positions.push_back(position);
     for (int k = 0; k < 3; ++k) {
         const char* const fault = coordinate_fault(position[k]);
         if (fault == nullptr) continue;
-        soup.faulty.push_back({static_cast<std::uint32_t>(soup.positions.size()), place, fault});
-        break;
+        soup.faulty.push_back({vertex, place, fault});
+        return;
     }
-    soup.positions.push_back(position);
+    if (is_far(position.x) || is_far(position.y) || is_far(position.z))
+        soup.distant.push_back({vertex, place, "a coordinate lies beyond 1e9", kFarRemedy});
 }
 
-Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::optional<LengthUnit> given_unit) {
+Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::optional<LengthUnit> given_unit,
+                              MeshOrigin origin) {
+    judge_distant(soup, name, origin);
     const std::size_t faulty = soup.faulty.size();
     if (const auto ok = leave_out_faulty(soup, name); !ok) return std::unexpected(ok.error());
+    if (!soup.far.empty() && origin == MeshOrigin::of_file)
+        return fail(soup.far, "a coordinate lies beyond 1e9", kFarRemedy);
     choose_colours(soup);
     if (soup.face_materials.empty() && !soup.colours.empty()) materials_from_vertices(soup);
     keep_colours_beyond_palette(soup);
@@ -281,7 +316,11 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::opt
     }
     remark_polygons(report, first_faces);
     result.mesh.positions_m = std::move(soup.positions);
-    bring_to_metres(result, given_unit, soup.stated_unit, soup.precision);
+    const double largest = largest_coordinate(result.mesh);
+    if (origin == MeshOrigin::middle && !bring_to_middle(result.mesh))
+        return fail(soup.far.empty() ? name : soup.far, "a coordinate lies more than 1e9 from others",
+                    "repair the file or export it again");
+    bring_to_metres(result, given_unit, soup.stated_unit, soup.precision.weld_tolerance(largest));
     result.mesh.colours = std::move(soup.colours);
     result.mesh.materials = std::move(soup.materials);
     return result;

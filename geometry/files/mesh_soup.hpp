@@ -19,17 +19,23 @@
 
 namespace burin::geometry {
 
+inline constexpr const char* kCoordinateRemedy = "repair the file or export it again";
+inline constexpr const char* kFarRemedy =
+    "bring the mesh to its origin with burin convert IN OUT --center, or repair the file";
+
 // A vertex that no mesh can have. Where no face names it, it is left out.
 struct FaultyVertex {
     std::uint32_t vertex = 0;
     std::uint64_t place = 0;  // its line, or byte
     const char* fault = "";
+    const char* remedy = kCoordinateRemedy;
 };
 
 struct MeshSoup {
     std::vector<Vec3> positions;                // numbers of the file, in whichever unit
     std::optional<StatedUnit> stated_unit;      // by a comment or a header of the file
     CoordinatePrecision precision;              // of the positions
+    std::string far = {};                       // where one that faces name lies beyond kMaxCoordinate first
     std::vector<Colour> colours;                // one for each vertex, or empty
     std::vector<std::uint32_t> corners;         // corners of all faces, one face after another
     std::vector<std::uint32_t> corner_counts;   // one for each face
@@ -37,6 +43,7 @@ struct MeshSoup {
     std::vector<Colour> corner_colours;         // of pictures, one for each of the corners; or empty
     std::vector<Material> materials;            // any number
     std::vector<FaultyVertex> faulty;           // in the order of positions
+    std::vector<FaultyVertex> distant;          // beyond kMaxCoordinate: faulty unless the mesh is moved
     bool has_bytes = false;                     // places are bytes, not lines
     ImportReport report;                        // the reader's part; finished() fills in the counts of faces
 };
@@ -58,17 +65,18 @@ private:
 
 // Describes the fault of a coordinate, a number of the file; nullptr when there is none.
 [[nodiscard]] const char* coordinate_fault(double number);
-inline constexpr const char* kCoordinateRemedy = "repair the file or export it again";
+// Tells whether a coordinate without a fault is too far from the origin for a mesh that stays where it lies.
+[[nodiscard]] inline bool is_far(double number) { return number > kMaxCoordinate || number < -kMaxCoordinate; }
 inline constexpr const char* kTruncatedRemedy = "the file is cut short or damaged: export or copy it again";
 
 // Adds a vertex, which may be a faulty one.
 void add_vertex(MeshSoup& soup, const Vec3& position, std::uint64_t place);
 
 // Leaves out the faulty vertices that no face names, with a remark; one that a face names is an error. Splits polygons,
-// reduces the palette, checks that there is a triangle and brings the numbers to metres. Every corner
-// must be a valid index.
+// reduces the palette, checks that there is a triangle, moves the mesh as asked and brings the numbers to metres. Every
+// corner must be a valid index.
 [[nodiscard]] Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name,
-                                            std::optional<LengthUnit> given_unit);
+                                            std::optional<LengthUnit> given_unit, MeshOrigin origin);
 
 // Tells whether the bytes are exactly as many as a binary STL's count of triangles takes.
 [[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);

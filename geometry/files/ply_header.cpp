@@ -208,12 +208,34 @@ Result<PlyHeader> read_ply_header(std::string_view file, const std::string& name
     return header;
 }
 
-PlyValues::PlyValues(std::span<const std::byte> bytes, const PlyHeader& header)
+PlyValues::PlyValues(std::span<const std::byte> bytes, const PlyHeader& header, PlyRows rows)
     : bytes_(bytes.subspan(header.data_begin)),
       encoding_(header.encoding),
+      rows_are_lines_(encoding_ == PlyEncoding::ascii && rows == PlyRows::in_lines),
       data_begin_(header.data_begin),
       data_line_(header.data_line),
       scan_(text_of(bytes_)) {}
+
+void PlyValues::begin_row() {
+    if (!rows_are_lines_) return;
+    const auto is_empty = [](TextScanner line) { return line.token_in_line().empty(); };
+    while (!scan_.at_end() && is_empty(scan_)) scan_.next_line();
+}
+
+std::uint64_t PlyValues::end_row() {
+    std::uint64_t left = 0;
+    if (!rows_are_lines_) return left;
+    while (!scan_.token_in_line().empty()) ++left;
+    scan_.next_line();
+    return left;
+}
+
+std::uint64_t PlyValues::lines(std::uint64_t most) const {
+    TextScanner rest(text_of(bytes_));
+    std::uint64_t count = 0;
+    for (; count < most && !rest.token().empty(); rest.next_line()) ++count;
+    return count;
+}
 
 std::optional<double> PlyValues::next(PlyType type) {
     if (encoding_ == PlyEncoding::ascii) return next_in_text();
@@ -239,9 +261,9 @@ std::optional<double> PlyValues::next(PlyType type) {
 }
 
 std::optional<double> PlyValues::next_in_text() {
-    const std::string_view word = word_ = scan_.token();
+    const std::string_view word = word_ = rows_are_lines_ ? scan_.token_in_line() : scan_.token();
     if (word.empty()) {
-        fault_ = "ends in the middle of its data";
+        fault_ = scan_.at_end() ? "ends in the middle of its data" : "its row has fewer numbers than the header says";
         return std::nullopt;
     }
     const auto value = number_from(word);

@@ -65,10 +65,20 @@ struct PlyHeader {
 // Reads the header at the start of a file, which may begin with a byte-order mark.
 [[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view file, const std::string& name);
 
+// How the rows of a text stand: each in a line of its own, or one behind the other wherever lines end.
+enum class PlyRows : std::uint8_t { in_lines, anyhow };
+
 // Reads the values after the header, one after another, in any encoding.
 class PlyValues {
 public:
-    PlyValues(std::span<const std::byte> bytes, const PlyHeader& header);
+    PlyValues(std::span<const std::byte> bytes, const PlyHeader& header, PlyRows rows);
+
+    // Go to the first value of the next row, and behind its last one. Where rows are lines, end_row() returns how many
+    // words the line has left, and skips them; else 0.
+    void begin_row();
+    std::uint64_t end_row();
+    // Counts the lines of a text that are not empty, up to `most`.
+    [[nodiscard]] std::uint64_t lines(std::uint64_t most) const;
 
     // Returns the next value; nothing at the end of the file or at something that is not a number; then fault() says
     // which.
@@ -91,6 +101,7 @@ private:
 
     std::span<const std::byte> bytes_;  // after the header
     PlyEncoding encoding_;
+    bool rows_are_lines_;
     std::size_t data_begin_;
     std::uint64_t data_line_;
     std::size_t at_ = 0;

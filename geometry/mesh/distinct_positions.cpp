@@ -4,28 +4,48 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <queue>
+#include <span>
 #include <tuple>
 
 namespace burin::geometry {
+namespace {
+
+// Sweeps along positions of one line, which are sorted by x. At each x the first vertex stays, and the others wait for
+// the next.
+std::size_t sweep(std::span<const std::uint32_t> line, std::vector<Vec3f>& positions) {
+    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> waiting;
+    std::size_t steps = 0, next = 0;
+    float x = 0.0f;
+    while (next < line.size() || !waiting.empty()) {
+        if (waiting.empty()) x = positions[line[next]].x;
+        while (next < line.size() && positions[line[next]].x == x) waiting.push(line[next++]);
+        const std::uint32_t stays = waiting.top();
+        waiting.pop();
+        if (positions[stays].x != x) positions[stays].x = x;
+        steps += waiting.size();
+        x = std::nextafter(x, std::numeric_limits<float>::max());
+    }
+    return steps;
+}
+
+}  // namespace
 
 std::size_t make_distinct(std::vector<Vec3f>& positions) {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) { return std::tuple(positions[i].x, positions[i].y, positions[i].z); };
+    std::ranges::sort(order, {},
+                      [&](std::uint32_t i) { return std::tuple(positions[i].y, positions[i].z, positions[i].x, i); });
     std::size_t steps = 0;
-    for (bool all_differ = false; !all_differ;) {
-        all_differ = true;
-        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-            return std::tuple_cat(key(a), std::tuple(a)) < std::tuple_cat(key(b), std::tuple(b));
-        });
-        for (std::size_t i = 1; i < order.size(); ++i) {
-            if (key(order[i]) != key(order[i - 1])) continue;
-            positions[order[i]].x = std::nextafter(positions[order[i]].x, std::numeric_limits<float>::max());
-            ++steps;
-            all_differ = false;
-        }
+    for (auto first = order.begin(); first != order.end();) {
+        const Vec3f& at = positions[*first];
+        const auto last = std::find_if(
+            first, order.end(), [&](std::uint32_t i) { return positions[i].y != at.y || positions[i].z != at.z; });
+        steps += sweep({first, last}, positions);
+        first = last;
     }
     return steps;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Keeps positions apart that become equal in single precision. A format without shared vertices, as STL, would make
 // one vertex of two: edges with four triangles, and parts that grow together.
-// Any unit and frame. Deterministic; any thread. Cost: n log n for each step that the densest place needs.
+// Any unit and frame. Deterministic; any thread. Cost: n log n, however many fall together.
 #pragma once
 
 #include <cstddef>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "base/sha256.hpp"
 #include "session/document/journal_folder.hpp"
 
@@ -100,7 +101,7 @@ Result<void> DocumentSide::keep_journal(const std::string& folder, const SculptO
     beginning.facts[document::kJournalNameFact] = name;
     if (!opened.recovered.empty()) beginning.facts[document::kUnsavedFact] = "1";
     if (!opened.document.empty() && opened.version) {
-        beginning.facts[document::kJournalOfFact] = std::filesystem::absolute(opened.document).string();
+        beginning.facts[document::kJournalOfFact] = absolute_path(opened.document).string();
         beginning.facts[document::kBaseIdFact] = opened.version->id;
         beginning.facts[document::kBaseSavesFact] = std::to_string(opened.version->saves);
     }

@@ -33,7 +33,8 @@ double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 Result<void> make_picture_folder(const std::filesystem::path& folder, const std::string& option) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (std::filesystem::is_directory(folder)) return {};
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder, ignored)) return {};
     return fail(folder.string(), "cannot be made as a folder for pictures (" + error.message() + ")",
                 "choose another " + option + " folder");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/record/input_files.hpp"
 
+#include "base/places.hpp"
 #include "document/document_reader.hpp"
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -75,11 +76,10 @@ InputFiles inputs_of(const SculptOptions& options) {
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     if (a.empty() || b.empty()) return false;
-    std::error_code ignored, failed_a, failed_b;
+    std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) return true;
-    const std::filesystem::path canonical_a = std::filesystem::weakly_canonical(std::filesystem::absolute(a), failed_a),
-                                canonical_b = std::filesystem::weakly_canonical(std::filesystem::absolute(b), failed_b);
-    return !failed_a && !failed_b && canonical_a == canonical_b;
+    const auto place_a = resolved_path(a), place_b = resolved_path(b);
+    return place_a && place_b && *place_a == *place_b;
 }
 
 }  // namespace burin::session

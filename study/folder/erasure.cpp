@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "study/assign/allocation.hpp"
 #include "study/folder/study_folder.hpp"
 
@@ -27,17 +28,21 @@ bool tells_of(const fs::path& file, const std::string& id) {
     return false;
 }
 
+// Whether any file below a report does.
+bool tells_below(const fs::path& report, const std::string& id) {
+    std::error_code error;
+    const auto tells = [&](const fs::path& file) { return fs::is_regular_file(file, error) && tells_of(file, id); };
+    if (!fs::is_directory(report, error)) return tells(report);
+    const auto files = entries_below(report);
+    return !files || std::ranges::any_of(*files, tells);  // nobody knows what a folder that cannot be read holds
+}
+
 // Reports in which a participant occurs, and the pictures, any of which may be drawn of its motion.
 std::vector<fs::path> derived_of(const fs::path& study, const std::string& id) {
     std::error_code error;
     std::vector<fs::path> derived;
-    const auto tells = [&](const fs::directory_entry& file) {
-        return file.is_regular_file() && tells_of(file.path(), id);
-    };
-    for (const fs::directory_entry& report : fs::directory_iterator(study / "reports", error))
-        if (tells(report) || std::ranges::any_of(fs::recursive_directory_iterator(report.path(), error), tells))
-            derived.push_back(report.path());
-    std::ranges::sort(derived);
+    for (const fs::path& report : entries_of(study / "reports").value_or(std::vector<fs::path>()))
+        if (tells_below(report, id)) derived.push_back(report);
     if (fs::exists(study / "pictures", error)) derived.push_back(study / "pictures");
     return derived;
 }

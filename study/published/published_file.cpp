@@ -34,7 +34,8 @@ constexpr std::size_t kPublishedColumns = 6;
 // Whether the line has the header's names, in quotes or not.
 bool is_header(std::string_view line, char separator) {
     std::string names;
-    for (const CsvField& field : split_csv(line, separator).fields) names += (names.empty() ? "" : ",") + field.text;
+    for (const CsvField& field : split_csv(line, separator).fields)
+        names += (names.empty() ? "" : ",") + column_name(field.text);
     return names == kPublishedHeader;
 }
 
@@ -95,10 +96,9 @@ ParsedPublished parse_published(std::string_view text) {
     bool header_seen = false;
     std::optional<char> separator;
     std::set<std::string> tables;
-    for (std::size_t line_number = 1; !text.empty(); ++line_number) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
+    for (std::size_t line_number = 1, next = 1; !text.empty(); line_number = next) {
+        const auto [line, lines] = take_record(text, separator);
+        next = line_number + lines;
         if (line.starts_with(kTitleMark)) parsed.study.title = line.substr(kTitleMark.size());
         if (line.empty() || line.front() == '#') continue;
         if (!header_seen && !separator && (separator = declared_separator(line))) continue;

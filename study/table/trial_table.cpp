@@ -47,10 +47,9 @@ class TrialParser {
 public:
     void read(std::string_view text) {
         std::string_view rest = text;
-        for (line_ = 1; !rest.empty(); ++line_) {
-            const std::size_t end = std::min(rest.find('\n'), rest.size());
-            const std::string_view line = rest.substr(0, end);
-            rest.remove_prefix(std::min(end + 1, rest.size()));
+        for (std::size_t next = line_ = 1; !rest.empty(); line_ = next) {
+            const auto [line, lines] = take_record(rest, separator_);
+            next = line_ + lines;
             if (line.find_first_not_of(" \t") == std::string_view::npos || line.front() == '#') continue;
             if (header_seen_ && rows_seen_ == kMostRows) {
                 complain(line_, 1, formatted("is the first of more than %zu rows", kMostRows),
@@ -118,10 +117,16 @@ private:
                name_of_separator(*separator_);
     }
 
+    static std::string one_line(std::string text) {
+        std::ranges::replace(text, '\n', ' ');
+        return text;
+    }
+
     void name_column(const CsvField& field, std::size_t i) {
-        const auto known = std::ranges::find(kColumnNames, field.text, &ColumnName::name);
+        const std::string name = column_name(field.text);
+        const auto known = std::ranges::find(kColumnNames, name, &ColumnName::name);
         if (known == kColumnNames.end()) {
-            parsed_.table.other_columns.push_back(field.text);
+            parsed_.table.other_columns.push_back(name == field.text ? name : one_line(field.text));
             return;
         }
         std::optional<std::size_t>& place = place_[static_cast<std::size_t>(known->quantity)];
@@ -215,6 +220,7 @@ private:
         const CsvField& f = field(split, quantity);
         const std::string what = quantity == Quantity::group ? "group" : "participant";
         if (f.text.empty()) complain(line_, f.column, "names no " + what, "write a code");
+        if (f.text.contains('\n')) complain(line_, f.column, what + " goes over lines", "write its code in one line");
         if (f.text.contains('@'))
             complain(line_, f.column, what + " '" + f.text + "' looks like a mail address",
                      "write a code that names nobody");

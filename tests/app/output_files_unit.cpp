@@ -168,6 +168,46 @@ TEST(OutputFiles, BesideAReportOverwriteNoInput) {
 }
 
 // A script's export took the place of the world's own mesh, where --outputs was the world's folder.
+TEST(OutputFiles, OfACommandInADeletedFolderHaveNoPlaceAndItSaysSoInALine) {
+    const Workplace place;
+    place.write("part.obj", "# units mm\nv 0 0 0\nv 40 0 0\nv 0 30 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string mesh = (place / "part.obj").string(), burin = kBurinCommand;
+    for (const std::string& command :
+         {burin + " convert " + mesh + " x.stl", burin + " convert x.obj " + mesh + ".stl",
+          burin + " combine " + mesh + " " + mesh + " --operation union --export x.stl", burin + " film pictures x.png",
+          burin + " sculpt block:0.01,0.01,0.01 --tool ball:0.002 --export x.stl --resolution 16",
+          burin + " study analyse x.csv --json x.json", burin + " bench document --json x.json"}) {
+        const auto outcome = place.run("mkdir -p gone && cd gone && rmdir ../gone && " + command);
+        EXPECT_EQ(outcome.status, 1) << command << "\n" << outcome.output;
+        EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << command << "\n" << outcome.output;
+        EXPECT_NE(outcome.output.find("working folder"), std::string::npos) << command << "\n" << outcome.output;
+    }
+    const auto whole =
+        place.run("mkdir -p gone && cd gone && rmdir ../gone && " + burin + " convert " + mesh + " " + mesh + ".stl");
+    EXPECT_EQ(whole.status, 0) << whole.output;
+}
+
+TEST(Remedies, NameNoEngineThatWasAskedForWherePicturesNeedADriver) {
+    const Workplace place;
+    place.write("quit.txt", "burin-input 1\n0.5 command quit\n");
+    const auto session = [&](const std::string& engine) {
+        return place.run("VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent " + std::string(kBurinCommand) +
+                         " sculpt ball:0.05 " + engine + " --resolution 16 --offscreen --input quit.txt");
+    };
+    const auto refused = session("--engine cpu");
+    EXPECT_EQ(refused.status, 1) << refused.output;
+    EXPECT_TRUE(refused.output.contains("install mesa-vulkan-drivers")) << refused.output;
+    EXPECT_FALSE(refused.output.contains("--engine")) << refused.output;
+    place.write("stroke.csv", kStrokeHeader + "0,0,0,0,0,0,0,1,1\n");
+    const std::string stroke = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent " +
+                               std::string(kBurinCommand) +
+                               " sculpt --workpiece ball:0.05 --resolution 16 --stroke stroke.csv --export x.obj ";
+    const auto on_gpu = place.run(stroke + "--engine vulkan");
+    EXPECT_EQ(on_gpu.status, 1) << on_gpu.output;
+    EXPECT_TRUE(on_gpu.output.contains("or use --engine cpu")) << on_gpu.output;
+    EXPECT_EQ(place.run(stroke + "--engine cpu").status, 0) << "a stroke needs no driver";
+}
+
 TEST(OutputFiles, OfAScriptOverwriteNothingThatTheSessionReads) {
     const Workplace place;
     write_worlds(place);

@@ -61,6 +61,35 @@ TEST_F(Placing, AMeshFarFromItsOriginIsMovedThereBeforeItIsRounded) {
     }
 }
 
+// In a national grid, in millimetres: no number near 5e9 is a float, nor as metres a double of as many digits.
+TEST_F(Placing, AMeshBeyondWhatIsReadWhereItLiesIsMovedInItsOwnNumbers) {
+    place.write("utm.obj",
+                "# units mm\nv 691234125.0 5334567250.0 512500.0\nv 691234165.0 5334567250.0 512500.0\n"
+                "v 691234125.0 5334567280.0 512500.0\nv 691234125.0 5334567250.0 512520.0\n"
+                "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const auto refused = convert("utm.obj moved.obj");
+    EXPECT_EQ(refused.status, 1) << refused.output;
+    EXPECT_TRUE(
+        refused.output.contains("utm.obj:2: a coordinate lies beyond 1e9; bring the mesh to its origin with "
+                                "burin convert IN OUT --center"))
+        << refused.output;
+    for (const char* name : {"moved.obj", "moved.stl", "moved.ply"}) {
+        const auto moved = convert(std::string("utm.obj --center ") + name);
+        ASSERT_EQ(moved.status, 0) << moved.output;
+        EXPECT_FALSE(moved.output.contains("single-precision")) << moved.output;
+        const Box box = geometry::examine(mesh(name)).bounds_m;
+        EXPECT_EQ(box.hi, Vec3(0.020, 0.015, 0.010)) << name;
+        EXPECT_EQ(box.lo, Vec3(-0.020, -0.015, -0.010)) << name;
+    }
+    EXPECT_TRUE(place.read("moved.obj").contains("v 20 -15 -10\n")) << place.read("moved.obj");
+    ASSERT_EQ(convert("utm.obj --place 1,2,3 placed.obj").status, 0);
+    EXPECT_NEAR(geometry::examine(mesh("placed.obj")).bounds_m.hi.y, 2.015, 1e-15);
+    place.write("apart.obj", "# units mm\nv -9e8 0 0\nv 1.2e9 0 0\nv 0 1 0\nv 5e12 0 0\nf 1 2 3\nf 1 2 4\n");
+    const auto apart = convert("apart.obj --center moved.obj");
+    EXPECT_EQ(apart.status, 1) << apart.output;
+    EXPECT_TRUE(apart.output.contains("apart.obj:3: a coordinate lies more than 1e9 from others")) << apart.output;
+}
+
 TEST_F(Placing, AMeshThatRoundingWouldBendNamesTheCommandThatMovesIt) {
     const auto rounded = convert("far.obj far.stl");
     ASSERT_EQ(rounded.status, 0) << rounded.output;

@@ -152,6 +152,8 @@ TEST_F(Document, IsRefusedKindlyWhereItIsNone) {
     EXPECT_TRUE(why_not(path).contains("check the path")) << why_not(path);
     at.write("work.burin", "");
     EXPECT_TRUE(why_not(path).contains("is empty")) << why_not(path);
+    at.write("work.burin", "\n");
+    EXPECT_TRUE(why_not(path).contains("is not an SQLite file: it has 1 byte")) << why_not(path);
     at.write("work.burin", std::string(5000, 'x'));
     EXPECT_TRUE(why_not(path).contains("is not an SQLite file")) << why_not(path);
     EXPECT_TRUE(why_not(path).contains("a document that burin has saved")) << why_not(path);

@@ -114,6 +114,63 @@ TEST(OffImport, ReadsNormalsColoursAndTextureInAnyOrderOfTheirLetters) {
     EXPECT_EQ(refused_off(box("CCOFF", " 0 0 1 1 0 0")).substr(0, 11), "test.off:1:");
 }
 
+// Geomview's definition: numbers may stand in lines as they like, only a face's colour ends with its line.
+TEST(OffImport, ReadsAFaceThatGoesOverLines) {
+    const std::string vertices = "OFF\n8 6 12\n" + kOffBox.substr(0, kOffBox.find("4 0 3 2 1"));
+    std::string parted, coloured;
+    for (const char* face : {"0 3 2 1", "4 5 6 7", "0 1 5 4", "1 2 6 5", "2 3 7 6", "3 0 4 7"}) {
+        std::string words = face;
+        for (const std::size_t at : {3, 5}) words[at] = '\n';
+        parted += "4 " + words + "\n";
+        coloured += "4\n" + words + " 255 0 0 # red\n";
+    }
+    expect_off_box(vertices + parted);
+    expect_off_box(vertices + coloured);
+    EXPECT_EQ(import_off(vertices + coloured)->mesh.materials.at(0).colour, (Rgb{255, 0, 0}));
+}
+
+TEST(OffImport, ReadsABoxHoweverItsLinesEnd) {
+    const auto with_lines_of = [](std::size_t words_a_line, std::string text) {
+        std::size_t words = 0;
+        for (char& c : text)
+            if (c == ' ' || c == '\n') c = ++words % words_a_line == 0 ? '\n' : ' ';
+        return text;
+    };
+    const std::string faces = kOffBox.substr(kOffBox.find("4 0 3 2 1"));
+    const std::string vertices = kOffBox.substr(0, kOffBox.size() - faces.size());
+    for (const std::size_t words : {1, 2, 5, 6, 12, 24}) {
+        expect_off_box("OFF\n8 6 12\n" + with_lines_of(words, vertices) + "\n" + faces);
+        expect_off_box("OFF " + with_lines_of(words, "8 6 12 " + vertices) + "\n" + with_lines_of(1, faces));
+    }
+}
+
+TEST(OffImport, ReadsColoursOfVerticesThatGoOverLines) {
+    const auto with_blue_of = [](const std::string& red, const std::string& blue) {
+        return import_off("COFF 3 1 0\n0 0 0 " + red + "\n1 0 0 " + red + "\n0 1 0\n" + blue + "\n3 0 1 2\n");
+    };
+    for (const auto& read : {with_blue_of("255 0 0", "0 0 255"), with_blue_of("255 0 0 9", "0\n0 255 9")}) {
+        ASSERT_TRUE(read) << read.error().line();
+        EXPECT_EQ(read->mesh.positions_m.at(2), Vec3(0, 1, 0));
+        EXPECT_EQ(read->mesh.colours.at(2), (Rgb{0, 0, 255}));
+    }
+}
+
+TEST(OffImport, ReadsAFileWithoutTheKeyword) { expect_off_box("# box\n8 6 12\n" + kOffBox); }
+
+TEST(OffImport, ACornerOrACoordinateTooFewIsAnErrorAtItsLineAndNeverAnotherMesh) {
+    const auto with = [](const std::string& from, const std::string& to, const std::string& behind = "") {
+        std::string text = "OFF\n8 6 12\n" + kOffBox + behind;
+        return refused_off(text.replace(text.find(from), from.size(), to));
+    };
+    for (const char* behind : {"", "# the end\n", "3 1 2 3\n", "1 0 0\n"}) {
+        EXPECT_EQ(with("4 4 5 6 7", "4 4 5 6", behind).substr(0, 12), "test.off:12:") << behind;
+        EXPECT_EQ(with("0.3 0 0\n", "0.3 0\n", behind).substr(0, 11), "test.off:4:") << behind;
+        EXPECT_EQ(with("0.3 0 0\n", "0.3 0 0 1\n", behind).substr(0, 11), "test.off:4:") << behind;
+    }
+    EXPECT_EQ(with("0.3 0 0\n0.3 0.2 0", "0.3 0\n0 0.3 0.2 0").substr(0, 11), "test.off:4:") << "a row with a fault";
+    EXPECT_EQ(with("4 0 3 2 1\n4 4", "4 0 3 2\n1 4 4").substr(0, 12), "test.off:12:") << "no colour is so long";
+}
+
 TEST(OffImport, AColourOutsideItsRangeIsClampedAndNamedAtItsLine) {
     const auto head = [](const std::string& faces) { return import_off("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n" + faces); };
     const auto bytes = head("3 0 1 2 1 0 0\n3 0 1 2 300 0 -1\n");

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 
+#include "geometry/mesh/mesh_health.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 #include "tests/geometry/picture_samples.hpp"
 
@@ -309,6 +310,75 @@ TEST(PlyImport, SkipsAnElementWithoutPropertiesWhateverItsCount) {
     EXPECT_EQ(refused_ply("ply\nformat ascii 1.0\nelement nothing 18446744073709551615\n" +
                           kPlainPly.substr(kPlainPly.find("element"))),
               "");
+}
+
+// A box of 300 x 200 x 100 mm, a row a line.
+const std::string kPlyBox =
+    "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 6\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n300 0 0\n0 200 0\n300 200 0\n0 0 100\n300 0 100\n0 200 100\n300 200 100\n"
+    "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+
+// Returns the box with something behind the rows of a kind.
+std::string ply_box_with(const std::string& behind_vertices, const std::string& behind_faces) {
+    std::string text;
+    std::size_t line = 0, from = 0;
+    for (std::size_t at = 0; (at = kPlyBox.find('\n', from)) != std::string::npos; from = at + 1, ++line) {
+        text += kPlyBox.substr(from, at - from);
+        text += line < 9 ? "" : line < 17 ? behind_vertices : behind_faces;
+        text += "\n";
+    }
+    return text;
+}
+
+double ply_volume_m3(const Result<ImportedMesh>& read) {
+    if (!read) return 0.0;
+    const MeshHealth health = examine(read->mesh);
+    return health.closed ? health.signed_volume_m3 : 0.0;
+}
+
+TEST(PlyImport, ARowIsALineAndWhatIsTooMuchInItIsSkippedAndNamed) {
+    struct Case {
+        const char *behind_vertices, *behind_faces, *remark;
+    };
+    for (const auto& [vertices, faces, remark] :
+         {Case{"", " 1 1 1", "6 rows have more numbers than the header says, the first in line 18"},
+          Case{"", " 1", "6 rows have more numbers than the header says, the first in line 18"},
+          Case{" 0 0 1", "", "8 rows have more numbers than the header says, the first in line 10"},
+          Case{" 7", " 255 0 0 255", "14 rows have more numbers than the header says, the first in line 10"},
+          Case{" # a corner", "", "8 rows have more numbers than the header says, the first in line 10"}}) {
+        const auto read = import_ply(ply_box_with(vertices, faces));
+        ASSERT_TRUE(read) << read.error().line();
+        EXPECT_NEAR(ply_volume_m3(read), 6e-3, 1e-12) << vertices << faces;
+        ASSERT_EQ(read->report.remarks.size(), 1u) << vertices << faces;
+        EXPECT_EQ(read->report.remarks[0], std::string(remark) + "; what is too much was skipped");
+    }
+}
+
+TEST(PlyImport, ARowThatLacksANumberIsAnErrorAtItsLineAndNeverAnotherMesh) {
+    const auto with = [](const std::string& from, const std::string& to, const std::string& behind) {
+        std::string text = kPlyBox + behind;
+        return refused_ply(text.replace(text.find(from), from.size(), to));
+    };
+    for (const char* behind : {"", "\n\n", "3 0 1 2\n", "7\n"}) {
+        EXPECT_EQ(with("4 4 5 7 6", "4 4 5 7", behind).substr(0, 12), "test.ply:19:") << behind;
+        EXPECT_EQ(with("300 0 0\n", "300 0\n", behind).substr(0, 12), "test.ply:11:") << behind;
+        EXPECT_EQ(with("4 1 3 7 5", "5 1 3 7 5", behind).substr(0, 12), "test.ply:23:") << behind;
+    }
+    EXPECT_EQ(with("300 0 0\n0", "300 0\n0 0", "").substr(0, 12), "test.ply:11:") << "the next has one too many";
+}
+
+TEST(PlyImport, ReadsABoxWhoseRowsDoNotKeepToLines) {
+    const std::size_t data = kPlyBox.find("0 0 0\n");
+    for (const std::size_t words_a_line : {1, 2, 7, 12, 1000}) {
+        std::string text = kPlyBox;
+        std::size_t words = 0;
+        for (std::size_t at = data; at < text.size(); ++at)
+            if (text[at] == ' ' || text[at] == '\n') text[at] = ++words % words_a_line == 0 ? '\n' : ' ';
+        const auto read = import_ply(text);
+        ASSERT_TRUE(read) << words_a_line << ": " << read.error().line();
+        EXPECT_NEAR(ply_volume_m3(read), 6e-3, 1e-12) << words_a_line;
+    }
 }
 
 }  // namespace

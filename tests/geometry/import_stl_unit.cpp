@@ -112,6 +112,21 @@ TEST(StlImport, SaysThatBytesAfterTheLastTriangleWereIgnored) {
     EXPECT_EQ(result->report.remarks[0], "50 bytes after the last triangle were ignored");
 }
 
+TEST(StlImport, ReadsTheTrianglesBehindACountOfNoneAndSaysSo) {
+    const auto read = import_bytes(binary_stl(kTwoTriangles, 0));
+    ASSERT_TRUE(read) << read.error().line();
+    EXPECT_EQ(read->mesh.triangles.size(), 2u);
+    ASSERT_EQ(read->report.remarks.size(), 1u);
+    EXPECT_EQ(read->report.remarks[0], "its header counts 0 triangles, and 2 follow: all of them were read");
+    auto cut = binary_stl(kTwoTriangles, 0);
+    cut.pop_back();
+    const auto refused = import_bytes(cut);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().what.contains("counts 0 triangles in its header, and the 99 bytes behind it"))
+        << refused.error().line();
+    EXPECT_FALSE(import_bytes(binary_stl({}, 0))) << "there are none";
+}
+
 TEST(StlImport, NamesTheByteOfANonFiniteCoordinate) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -3e38f}) {
         std::vector<float> corners(std::begin(kTwoTriangles), std::end(kTwoTriangles));

@@ -190,7 +190,7 @@ TEST(JoinOpenEdges, TheToleranceOfAFileIsAPlaceOrTwoOfWhatIsWritten) {
     EXPECT_NEAR(tolerance("8.00000e+02"), 1.75e-3, 1e-9);
     EXPECT_NEAR(tolerance("1.0000000"), 3.5 * 0x1p-23, 1e-15) << "a float holds no more";
     EXPECT_NEAR(tolerance("800.12345678901"), 512 * 0x1p-43, 1e-17);
-    EXPECT_EQ(tolerance("800"), 0.0);
+    EXPECT_NEAR(tolerance("800"), 512 * 0x1p-43, 1e-17) << "typed, and exact as far as a double is";
 }
 
 TEST(JoinOpenEdges, SaysNoToleranceThatPressesWallsTogether) {
@@ -261,7 +261,19 @@ TEST(JoinOpenEdges, LeavesAClosedSurfaceAsItIsHoweverNearItsVerticesLie) {
 TEST(JoinOpenEdges, NumbersOfFewDigitsAreTakenAsTheyWereTyped) {
     const auto read = import_text("v 0 0 0\nv 0.02 0 0\nv 0.0201 0.02 0\nf 1 2 3\n", MeshFormat::obj, LengthUnit::m);
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->report.weld_tolerance_m, 0.0);
+    EXPECT_NEAR(read->report.weld_tolerance_m, 512 * 0x1p-58, 1e-19) << "no more than arithmetic in doubles";
+}
+
+// Sines and cosines that ought to be 0 are written as 1e-17.
+TEST(JoinOpenEdges, CornersThatDifferByLessThanADoubleOfTheLargestAreOneHoweverFewDigitsTheyHave) {
+    auto read = import_text(
+        "v 0 0 0\nv 0.05 0 0\nv 0 0.04 0\nv 0 0 0.03\nv 1e-17 0 0\nv 0.05 -2e-17 0\n"
+        "f 1 3 2\nf 5 6 4\nf 2 3 4\nf 1 4 3\n",
+        MeshFormat::obj, LengthUnit::m);
+    ASSERT_TRUE(read);
+    EXPECT_FALSE(examine(read->mesh).closed);
+    EXPECT_EQ(join_open_edges(read->mesh, read->report.weld_tolerance_m).vertices_joined, 2u);
+    EXPECT_TRUE(examine(read->mesh).closed);
 }
 
 TEST(JoinOpenEdges, SaysWhichToleranceClosesAMeshAndThatNoneClosesAHole) {

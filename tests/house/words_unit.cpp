@@ -10,6 +10,7 @@
 #include "tests/house/house_rules.hpp"
 #include "tests/house/source_tree.hpp"
 #include "tests/house/test_names.hpp"
+#include "tests/house/throwing_rules.hpp"
 
 namespace burin::house {
 namespace {
@@ -90,6 +91,39 @@ TEST(Words, EverySourceIncludesItsOwnHeaderFirst) {
         if (!found.empty()) ADD_FAILURE() << path << ": " << found;
     }
     EXPECT_GE(looked_at, 10u) << "hardly any source was read";
+}
+
+// Sources below tests/ are left aside: a test may end with a throw.
+TEST(Words, NoSourceCallsAFunctionOfTheFileSystemThatThrows) {
+    std::size_t looked_at = 0;
+    for (const std::string& path : repository_files(BURIN_SOURCE_FOLDER)) {
+        if (path.starts_with("tests/") || !(path.ends_with(".cpp") || path.ends_with(".hpp"))) continue;
+        const std::string text = read_text(fs::path(BURIN_SOURCE_FOLDER) / path);
+        if (!text.contains("filesystem")) continue;
+        ++looked_at;
+        for (const std::string& call : throwing_calls(text))
+            ADD_FAILURE() << path << ", " << call << ": give it a std::error_code, or use base/places.hpp";
+    }
+    EXPECT_GE(looked_at, 10u) << "hardly any source was read";
+}
+
+TEST(WordsRules, SeeACallThatThrows) {
+    const auto calls = [](const std::string& text) { return throwing_calls("std::error_code error, none;\n" + text); };
+    using Calls = std::vector<std::string>;
+    EXPECT_EQ(calls("if (std::filesystem::exists(path)) f();"), (Calls{"line 2: exists() throws"}));
+    EXPECT_EQ(calls("a = fs::absolute(b / \"c\");"), (Calls{"line 2: absolute() throws"}));
+    EXPECT_EQ(calls("a = fs::weakly_canonical(fs::absolute(b), error);"), (Calls{"line 2: absolute() throws"}));
+    EXPECT_EQ(calls("a = fs::current_path();\nfs::rename(a, b);"),
+              (Calls{"line 2: current_path() throws", "line 3: rename() throws"}));
+    EXPECT_EQ(calls("for (const auto& e : fs::directory_iterator(a, error)) f(e);"),
+              (Calls{"line 2: directory_iterator() throws"}));
+    EXPECT_EQ(calls("for (const auto& e : std::filesystem::recursive_directory_iterator(a)) f(e);"),
+              (Calls{"line 2: recursive_directory_iterator() throws"}));
+    EXPECT_EQ(calls("return entry.is_regular_file();"), (Calls{"line 2: is_regular_file() throws"}));
+    EXPECT_EQ(calls("if (fs::exists(path, error) && entry.is_directory(none)) f();"), Calls{});
+    EXPECT_EQ(calls("if (fs::exists(fs::symlink_status(path, error))) f();"), Calls{});
+    EXPECT_EQ(calls("for (fs::directory_iterator at(a, error), end; at != end; at.increment(error)) f();"), Calls{});
+    EXPECT_EQ(calls("// fs::absolute(path)\nconst char* a = \"fs::absolute(path)\";"), Calls{});
 }
 
 TEST(WordsRules, SeeAMachinesPath) {

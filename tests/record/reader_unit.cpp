@@ -62,6 +62,10 @@ TEST(RecordReader, RefusesWhatIsNoSessionFile) {
     expect_refused(at / "pipe", "is not a regular file");
     change(at / "other", "CREATE TABLE block(x)");
     expect_refused(at / "other", "another program");
+    at.write("byte", "x");
+    expect_refused(at / "byte", "is not an SQLite file: it has 1 byte");
+    change(at / "nothing", "CREATE TABLE a(x); DROP TABLE a");
+    expect_refused(at / "nothing", "is an SQLite file that holds nothing");
 }
 
 TEST(RecordReader, RefusesOtherVersionsTablesAndColumns) {

@@ -52,6 +52,36 @@ TEST(TrialTable, KeepsNumbersAndUnitsAsTheFileHasThem) {
     EXPECT_EQ(table.trials[1].deviation, 0.0);
 }
 
+TEST(TrialTable, ReadsAFieldInQuotesThatGoesOverLines) {
+    const std::string rows = "7,haptic,1,0.5,2,\"first line\nsecond, \"\"third\"\"\n\nlast\"\n8,visual,1,0.25,3,\n";
+    const ParsedTable parsed = parse_trials("participant,group,trial,deviation,time_s,\"what was\nsaid\"\n" + rows);
+    ASSERT_TRUE(parsed.faults.empty()) << line_of(parsed.faults[0], "");
+    ASSERT_EQ(parsed.table.trials.size(), 2u);
+    EXPECT_EQ(parsed.table.trials[0].time, 2.0);
+    EXPECT_EQ(parsed.table.trials[1].participant, "8");
+    EXPECT_EQ(parsed.table.other_columns, std::vector<std::string>{"what was said"});
+    expect_fault(kHeader + std::string("\"7\n7\",haptic,1,0.5,2\n"), "2:1", "goes over lines");
+    // The lines are those of the file.
+    expect_fault("participant,group,trial,deviation,time_s,note\n7,a,1,1,2,\"x\ny\"\n8,a,1,1,0,\n", "4:9",
+                 "not above 0");
+    // A quote that is never closed is a fault of its own line.
+    expect_fault("participant,group,trial,deviation,time_s,note\n7,a,1,1,2,\"x\n8,a,1,1,2,\n", "2:11", "never closed");
+}
+
+TEST(TrialTable, ReadsNamesOfColumnsInCapitals) {
+    for (const char* header :
+         {"PARTICIPANT,GROUP,TRIAL,DEVIATION_MM,TIME_S\n", "User;Group;Trial;Deviation_mm;Time_s\n"}) {
+        std::string row = "A7,Haptic,1,0.5,2\n";
+        if (std::string(header).contains(';')) std::ranges::replace(row, ',', ';');
+        const ParsedTable parsed = parse_trials(header + row);
+        ASSERT_TRUE(parsed.faults.empty()) << line_of(parsed.faults[0], "");
+        ASSERT_EQ(parsed.table.trials.size(), 1u);
+        EXPECT_EQ(parsed.table.trials[0].participant, "A7") << "codes keep their letters";
+        EXPECT_EQ(parsed.table.trials[0].group, "Haptic");
+        EXPECT_EQ(parsed.table.deviation_unit, "mm");
+    }
+}
+
 TEST(TrialTable, NamesWhatIsWrongWithAField) {
     const std::string head = kHeader;
     expect_fault(head + "1,a,1,0.1,0\n", "2:11", "not above 0");
