@@ -8,13 +8,13 @@
 namespace burin::haptics {
 namespace {
 
-constexpr double kRadius_m = 0.004;
+constexpr double kToolRadius_m = 0.004;
 
 struct Filling : test::TickedHand {
     bool pressed = false;
 
     explicit Filling(const geometry::LocalSurface& around, FillPlace fills) : TickedHand{around, {}} {
-        parameters.probe.points[0].radius_m = kRadius_m;
+        parameters.probe.points[0].radius_m = kToolRadius_m;
         parameters.limit_stiffness = false;
         parameters.max_surface_age_s = 0.0;
         parameters.action = ToolAction::fill;
@@ -42,7 +42,9 @@ struct Filling : test::TickedHand {
 };
 
 // What a stroke through the origin along +X has left behind: a bar as thick as the tool.
-test::Surface bead() { return test::box({-0.03, -kRadius_m, -kRadius_m}, {0.03, kRadius_m, kRadius_m}, 8); }
+test::Surface bead() {
+    return test::box({-0.03, -kToolRadius_m, -kToolRadius_m}, {0.03, kToolRadius_m, kToolRadius_m}, 8);
+}
 
 }  // namespace
 

@@ -14,7 +14,7 @@ namespace {
 // X11's numbers of keys by their place on a US keyboard.
 constexpr const char *kPlaceOfQ = "24", *kPlaceOfW = "25", *kPlaceOfY = "29", *kPlaceOfA = "38", *kPlaceOfZ = "52",
                      *kPlaceOf5 = "14", *kPlaceOf8 = "17", *kPlaceOf9 = "18", *kPlaceOfBracket = "34", *kCtrl = "37",
-                     *kRightAlt = "108", *kEscape = "9";
+                     *kRightAlt = "108", *kEscape = "Escape";  // of one digit alone xdotool makes a digit
 
 bool runs(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
 
