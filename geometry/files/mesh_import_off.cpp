@@ -370,7 +370,8 @@ Result<MeshSoup> read_off(std::string_view text, const std::string& name) {
     Result<MeshSoup> in_lines = OffReader(text, name, {}).read();
     if (in_lines) return in_lines;
     for (const bool counts_edges : {true, false})
-        for (const std::size_t colour_numbers : {4, 3}) {  // 4 by Geomview's definition; many programs write 3
+        for (const std::size_t colour_numbers :
+             {std::size_t{4}, std::size_t{3}}) {  // 4 by Geomview's definition; many programs write 3
             Result<MeshSoup> anyhow = OffReader(text, name, {false, colour_numbers, counts_edges}).read();
             if (anyhow) return anyhow;
         }

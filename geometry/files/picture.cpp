@@ -19,13 +19,6 @@ bool begins_with(std::span<const std::byte> bytes, std::initializer_list<int> st
            std::ranges::equal(bytes.first(start.size()), start, {}, [](std::byte b) { return static_cast<int>(b); });
 }
 
-// Returns the place of a pixel that lies beyond the rim.
-std::size_t wrapped(std::int64_t at, std::uint32_t count, bool repeats) {
-    const auto n = static_cast<std::int64_t>(count);
-    if (repeats) return static_cast<std::size_t>(((at % n) + n) % n);
-    return static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, n - 1));
-}
-
 bool has_a_colour(const std::vector<std::uint8_t>& rgb) {
     for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
         if (rgb[i] != rgb[i + 1] || rgb[i] != rgb[i + 2]) return true;
@@ -98,24 +91,16 @@ Colour Picture::mean() const {
     return {rgb[0], rgb[1], rgb[2]};
 }
 
+// The pixel itself, without its neighbours: with them a face at the rim of a quarter of one colour would have a share of
+// the quarter beside it, and at the picture's rim one of the other side.
 Colour Picture::sampled(const Level& level, const Vec2& at, PictureWrap wrap) const {
-    const double x = within_picture(at.x, wrap.s) * level.width - 0.5;
-    const double y = (1.0 - within_picture(at.y, wrap.t)) * level.height - 0.5;
-    const double left = std::floor(x), top = std::floor(y);
-    Vec3 sum(0.0);
-    for (int dy = 0; dy < 2; ++dy) {
-        for (int dx = 0; dx < 2; ++dx) {
-            const double share = (dx == 0 ? 1.0 - (x - left) : x - left) * (dy == 0 ? 1.0 - (y - top) : y - top);
-            const std::size_t px = wrapped(static_cast<std::int64_t>(left) + dx, level.width, wrap.s);
-            const std::size_t py = wrapped(static_cast<std::int64_t>(top) + dy, level.height, wrap.t);
-            const std::uint8_t* const pixel = level.rgb.data() + 3 * (py * level.width + px);
-            sum += share * Vec3(pixel[0], pixel[1], pixel[2]);
-        }
-    }
-    const auto byte = [](double value) {
-        return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+    const auto pixel_at = [](double share, std::uint32_t count) {
+        return std::min(static_cast<std::size_t>(share * count), std::size_t{count} - 1);
     };
-    return {byte(sum.x), byte(sum.y), byte(sum.z)};
+    const std::size_t x = pixel_at(within_picture(at.x, wrap.s), level.width);
+    const std::size_t y = pixel_at(1.0 - within_picture(at.y, wrap.t), level.height);
+    const std::uint8_t* const pixel = level.rgb.data() + 3 * (y * level.width + x);
+    return {pixel[0], pixel[1], pixel[2]};
 }
 
 Colour darkened(const Colour& own, const Colour& grey) {

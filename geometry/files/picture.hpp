@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures that a mesh or a world wears as its colours: decoded, and sampled to the colours of corners. There is no
-// texture beyond that: where a mesh is coarser than its picture, corners take the mean colour of what lies around them.
+// texture beyond that: where a mesh is coarser than its picture, corners take the mean colour of what lies around them,
+// and where it is finer, that of the pixel they lie in.
 //
 // Coordinates: s to the right, t upwards, both from 0 to 1 across the picture; beyond, it repeats or its rim goes on.
 // Colours are sRGB, 8 bits a channel; alpha is ignored. Pictures come from strangers: kMostPicturePixels are decoded,

@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <map>
 #include <system_error>
+#include <vector>
+
+#include "base/places.hpp"
 
 namespace burin::study {
 namespace {
@@ -44,11 +47,12 @@ std::string without_sqlite_ends(const std::string& file) {
 std::vector<UnnamedFile> unnamed_files(const StudyFolder& study) {
     const std::map<std::string, NamedAs> named = named_files(study);
     std::vector<UnnamedFile> found;
-    std::error_code error;
-    fs::recursive_directory_iterator at(study.path() / "data", fs::directory_options::skip_permission_denied, error);
-    for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-        if (at->is_directory(error)) continue;
-        const std::string file = at->path().lexically_relative(study.path()).generic_string();
+    const Result<std::vector<fs::path>> files = entries_below(study.path() / "data");
+    if (!files) found.push_back({"data", files.error().what, "see to its permissions"});
+    for (const fs::path& path : files.value_or(std::vector<fs::path>{})) {
+        std::error_code error;
+        if (fs::is_directory(path, error)) continue;
+        const std::string file = path.lexically_relative(study.path()).generic_string();
         const auto one = named.find(without_sqlite_ends(file));
         if (one == named.end())
             found.push_back({file, "is named by no line of the journal, whose end may have been cut off", kRestore});
@@ -57,7 +61,6 @@ std::vector<UnnamedFile> unnamed_files(const StudyFolder& study) {
                              "restore the journal from a copy; where there is none, have the stage done again, which "
                              "leaves this file as it is"});
     }
-    if (error) found.push_back({"data", "cannot be read: " + error.message(), "see to its permissions"});
     std::ranges::sort(found, {}, &UnnamedFile::file);
     return found;
 }
