@@ -123,6 +123,7 @@ Result<void> combine_files(const CombineOptions& options) {
     for (const std::string& path : options.exports) {
         if (const auto written = sculpt::export_finished(*finished, path); !written) return written;
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(unit).plural);
+        if (sculpt::loses_colours(finished->mesh, path)) std::printf("  %s\n", sculpt::kColoursLeftOut);
         report["exports"].push_back(std::filesystem::path(path).filename().string());
     }
     report["timing"] = {{"total_ms", static_cast<double>(clock.now_ns() - start_ns) * 1e-6}};

@@ -2,6 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
 
 #include "app/commands.hpp"
 #include "app/convert_placing.hpp"
@@ -106,10 +110,27 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
 void tell_colours(const std::string& out, const geometry::FileColours& colours, const geometry::ImportReport& report) {
     if (colours.none()) return;
     if (geometry::mesh_format_of(out) == geometry::MeshFormat::stl) {
-        std::printf("  its colours are left out, as STL has none; .ply and .obj have\n");
-    } else if (!report.pictures.empty()) {
+        std::printf("  %s\n", sculpt::kColoursLeftOut);
+    } else if (colours.flattened && !report.pictures.empty()) {
         std::printf("  %s\n", geometry::flattened_in_words(report.pictures).c_str());
     }
+}
+
+// Checks that the file of an OBJ's materials, which nobody has named, replaces nothing but another that Burin wrote, and
+// that the OBJ can name it.
+Result<void> check_materials(const std::string& materials, std::span<const std::string> inputs) {
+    if (const auto ok = check_places(std::array{materials}, inputs); !ok) return ok;
+    const std::string name = std::filesystem::path(materials).filename().string();
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '\\'; };
+    if (std::ranges::any_of(name, is_control) || name.front() == ' ')
+        return fail(materials, "is no name that an OBJ can hold for its colours", "choose another name, or .ply");
+    std::error_code error;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(materials, error))) return {};
+    std::ifstream in(materials);
+    std::string line;
+    if (!std::filesystem::is_symlink(materials, error) && std::getline(in, line) && line == "# by Burin") return {};
+    return fail(materials, "would be overwritten with the colours of the mesh, and Burin has not made it",
+                "move it away, or choose another name");
 }
 
 // Writes the mesh; beside an OBJ whose faces have colours its materials, over none of the inputs.
@@ -122,7 +143,7 @@ Result<void> write_mesh(const ConvertOptions& options, const geometry::TriangleM
     const bool has_materials = is_obj && !colours.of_faces.empty();
     const std::string materials = geometry::material_file_of(options.out).string();
     if (has_materials)
-        if (const auto ok = check_places(std::array{materials}, inputs); !ok) return ok;
+        if (const auto ok = check_materials(materials, inputs); !ok) return ok;
     if (const auto written = geometry::export_numbers(numbers, options.out, unit, corners); !written) return written;
     std::printf("%s: written in %s%s\n", options.out.c_str(), descriptor_of(unit).plural,
                 has_materials ? (", the colours of its faces in " + materials).c_str() : "");

@@ -136,6 +136,7 @@ Result<void> convert_document(const ConvertOptions& options) {
     if (const auto written = sculpt::export_finished(*finished, options.out); !written) return written;
     std::printf("%s: %zu triangles, in %s\n", options.out.c_str(), finished->mesh.triangles.size(),
                 descriptor_of(unit).plural);
+    if (sculpt::loses_colours(finished->mesh, options.out)) std::printf("  %s\n", sculpt::kColoursLeftOut);
     return {};
 }
 

@@ -304,6 +304,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (const auto written = sculpt::export_finished(*finished, path); !written) return written;
         report["exports"].push_back(fs::path(path).filename().string());
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
+        if (sculpt::loses_colours(finished->mesh, path)) std::printf("  %s\n", sculpt::kColoursLeftOut);
     }
     if (!options.exports.empty()) report["export_unit"] = name_of(export_unit);
     if (pictures) {

@@ -100,6 +100,8 @@ StageDeviation deviation_of(const study::StudyFolder& study, const Participant& 
     if (v.status == StageStatus::aborted) return {which + ": interrupted; what was recorded until then is kept."};
     if (!is_outcome_trial(study.protocol(), v)) return {};
     if (v.file.empty() && v.result == name_of(study::StageResult::stopped)) return {};  // is told as a deviation
+    if (v.file.empty() && v.result == name_of(study::StageResult::time_over))
+        return {which + ": no valid exit in the time there was."};
     if (v.file.empty()) return {which + ": no valid exit after all attempts."};
     const auto record = study.recorded(v);
     if (!record) return {which + ": its file is missing or damaged, and is left out."};

@@ -37,7 +37,8 @@ Result<void> study_status(const std::string& folder) {
         std::printf("interrupted: %s\n", one.text().c_str());
     const std::size_t unnamed = study::unnamed_files(*study).size();
     if (unnamed > 0)
-        std::printf("%zu files of data stand in no line of the journal: burin study check names them\n", unnamed);
+        std::printf("%zu places of data are missing or stand in no line of the journal: burin study check names them\n",
+                    unnamed);
     std::printf("last digest of the journal: %s\n", study->journal().last_digest.c_str());
     return {};
 }

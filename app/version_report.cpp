@@ -16,7 +16,7 @@ namespace {
 void print_vulkan_devices() {
     const auto devices = gpu::list_devices();
     if (!devices) {
-        std::printf("Vulkan: %s\n", devices.error().line().c_str());
+        std::printf("%s\n", devices.error().line().c_str());
         return;
     }
     std::printf("Vulkan devices:\n");

@@ -193,7 +193,12 @@ WorldOrProblems read_any_world(const std::filesystem::path& path, const WorldRea
     if (!shapes) return std::unexpected(shapes.error());
     scale_vrml(*shapes, *unit_m);
     WorldOrProblems world = world_of(*shapes, path.string());
-    if (!world) return world;
+    if (!world) {
+        // What was left out may be why nothing is left.
+        std::vector<Error> problems = std::move(world.error());
+        problems.insert(problems.end(), shapes->remarks.begin(), shapes->remarks.end());
+        return std::unexpected(std::move(problems));
+    }
     tell_remarks(*world, shapes->remarks, path.string());
     if (const std::string remark = unit_remark(*shapes, path.string()); !remark.empty())
         world->remarks.push_back(remark);

@@ -175,7 +175,7 @@ void CarvedPart::note_border(Carver& carver, std::span<const compute::ToolSweep>
     carver.said_border = true;
     notify(
         "what is added ends at the border of the room around the workpiece; for more, export it (Ctrl+E) and open that "
-        "file with --room 0.5");
+        "file with a larger --room");
 }
 
 bool CarvedPart::has_news() const {

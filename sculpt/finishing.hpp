@@ -32,6 +32,7 @@ struct FinishedMesh {
 
 // Returns whether a mesh has several colours and the file's format keeps none (geometry/files/mesh_export.hpp).
 [[nodiscard]] bool loses_colours(const geometry::TriangleMesh& mesh, const std::string& path);
+inline constexpr const char* kColoursLeftOut = "its colours are left out, as STL has none; .ply and .obj have";
 
 // Checks the bound of --simplify, which must be a distance above zero; to be called before any long step.
 [[nodiscard]] Result<void> check_simplification(std::optional<double> bound_m);

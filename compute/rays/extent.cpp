@@ -65,14 +65,36 @@ std::optional<double> top_of(const OneSide& rays) {
            (beyond_v ? rise_to_top(highest->rise_v, beyond_v->rise_v) : 0.0);
 }
 
-}  // namespace
-
-Box material_bounds(const Solid& solid) {
+// Returns the bounds of the rays that meet material, in the object frame.
+Box bounds_of_rays(const Solid& solid) {
     Box bounds;
     for (int axis = 0; axis < 3; ++axis) {
         const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
+        for (int v = 0; v < set.rays_v(); ++v)
+            for (int u = 0; u < set.rays_u(); ++u) {
+                const auto ends = set.ends(u, v);
+                if (ends.empty()) continue;
+                for (const shared::DexelEnd& end : {ends.front(), ends.back()}) {
+                    Vec3 units(0.0);
+                    units[axis] = shared::depth_of(end);
+                    units[(axis + 1) % 3] = u * shared::kUnitsPerCell;
+                    units[(axis + 2) % 3] = v * shared::kUnitsPerCell;
+                    bounds.include(solid.lattice.object_from_units(units));
+                }
+            }
+    }
+    return bounds;
+}
+
+}  // namespace
+
+Box material_bounds(const Solid& solid) {
+    Box bounds = bounds_of_rays(solid);
+    if (bounds.empty()) return bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
         const auto hi = top_of({set, axis, 1.0}), lo = top_of({set, axis, -1.0});
-        if (!hi || !lo) return {};
+        if (!hi || !lo) continue;
         bounds.lo[axis] = solid.lattice.origin_object[axis] - *lo * solid.lattice.spacing_m;
         bounds.hi[axis] = solid.lattice.origin_object[axis] + *hi * solid.lattice.spacing_m;
     }

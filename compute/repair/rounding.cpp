@@ -219,6 +219,7 @@ RoundingReport repair_rounding(const geometry::TriangleMesh& exact, geometry::Tr
     }
     report.complete = report.complete && report.tests < most_tests;
     report.left = pairs.size();
+    report.found = std::max(report.found, report.left);  // some come up only when others have been looked at
     report.vertices_moved = nudger.moved();
     for (std::size_t v = 0; v < meshes.index.size(); ++v)
         rounded.positions_m[v] = meshes.rounded.positions_m[meshes.index[v]];

@@ -106,17 +106,19 @@ MaterialLibrary read_mtl(std::string_view text, const std::string& name) { retur
 
 // "Material #25" is a name that one program gives to all its materials: what follows # is a comment only where no
 // material is called so.
-const ObjMaterial* material_named(const ObjMaterials& materials, std::string_view statement) {
+const ObjMaterial* material_named(const ObjMaterials& materials, MaterialsByBase& by_base, std::string_view statement) {
     const std::vector<std::string_view> readings = readings_of(statement);
     for (const std::string_view reading : readings)
         if (const auto known = materials.find(reading); known != materials.end()) return &known->second;
-    const ObjMaterial* found = nullptr;
-    for (const auto& [full, material] : materials) {
-        if (readings_of(full).back() != readings.back()) continue;
-        if (found != nullptr) return nullptr;
-        found = &material;
+    if (by_base.materials != materials.size()) {
+        by_base = {materials.size(), {}};
+        for (const auto& [full, material] : materials) {
+            const auto [at, is_new] = by_base.found.try_emplace(std::string(readings_of(full).back()), &material);
+            if (!is_new) at->second = nullptr;
+        }
     }
-    return found;
+    const auto found = by_base.found.find(readings.back());
+    return found == by_base.found.end() ? nullptr : found->second;
 }
 
 }  // namespace burin::geometry

@@ -2,6 +2,7 @@
 #include "geometry/files/mesh_files.hpp"
 
 #include <fstream>
+#include <set>
 
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -40,7 +41,7 @@ void add_places(const fs::path& folder, const std::vector<std::string>& names, s
 
 // Adds the pictures that a material file names.
 void add_pictures(const fs::path& materials, const fs::path& folder, std::vector<fs::path>& files) {
-    const Result<std::string> text = read_text_file(materials);
+    const Result<std::string> text = read_text_file(materials, kMaxMaterialFileBytes);
     if (!text) return;
     for (TextScanner scan(*text); !scan.at_end(); scan.next_line())
         if (equals_ignoring_case(scan.token_in_line(), "map_kd"))
@@ -50,14 +51,16 @@ void add_pictures(const fs::path& materials, const fs::path& folder, std::vector
 void add_files_of_obj(const fs::path& path, std::vector<fs::path>& files) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return;
-    for (TextScanner scan(*text); !scan.at_end(); scan.next_line()) {
+    std::set<std::string_view> libraries;
+    for (TextScanner scan(*text); !scan.at_end() && libraries.size() < kMostMaterialFiles; scan.next_line()) {
         if (!equals_ignoring_case(scan.token_in_line(), "mtllib")) continue;
         const std::string_view names = scan.rest_of_line();
+        if (!libraries.insert(names).second) continue;
         add_places(path.parent_path(), names_in(names), files);
         const std::vector<std::string> words = material_file_names(names);
         if (words.size() > 1) add_places(path.parent_path(), words, files);
     }
-    const std::vector<fs::path> materials(files.begin() + 1, files.end());
+    const std::set<fs::path> materials(files.begin() + 1, files.end());
     for (const fs::path& file : materials) add_pictures(file, path.parent_path(), files);
 }
 

@@ -10,6 +10,10 @@
 
 namespace burin::geometry {
 
+// Bounds of what an OBJ may name: a hostile file could name thousands. What is written stays within them.
+inline constexpr std::size_t kMostMaterialFiles = 64;
+inline constexpr std::uint64_t kMaxMaterialFileBytes = 64 << 20;
+
 // Returns the names of a line that names several material files, with blanks between them and quotes around some.
 [[nodiscard]] std::vector<std::string> material_file_names(std::string_view names);
 

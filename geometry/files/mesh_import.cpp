@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/file_io.hpp"
+#include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/named_file.hpp"
 #include "geometry/files/text_scanner.hpp"
@@ -11,7 +12,7 @@
 namespace burin::geometry {
 namespace {
 
-constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20, kMostPictureBytes = 256 << 20;
+constexpr std::uint64_t kMostPictureBytes = 256 << 20;
 
 Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
                       const MaterialFileReader& material_files, const MaterialFileReader& pictures) {

@@ -22,7 +22,6 @@ namespace {
 
 constexpr char kObjComment = '#';
 constexpr Vec2 kNoTexturePlace{std::numeric_limits<double>::quiet_NaN()};
-constexpr std::size_t kMostLibraries = 64;  // limit for material files; a hostile file could name thousands
 
 // Keywords that do not change the surface's shape or colour.
 constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
@@ -236,7 +235,7 @@ private:
         if (last_number_ && last_name_ == material) return *last_number_;
         const auto [entry, is_new] = numbers_.try_emplace(material, static_cast<std::uint32_t>(soup_.materials.size()));
         if (is_new) {
-            const ObjMaterial* const known = material_named(library_, material);
+            const ObjMaterial* const known = material_named(library_, by_base_, material);
             if (known == nullptr && !material.empty()) {
                 if (undefined_++ == 0) first_undefined_ = material;
             }
@@ -251,7 +250,7 @@ private:
     // Reads the material files of a line, each once, however often it is named.
     void read_materials(std::string_view names) {
         if (libraries_.contains(names)) return;
-        if (libraries_.size() >= kMostLibraries) {
+        if (libraries_.size() >= kMostMaterialFiles) {
             if (!too_many_libraries_) soup_.report.remarks.emplace_back("further material files were ignored");
             too_many_libraries_ = true;
             return;
@@ -302,6 +301,7 @@ private:
     std::optional<std::uint32_t> last_number_;
     std::map<std::string, std::uint32_t, std::less<>> numbers_;
     ObjMaterials library_;
+    MaterialsByBase by_base_;  // of the library
     std::set<std::string, std::less<>> libraries_;
     bool too_many_libraries_ = false;
     std::uint64_t undefined_ = 0;

@@ -64,7 +64,8 @@ public:
     }
 
     // Tells whether most rows were lines of the element that was read last: then the others have a fault.
-    [[nodiscard]] bool keeps_to_lines() const { return whole_rows_ > 0 && 2 * whole_rows_ >= rows_read_; }
+    // Where an element before did not keep to lines, the lines of this one prove nothing.
+    [[nodiscard]] bool keeps_to_lines() const { return !left_lines_ && whole_rows_ > 0 && rows_are_whole(); }
 
 private:
     using Done = Result<void>;
@@ -88,7 +89,10 @@ private:
         ++rows_read_;
     }
 
+    [[nodiscard]] bool rows_are_whole() const { return 2 * whole_rows_ >= rows_read_; }
+
     Done read_element(const PlyElement& element) {
+        left_lines_ = left_lines_ || !rows_are_whole();
         whole_rows_ = rows_read_ = 0;
         if (element.least_row_bytes(header_.encoding) > 0 &&
             element.count > values_.bytes_left() / element.least_row_bytes(header_.encoding)) {
@@ -356,6 +360,7 @@ private:
     std::uint64_t ignored_ = 0;
     std::string first_ignored_;
     std::uint64_t whole_rows_ = 0, rows_read_ = 0;      // of one element; those with no number too many
+    bool left_lines_ = false;                           // an element before had most of its rows otherwise
     std::uint64_t long_rows_ = 0, first_long_row_ = 0;  // with more numbers than the header says
 };
 

@@ -125,8 +125,10 @@ Colour in_range(const Colour& colour, const PictureUse& use) {
 }  // namespace
 
 std::vector<std::string> names_in(std::string_view rest) {
+    constexpr std::size_t kLongestName = 4096, kMostReadings = 16;  // PATH_MAX; and more than any name has
     std::vector<std::string> names;
     const auto add = [&](std::string_view name) {
+        if (trimmed(name).size() > kLongestName) return;
         std::string slashed(trimmed(name));
         std::ranges::replace(slashed, '\\', '/');
         if (!slashed.empty() && std::ranges::find(names, slashed) == names.end()) names.push_back(std::move(slashed));
@@ -140,7 +142,7 @@ std::vector<std::string> names_in(std::string_view rest) {
     };
     rest = trimmed(rest);
     add_unquoted(rest);
-    for (std::size_t hash = rest.rfind('#'); hash != std::string_view::npos && hash > 0;
+    for (std::size_t hash = rest.rfind('#'); hash != std::string_view::npos && hash > 0 && names.size() < kMostReadings;
          hash = rest.rfind('#', hash - 1))
         if (kSpaces.contains(rest[hash - 1])) add_unquoted(trimmed(rest.substr(0, hash)));
     return names;

@@ -22,18 +22,26 @@ int largest_difference(const Colour& a, const Colour& b) {
     return most;
 }
 
-// Derives face materials from vertex colours: a face takes the colour that two of its first three corners share, else
-// that of its first corner, so that no colour arises that the file does not have.
+// Returns the mean of three colours.
+Colour mean_of_three(const Colour& a, const Colour& b, const Colour& c) {
+    Colour mean{};
+    for (std::size_t k = 0; k < 3; ++k)
+        mean[k] = static_cast<std::uint8_t>((unsigned{a[k]} + unsigned{b[k]} + unsigned{c[k]} + 1) / 3);
+    return mean;
+}
+
+// Derives face materials from vertex colours: a face takes the colour that two of its first three corners share, so that
+// no colour arises at a border that the file does not have; of three different ones their mean, as of a picture.
 void materials_from_vertices(MeshSoup& soup) {
     ColourMaterials materials(soup.materials);
     soup.face_materials.reserve(soup.corner_counts.size());
     std::size_t first = 0;
     for (const std::uint32_t count : soup.corner_counts) {
         Colour colour = kPlainColour;
-        if (count > 0) colour = soup.colours[soup.corners[first]];
-        if (count > 2 && soup.colours[soup.corners[first + 1]] == soup.colours[soup.corners[first + 2]]) {
-            colour = soup.colours[soup.corners[first + 1]];
-        }
+        const auto corner = [&](std::size_t i) { return soup.colours[soup.corners[first + i]]; };
+        if (count > 0) colour = corner(0);
+        if (count > 2 && corner(0) != corner(1) && corner(0) != corner(2))
+            colour = corner(1) == corner(2) ? corner(1) : mean_of_three(corner(0), corner(1), corner(2));
         soup.face_materials.push_back(materials.index_of(colour));
         first += count;
     }
@@ -55,7 +63,9 @@ void choose_colours(MeshSoup& soup) {
         soup.colours.clear();
         return;
     }
-    if (faces_differ) soup.report.remarks.emplace_back("its vertices have colours, which hide those of its faces");
+    const Colour faces = colour_of(soup.face_materials.front());
+    if (faces_differ || (faces != Colour{255, 255, 255} && faces != soup.colours.front()))
+        soup.report.remarks.emplace_back("its vertices have colours, which hide those of its faces");
     soup.face_materials.clear();
     soup.materials.clear();
 }

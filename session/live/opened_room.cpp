@@ -76,10 +76,10 @@ void place_panel(Room& room, const LiveOptions& live) {
     room.desk.home_head_world.position_m -= 0.5 * (1.0 - room.free_width) * across(room.screen());
 }
 
-// Logs from before the mouse could lead the tool along the surface filled on the surface alone, and still do.
-haptics::FillPlace fill_place_of(const devices::DeviceNature& nature, const LiveOptions& live) {
+// Of a hand that a mouse leads or could lead, and of one that feels.
+haptics::FillPlace fill_place_of(const devices::DeviceNature& nature) {
     if (nature.felt_by_person) return haptics::FillPlace::begun;
-    const bool led_by_mouse = live.mouse.has_value() && !nature.leads_itself && !nature.is_worn;
+    const bool led_by_mouse = !nature.leads_itself && !nature.is_worn;
     return led_by_mouse ? haptics::FillPlace::hand : haptics::FillPlace::surface;
 }
 
@@ -101,6 +101,7 @@ Result<wall::OutputSettings> first_output(const Room& room, const LiveOptions& l
 Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wall) {
     OpenedRoom opened{room_of(wall), {}};
     opened.room.mouse = options.live.mouse.value_or(MouseMode::free);
+    opened.room.mouse_chosen = options.live.mouse.has_value();
     if (const auto cannot = no_surface(options)) opened.room.no_surface = cannot->what;
     opened.room.offers_mouse = options.live.mouse.has_value() && opened.room.no_surface.empty();
     const std::vector<NamedDevice> hands = devices_of(options.live);
@@ -115,7 +116,7 @@ Result<OpenedRoom> open_room(const SculptOptions& options, const SessionWall& wa
             room.desk.leans_sideways = true;
         }
         if (hands[i].device == devices::kMouseArm) steer_over(room, devices::mouse_arm().workspace_m);
-        room.fills = fill_place_of(*nature, options.live);
+        room.fills = fill_place_of(*nature);
         if (nature->is_worn) use_glove(room);
         if (nature->is_worn && i == 0 && options.activity != nullptr)
             if (const std::optional<LedHand> led = options.activity->led_hand()) {

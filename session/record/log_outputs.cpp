@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "document/document_file.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "session/input/input_words.hpp"
@@ -181,6 +182,7 @@ Result<void> SessionOutputs::make(const Folder& folder) {
         return fail(folder.path.string(), "is a symbolic link, and nobody has named it as the folder of a log's files",
                     "remove the link, or give " + folder.option + " with a folder of your choice");
     }
+    if (const auto ok = check_working_folder(folder.path); !ok) return ok;
     fs::create_directories(folder.path, failed);
     std::error_code ignored;
     if (!fs::is_directory(folder.path, ignored)) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "session/input/input_wand.hpp"
 #include "session/state/framed_world.hpp"
@@ -122,7 +123,8 @@ public:
     Result<void> operator()(const SetMouse& set) {
         if (set.mode == MouseMode::surface && !state_.no_surface.empty())
             return fail("mouse surface", state_.no_surface, "fly freely");
-        if (state_.mouse == set.mode) return {};
+        const bool was_chosen = std::exchange(state_.mouse_chosen, true);
+        if (state_.mouse == set.mode && was_chosen) return {};
         state_.mouse = set.mode;
         state_.desk.on_surface = {};
         state_.desk.buttons = 0;

@@ -268,6 +268,7 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
         state.mirror_middle_object = room.carved_object->center();
     }
     state.mouse = room.mouse;
+    state.mouse_chosen = room.mouse_chosen;
     state.no_surface = room.no_surface;
     state.framed = room.frames_world;
     state.first_steps = room.first_steps;
@@ -395,7 +396,9 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     if (number == state.hand && state.mouse == MouseMode::surface)
         for (haptics::TouchMaterial& material : p.materials) material.stiffness_N_per_m = kMouseStiffness_N_per_m;
     p.touches_while_pressed = number == state.hand && state.mouse == MouseMode::surface;
-    p.fills = p.touches_while_pressed ? haptics::FillPlace::surface : room.of(number).fills;
+    p.fills = room.of(number).fills;
+    if (p.touches_while_pressed || (p.fills == haptics::FillPlace::hand && !state.mouse_chosen))
+        p.fills = haptics::FillPlace::surface;
     if (state.world) state.world->materials.write(p.materials);
     if (hand.handle) hand.handle->write(p, radius_m);
     if (hand.handle && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it

@@ -49,13 +49,15 @@ struct SessionState : HandState {
     sculpt::FeelSettings feel;
     bool force_shown = false;  // as an arrow
     EdgeComfort edge_comfort = EdgeComfort::automatic;
-    bool carves = true;                         // there is a workpiece
-    bool saves = true;                          // the work can be saved
-    bool framed = false;                        // a world, beside the panel (LiveOptions::frames_world)
-    sculpt::Mirror mirror;                      // planes on whose other sides the workpiece is carved as well
-    MirrorPanes mirror_panes;                   // none where nothing is carved
-    Vec3 mirror_middle_object{0.0};             // of the workpiece, through which the planes go
-    MouseMode mouse = MouseMode::free;          // how it leads the hand in use
+    bool carves = true;                 // there is a workpiece
+    bool saves = true;                  // the work can be saved
+    bool framed = false;                // a world, beside the panel (LiveOptions::frames_world)
+    sculpt::Mirror mirror;              // planes on whose other sides the workpiece is carved as well
+    MirrorPanes mirror_panes;           // none where nothing is carved
+    Vec3 mirror_middle_object{0.0};     // of the workpiece, through which the planes go
+    MouseMode mouse = MouseMode::free;  // how it leads the hand in use
+    // Somebody has chosen that. Logs from before there was a choice fill on the surface alone, and still do.
+    bool mouse_chosen = false;
     std::string no_surface;                     // why it cannot lead it along a surface; empty: it can
     std::shared_ptr<const WorldObjects> world;  // null: none
     WorldHistory edits;                         // of its objects, where they can be saved
@@ -136,7 +138,8 @@ struct SessionOrders {
 struct HandRoom {
     Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
     DeskSettings desk;
-    haptics::FillPlace fills = haptics::FillPlace::surface;  // where the mouse does not lead it along the surface
+    // Where the mouse does not lead it along the surface; with the hand only once that was chosen.
+    haptics::FillPlace fills = haptics::FillPlace::surface;
 };
 
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
@@ -149,11 +152,12 @@ struct Room : HandRoom {
     SessionWall wall;
     std::vector<HandRoom> others;       // of the hands after the first
     MouseMode mouse = MouseMode::free;  // at the start
-    bool offers_mouse = false;          // the panel has the choice
-    bool first_steps = false;           // are shown at first
-    double panel_scale = 1.0;           // of the panel's letters on a desktop
-    bool frames_world = false;          // LiveOptions::frames_world
-    double free_width = 1.0;            // of the main screen's picture, that the panel leaves free at its left
+    bool mouse_chosen = false;
+    bool offers_mouse = false;  // the panel has the choice
+    bool first_steps = false;   // are shown at first
+    double panel_scale = 1.0;   // of the panel's letters on a desktop
+    bool frames_world = false;  // LiveOptions::frames_world
+    double free_width = 1.0;    // of the main screen's picture, that the panel leaves free at its left
     // Why the mouse cannot lead the hand along a surface; empty: it can.
     std::string no_surface;
 

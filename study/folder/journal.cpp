@@ -168,7 +168,7 @@ Journal parse_journal(std::string_view text) {
     Journal journal;
     journal.last_digest = kNoDigest;
     journal.ends_within_line = !text.empty() && text.back() != '\n';
-    std::string stated = kNoDigest;  // by the line before, good or not
+    std::string stated = kNoDigest;      // by the line before, good or not
     std::string last_sound = kNoDigest;  // of the last good line that is not without its words, as a torn one may be
     std::string latest_time;
     std::vector<std::size_t> without;  // words
@@ -189,7 +189,7 @@ Journal parse_journal(std::string_view text) {
             journal.faults.push_back(
                 {line,
                  torn ? "was not written to its end" : "does not match its digest: it, or the line before, was changed",
-                 torn ? "nothing: it is passed over, and what it told is done again"
+                 torn ? "it is passed over, and what it told is done again"
                       : "restore the journal from a copy; until then the line is passed over"});
             continue;
         }

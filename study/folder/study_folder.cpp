@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/places.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "study/assign/sealed_list.hpp"
@@ -209,6 +210,7 @@ std::vector<StagePlace> places_of(const Protocol& protocol) {
 
 Result<void> create_study(const fs::path& folder, const std::string& protocol_text, const StudyMaking& making) {
     std::error_code error;
+    if (const auto ok = check_working_folder(folder); !ok) return ok;
     if (fs::exists(fs::symlink_status(folder, error)))
         return fail(folder.string(), "exists already", "name a folder that does not, so that nothing is overwritten");
     if (!making.key.empty() && fs::exists(fs::symlink_status(making.key, error)))

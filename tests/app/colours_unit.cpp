@@ -70,12 +70,39 @@ TEST_F(ColoursOfFiles, OfAnObjStandBesideItOverNoneOfTheInputs) {
     EXPECT_TRUE(refused.output.contains("two_colours.mtl")) << refused.output;
     EXPECT_EQ(place.read("two_colours.mtl"), before);
     EXPECT_EQ(place.read("two_colours.obj"), kTwoColours);
+    EXPECT_EQ(convert("two_colours.obj out.obj").status, 0) << "again, over what was written before";
+    place.write("chair.mtl", "# precious\n");
+    const auto foreign = convert("two_colours.obj chair.obj");
+    EXPECT_EQ(foreign.status, 1) << foreign.output;
+    EXPECT_TRUE(foreign.output.contains("chair.mtl: would be overwritten")) << foreign.output;
+    EXPECT_EQ(place.read("chair.mtl"), "# precious\n");
 }
 
 TEST_F(ColoursOfFiles, ThatAnStlCannotHoldAreToldOf) {
     const auto told = convert("two_colours.obj out.stl");
     EXPECT_TRUE(told.output.contains("its colours are left out, as STL has none; .ply and .obj have")) << told.output;
     EXPECT_FALSE(convert("out.stl again.stl").output.contains("colours"));
+    for (const char* const command : {" sculpt two_colours.obj --resolution 32 --export o.stl",
+                                      " combine two_colours.obj two_colours.obj --resolution 32 --export o.stl"}) {
+        const auto carved = place.run(std::string(kBurinCommand) + command);
+        EXPECT_TRUE(carved.output.contains("its colours are left out, as STL has none")) << carved.output;
+    }
+}
+
+// Three different corners have their mean, as of a picture, and not that of the first; two alike decide.
+TEST_F(ColoursOfFiles, OfVerticesThatDifferBecomeTheMeanOfAFace) {
+    place.write("corners.ply",
+                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 4\n"
+                "property list uchar int vertex_indices\nend_header\n"
+                "0 0 0 255 0 0\n10 0 0 0 255 0\n0 10 0 0 0 255\n0 0 10 0 0 255\n"
+                "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+    const auto mesh = geometry::import_mesh(place / "corners.ply");
+    ASSERT_TRUE(mesh) << mesh.error().line();
+    ASSERT_EQ(mesh->mesh.triangle_materials.size(), 4u);
+    const auto colour = [&](std::size_t t) { return mesh->mesh.materials[mesh->mesh.triangle_materials[t]].colour; };
+    EXPECT_EQ(colour(0), (std::array<std::uint8_t, 3>{85, 85, 85}));
+    EXPECT_EQ(colour(2), (std::array<std::uint8_t, 3>{0, 0, 255}));
 }
 
 }  // namespace burin::app

@@ -233,4 +233,14 @@ TEST(WorldCommand, RefusesEmptyWorldsAndWrongUsage) {
     EXPECT_EQ(place.read("w.wrl"), kWorldHead);
 }
 
+// "holds nothing" alone hid why.
+TEST(WorldCommand, SaysWhatWasLeftOutOfAWorldInWhichNothingIsLeft) {
+    const Workplace place;
+    place.write("one.wrl", "#VRML V2.0 utf8\nShape { geometry Cilinder { } }\n");
+    const auto outcome = place.run(std::string(kBurinCommand) + " world check one.wrl");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("one.wrl:2:18: 'Cilinder' is no node of VRML 2.0")) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("holds nothing to touch or see")) << outcome.output;
+}
+
 }  // namespace burin::app

@@ -54,8 +54,21 @@ TEST(MaterialBounds, AreThoseOfWhatIsLeft) {
         set.replace(ray, left);
     }
     EXPECT_NEAR(material_bounds(*block).extent().x, 0.05, lattice.unit_m());
-    for (std::size_t ray = 0; ray < set.ray_count(); ++ray) set.replace(ray, {});
+    for (DexelSet& each : block->sets)
+        for (std::size_t ray = 0; ray < each.ray_count(); ++ray) each.replace(ray, {});
     EXPECT_TRUE(material_bounds(*block).empty());
+}
+
+// The rays along a plate thinner than a cell pass beside it: its sides are those of the rays through it.
+TEST(MaterialBounds, OfAPlateThinnerThanACellAreItsOwn) {
+    const auto plate = make_block({0.1, 0.1, 0.0001}, 64, {});
+    ASSERT_TRUE(plate) << plate.error().line();
+    const Vec3 size = material_bounds(*plate).extent();
+    EXPECT_NEAR(size.z, 0.0001, 2.0 * plate->lattice.unit_m());
+    for (const double side : {size.x, size.y}) {
+        EXPECT_LE(side, 0.1 + plate->lattice.unit_m());
+        EXPECT_GT(side, 0.1 - 1.01 * plate->lattice.spacing_m);
+    }
 }
 
 }  // namespace burin::compute

@@ -251,4 +251,13 @@ TEST(Pictures, AGreyPictureDarkensTheColourOfItsMaterial) {
     EXPECT_EQ(mesh.corner_colours[0][0][2], 0);
 }
 
+// 80,000 readings of a line had 8 GB.
+TEST(Pictures, ALineOfHashesHasFewReadings) {
+    std::string line;
+    for (int i = 0; i < 80'000; ++i) line += "a #";
+    EXPECT_LE(names_in(line).size(), 16u);
+    EXPECT_LE(picture_use(line).names.size(), 16u);
+    EXPECT_EQ(names_in("tex.png # the scan #2").size(), 3u);
+}
+
 }  // namespace burin::geometry

@@ -291,4 +291,20 @@ TEST(SessionState, TurningTheSceneTakesTheWorkpieceAndNotTheHand) {
     EXPECT_NEAR(std::abs(glm::dot(before.orientation, after.orientation)), 1.0, 1e-12);
 }
 
+// A log that says how the mouse flies is none from before it could be said.
+TEST(SessionState, FillsInFreeFlightOnceSomebodyHasChosenHowTheMouseFlies) {
+    Room room = test_room();
+    room.fills = haptics::FillPlace::hand;
+    SessionState state = test_state(room);
+    SessionOrders orders;
+    EXPECT_EQ(parameters_of(state, room).fills, haptics::FillPlace::surface);
+    ASSERT_TRUE(run_command(state, orders, CommandInput{"mouse", {"free"}}));
+    EXPECT_EQ(parameters_of(state, room).fills, haptics::FillPlace::hand);
+    room.fills = haptics::FillPlace::begun;
+    EXPECT_EQ(parameters_of(test_state(room), room).fills, haptics::FillPlace::begun) << "a hand that feels";
+    room.mouse = MouseMode::surface;
+    room.mouse_chosen = true;
+    EXPECT_EQ(parameters_of(test_state(room), room).fills, haptics::FillPlace::surface);
+}
+
 }  // namespace burin::session

@@ -214,6 +214,9 @@ TEST(LostTrials, WithoutAReasonAreAFaultOfATable) {
     EXPECT_EQ(parsed.faults[0].line, 2u);
     EXPECT_TRUE(parsed.faults[0].remedy.contains("say why in a column reason")) << parsed.faults[0].remedy;
     EXPECT_EQ(parsed.faults[2].line, 4u) << "a lost trial has its number";
+    const ParsedTable both = parse_trials("participant,group,trial,deviation_mm,time_s,reason\np1,a,1,1,2,lost\n");
+    ASSERT_EQ(both.faults.size(), 1u);
+    EXPECT_EQ(both.faults[0].line, 2u) << "measured, and lost";
 }
 
 // Journals and figures of a Burin that counted all attempts together, numbered no runs and called any wand simulated.
