@@ -2,11 +2,12 @@
 #include "app/device_check.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
+#include "app/tap_series.hpp"
 #include "base/text.hpp"
 #include "haptics/stability/safety_gate.hpp"
 
@@ -42,15 +43,16 @@ struct CheckedPart {
     DeviceSample sample;
     Vec3 velocity_m_per_s{0.0}, last_m{0.0}, wanted_N{0.0};
     haptics::GateState gate;
+    double let_through = 0.0;  // the share of a wanted force that the gate lets through
 };
 
 class DeviceCheck {
 public:
     DeviceCheck(devices::OpenedDevice& device, Clock& clock, CheckGuide& guide, const CheckOptions& options)
-        : device_(device), clock_(clock), guide_(guide), options_(options) {
+        : device_(device), clock_(clock), guide_(guide), options_(options), random_(options.seed) {
         for (const devices::DevicePart& part : device.parts)
             parts_.push_back(
-                {part.device.get(), part.name.empty() ? std::string() : " of " + part.name, {}, {}, {}, {}, {}});
+                {part.device.get(), part.name.empty() ? std::string() : " of " + part.name, {}, {}, {}, {}, {}, {}});
         // Gentle: a newton comes in a twentieth of a second.
         limits_.max_slew_N_per_s = 20.0;
         limits_.max_force_N = options.force_N;
@@ -60,8 +62,7 @@ public:
         if (answers()) {
             for (CheckedPart& part : parts_) position(part);
             buttons();
-            if (options_.pushes)
-                for (CheckedPart& part : parts_) force(part);
+            if (options_.pushes) forces();
         }
         rest();
         steadiness();
@@ -113,6 +114,7 @@ private:
         input.sample_finite = finite(place_m);
         const haptics::GateStep step = haptics::pass_gate(part.gate, input, limits_, dt_s);
         part.gate = step.next;
+        part.let_through = step.output.cause == haptics::GateCause::none ? step.next.faded() : 0.0;
         part.device->write(step.output.given);
     }
 
@@ -226,6 +228,12 @@ private:
              {{"seen", seen}});
     }
 
+    void forces() {
+        guide_.say(
+            formatted("The order of taps is that of --seed %llu.", static_cast<unsigned long long>(options_.seed)));
+        for (CheckedPart& part : parts_) force(part);
+    }
+
     void force(CheckedPart& part) {
         if (const char* const led_by = part.device->description().led_by; *led_by != '\0')
             return note("force" + part.of, Verdict::skipped,
@@ -234,74 +242,88 @@ private:
             return note(
                 "force" + part.of, Verdict::skipped,
                 "its simulated fingers hold against a gentle force: it shows on a glove's line, real or emulated");
-        if (part.device->description().drives_one_way)
-            return tap(part, part.sample.drive.along_device, "outwards", true);
-        tap(part, Vec3(1.0, 0.0, 0.0), "to the right and left", false);
-        tap(part, Vec3(0.0, 1.0, 0.0), "up and down", false);
-        tap(part, Vec3(0.0, 0.0, 1.0), "to you and away", false);
+        if (part.device->description().drives_one_way) return tap(part, 0, "outwards");
+        tap(part, 0, "to the right and left");
+        tap(part, 1, "up and down");
+        tap(part, 2, "to you and away");
     }
 
-    // Taps along a direction, and finds how far the handle gives way to the difference of the two forces.
-    void tap(CheckedPart& part, const Vec3& along, const char* way, bool is_one_way) {
+    // Taps along an axis until it is known whether the handle feels it, and lets go of it.
+    void tap(CheckedPart& part, int axis, const char* way) {
         const std::string check = std::string("force ") + way + part.of;
         if (ends_) return note(check, Verdict::skipped, "the check was ended");
-        const double most_N = std::min(options_.force_N, part.device->description().max_force_N);
+        const devices::DeviceDescription& about = part.device->description();
+        const double most_N = std::min(options_.force_N, about.max_force_N);
         if (!options_.by_itself)
             guide_.say(formatted("Hold the handle loosely, and hold the space bar: it taps with %.1f N ", most_N) +
                        way + part.of + "; s skips, q ends.");
-        constexpr std::array<int, 8> kOrder{1, -1, -1, 1, -1, 1, 1, -1};
-        constexpr double kTap_s = 0.25, kMean_s = 0.03;
-        double signal_m = 0.0, sum_m = 0.0;
-        int samples = 0;
-        std::size_t at = 0;
-        Nanoseconds tap_ns = clock_.now_ns();
-        bool is_held = options_.by_itself;
+        TapSeries series(
+            {axis, about.drives_one_way, working_m(most_N, about.friction_N, about.drives_one_way), about.resolution_m},
+            random_);
         DeviceFault interrupts = DeviceFault::none;
-        const auto begin = [&](std::size_t where) {
-            at = where;
-            tap_ns = clock_.now_ns();
-            sum_m = 0.0;
-            samples = 0;
+        bool is_held = false;
+        auto is_gone = [&, well_ns = clock_.now_ns()]() mutable {
+            if (part.sample.fault == DeviceFault::none) well_ns = clock_.now_ns();
+            return options_.by_itself && seconds(clock_.now_ns() - well_ns) > 5.0;
         };
-        const bool is_done = watch(
-            options_.by_itself ? 8.0 : 60.0,  // the taps take 2 s, and begin anew after a fault
+        watch(
+            options_.by_itself ? 30.0 : 90.0,  // the taps take 12 s at most, and begin anew after a fault
             [&] {
                 is_held = (options_.by_itself || said_.holds) && part.sample.fault == DeviceFault::none;
                 if (part.sample.fault != DeviceFault::none) interrupts = part.sample.fault;
                 part.wanted_N = Vec3(0.0);
-                if (!is_held) {
-                    signal_m = 0.0;
-                    begin(0);
-                    return false;
-                }
-                if (kOrder[at] > 0 || !is_one_way) part.wanted_N = kOrder[at] * most_N * along;
-                const double time_s = seconds(clock_.now_ns() - tap_ns);
-                if (time_s > kTap_s - kMean_s) {
-                    // A piston's length does not know how the hand moves as a whole.
-                    sum_m += is_one_way ? part.sample.drive.length_m : glm::dot(part.sample.position_device_m, along);
-                    ++samples;
-                }
-                if (time_s < kTap_s || samples == 0) return false;
-                signal_m += kOrder[at] * sum_m / samples / 4.0;
-                begin(at + 1);
-                return at == kOrder.size();
+                if (is_held)
+                    part.wanted_N = most_N * tapped(part, axis, series);
+                else if (series.has_begun())
+                    series.restart();
+                return series.is_over() || is_gone();
             },
-            [&] { return std::string(is_held ? "  taps" : "  waits for the space bar"); });
+            [&] {
+                return is_held ? formatted("  taps, %zu of %zu at most", series.count(), kMostTaps)
+                               : std::string("  waits for the space bar");
+            });
         part.wanted_N = Vec3(0.0);
-        if (!is_done) {
-            if (said_.skips || ends_) return note(check, Verdict::skipped, "skipped");
-            return note(check, Verdict::failed,
-                        interrupts != DeviceFault::none
-                            ? std::string("was not finished; in between ") + words_for(interrupts)
-                            : "was not finished: the space bar was not held for long enough");
-        }
-        constexpr double kLeast_m = 0.0003;
-        const Json figures{{"force_N", most_N}, {"gives_way_m", signal_m}};
-        const std::string moved = formatted("%.1f N either way move it by %.2f mm", most_N, 1000.0 * signal_m);
-        if (signal_m > kLeast_m) return note(check, Verdict::passed, moved, figures);
+        if (series.is_over()) return note_taps(check, series, most_N, about);
+        if (said_.skips || ends_) return note(check, Verdict::skipped, "skipped");
         note(check, Verdict::failed,
-             signal_m < -kLeast_m ? moved + ": against the force"
-                                  : moved + ": it does not feel the force, or is held fast",
+             interrupts != DeviceFault::none ? std::string("was not finished; in between ") + words_for(interrupts)
+                                             : "was not finished: the space bar was not held for long enough");
+    }
+
+    // Takes the series on by a tick. Returns the direction of the force, or zero.
+    Vec3 tapped(const CheckedPart& part, int axis, TapSeries& series) const {
+        const devices::OneWayDrive& drive = part.sample.drive;
+        const bool is_one_way = part.device->description().drives_one_way;
+        // A piston's length does not know how the hand moves as a whole.
+        const Vec3 place_m = is_one_way ? Vec3(drive.length_m, 0.0, 0.0) : part.sample.position_device_m;
+        const int way = series.tick({seconds(clock_.now_ns()), place_m, part.let_through});
+        Vec3 along(0.0);
+        along[axis] = 1.0;
+        return static_cast<double>(way) * (is_one_way ? drive.along_device : along);
+    }
+
+    void note_taps(const std::string& check, const TapSeries& series, double most_N,
+                   const devices::DeviceDescription& about) {
+        const TapAnswer& answer = series.answer();
+        const Json figures{{"force_N", most_N},       {"gives_way_m", answer.moved_m}, {"doubt_m", answer.doubt_m},
+                           {"sway_m", answer.sway_m}, {"taps", series.count()},        {"seed", options_.seed}};
+        const std::string moved =
+            formatted(about.drives_one_way ? "%.1f N move it by %.2f mm, give or take %.2f mm"
+                                           : "%.1f N either way move it by %.2f mm, give or take %.2f mm",
+                      most_N, 1000.0 * answer.moved_m, 1000.0 * answer.doubt_m);
+        switch (answer.finding) {
+            case TapFinding::felt: return note(check, Verdict::passed, moved, figures);
+            case TapFinding::against: return note(check, Verdict::failed, moved + ": against the force", figures);
+            case TapFinding::elsewhere:
+                return note(check, Verdict::failed, moved + ", and farther along another axis", figures);
+            case TapFinding::absent:
+                return note(check, Verdict::failed, moved + ": it does not feel the force, or is held fast", figures);
+            case TapFinding::unclear: break;
+        }
+        const bool is_weak = working_m(most_N, about.friction_N, about.drives_one_way) <= 0.0;
+        note(check, Verdict::unclear,
+             moved + (is_weak ? ": cannot tell: so little may not overcome the arm's friction; give more --force"
+                              : ": cannot tell: hold it stiller"),
              figures);
     }
 
@@ -327,6 +349,7 @@ private:
     Clock& clock_;
     CheckGuide& guide_;
     CheckOptions options_;
+    std::mt19937_64 random_;
     haptics::GateLimits limits_;
     std::vector<CheckedPart> parts_;
     std::vector<CheckLine> lines_;
@@ -345,8 +368,22 @@ const char* name_of(Verdict verdict) {
         case Verdict::passed: return "passed";
         case Verdict::failed: return "failed";
         case Verdict::skipped: return "skipped";
+        case Verdict::unclear: return "unclear";
     }
     return "";
+}
+
+std::string checks_with(Verdict verdict, const std::vector<CheckLine>& lines) {
+    std::string names;
+    for (const CheckLine& line : lines)
+        if (line.verdict == verdict) names += (names.empty() ? "" : ", ") + line.check;
+    return names;
+}
+
+Result<int> outcome_of(const std::string& where, const std::vector<CheckLine>& lines) {
+    if (const std::string failed = checks_with(Verdict::failed, lines); !failed.empty())
+        return fail(where, "failed: " + failed, "the lines above say what was found");
+    return checks_with(Verdict::unclear, lines).empty() ? 0 : kCannotTell;
 }
 
 std::vector<CheckLine> check_device(devices::OpenedDevice& device, Clock& clock, CheckGuide& guide,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <random>
 
 #include "app/check_terminal.hpp"
 #include "app/device_check.hpp"
@@ -42,14 +43,16 @@ void print(const std::vector<devices::LookedForKind>& all) {
         }
 }
 
-Json described(const std::string& device, const std::vector<CheckLine>& lines, bool passed) {
+Json described(const std::string& device, const std::vector<CheckLine>& lines) {
+    const bool failed = !checks_with(Verdict::failed, lines).empty();
+    const bool unclear = !failed && !checks_with(Verdict::unclear, lines).empty();
     Json list = Json::array();
     for (const CheckLine& line : lines)
         list.push_back({{"check", line.check},
                         {"verdict", name_of(line.verdict)},
                         {"found", line.found},
                         {"figures", line.figures}});
-    return {{"device", device}, {"passed", passed}, {"checks", list}};
+    return {{"device", device}, {"passed", !failed && !unclear}, {"cannot_tell", unclear}, {"checks", list}};
 }
 
 }  // namespace
@@ -58,6 +61,7 @@ struct DevicesCommand::Options {
     std::string json, emulated, tested, test_json;
     CheckOptions check;
     std::optional<double> watch_s;
+    std::optional<std::uint64_t> seed;
     devices::EmulatorOptions emulator;
     double for_s = 0.0;
 };
@@ -97,15 +101,17 @@ DevicesCommand::DevicesCommand(Command app)
     test_.flag("--yes", options_->check.by_itself,
                "Nobody is there: what is asked for counts as done, and the space bar as held. For emulated devices, or "
                "where somebody holds the handle");
+    test_.option("--seed", options_->seed, "Of the order of the taps; else another each time, which is told");
     test_.flag("!--no-force", options_->check.pushes, "Try no force");
 }
 
 DevicesCommand::~DevicesCommand() = default;
 
-Result<void> DevicesCommand::run() const {
-    if (emulate_.parsed()) return emulate();
+Result<int> DevicesCommand::run() const {
     if (test_.parsed()) return test();
-    return list();
+    const auto done = emulate_.parsed() ? emulate() : list();
+    if (!done) return std::unexpected(done.error());
+    return 0;
 }
 
 Result<void> DevicesCommand::list() const {
@@ -132,10 +138,11 @@ Result<void> DevicesCommand::emulate() const {
     return devices::run_emulator(options_->emulated, options);
 }
 
-Result<void> DevicesCommand::test() const {
+Result<int> DevicesCommand::test() const {
     const std::string where = "burin devices test " + options_->tested;
     CheckOptions check = options_->check;
     check.watch_s = options_->watch_s.value_or(check.by_itself ? 15.0 : 60.0);
+    check.seed = options_->seed ? *options_->seed : std::random_device{}();
     const auto nature = devices::nature_of_device(options_->tested, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     if (nature->is_played)
@@ -144,7 +151,7 @@ Result<void> DevicesCommand::test() const {
     if (!check.by_itself && !TerminalGuide::is_there())
         return fail(where, "asks a person at a terminal, and there is none",
                     "run it in a terminal, or with --yes for a device that is emulated or held");
-    if (const auto place = check_place(options_->test_json); !place) return place;
+    if (const auto place = check_place(options_->test_json); !place) return std::unexpected(place.error());
     MonotonicClock clock;
     // Leads the handle of a simulated device as emulated ones are led.
     auto hand = devices::SimulatedHand::create(devices::circling_hand(), devices::HandPath::monotone_cubic);
@@ -156,15 +163,13 @@ Result<void> DevicesCommand::test() const {
         TerminalGuide guide(options_->test_json == kStandardOutput, !check.by_itself);
         lines = check_device(*device, clock, guide, check);
     }
-    std::string failed;
-    for (const CheckLine& line : lines)
-        if (line.verdict == Verdict::failed) failed += (failed.empty() ? "" : ", ") + line.check;
-    if (const auto written =
-            write_output(options_->test_json, json_text(described(options_->tested, lines, failed.empty())));
-        !written)
-        return written;
-    if (!failed.empty()) return fail(where, "failed: " + failed, "the lines above say what was found");
-    return {};
+    if (const auto written = write_output(options_->test_json, json_text(described(options_->tested, lines))); !written)
+        return std::unexpected(written.error());
+    const auto outcome = outcome_of(where, lines);
+    if (outcome && *outcome == kCannotTell)
+        std::fprintf(stderr, "burin: %s: cannot tell: %s; the lines above say what to do, then try again\n",
+                     where.c_str(), checks_with(Verdict::unclear, lines).c_str());
+    return outcome;
 }
 
 }  // namespace burin::app

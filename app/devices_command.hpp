@@ -19,12 +19,13 @@ public:
     DevicesCommand& operator=(const DevicesCommand&) = delete;
 
     [[nodiscard]] bool parsed() const { return command_.parsed(); }
-    [[nodiscard]] Result<void> run() const;
+    // Returns the exit status: 0, or kCannotTell of a check (app/device_check.hpp).
+    [[nodiscard]] Result<int> run() const;
 
 private:
     [[nodiscard]] Result<void> list() const;
     [[nodiscard]] Result<void> emulate() const;
-    [[nodiscard]] Result<void> test() const;
+    [[nodiscard]] Result<int> test() const;
 
     struct Options;
     std::unique_ptr<Options> options_;

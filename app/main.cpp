@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The burin command. Exit status: 0 done, 1 failed (one line on standard error says why), 2 wrong usage.
+// The burin command. Exit status: 0 done, 1 failed (one line on standard error says why), 2 wrong usage, 3 a check that
+// could not tell (burin devices test).
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -47,6 +48,12 @@ int finish(const Result<void>& outcome) {
     }
     std::fprintf(stderr, "burin: %s\n", outcome.error().line().c_str());
     return 1;
+}
+
+// Of a command with an exit status of its own.
+int finish(const Result<int>& outcome) {
+    const int done = finish(outcome ? Result<void>{} : Result<void>(std::unexpected(outcome.error())));
+    return done == 0 ? *outcome : done;
 }
 
 }  // namespace

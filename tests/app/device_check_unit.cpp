@@ -88,10 +88,11 @@ TEST(DeviceCheck, PassesADeviceThatIsWellWithAGentleForceAndNoneAtTheEnd) {
     EXPECT_GT(ways.most_N, 0.99);
     EXPECT_LE(ways.most_N, 1.0 + 1e-9);
     EXPECT_EQ(ways.given_N, Vec3(0.0));
-    // The hand of 200 N/m gives way by 10 mm to two newtons, less twice the friction of 0.26 N.
+    // The hand of 200 N/m gives way by 10 mm to two newtons, less twice the friction of 0.26 N, which also keeps the
+    // handle from coming back by up to 1.3 mm.
     for (const CheckLine& line : lines) {
         if (!line.check.starts_with("force")) continue;
-        EXPECT_NEAR(line.figures["gives_way_m"].get<double>(), 0.0087, 0.002);
+        EXPECT_NEAR(line.figures["gives_way_m"].get<double>(), 0.0068, 0.002);
     }
 }
 
@@ -169,6 +170,23 @@ TEST(DeviceCheck, EndsWhenItIsToldToAndTriesNoForceWhereNoneIsWanted) {
     EXPECT_EQ(ways.most_N, 0.0);
 }
 
+TEST(DeviceCheck, LeavesNoForceWhereverTheTapsAreEndedOrSkipped) {
+    for (int ms = 0; ms < 1000; ms += 37) {
+        SpoiltOmni::Ways ways;
+        QuietGuide guide;
+        Nanoseconds pushed_ns = 0;
+        guide.answer = [&, ms](Nanoseconds now_ns) {
+            if (pushed_ns == 0 && ways.most_N > 0.0) pushed_ns = now_ns;
+            const bool is_time = pushed_ns > 0 && now_ns - pushed_ns >= ms * 1'000'000;
+            return CheckAnswers{.skips = is_time && ms % 2 == 0, .ends = is_time && ms % 2 == 1};
+        };
+        const auto lines = checked(ways, {.by_itself = true}, guide);
+        EXPECT_EQ(verdict_of(lines, "force to the right"), "skipped: skipped") << ms;
+        EXPECT_GT(ways.most_N, 0.0);
+        EXPECT_EQ(ways.given_N, Vec3(0.0)) << ms;
+    }
+}
+
 TEST(DeviceCheck, SkipsWithItsReasonWhatADeviceDoesNotHave) {
     SpoiltOmni::Ways ways;
     ways.spoil_sample = [](devices::DeviceSample& sample) { sample.buttons = 0; };
@@ -202,7 +220,7 @@ TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
     for (const std::string kind : {"wand", "spacemouse"}) {
         // A busy machine may keep the emulator or the check from its steps for so long that the device rightly fails.
         const auto tested =
-            at.run("(" + burin + " devices emulate " + kind + " --seconds 60 --at emulated-one-$$ > " + kind +
+            at.run("(" + burin + " devices emulate " + kind + " --seconds 120 --at emulated-one-$$ > " + kind +
                    ".txt &) ; while ! test -s " + kind + ".txt; do sleep 0.05; done; " + burin + " devices test " +
                    kind + ":emulated-one-$$ --yes || " + burin + " devices test " + kind + ":emulated-one-$$ --yes");
         EXPECT_EQ(tested.status, 0) << tested.output;
@@ -214,10 +232,10 @@ TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
 TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {
     const Workplace at;
     const std::string burin = kBurinCommand;
-    // Side by side, as each takes ten seconds; once more where a busy machine kept one from its steps for too long.
+    // Side by side, as each takes half a minute; once more where a busy machine kept one from its steps for too long.
     const auto tested =
         at.run("for k in omni falcon dhd; do (" + burin +
-               " devices emulate $k --seconds 60 --at emulated-check-$$ > $k.txt &) ; while ! test -s "
+               " devices emulate $k --seconds 120 --at emulated-check-$$ > $k.txt &) ; while ! test -s "
                "$k.txt; do sleep 0.05; done; (" +
                burin + " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said || " + burin +
                " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said; echo $? > $k.status) & "
