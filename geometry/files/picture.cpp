@@ -91,8 +91,8 @@ Colour Picture::mean() const {
     return {rgb[0], rgb[1], rgb[2]};
 }
 
-// The pixel itself, without its neighbours: with them a face at the rim of a quarter of one colour would have a share of
-// the quarter beside it, and at the picture's rim one of the other side.
+// The pixel itself, without its neighbours: with them a face at the rim of a quarter of one colour would have a share
+// of the quarter beside it, and at the picture's rim one of the other side.
 Colour Picture::sampled(const Level& level, const Vec2& at, PictureWrap wrap) const {
     const auto pixel_at = [](double share, std::uint32_t count) {
         return std::min(static_cast<std::size_t>(share * count), std::size_t{count} - 1);
