@@ -116,8 +116,8 @@ void tell_colours(const std::string& out, const geometry::FileColours& colours, 
     }
 }
 
-// Checks that the file of an OBJ's materials, which nobody has named, replaces nothing but another that Burin wrote, and
-// that the OBJ can name it.
+// Checks that the file of an OBJ's materials, which nobody has named, replaces nothing but another that Burin wrote,
+// and that the OBJ can name it.
 Result<void> check_materials(const std::string& materials, std::span<const std::string> inputs) {
     if (const auto ok = check_places(std::array{materials}, inputs); !ok) return ok;
     const std::string name = std::filesystem::path(materials).filename().string();

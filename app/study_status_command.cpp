@@ -35,10 +35,15 @@ Result<void> study_status(const std::string& folder) {
             std::printf("deviation from the protocol: %s, %s: %s\n", p.id.c_str(), d.utc.c_str(), d.text.c_str());
     for (const study::Interruption& one : study::interruptions_of(*study))
         std::printf("interrupted: %s\n", one.text().c_str());
-    const std::size_t unnamed = study::unnamed_files(*study).size();
+    std::size_t unnamed = 0;
+    for (const study::UnnamedFile& one : study::unnamed_files(*study)) {
+        if (one.file == study::kDataFolder)
+            std::printf("%s: %s; %s\n", one.file.c_str(), one.what.c_str(), one.remedy.c_str());
+        else
+            ++unnamed;
+    }
     if (unnamed > 0)
-        std::printf("%zu places of data are missing or stand in no line of the journal: burin study check names them\n",
-                    unnamed);
+        std::printf("%zu files of data stand in no line of the journal: burin study check names them\n", unnamed);
     std::printf("last digest of the journal: %s\n", study->journal().last_digest.c_str());
     return {};
 }

@@ -31,8 +31,8 @@ struct MaterialLibrary {
 // `name` stands for the file in remarks.
 [[nodiscard]] MaterialLibrary read_mtl(std::string_view text, const std::string& name);
 
-// Materials by their names without what may be a comment behind them; null where several are called so. Filled when it is
-// first asked of a library with so many materials.
+// Materials by their names without what may be a comment behind them; null where several are called so. Filled when it
+// is first asked of a library with so many materials.
 struct MaterialsByBase {
     std::size_t materials = 0;
     std::map<std::string, const ObjMaterial*, std::less<>> found;

@@ -3,6 +3,8 @@
 // reading of its text, of a PLY that of its header, of other formats none.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -30,8 +30,8 @@ Colour mean_of_three(const Colour& a, const Colour& b, const Colour& c) {
     return mean;
 }
 
-// Derives face materials from vertex colours: a face takes the colour that two of its first three corners share, so that
-// no colour arises at a border that the file does not have; of three different ones their mean, as of a picture.
+// Derives face materials from vertex colours: a face takes the colour that two of its first three corners share, so
+// that no colour arises at a border that the file does not have; of three different ones their mean, as of a picture.
 void materials_from_vertices(MeshSoup& soup) {
     ColourMaterials materials(soup.materials);
     soup.face_materials.reserve(soup.corner_counts.size());

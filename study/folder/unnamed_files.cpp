@@ -47,9 +47,9 @@ std::string without_sqlite_ends(const std::string& file) {
 std::vector<UnnamedFile> unnamed_files(const StudyFolder& study) {
     const std::map<std::string, NamedAs> named = named_files(study);
     std::vector<UnnamedFile> found;
-    const Result<std::vector<fs::path>> files = entries_below(study.path() / "data");
+    const Result<std::vector<fs::path>> files = entries_below(study.path() / kDataFolder);
     if (!files)
-        found.push_back({"data", files.error().what, "restore the folder from a copy, or see to its permissions"});
+        found.push_back({kDataFolder, files.error().what, "restore the folder from a copy, or see to its permissions"});
     for (const fs::path& path : files.value_or(std::vector<fs::path>{})) {
         std::error_code error;
         if (fs::is_directory(path, error)) continue;

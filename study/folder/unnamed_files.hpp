@@ -10,6 +10,9 @@
 
 namespace burin::study {
 
+// Where the recordings lie within the study's folder. An UnnamedFile of this name: the folder cannot be read.
+inline constexpr const char* kDataFolder = "data";
+
 struct UnnamedFile {
     std::string file;  // within the study's folder
     std::string what, remedy;

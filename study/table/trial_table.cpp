@@ -149,8 +149,9 @@ private:
         const CsvLine split = split_csv(line, *separator_);
         if (!quotes_closed(split) || !columns_known_ || !has_all_fields(split)) return;
         if (is_lost(split)) return read_lost(split);
-        if (const CsvField& reason = field(split, Quantity::reason); !reason.text.empty())
-            complain(line_, reason.column, "has measures, and a reason why it has none: '" + reason.text + "'",
+        if (const std::string reason = text(split, Quantity::reason); !reason.empty())
+            complain(line_, field(split, Quantity::reason).column,
+                     "has measures, and a reason why it has none: '" + reason + "'",
                      "leave deviation and time empty, or the reason");
         const std::size_t faults_before = parsed_.faults.size();
         const Trial trial{.participant = code(split, Quantity::participant),
