@@ -140,8 +140,9 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
         found.push_back({.what = formatted("has %zu objects, more than %zu", world.objects.size(), kMaxWorldObjects),
                          .where = name,
                          .remedy = "give what belongs together one name (DEF)"});
-    if (!found.empty()) return std::unexpected(std::move(found));
-    return world;
+    if (found.empty()) return world;
+    found.insert(found.end(), vrml.remarks.begin(), vrml.remarks.end());  // what was left out may be why
+    return std::unexpected(std::move(found));
 }
 
 Result<double> metres_in_vrml(const std::filesystem::path& path, const WorldReading& reading) {
@@ -193,12 +194,7 @@ WorldOrProblems read_any_world(const std::filesystem::path& path, const WorldRea
     if (!shapes) return std::unexpected(shapes.error());
     scale_vrml(*shapes, *unit_m);
     WorldOrProblems world = world_of(*shapes, path.string());
-    if (!world) {
-        // What was left out may be why nothing is left.
-        std::vector<Error> problems = std::move(world.error());
-        problems.insert(problems.end(), shapes->remarks.begin(), shapes->remarks.end());
-        return std::unexpected(std::move(problems));
-    }
+    if (!world) return world;
     tell_remarks(*world, shapes->remarks, path.string());
     if (const std::string remark = unit_remark(*shapes, path.string()); !remark.empty())
         world->remarks.push_back(remark);

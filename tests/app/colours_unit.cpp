@@ -82,8 +82,9 @@ TEST_F(ColoursOfFiles, ThatAnStlCannotHoldAreToldOf) {
     const auto told = convert("two_colours.obj out.stl");
     EXPECT_TRUE(told.output.contains("its colours are left out, as STL has none; .ply and .obj have")) << told.output;
     EXPECT_FALSE(convert("out.stl again.stl").output.contains("colours"));
-    for (const char* const command : {" sculpt two_colours.obj --resolution 32 --export o.stl",
-                                      " combine two_colours.obj two_colours.obj --resolution 32 --export o.stl"}) {
+    for (const char* const command :
+         {" sculpt two_colours.obj --resolution 32 --export o.stl",
+          " combine two_colours.obj two_colours.obj --operation union --resolution 32 --export o.stl"}) {
         const auto carved = place.run(std::string(kBurinCommand) + command);
         EXPECT_TRUE(carved.output.contains("its colours are left out, as STL has none")) << carved.output;
     }
