@@ -120,8 +120,8 @@ TEST(Hands, ARecordingOfAWorldNamesItsCommandItsTouchesAndWhatWasChangedInIt) {
     const auto bids = at.run(kHandsBurin + " convert a.session set --to bids");
     EXPECT_EQ(bids.status, 0) << bids.output;
     const auto events = at.run("cat set/sub-01/motion/sub-01_task-touch_tracksys-hand_events.tsv");
-    EXPECT_TRUE(events.output.contains("\t0\ttouches stone\tn/a\n")) << events.output;
-    EXPECT_TRUE(events.output.contains("\t0\tleaves stone\tn/a\n")) << events.output;
+    EXPECT_TRUE(events.output.contains("\t0\ttouches\tstone\tn/a\n")) << events.output;
+    EXPECT_TRUE(events.output.contains("\t0\tleaves\tstone\tn/a\n")) << events.output;
 
     EXPECT_EQ(at.run(kHandsBurin + " replay a.session").status, 0);
     const auto other = at.run(kHandsBurin + " replay a.session --set device=simulated-wand");
