@@ -45,7 +45,8 @@ TEST(CutJournals, AreToldByTheFilesThatNothingNames) {
             << name << "\n"
             << checked.output;
     EXPECT_TRUE(checked.output.contains("4 faults")) << checked.output;
-    EXPECT_TRUE(place.run(kLostStudy + "status s").output.contains("4 files of data stand in no line of the journal"));
+    const auto status = place.run(kLostStudy + "status s");
+    EXPECT_TRUE(status.output.contains("4 files of data stand in no line of the journal")) << status.output;
 }
 
 TEST(CutJournals, AreToldByTheFiguresOfAStageWithoutItsEnd) {
