@@ -50,7 +50,7 @@ int finish(const Result<void>& outcome) {
     return 1;
 }
 
-// Of a command with an exit status of its own.
+// Returns the exit status that a command chose for itself, or that of its Error.
 int finish(const Result<int>& outcome) {
     const int done = finish(outcome ? Result<void>{} : Result<void>(std::unexpected(outcome.error())));
     return done == 0 ? *outcome : done;

@@ -85,7 +85,7 @@ private:
         if (visit.file.empty()) return again.is_null() ? "" : visit.recording + ": gives figures, and none were kept";
         const auto kept = study_.recorded(visit);
         if (!kept) return kept.error().line();
-        // As text, as which both are kept: what is not a number is null there.
+        // Compares the texts: both were written as JSON, in which what is not a number is null.
         const Json same = study::as_kept_before(again, *kept);
         if (json_text(*kept) == json_text(same)) return {};
         return visit.file + ": the recording gives other figures than were kept";

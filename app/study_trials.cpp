@@ -63,7 +63,8 @@ const char* what_of(study::Hand hand) {
     return "";
 }
 
-// How participants went through, and with what; one who came with several devices is counted with each.
+// Tells how many participants went through with a device, a script and so on, and names the devices. Whoever came with
+// several counts with each.
 std::vector<std::string> hand_facts(const std::vector<Participant>& people) {
     std::map<study::Hand, std::pair<std::size_t, std::set<std::string>>> held;
     for (const Participant& p : people) {

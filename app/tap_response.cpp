@@ -81,7 +81,7 @@ TapContrast contrast_of(std::span<const Tap> taps, const Vec3& weights, const Ta
             deviation_m * student_quantile(deviations, std::min(none_freedom, force_freedom)), control_m};
 }
 
-// How what is seen along the axis compares with what is seen along the others, in either direction.
+// Tells whether the handle answered the force along its axis, and whether along another one, in either direction.
 struct TapDirection {
     bool is_along = true, is_elsewhere = false;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whether a handle feels the force that it is told to give, found from taps while a hand holds it: the statistics of
-// `burin devices test`. Pure; one thread. Lengths in metres, times in seconds, forces in newtons; frame: device.
+// Judges from taps whether a handle moves with the force that its motors are told to give, while a hand holds it: the
+// statistics of `burin devices test`. Pure; one thread. Lengths in metres, times in seconds, forces in newtons; frame:
+// device.
 //
 // Taps and their order: app/tap_series.hpp.
 //

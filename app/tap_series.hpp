@@ -31,11 +31,11 @@ inline constexpr std::size_t kTapsToALook = 24, kMostTaps = 48;
 // part drives one way, all others forwards.
 [[nodiscard]] std::vector<int> tap_order(std::mt19937_64& random, bool is_one_way);
 
-// Where the handle is during a tap.
+// Keeps where the handle is at the start of a tap, at its answer to the force, and at the end.
 class TapPlaces {
 public:
     void add(double time_s, const Vec3& place_m);  // since the tap began
-    // Whether each of the three times was seen.
+    // Tells whether samples came at each of these times.
     [[nodiscard]] bool is_whole() const;
     [[nodiscard]] Vec3 moved_m() const;  // needs is_whole()
 
@@ -48,7 +48,7 @@ private:
     Sums before_, moved_, after_;
 };
 
-// What a tick sees.
+// Holds what the series needs of a haptic tick.
 struct TapTick {
     double time_s = 0.0;
     Vec3 place_m{0.0};

@@ -26,8 +26,8 @@ namespace burin {
 // Returns the path from the root on through no link, as far as it exists; nothing where it has no place.
 [[nodiscard]] std::optional<std::filesystem::path> resolved_path(const std::filesystem::path& path);
 
-// What a folder holds, sorted by name, without folders below it or with all that is in these. What vanishes while it is
-// read is left out.
+// Return the entries of a folder, sorted by name: of itself, or of all folders below it as well. Entries that vanish
+// meanwhile are left out.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> entries_of(const std::filesystem::path& folder);
 [[nodiscard]] Result<std::vector<std::filesystem::path>> entries_below(const std::filesystem::path& folder);
 

@@ -9,7 +9,7 @@
 namespace burin::compute {
 namespace {
 
-// Of an axis' rays, seen from one of its sides: towards the higher depths (side 1) or the lower ones (side -1).
+// Views the rays of an axis from one of its ends: that of the higher depths (side 1) or of the lower ones (side -1).
 struct OneSide {
     const DexelSet& set;
     int axis;

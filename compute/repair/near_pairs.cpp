@@ -15,10 +15,10 @@ using geometry::VertexTriple;
 
 // Enough vertices for a task to be worth its dispatch.
 constexpr std::size_t kVerticesATask = 2048;
-// Of directions and heights that are computed from exact differences, with a wide margin.
+// Bounds the relative rounding error of directions and heights, computed from exact differences, with a wide margin.
 constexpr double kOfDirections = 1e-12;
 
-// What both searches know of the mesh, and what they have found.
+// Holds the mesh and the question that both searches read.
 class Searched {
 public:
     Searched(const geometry::TriangleMesh& mesh, const NearSearch& search) : mesh_(mesh), search_(search) {}
