@@ -29,7 +29,7 @@ std::vector<std::string> names_of(const CLI::Option& option) {
     return names;
 }
 
-bool takes_value(const CLI::Option& option) { return option.get_type_size() != 0; }
+bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() != 0; }
 
 // Returns what stands between the first braces of an option's type: the words that it takes.
 std::vector<std::string> words_of(const CLI::Option& option) {

@@ -15,6 +15,7 @@
 #include "devices/emulators/emulator_registry.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/present_devices.hpp"
+#include "haptics/realtime.hpp"
 #include "session/drive/end_signals.hpp"
 #include "session/record/recordings.hpp"
 
@@ -158,6 +159,8 @@ Result<int> DevicesCommand::test() const {
     if (!hand) return std::unexpected(hand.error());
     auto device = devices::open_haptic_device(options_->tested, {clock, std::move(*hand)});
     if (!device) return std::unexpected(device.error());
+    // The check is the haptic loop here; where real-time priority is refused it goes on without.
+    static_cast<void>(haptics::ask_for_realtime());
     std::vector<CheckLine> lines;
     {
         TerminalGuide guide(options_->test_json == kStandardOutput, !check.by_itself);

@@ -187,6 +187,7 @@ Result<record::Comparison> replay_felt(record::RecordReader& reader, const FeltF
                     "replay a stroke that was felt in simulated time; the data can be read and converted");
     if (!files.stroke.empty()) options->stroke = files.stroke;
     if (!files.workpiece.empty()) options->workpiece.source = files.workpiece;
+    if (files.engine) options->engine = *files.engine;
     const std::string& shape = options->tool.shape;
     const std::string tool_file = shape.starts_with("mesh:") ? shape.substr(5) : std::string();
     for (const auto& ok : {check_same_file(reader, "stroke sha256", options->stroke, "--stroke"),

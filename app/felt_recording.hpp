@@ -8,6 +8,7 @@
 #include <string>
 
 #include "record/compare.hpp"
+#include "sculpt/workpiece.hpp"
 #include "session/state/session_options.hpp"
 
 namespace burin::app {
@@ -27,6 +28,7 @@ inline constexpr const char* kFeltActivity = "felt stroke";
 // Where the files of a recording are now; empty: where they were.
 struct FeltFiles {
     std::string stroke, workpiece;
+    std::optional<sculpt::EngineChoice> engine;  // instead of the recorded one; either gives the same ticks
 };
 
 // Carves the stroke again and compares the ticks in the range. In a difference the first value is the recorded one.

@@ -45,6 +45,14 @@ void add_detail_option(Command command, session::LiveOptions& options) {
                                                           {"full", DetailChoice::full}});
 }
 
+void add_engine_option(Command command, sculpt::EngineChoice& engine) {
+    command.choice("--engine", engine,
+                   "auto, cpu or vulkan; where a device cannot carve, or is lost, the processor goes on",
+                   {{"auto", sculpt::EngineChoice::automatic},
+                    {"cpu", sculpt::EngineChoice::cpu},
+                    {"vulkan", sculpt::EngineChoice::vulkan}});
+}
+
 void add_shadows_option(Command command, session::LiveOptions& options) {
     command.choice("--shadows", options.shadows, "Whether the objects of a world cast shadows",
                    std::vector<std::pair<std::string, bool>>{{"on", true}, {"off", false}});

@@ -103,6 +103,7 @@ ProfileCommand::ProfileCommand(Command app)
     add_mouse_option(command_, s.live);
     add_detail_option(command_, s.live);
     add_shadows_option(command_, s.live);
+    add_engine_option(command_, s.engine);
     command_.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
     command_.option("--driver-threads", o.driver_threads,
                     "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/profile.hpp"
+#include "app/report.hpp"
 
 namespace burin::app {
 namespace {
@@ -147,6 +148,8 @@ Json describe_run(const ProfiledRun& run) {
                       {"drawn_per_s", wall_s > 0.0 ? static_cast<double>(r.frames.size()) / wall_s : 0.0}};
     json["stages_ms"] = stages_of(r.frames);
     json["carve_update_ms"] = in_ms(r.carve_update);
+    json["engine"] = {{"name", r.engine}};
+    if (r.engine_traffic) json["engine"]["traffic"] = describe_traffic(*r.engine_traffic);
     json["processor_ms"] =
         in_ms(summary_of(r.frames, [](const session::TimedFrame& f) { return std::optional(f.processor_ns); }));
     json["cores_busy"] = wall_s > 0.0 ? seconds(r.processor_ns) / wall_s : 0.0;
@@ -182,6 +185,13 @@ std::string profile_table(const Json& run) {
     text += doings(run) + heading("a frame, ms") + rows(run["stages_ms"]) +
             row("processor, all threads", run["processor_ms"]);
     text += row("carving, beside it", run["carve_update_ms"]);
+    if (const Json& engine = run["engine"]; engine.contains("traffic")) {
+        const Json& traffic = engine["traffic"];
+        text += line("  engine %s: %zu submissions, %zu blocking waits, %.2f MB to the device, %.2f MB to the host\n",
+                     engine["name"].get<std::string>().c_str(), traffic["submissions"].get<std::size_t>(),
+                     traffic["blocking_waits"].get<std::size_t>(), 1e-6 * traffic["bytes_to_device"].get<double>(),
+                     1e-6 * traffic["bytes_to_host"].get<double>());
+    }
     text += "\n" + heading("when seen, ms") + rows(run["ages_ms"]);
     text += "\n" + heading("1 kHz loop, us") + row("tick", ticks["duration_us"]) + row("late by", ticks["lateness_us"]);
     text += line("  %zu ticks, %zu late, %zu deadlines missed\n", ticks["count"].get<std::size_t>(),

@@ -110,9 +110,15 @@ Result<void> ReplayCommand::Options::replay() const {
     if (const auto some = record::check_ticks(*reader, range()); !some) return some;
     const std::string activity = fact_of(*reader, activities::kActivityFact);
     if (activity == session::kLiveActivity) return replay_session(*reader);
-    if (!sets.empty() || !pictures.empty())
-        return fail(sets.empty() ? "--pictures" : "--set", "is for live sessions, and " + file + " is of another kind",
-                    "leave it out");
+    std::optional<sculpt::EngineChoice> engine;
+    if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=cpu"}) engine = sculpt::EngineChoice::cpu;
+    if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=vulkan"})
+        engine = sculpt::EngineChoice::vulkan;
+    if ((!sets.empty() && !engine) || !pictures.empty())
+        return fail(pictures.empty() ? "--set" : "--pictures",
+                    "is for live sessions, and " + file + " is of another kind",
+                    activity == kFeltActivity ? "leave it out, or give --set engine=cpu or engine=vulkan alone"
+                                              : "leave it out");
     if (activity != activities::kWorldActivity && activity != kFeltActivity && activity != kWandActivity)
         return fail(file, "does not hold what a replay needs",
                     "replay what burin world --record or burin sculpt --record has written; other "
@@ -122,7 +128,7 @@ Result<void> ReplayCommand::Options::replay() const {
     const Result<record::Comparison> found =
         activity == activities::kWorldActivity ? replay_world(*reader, world, range())
         : activity == kWandActivity            ? replay_wand(*reader, world, stroke, range())
-                                               : replay_felt(*reader, {stroke, workpiece}, range());
+                                               : replay_felt(*reader, {stroke, workpiece, engine}, range());
     if (!found) return std::unexpected(found.error());
     if (!found->difference && found->ticks > 0 && is_whole())
         if (const auto untouched = session::check_unchanged(*reader); !untouched) return untouched;
@@ -162,7 +168,7 @@ ReplayCommand::ReplayCommand(Command app)
     command_.option(
         "--set", o.sets,
         "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
-        "The first difference then tells what that changes");
+        "The first difference then tells what that changes. Of a felt stroke: engine=cpu or engine=vulkan");
     command_.option("--pictures", o.pictures, "Of a live session: a folder for pictures of it, named by their seconds");
     command_.option("--every", o.every_s, "With --pictures: seconds of the session from one to the next")
         .within(0.001, 1e6)

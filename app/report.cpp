@@ -10,6 +10,13 @@
 
 namespace burin::app {
 
+Json describe_traffic(const compute::DeviceTraffic& traffic) {
+    return {{"submissions", traffic.submissions},
+            {"blocking_waits", traffic.blocking_waits},
+            {"bytes_to_device", traffic.bytes_to_device},
+            {"bytes_to_host", traffic.bytes_to_host}};
+}
+
 Json describe_carving(const sculpt::Sculpture& carving) {
     const sculpt::SculptFigures& f = carving.figures();
     const compute::Solid& solid = carving.engine().solid();

@@ -16,6 +16,8 @@ namespace burin::app {
 // Counts what a mesh of numbers in the unit has; volume and area in metres.
 [[nodiscard]] Json describe_mesh(const geometry::TriangleMesh& numbers, LengthUnit unit);
 [[nodiscard]] Json describe_feel(const session::FeltFigures& felt, const sculpt::Feel& feel);
+// Describes the submissions, waits and copies by which a device has carved.
+[[nodiscard]] Json describe_traffic(const compute::DeviceTraffic& traffic);
 // Wall-clock figures: these differ from run to run.
 [[nodiscard]] Json describe_timing(const sculpt::Sculpture& carving, const session::FeltFigures* felt);
 

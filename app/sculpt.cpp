@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/felt_recording.hpp"
@@ -130,15 +132,19 @@ Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& mater
     return report;
 }
 
+// Prints the notices of the carving, such as that the processor goes on for a device, and returns them for the report.
+std::vector<std::string> tell_notices(sculpt::Sculpture& carving) {
+    std::vector<std::string> notices = carving.take_notices();
+    for (const std::string& notice : notices) std::fprintf(stderr, "burin: %s\n", notice.c_str());
+    return notices;
+}
+
 // Undoes the last strokes and describes what was undone for the report.
 Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
     carving.end_stroke();
     const std::size_t kept = carving.history()->undoable();
     const Result<std::size_t> undone = carving.undo(strokes);
     if (!undone) return std::unexpected(undone.error());
-    for (const std::string& notice : carving.history()->take_notices()) {
-        std::fprintf(stderr, "burin: %s\n", notice.c_str());
-    }
     if (*undone < strokes) {
         std::fprintf(stderr, "burin: %zu strokes could be undone, not %zu\n", *undone, strokes);
     }
@@ -176,13 +182,6 @@ Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenToo
     if (const auto ok = compute::check_tool(workpiece.solid, chosen.tool.sweep(Pose{}, Pose{})); !ok)
         return std::unexpected(ok.error());
     return material;
-}
-
-// Lets the device keep the surface, where it can and nothing else needs it here.
-Result<void> mesh_where_it_is_carved(sculpt::Sculpture& carving, const sculpt::Tool& tool) {
-    if (!std::holds_alternative<compute::BallTool>(tool.shape) || tool.operation == compute::Operation::smooth)
-        return {};
-    return carving.mesh_on_device();
 }
 
 }  // namespace
@@ -234,9 +233,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (!opened) return std::unexpected(opened.error());
         pictures.emplace(std::move(*opened));
     }
-    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
-    if (!chosen) return std::unexpected(chosen.error());
-    sculpt::Sculpture carving(std::move(chosen->engine), pool);
+    sculpt::ChosenEngine chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
+    sculpt::Sculpture carving(std::move(chosen.engine), pool);
     if (pictures) {
         if (const auto taken = pictures->take_before(carving); !taken) return taken;
     }
@@ -247,9 +245,11 @@ Result<void> sculpt(const session::SculptOptions& options) {
     std::printf("%s\n", workpiece->size.c_str());
     carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    if (const auto ready = mesh_where_it_is_carved(carving, tool); !ready) return ready;
     std::optional<session::FeltFigures> felt;
     if (!stroke.empty() && options.hand == session::HandChoice::rigid) {
+        // Only the surface after the stroke is read, so the device may keep it until then.
+        if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth)
+            carving.mesh_on_device();
         if (const auto carved = sculpt::carve_rigidly(carving, stroke, tool, options.merge_rows); !carved)
             return carved;
     } else if (!stroke.empty()) {
@@ -263,7 +263,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
         felt = std::move(*carved);
     }
 
-    if (const auto home = carving.read_back(); !home) return home;
+    carving.read_back();
+    const std::vector<std::string> notices = tell_notices(carving);
     Json undone;
     if (options.undo > 0) {
         Result<Json> taken_back = take_back(carving, options.undo);
@@ -280,7 +281,9 @@ Result<void> sculpt(const session::SculptOptions& options) {
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
     report["tool"] = std::move(*tool_report);
     report["engine"] = {
-        {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
+        {"name", carving.engine().name()}, {"device", chosen.device}, {"chosen_because", chosen.reason}};
+    if (!notices.empty()) report["notices"] = notices;
+    if (const auto traffic = carving.engine().traffic()) report["engine"]["traffic"] = describe_traffic(*traffic);
     report["carving"] = describe_carving(carving);
     if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
     report["mesh"] = describe_mesh(mesh, export_unit);
@@ -333,14 +336,13 @@ Result<void> record_again(const session::SculptOptions& options) {
     Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
     if (const auto taken = take_up(*workpiece, *chosen_tool); !taken) return std::unexpected(taken.error());
-    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
-    if (!chosen) return std::unexpected(chosen.error());
-    sculpt::Sculpture carving(std::move(chosen->engine), pool);
+    sculpt::ChosenEngine chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
+    sculpt::Sculpture carving(std::move(chosen.engine), pool);
     carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    if (const auto ready = mesh_where_it_is_carved(carving, chosen_tool->tool); !ready) return ready;
     const session::FeltOptions felt{*feel, false, options.live.record};
     const auto carved = session::carve_by_feel(carving, *stroke, chosen_tool->tool, felt);
+    static_cast<void>(tell_notices(carving));
     if (!carved) return std::unexpected(carved.error());
     return {};
 }

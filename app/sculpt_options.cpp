@@ -71,10 +71,7 @@ void add_carving_options(Command command, session::SculptOptions& options) {
                       "else %g for a person, and where a --stroke adds material, or 0",
                       sculpt::kUsualRoom))
         .within(session::kRoomBounds);
-    command.choice("--engine", options.engine, "auto, cpu or vulkan",
-                   {{"auto", sculpt::EngineChoice::automatic},
-                    {"cpu", sculpt::EngineChoice::cpu},
-                    {"vulkan", sculpt::EngineChoice::vulkan}});
+    add_engine_option(command, options.engine);
     command.choice("--hand", options.hand,
                    "rigid: the tool follows the stroke exactly; simulated: a hand feels its way",
                    {{"rigid", session::HandChoice::rigid}, {"simulated", session::HandChoice::simulated}});

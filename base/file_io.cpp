@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/file_io.hpp"
 
+#include "base/flush_folder.hpp"
 #include "base/places.hpp"
 
 #include <fcntl.h>
@@ -138,12 +139,6 @@ int write_and_flush(const fs::path& path, const Target& target, std::span<const 
     return file.close() ? 0 : errno;
 }
 
-// Makes the rename itself survive a power cut. A file system that cannot flush folders loses only that guarantee.
-void flush_folder(const fs::path& folder) {
-    const Descriptor directory(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (directory.valid()) static_cast<void>(::fsync(directory.number()));
-}
-
 // Reads a regular file into a container of bytes or characters.
 template <typename Bytes>
 Result<Bytes> read_whole(const fs::path& path, std::uint64_t max_bytes) {
@@ -262,7 +257,7 @@ Result<void> write_file_atomically(const fs::path& path, std::span<const std::by
         if (code != EEXIST) ::unlink(temporary.c_str());  // EEXIST: another writer's file
         return cannot_write(path, code);
     }
-    flush_folder(target->path.parent_path());
+    flush_folder_of(target->path);
     return {};
 }
 

@@ -1,10 +1,10 @@
-# Room builds: the sources of a room (a subfolder) are compiled as one, since most of a source's time goes into headers
-# that its neighbours read too (docs/decisions/016-build-time.md). So a name in an anonymous namespace is unique within
-# its folder. A forgotten include, which a roommate has read already, is found by the test house.includes, and by preset
-# dev, which compiles each source alone.
+# Room builds: the sources of a folder, its rooms (subfolders) included, are compiled a few dozen at a time as one text,
+# since most of a source's time goes into headers that its neighbours read too (docs/decisions/016-build-time.md). So a
+# name in an anonymous namespace is unique within its folder and all rooms of it. A forgotten include, which a neighbour
+# has read already, is found by the test house.includes, and by preset dev, which compiles each source alone.
 #   burin_rooms(RESULT NAME SOURCES source... [ALONE source...])
-# Sets RESULT to what is compiled for these sources, whose paths are relative to the current folder: texts in
-# build/rooms/NAME/ that include the sources of a room, and the sources after ALONE, which have compile options of their
+# Sets RESULT to what is compiled for these sources, whose paths are relative to the current folder: texts
+# build/rooms/NAME/NUMBER.cpp that include the sources, and the sources after ALONE, which have compile options of their
 # own. The texts name sources from the repository's root, so that they are the same in every clone, as ccache asks.
 option(BURIN_ROOM_BUILDS "Compile the sources of a room as one" ON)
 if(BURIN_ROOM_BUILDS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -13,10 +13,10 @@ if(BURIN_ROOM_BUILDS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMP
   target_compile_options(burin_options INTERFACE $<BUILD_INTERFACE:-Wno-maybe-uninitialized>)
 endif()
 
-# A text includes sources of at most so many bytes together. Short ones are compiled anew quickly when one source
-# changes, and are spread well over the cores. Long ones read the headers less often: continuous integration, which
-# compiles everything, saves two fifths of the time.
-set(BURIN_BYTES_TOGETHER 60000 CACHE STRING "Bytes of sources that are compiled as one")
+# A text includes sources of about so many bytes together. Short ones are compiled anew quickly when one source changes,
+# and are spread well over the cores. Long ones read the headers less often, and are better where everything is
+# compiled.
+set(BURIN_BYTES_TOGETHER 150000 CACHE STRING "Bytes of sources that are compiled as one")
 
 function(burin_rooms RESULT NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE" ${ARGN})
@@ -27,23 +27,19 @@ function(burin_rooms RESULT NAME)
   endif()
   set(compiled)
   set(texts)
+  set(bytes 0)
   foreach(source IN LISTS ARG_SOURCES)
     if(source IN_LIST ARG_ALONE OR IS_ABSOLUTE "${source}" OR NOT source MATCHES "\\.cpp$")
       list(APPEND compiled ${source})
       continue()
     endif()
-    get_filename_component(room ${source} DIRECTORY)
-    string(REPLACE "/" "_" room "${room}")
-    if(NOT room)
-      set(room ${NAME})
-    endif()
-    file(SIZE ${CMAKE_CURRENT_SOURCE_DIR}/${source} bytes)
-    math(EXPR bytes_${room} "0${bytes_${room}} + ${bytes}")
-    math(EXPR number "${bytes_${room}} / ${BURIN_BYTES_TOGETHER}")
-    set(text ${CMAKE_BINARY_DIR}/rooms/${NAME}/${room}${number}.cpp)
+    file(SIZE ${CMAKE_CURRENT_SOURCE_DIR}/${source} size)
+    math(EXPR bytes "${bytes} + ${size}")
+    math(EXPR number "${bytes} / ${BURIN_BYTES_TOGETHER}")
+    set(text ${CMAKE_BINARY_DIR}/rooms/${NAME}/${number}.cpp)
     list(APPEND texts ${text})
-    string(APPEND content_${room}${number} "#include \"${here}/${source}\"\n")
-    set(content_of_${text} content_${room}${number})
+    string(APPEND content_${number} "#include \"${here}/${source}\"\n")
+    set(content_of_${text} content_${number})
   endforeach()
   list(REMOVE_DUPLICATES texts)
   foreach(text IN LISTS texts)

@@ -21,7 +21,7 @@ function(burin_folder NAME)
 endfunction()
 
 # burin_test(FOLDER compute KIND unit [SOURCES a_unit.cpp ...] [FOLDERS folder...] [LINKS library...] [RUNS_BURIN]
-#            [ONE_THREAD | MANY_THREADS])
+#            [ONE_THREAD | MANY_THREADS] [STEPPED cases] [PARTS n])
 # One program for each folder and kind, of the files *_KIND.cpp in the folder and its rooms that no program before has
 # taken, or of SOURCES alone; the ctest name is FOLDER.KIND and the label is KIND. RUNS_BURIN: it starts the program
 # on files of assets/ and judges meshes by mesh_audit (tests/support/places.hpp). Each writes
@@ -30,11 +30,16 @@ endfunction()
 # neither built nor run, since there is nothing to find. MANY_THREADS: whole sessions with a Vulkan device in software,
 # which is slow under any sanitizer; built and run under the thread sanitizer alone, the address sanitizer has the other
 # programs of kind gpu. Kind golden is run under none: what it compares a sanitizer does not change.
+# STEPPED: cases, as a filter of GoogleTest names them, that do ticks, scene and frames one after the other on the
+# caller's thread; the thread sanitizer, which has nothing to find there, runs the others alone. Not with PARTS.
+# PARTS: its cases are dealt out to n ctests that run side by side, 1.FOLDER.KIND to n.FOLDER.KIND: for cases that wait
+# for real time, or whose program would otherwise run on alone at the end.
 # Kind realtime runs alone on the machine. Kind soak is random use with a new seed each time, short by default. Kind
 # fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only; its ctest replays tests/FOLDER/corpus and then
 # mutates it for a fixed number of runs.
 function(burin_test)
-  cmake_parse_arguments(ARG "RUNS_BURIN;ONE_THREAD;MANY_THREADS" "FOLDER;KIND" "SOURCES;ALONE;FOLDERS;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "RUNS_BURIN;ONE_THREAD;MANY_THREADS" "FOLDER;KIND;PARTS;STEPPED"
+    "SOURCES;ALONE;FOLDERS;LINKS" ${ARGN})
   set(target ${ARG_FOLDER}_${ARG_KIND})
   if(ARG_KIND STREQUAL "fuzz")
     burin_fuzzer(${target} ${ARGN})
@@ -66,21 +71,38 @@ function(burin_test)
     target_link_libraries(${target} PRIVATE burin_${folder})
   endforeach()
   if(ARG_RUNS_BURIN)
-    add_dependencies(${target} burin mesh_audit)
+    add_dependencies(${target} burin mesh_audit burin_posing_layer)
   endif()
-  burin_test_needs(${ARG_FOLDER}.${ARG_KIND} ${target})
-  add_test(NAME ${ARG_FOLDER}.${ARG_KIND}
-    COMMAND ${target} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${ARG_FOLDER}.${ARG_KIND}.xml
+  if(NOT ARG_PARTS)
+    burin_add_test(${ARG_FOLDER}.${ARG_KIND} ${target} ${ARG_KIND})
+    if(ARG_STEPPED AND BURIN_SANITIZE MATCHES "thread")
+      set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES ENVIRONMENT "BURIN_TEST_LEAVES_OUT=${ARG_STEPPED}")
+    endif()
+    return()
+  endif()
+  math(EXPR last "${ARG_PARTS} - 1")
+  foreach(part RANGE ${last})
+    math(EXPR number "${part} + 1")
+    burin_add_test(${number}.${ARG_FOLDER}.${ARG_KIND} ${target} ${ARG_KIND})
+    set_tests_properties(${number}.${ARG_FOLDER}.${ARG_KIND} PROPERTIES
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_PARTS};GTEST_SHARD_INDEX=${part}")
+  endforeach()
+endfunction()
+
+# Called by burin_test: the ctest TEST, which runs TARGET with a bound of time.
+function(burin_add_test TEST TARGET KIND)
+  burin_test_needs(${TEST} ${TARGET})
+  add_test(NAME ${TEST} COMMAND ${TARGET} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${TEST}.xml
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES LABELS ${ARG_KIND} TIMEOUT ${BURIN_TEST_TIMEOUT_S})
-  if(ARG_KIND STREQUAL "soak")  # as long as its user wants it to run
-    set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES TIMEOUT 14400)
+  set_tests_properties(${TEST} PROPERTIES LABELS ${KIND} TIMEOUT ${BURIN_TEST_TIMEOUT_S})
+  if(KIND STREQUAL "soak")  # as long as its user wants it to run
+    set_tests_properties(${TEST} PROPERTIES TIMEOUT 14400)
   endif()
-  if(ARG_KIND STREQUAL "gpu")  # they take longest: begun first, none of them runs on alone at the end
-    set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES COST 100)
+  if(KIND STREQUAL "gpu")  # they take longest: begun first, none of them runs on alone at the end
+    set_tests_properties(${TEST} PROPERTIES COST 100)
   endif()
-  if(ARG_KIND STREQUAL "realtime")
-    set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES RUN_SERIAL ON)
+  if(KIND STREQUAL "realtime")
+    set_tests_properties(${TEST} PROPERTIES RUN_SERIAL ON)
   endif()
 endfunction()
 

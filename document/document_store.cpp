@@ -16,6 +16,7 @@
 #include <random>
 #include <system_error>
 
+#include "base/flush_folder.hpp"
 #include "base/places.hpp"
 #include "document/document_rows.hpp"
 
@@ -169,7 +170,7 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
     if (place == Place::replaced)
         if (const auto rests = bring_to_rest(path); !rests) return name_the_place(rests.error());
     if (const auto named = rename_to(made_as, path, place); !named) return name_the_place(named.error());
-    record::flush_folder_of(path);
+    flush_folder_of(path);
     return saved;
 }
 

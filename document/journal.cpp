@@ -10,6 +10,7 @@
 #include "document/document_reader.hpp"
 #include "document/document_rows.hpp"
 #include "document/log_check.hpp"
+#include "record/store_reading.hpp"
 
 namespace burin::document {
 namespace {
@@ -71,11 +72,12 @@ Result<void> Journal::add(const std::vector<Change>& changes) {
     return {};
 }
 
-// Leaves out steps of the saved content that are older than those which the journal has.
+// Leaves out steps of the saved content that are older than those which the journal has. What was undone since is new
+// in the content, however old it is.
 Result<void> Journal::take_over(Content saved) {
     for (std::size_t part = 0; part < saved.parts.size() && part < first_steps_.size(); ++part) {
         auto& steps = saved.parts[part].steps;
-        if (steps) steps->first = std::clamp(steps->first, first_steps_[part], steps->done + 1);
+        if (steps) steps->first = std::min(std::max(steps->first, first_steps_[part]), steps->done + 1);
     }
     return replace_changes(saved, false);
 }
@@ -139,7 +141,7 @@ std::vector<LeftJournal> left_journals(const std::string& folder) {
             continue;
         }
         const bool is_saved = reader->changes() == 0 && !reader->facts().contains(kUnsavedFact);
-        if (is_saved && !is_log_damaged(path)) {
+        if (is_saved && !is_log_damaged(path) && !record::lacks_its_log(path)) {
             remove_with_log(path);
             continue;
         }

@@ -190,6 +190,8 @@ void Commands::copy(const Buffer& from, std::uint64_t from_offset, const Buffer&
                     std::uint64_t size_bytes) {
     BURIN_CHECK(inside(from, from_offset, size_bytes) && inside(to, to_offset, size_bytes));
     if (size_bytes == 0) return;
+    if (!from.mapped().empty() && to.mapped().empty()) core_->bytes_to_device += size_bytes;
+    if (from.mapped().empty() && !to.mapped().empty()) core_->bytes_to_host += size_bytes;
     const VkBufferCopy region{from_offset, to_offset, size_bytes};
     core_->vk.vkCmdCopyBuffer(raw(), from.raw(), to.raw(), 1, &region);
 }
@@ -237,6 +239,7 @@ void Commands::upload(const Buffer& to, std::uint64_t offset_bytes, std::span<co
     const Staged staged = stage(bytes.size());
     if (staged.at == nullptr) return;
     std::memcpy(staged.at, bytes.data(), bytes.size());
+    if (to.mapped().empty()) core_->bytes_to_device += bytes.size();
     const VkBufferCopy region{staged.offset_bytes, offset_bytes, bytes.size()};
     core_->vk.vkCmdCopyBuffer(raw(), staged.buffer, to.raw(), 1, &region);
 }

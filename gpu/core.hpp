@@ -67,9 +67,11 @@ public:
     // The timeline: each submission signals the next number.
     VkSemaphore timeline = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;
-    // For tests: how many waits of the host asked for a submission that no wait before them had covered, and the newest
-    // submission waited for.
+    // `waits` counts waits of the host for a submission newer than all that it had waited for; `waited` is the newest
+    // of these.
     std::uint64_t waits = 0, waited = 0;
+    // Copied between buffers that the host sees and those that it does not.
+    std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
     // For tests: how many pieces of memory were asked of the driver.
     std::uint64_t allocations = 0;
     // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.

@@ -478,6 +478,10 @@ Result<Device> Device::create(const DeviceOptions& options) {
 const DeviceInfo& Device::info() const { return core_->info; }
 const Capabilities& Device::capabilities() const { return core_->capabilities; }
 
+WorkAsked Device::asked() const {
+    return {core_->submitted, core_->waits, core_->bytes_to_device, core_->bytes_to_host};
+}
+
 Result<void> Device::wait_idle() {
     auto done = core_->wait_for(core_->submitted);
     if (done) core_->collect();

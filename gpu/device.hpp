@@ -67,6 +67,13 @@ struct Capabilities {
     std::uint32_t max_image_size = 0;       // width and height of a 2D image
 };
 
+// Counts the work of a device since it was opened. Nothing is copied where the host sees the device's memory.
+struct WorkAsked {
+    std::uint64_t submissions = 0;
+    std::uint64_t blocking_waits = 0;  // for work that no wait before had covered
+    std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
+};
+
 enum class Prefer { hardware, software };  // a preference: where there is only the other kind, it is taken
 
 struct DeviceOptions {
@@ -93,6 +100,8 @@ public:
     [[nodiscard]] const DeviceInfo& info() const;
     [[nodiscard]] const Capabilities& capabilities() const;
     [[nodiscard]] const std::shared_ptr<Core>& core() const { return core_; }
+
+    [[nodiscard]] WorkAsked asked() const;
 
     // Waits for everything submitted, and frees objects whose destruction was deferred.
     Result<void> wait_idle();

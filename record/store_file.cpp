@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/flush_folder.hpp"
+
 namespace burin::record {
 namespace {
 
@@ -52,14 +54,6 @@ std::unexpected<Error> cannot_make(const std::string& path, int code, const Stor
         case EDQUOT: return fail(path, "the disk is full", kind.words.full_disk);
         default: return fail(path, "cannot be made: " + why, "choose a folder that you may write to");
     }
-}
-
-void flush_folder_of(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path();
-    const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd < 0) return;  // a file system that cannot flush folders loses only that guarantee
-    static_cast<void>(::fsync(fd));
-    ::close(fd);
 }
 
 Result<void> check_no_log_of(const std::string& path) {

@@ -67,7 +67,5 @@ private:
 [[nodiscard]] Result<void> check_no_log_of(const std::string& path);
 // The failure to make a file, by the code of errno.
 [[nodiscard]] std::unexpected<Error> cannot_make(const std::string& path, int code, const StoreKind& kind);
-// Brings the folder's entry of a file to the disk: a file is there for certain only when its folder says so.
-void flush_folder_of(const std::string& path);
 
 }  // namespace burin::record

@@ -128,9 +128,9 @@ Result<void> CarvedPart::carve(Carver& carver) {
 
 Result<void> CarvedPart::add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) {
     if (Carver* const carver = carver_of(ball.hand)) carver->tool_object = ball.center_scene;
-    const auto done = sculpture_.local_surface(ball.center_scene, ball.radius_m, draft);
+    sculpture_.local_surface(ball.center_scene, ball.radius_m, draft);
     draft.tiles_edits = edits_;
-    return done;
+    return {};
 }
 
 bool CarvedPart::pressed() const {
@@ -145,7 +145,7 @@ void CarvedPart::after_publication() {
     const Carver& lit = working != carvers_.end() ? *working : carvers_.front();
     sculpture_.bake_light(lit.tool_object, stroke_open_ ? kLitWorking : kLitResting);
     if (keeps_history_) {
-        for (const std::string& notice : sculpture_.history()->take_notices()) notify(notice);
+        for (const std::string& notice : sculpture_.take_notices()) notify(notice);
     }
     busy_ = has_news();
 }
@@ -278,7 +278,7 @@ void CarvedPart::carry_out(const ExportSurface& wanted) {
     if (export_.valid()) return refuse({"an export is under way", "", "wait for it to end"});
     if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok) return refuse(ok.error());
     sculpture_.end_stroke();
-    if (const auto read = sculpture_.read_back(); !read) return refuse(read.error());
+    sculpture_.read_back();
     export_ = std::async(std::launch::async, [surface = sculpture_.surface(), solid = sculpture_.engine().solid(),
                                               wanted] { return export_surface(surface, solid, wanted); });
 }

@@ -99,8 +99,7 @@ public:
 
     // sculpture must outlive the part. `hand` is the first that carves; another does once it has been given a tool.
     // With `undo_bytes` the part has the sculpture keep a history, within that much memory where it begins with none,
-    // and passes its notices on;
-    // without, a history that the sculpture keeps remains the caller's affair.
+    // and passes on what the sculpture has to say (Sculpture::take_notices); without, both remain the caller's affair.
     CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3, std::optional<std::size_t> undo_bytes,
                std::size_t hand = 0);
     ~CarvedPart() override;

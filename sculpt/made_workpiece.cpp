@@ -16,10 +16,9 @@ Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoi
 Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, EngineChoice engine, std::unique_ptr<WorkerPool> pool,
                                      const LoadWatch& watch, double from) {
     const compute::Lattice lattice = loaded.solid.lattice;
-    Result<ChosenEngine> chosen = choose_engine(engine, std::move(loaded.solid), *pool);
-    if (!chosen) return std::unexpected(chosen.error());
+    ChosenEngine chosen = choose_engine(engine, std::move(loaded.solid), *pool);
     begin_step(watch.work, "meshing the surface", from, 1.0);
-    auto carving = std::make_unique<Sculpture>(std::move(chosen->engine), *pool, watch.work);
+    auto carving = std::make_unique<Sculpture>(std::move(chosen.engine), *pool, watch.work);
     if (watch.work != nullptr && !watch.work->is_wanted()) return no_longer_wanted();
     return MadeWorkpiece{std::move(pool), std::move(loaded), lattice, std::move(carving)};
 }

@@ -2,10 +2,12 @@
 #include "sculpt/sculpture.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "base/clock.hpp"
 #include "compute/tools/tool_spans.hpp"
-#include "compute/vulkan/vulkan_engine.hpp"
+#include "compute/vulkan/standby_engine.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -21,6 +23,9 @@ Vec3 middle_of(const compute::Lattice& lattice) {
 
 // A copy is a journal's beginning, which is written each time that a session begins.
 constexpr std::size_t kMostCopiedSteps_bytes = std::size_t{64} << 20;
+
+// Updates that the device alone knows of: they bound what has to be done again where it is lost.
+constexpr std::size_t kMostOnDevice = 1024;
 
 double milliseconds(Nanoseconds from_ns, Nanoseconds to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
 
@@ -49,7 +54,7 @@ Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps) {
 Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
     if (on_device_ && std::ranges::all_of(sweeps, is_for_device)) return update_on_device(sweeps);
     if (on_device_) {
-        if (const auto read = read_back(); !read) return read;
+        read_back();
         on_device_.reset();
     }
     MonotonicClock clock;
@@ -79,37 +84,46 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
 
 // ---- On the device
 
-Result<void> Sculpture::mesh_on_device() {
-    auto* vulkan = dynamic_cast<compute::VulkanEngine*>(engine_.get());
+void Sculpture::mesh_on_device() {
+    auto* const standby = dynamic_cast<compute::StandbyEngine*>(engine_.get());
+    compute::VulkanEngine* const vulkan = standby != nullptr ? standby->on_device() : nullptr;
     // A device without this layout still carves, and the host meshes.
-    if (vulkan == nullptr || history_ || noted_ || !vulkan->device().capabilities().scalar_block_layout) return {};
+    if (vulkan == nullptr || history_ || noted_ || !vulkan->device().capabilities().scalar_block_layout) return;
     auto made = compute::DeviceSurface::create(*vulkan);
-    if (!made) return std::unexpected(made.error());
+    if (!made) return standby->give_up(made.error());
     on_device_ = std::move(*made);
+}
+
+Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> sweeps) {
+    for (const compute::ToolSweep& sweep : sweeps) {
+        if (const auto good = compute::check_sweep(engine_->solid(), sweep); !good) return good;
+    }
+    if (only_on_device_.size() == kMostOnDevice) read_back();
+    if (!on_device_) return carve(sweeps);  // it was lost just now
+    MonotonicClock clock;
+    const Nanoseconds start_ns = clock.now_ns();
+    only_on_device_.emplace_back(sweeps.begin(), sweeps.end());
+    if (const auto begun = begin_on_device(sweeps); !begun) go_on_without_the_device(begun.error());
+    ++figures_.updates;
+    figures_.sweeps += sweeps.size();
+    figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
     return {};
 }
 
 // Submits the cut together with the triangles near the tool: local_surface() will be asked for them with the radius of
 // the last time.
-Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> sweeps) {
+Result<void> Sculpture::begin_on_device(std::span<const compute::ToolSweep> sweeps) {
     std::vector<compute::BallSweep> balls;
     for (const compute::ToolSweep& sweep : sweeps) {
-        if (const auto good = compute::check_sweep(engine_->solid(), sweep); !good) return good;
         balls.push_back({sweep.start.position_m, sweep.end.position_m,
                          std::get<compute::BallTool>(sweep.shape).radius_m, sweep.material, sweep.operation});
     }
-    MonotonicClock clock;
-    const Nanoseconds start_ns = clock.now_ns();
     if (const auto done = finish_on_device(); !done) return done;
     std::optional<compute::DeviceSurface::Ball> touched;
     if (asked_radius_m_ > 0.0 && !balls.empty()) touched = {balls.back().end_object_m, asked_radius_m_};
     counts_before_ = on_device_->counts();
     under_way_ = true;
-    if (const auto carved = on_device_->carve(balls, touched); !carved) return carved;
-    ++figures_.updates;
-    figures_.sweeps += sweeps.size();
-    figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
-    return {};
+    return on_device_->carve(balls, touched);
 }
 
 Result<void> Sculpture::finish_on_device() {
@@ -128,22 +142,52 @@ Result<void> Sculpture::finish_on_device() {
     return {};
 }
 
-Result<void> Sculpture::read_back() {
-    if (!on_device_) return {};
+void Sculpture::read_back() {
+    if (!on_device_) return;
+    if (const auto fetched = fetch_from_device(); !fetched) return go_on_without_the_device(fetched.error());
+    only_on_device_.clear();
+    read_back_ = {figures_.rays_touched, figures_.rays_changed};
+}
+
+Result<void> Sculpture::fetch_from_device() {
     if (const auto done = finish_on_device(); !done) return done;
-    if (const auto read = static_cast<compute::VulkanEngine&>(*engine_).read_back(); !read) return read;
+    if (const auto read = static_cast<compute::StandbyEngine&>(*engine_).on_device()->read_back(); !read) return read;
     follow_engine();
     return {};
 }
 
-Result<void> Sculpture::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) {
-    if (!on_device_) {
-        compute::gather_local_surface(surface_, center_object, radius_m, out);
-        return {};
+// The host's solid is that of the last read_back(): the processor carves anew what the device has carved since.
+void Sculpture::go_on_without_the_device(const Error& why) {
+    on_device_.reset();
+    under_way_ = false;
+    static_cast<compute::StandbyEngine&>(*engine_).give_up(why);
+    figures_.rays_touched = read_back_.rays_touched;
+    figures_.rays_changed = read_back_.rays_changed;
+    for (const std::vector<compute::ToolSweep>& sweeps : std::exchange(only_on_device_, {})) {
+        // Cannot fail: the sweeps were checked when they came, and the processor's engine needs no device.
+        if (const auto cut = compute::apply(*engine_, sweeps, pool_)) {
+            figures_.rays_touched += cut->rays_touched;
+            figures_.rays_changed += cut->rays_changed;
+        }
     }
-    asked_radius_m_ = radius_m;
-    if (const auto done = finish_on_device(); !done) return done;
-    return on_device_->local_surface(center_object, radius_m, out);
+    follow_engine();
+}
+
+void Sculpture::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) {
+    if (on_device_) {
+        asked_radius_m_ = radius_m;
+        auto gathered = finish_on_device();
+        if (gathered) gathered = on_device_->local_surface(center_object, radius_m, out);
+        if (gathered) return;
+        go_on_without_the_device(gathered.error());
+    }
+    compute::gather_local_surface(surface_, center_object, radius_m, out);
+}
+
+std::vector<std::string> Sculpture::take_notices() {
+    std::vector<std::string> notices = engine_->take_notices();
+    if (history_) std::ranges::move(history_->take_notices(), std::back_inserter(notices));
+    return notices;
 }
 
 // ---- Undo
@@ -206,7 +250,7 @@ void Sculpture::is_saved() {
 Result<void> Sculpture::save(scene::Pages& pages) {
     end_stroke();
     if (on_device_) unsaved_.note_all();  // the device tells of no single rays
-    if (const auto read = read_back(); !read) return read;
+    read_back();
     if (pages.whole) unsaved_.note_all();
     save_solid(engine_->solid(), unsaved_, pages);
     if (history_) save_steps(*history_, pages);

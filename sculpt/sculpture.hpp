@@ -4,7 +4,8 @@
 // Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays -> the surface's cells
 // around the changed rays are meshed anew -> the history keeps what the rays held -> the light follows. With
 // mesh_on_device() the device of a Vulkan engine carves and meshes instead, in one submission that nobody waits for
-// before the next update.
+// before the next update. A device that fails, in either case, ends nothing: the processor goes on, with one notice
+// (compute/vulkan/standby_engine.hpp).
 // Frame: object, metres. Thread: one; the pool's threads work only within a call.
 #pragma once
 
@@ -13,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "compute/light/surface_light.hpp"
@@ -48,21 +50,25 @@ public:
     Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool, WorkWatch* watch = nullptr);
 
     // Carries out the sweeps in order and brings the surface, the history and the light's bookkeeping up to date. Fails
-    // on an invalid sweep, and then changes nothing, or when the engine does (compute/tools/apply.hpp).
+    // on an invalid sweep, and then changes nothing (compute/tools/apply.hpp).
     [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps);
     // Has the sweeps of later updates carved on the other sides of these planes as well; they go through the middle of
     // the workpiece as it was made. An update with its images is undone as one.
     void mirror(const Mirror& mirror) { mirror_.set(mirror); }
     // Sets `out` to the surface within a ball, ready for contact; leaves its sequence and time as they are.
-    [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
+    void local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
 
     // Lets the device of a Vulkan engine mesh as well, from the next update on. Only what local_surface() asks for
     // comes back; surface() and engine().solid() are those of the last read_back(). Has no effect with another engine,
     // on a device that cannot mesh, or with a history, which needs the rays of each update at once. Ends, with a
-    // read_back(), at the first sweep of a tool other than a cutting, filling or painting ball.
-    [[nodiscard]] Result<void> mesh_on_device();
+    // read_back(), at the first sweep of a tool other than a cutting, filling or painting ball. Not for a stroke that
+    // is felt: the triangles of local_surface() come in no order then, and touch depends on it.
+    void mesh_on_device();
     // Brings the host's solid and surface up to date with the device's.
-    [[nodiscard]] Result<void> read_back();
+    void read_back();
+    // Returns what the user should know of, since the last call: of strokes that cannot be undone any more, and of a
+    // device that the processor goes on for.
+    [[nodiscard]] std::vector<std::string> take_notices();
 
     // Keeps what each stroke changes, so that it can be undone, from the next update on. Costs time and memory.
     void keep_history(std::size_t budget_bytes) { history_.emplace(budget_bytes); }
@@ -118,7 +124,10 @@ private:
     void note_changed_tiles();
     [[nodiscard]] Result<void> carve(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> update_on_device(std::span<const compute::ToolSweep> sweeps);
+    [[nodiscard]] Result<void> begin_on_device(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> finish_on_device();
+    [[nodiscard]] Result<void> fetch_from_device();
+    void go_on_without_the_device(const Error& why);
 
     std::unique_ptr<compute::CarvingEngine> engine_;
     WorkerPool& pool_;
@@ -135,9 +144,13 @@ private:
     double first_mesh_ms_ = 0.0;
     // State of mesh_on_device().
     std::unique_ptr<compute::DeviceSurface> on_device_;  // null while the host meshes
-    bool under_way_ = false;                             // an update whose figures have not been counted yet
-    compute::DeviceSurfaceCounts counts_before_;         // that update
-    double asked_radius_m_ = 0.0;                        // of the last local surface; 0 before the first
+    // Sweeps of the updates since the last read_back(), and the figures as of then: where the device is lost, the
+    // processor carves these updates again.
+    std::vector<std::vector<compute::ToolSweep>> only_on_device_;
+    compute::CarveStats read_back_;
+    bool under_way_ = false;                      // an update whose figures have not been counted yet
+    compute::DeviceSurfaceCounts counts_before_;  // that update
+    double asked_radius_m_ = 0.0;                 // of the last local surface; 0 before the first
 };
 
 }  // namespace burin::sculpt

@@ -103,8 +103,9 @@ struct ChosenEngine {
     std::string reason;            // why automatic chose it; empty when it was asked for
 };
 
-// Makes the engine. Automatic takes a Vulkan device that is hardware and can run the engine, else native code: on a
-// software device compute shaders cost many times the native code. The pool must outlive the engine.
-[[nodiscard]] Result<ChosenEngine> choose_engine(EngineChoice choice, compute::Solid solid, WorkerPool& pool);
+// Makes the engine. Automatic takes a Vulkan device that is hardware, else native code: on a software device compute
+// shaders cost many times the native code. Where the device that is taken, or was asked for, cannot carve the solid,
+// the processor does, and the engine's notices say so. The pool must outlive the engine.
+[[nodiscard]] ChosenEngine choose_engine(EngineChoice choice, compute::Solid solid, WorkerPool& pool);
 
 }  // namespace burin::sculpt

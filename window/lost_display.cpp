@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -25,6 +26,7 @@ using SetExitHandler = void (*)(_XDisplay*, ExitHandler, void*);
 // Written by whichever thread finds out.
 std::atomic<bool> g_display_is_lost{false};
 int (*g_connection_of)(_XDisplay*) = nullptr;
+_XDisplay* g_display = nullptr;  // main thread; null where it cannot be outlived
 
 // GLFW waits for the connection's socket, which is at its end now, so that each wait would end at once and be begun
 // again for ever. A pipe that says nothing takes the socket's place.
@@ -48,11 +50,18 @@ Function named(void* library, const char* name) {
 
 }  // namespace
 
+bool display_hangs_up() {
+    if (g_display == nullptr || display_is_lost()) return display_is_lost();
+    pollfd connection{.fd = g_connection_of(g_display), .events = 0, .revents = 0};
+    return poll(&connection, 1, 0) > 0 && (connection.revents & (POLLHUP | POLLERR)) != 0;
+}
+
 bool display_is_lost() { return g_display_is_lost.load(std::memory_order_acquire); }
 
 // Where one of these is missing, as with GLFW for Wayland or Xlib before 1.7, a lost display ends the program.
 void outlive_display() {
     g_display_is_lost.store(false, std::memory_order_release);
+    g_display = nullptr;
     const auto display_of_glfw = named<_XDisplay* (*)()>(RTLD_DEFAULT, "glfwGetX11Display");
     _XDisplay* const display = display_of_glfw != nullptr ? display_of_glfw() : nullptr;
     void* const xlib = display != nullptr ? dlopen("libX11.so.6", RTLD_NOLOAD | RTLD_LAZY) : nullptr;
@@ -63,6 +72,7 @@ void outlive_display() {
     if (handle_errors != nullptr && handle_exit != nullptr && g_connection_of != nullptr) {
         handle_errors(say_nothing);
         handle_exit(display, on_lost_display, nullptr);
+        g_display = display;
     }
     dlclose(xlib);  // GLFW keeps it
 }

@@ -11,4 +11,7 @@ namespace burin::window {
 // Has the program outlive the connection that GLFW has opened. Main thread, each time that GLFW has started.
 void outlive_display();
 
+// Returns whether the connection is at its end, also before any call has found that out. Main thread.
+[[nodiscard]] bool display_hangs_up();
+
 }  // namespace burin::window

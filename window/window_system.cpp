@@ -6,9 +6,11 @@
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <utility>
 
+#include "base/clock.hpp"
 #include "window/lost_display.hpp"
 
 namespace burin::window {
@@ -19,6 +21,14 @@ namespace {
 std::mutex g_errors_mutex;
 std::string g_errors;
 std::weak_ptr<WindowSystem> g_running;  // main thread
+
+// Each monitor as it was described last. Main thread.
+struct DescribedMonitor {
+    Monitor monitor;
+    Nanoseconds at_ns = 0;
+};
+std::map<GLFWmonitor*, DescribedMonitor> g_described;
+constexpr Nanoseconds kStaysDescribed_ns = 1'000'000'000;
 
 void on_error(int, const char* text) {
     const std::lock_guard lock(g_errors_mutex);
@@ -56,6 +66,7 @@ Result<std::shared_ptr<WindowSystem>> WindowSystem::use() {
     if (glfwInit() != GLFW_TRUE) return no_display(take_errors());
     std::shared_ptr<WindowSystem> started(new WindowSystem);
     g_running = started;
+    g_described.clear();
     glfwSetMonitorCallback(on_monitor);
     outlive_display();
     return started;
@@ -71,6 +82,7 @@ std::string WindowSystem::take_errors() {
 }
 
 void WindowSystem::on_monitor(GLFWmonitor* monitor, int event) {
+    g_described.erase(monitor);
     const auto running = g_running.lock();
     if (!running) return;
     const std::string name = glfwGetMonitorName(monitor);
@@ -81,8 +93,12 @@ void WindowSystem::on_monitor(GLFWmonitor* monitor, int event) {
 
 Monitor WindowSystem::describe(GLFWmonitor* monitor, int index) {
     Monitor m;
+    const Nanoseconds now_ns = MonotonicClock().now_ns();
+    const auto known = g_described.find(monitor);
+    if (known != g_described.end()) m = known->second.monitor;
     m.index = index;
-    if (monitor == nullptr) return m;
+    const bool is_recent = known != g_described.end() && now_ns - known->second.at_ns < kStaysDescribed_ns;
+    if (monitor == nullptr || is_recent || display_hangs_up()) return m;
     m.name = glfwGetMonitorName(monitor);
     glfwGetMonitorPos(monitor, &m.x, &m.y);
     glfwGetMonitorPhysicalSize(monitor, &m.width_mm, &m.height_mm);
@@ -91,6 +107,7 @@ Monitor WindowSystem::describe(GLFWmonitor* monitor, int index) {
         m.height = mode->height;
         m.refresh_Hz = mode->refreshRate;
     }
+    g_described[monitor] = {m, now_ns};
     return m;
 }
 

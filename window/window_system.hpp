@@ -34,6 +34,8 @@ public:
 
     [[nodiscard]] std::vector<Monitor> monitors() const;
     [[nodiscard]] Result<GLFWmonitor*> find(const std::string& name_or_index) const;
+    // As it was within the last second: GLFW asks the display for place and mode, which takes its time in each frame,
+    // and GLFW 3.3 does not survive a display that dies meanwhile.
     [[nodiscard]] static Monitor describe(GLFWmonitor* monitor, int index);
 
     void add(MonitorListener* listener) { listeners_.push_back(listener); }

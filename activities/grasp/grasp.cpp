@@ -42,8 +42,8 @@ std::string name_of(const session::WorldObjects& world, scene::ObjectId id) {
     return object != nullptr ? object->name : std::string();
 }
 
-// Radius of the largest object that a hand takes or points at. A table is larger, and its ball is around all that
-// stands on it.
+// Radius of the largest object that a hand takes or points at, as the hand sees it: a hand that is larger in the scene
+// takes larger ones. A table is larger, and its ball is around all that stands on it.
 constexpr double kLargest_m = 0.12;
 
 // Returns the ball around an object: its middle in the scene and its radius.
@@ -198,7 +198,7 @@ void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world
         input.closures[i] = geometry::closure_of(static_cast<Finger>(i), hand.bend[i]);
     for (std::uint64_t& object : input.touched)
         if (const auto* touched = world != nullptr ? world->find(object) : nullptr;
-            touched == nullptr || ball_around(*touched).second > kLargest_m)
+            touched == nullptr || ball_around(*touched).second > kLargest_m * hand.scene_from_hand.scale)
             object = 0;
     const geometry::GestureState before = std::exchange(gesture_, geometry::step_gesture(gesture_, input));
     free_fingers(hand, orders);
@@ -254,12 +254,13 @@ void Grasp::point_at(const HandReading& hand, const session::WorldObjects& world
         const devices::FingertipPlace tip = devices::place_of(devices::usual_hand()[1], hand.bend[1]);
         const Vec3 from = hand.scene_from_hand * tip.hand_from_tip.position_m;
         const Vec3 along = hand.scene_from_hand.orientation * (tip.hand_from_tip.orientation * Vec3(0.0, 1.0, 0.0));
+        const double largest_m = kLargest_m * hand.scene_from_hand.scale;
         double nearest_m = HUGE_VAL;
         for (const auto& object : world.objects) {
             const auto [middle, radius_m] = ball_around(*object);
             const double ahead_m = glm::dot(middle - from, along);
             const double beside_m = glm::length(middle - from - ahead_m * along);
-            if (!object->seen || radius_m > kLargest_m || ahead_m <= 0.0 || beside_m > radius_m) continue;
+            if (!object->seen || radius_m > largest_m || ahead_m <= 0.0 || beside_m > radius_m) continue;
             if (ahead_m < nearest_m) wanted = object->name;
             nearest_m = std::min(nearest_m, ahead_m);
         }

@@ -11,7 +11,7 @@
 namespace burin::activities {
 namespace {
 
-constexpr double kBall_m = 0.006, kRod_m = 0.0022;
+constexpr double kStageBall_m = 0.006, kStageRod_m = 0.0022;
 const Vec3 kRed{0.80, 0.12, 0.10}, kGreen{0.10, 0.60, 0.18}, kRodGrey{0.25, 0.25, 0.28};
 constexpr std::uint32_t kRound = 24;
 
@@ -66,7 +66,7 @@ std::shared_ptr<const renderer::DrawnMesh> point_ball() {
     constexpr int kRings = 12;
     for (int i = 0; i <= kRings; ++i) {
         const double angle = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5);
-        rings.emplace_back(kBall_m * std::cos(angle), kBall_m * std::sin(angle));
+        rings.emplace_back(kStageBall_m * std::cos(angle), kStageBall_m * std::sin(angle));
     }
     return turned(rings);
 }
@@ -79,10 +79,12 @@ StageView::StageView(const study::FeltWorld& world, const study::Protocol& proto
       shows_path_(stage.kind == study::StageKind::led_training && !group.feels_tube),
       lead_m_per_s_(protocol.lead_m_per_s),
       point_offset_m_(protocol.point_offset_m),
-      view_(world.part(), world.objects(), kBall_m),
+      view_(world.part(), world.objects(), kStageBall_m),
       ball_(point_ball()),
-      rod_(turned(
-          {{0.0, -point_offset_m_}, {kRod_m, -point_offset_m_}, {kRod_m, point_offset_m_}, {0.0, point_offset_m_}})) {}
+      rod_(turned({{0.0, -point_offset_m_},
+                   {kStageRod_m, -point_offset_m_},
+                   {kStageRod_m, point_offset_m_},
+                   {0.0, point_offset_m_}})) {}
 
 renderer::Scene StageView::scene(StageMoment moment) {
     if (shows_path_) {

@@ -41,7 +41,7 @@ std::string read_number(int from) {
     while (!text.ends_with('\n')) {
         std::array<char, 16> some{};
         if (poll(&waiting, 1, kPatience_ms) <= 0) return {};
-        const ssize_t count = read(from, some.data(), some.size());
+        const ssize_t count = ::read(from, some.data(), some.size());
         if (count <= 0) return {};
         text.append(some.data(), static_cast<std::size_t>(count));
     }

@@ -16,7 +16,7 @@ namespace burin::bench {
 namespace {
 
 constexpr double kTools_m[] = {0.002, 0.005};
-constexpr Nanoseconds kUpdate_ns = 10'000'000;
+constexpr Nanoseconds kCarvingUpdate_ns = 10'000'000;
 
 // A ball of 100 mm of the medium material, as a session carves it, without undo and light.
 class CarvedBall {
@@ -67,7 +67,7 @@ private:
         Nanoseconds next_ns = clock.now_ns();
         while (failure_ && !stop_.load(std::memory_order_relaxed)) {
             failure_ = service.update(clock.now_ns());
-            next_ns = std::max(next_ns + kUpdate_ns, clock.now_ns());
+            next_ns = std::max(next_ns + kCarvingUpdate_ns, clock.now_ns());
             clock.sleep_until(next_ns);
         }
     }
@@ -152,15 +152,14 @@ Result<void> touch_groove(Haptics& all, const Carving& of) {
     TickCosts& costs = costs_of(all, "groove", of);
     TouchRun run(costs, clock, session_parameters(haptics::ball_probe(of.tool_m), true), *path, false);
     std::uint64_t sequence = 0;
-    Result<void> done;
     run.take(ticks_of(all, of.pacing), of.pacing, [&](Nanoseconds now_ns) {
         geometry::LocalSurface& draft = run.channels().surface.draft();
         const double reach_m = of.tool_m + 0.012 + 2.0 * of.ball.cell_m();
-        if (done) done = of.ball.sculpture().local_surface(run.path().hip_m(), reach_m, draft);
+        of.ball.sculpture().local_surface(run.path().hip_m(), reach_m, draft);
         draft.sequence = ++sequence, draft.made_ns = now_ns;
         run.channels().surface.publish();
     });
-    return done;
+    return {};
 }
 
 Result<void> measure_with(Haptics& all, int resolution, double tool_m, const Tell& notify) {

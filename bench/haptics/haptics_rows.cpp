@@ -23,18 +23,18 @@ std::uint64_t deadlines_of(const TickCosts& t) {
 }
 
 // The runs of one combination of scene, probe and friction; null where there was none.
-struct Runs {
+struct RunsOfCombination {
     const TickCosts *cold = nullptr, *rehearsed = nullptr, *back_to_back = nullptr;
 };
 
 // Returns the combinations in the order in which they first occur.
-std::vector<Runs> combinations_of(const std::vector<TickCosts>& ticks) {
-    std::vector<Runs> all;
+std::vector<RunsOfCombination> combinations_of(const std::vector<TickCosts>& ticks) {
+    std::vector<RunsOfCombination> all;
     std::map<std::tuple<std::string, std::size_t, std::string, bool>, std::size_t> known;
     for (const TickCosts& t : ticks) {
         const auto [at, is_new] = known.try_emplace({t.scene, t.triangles, t.probe, t.friction}, all.size());
         if (is_new) all.emplace_back();
-        Runs& runs = all[at->second];
+        RunsOfCombination& runs = all[at->second];
         (t.pacing == kCold ? runs.cold : t.pacing == kRehearsed ? runs.rehearsed : runs.back_to_back) = &t;
     }
     return all;
@@ -49,7 +49,7 @@ std::string lost_cell(const TickCosts& t) {
                           : formatted("%6s", "-");
 }
 
-std::string table_row(const Runs& runs) {
+std::string table_row(const RunsOfCombination& runs) {
     const TickCosts& counted = runs.back_to_back != nullptr ? *runs.back_to_back : *runs.cold;
     const double edges = counted.mean_edge_m > 0.0 ? counted.radius_m / counted.mean_edge_m : 0.0;
     std::string text = formatted("%-16s %9zu %-14s %6.1f %-3s", counted.scene.c_str(), counted.triangles,
@@ -147,7 +147,7 @@ std::string ticks_table(const std::vector<TickCosts>& ticks) {
     text += formatted("%-16s %9s %-14s %6s %-3s%32s%16s%16s%22s%23s%11s%20s%8s%6s%8s\n", "scene", "triangles", "probe",
                       "/ edge", "ct.", "", "p50, p99.9", "p50, p99.9", "", "", "mean max", "mean p99.9 max", "%",
                       "ticks", "");
-    for (const Runs& runs : combinations_of(ticks)) text += table_row(runs);
+    for (const RunsOfCombination& runs : combinations_of(ticks)) text += table_row(runs);
     std::uint64_t deadlines = 0, skipped = 0, runs_that_skipped = 0, limited = 0, counted = 0;
     for (const TickCosts& t : ticks) {
         deadlines += deadlines_of(t), skipped += t.skipped_deadlines;

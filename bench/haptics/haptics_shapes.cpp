@@ -166,8 +166,9 @@ Result<void> touch_groove_with(Haptics& all, int resolution, const ShapeTool& to
         shape_ticks(all, "groove_" + std::to_string(resolution), tool, sculpture.surface().triangles());
     ShapeRun run(tool, *pressed, figures);
     const double reach_m = 0.02 + 2.0 * sculpture.surface().lattice().spacing_m;
-    return run.take(all.options.shape_ticks, [&](geometry::LocalSurface& draft, const Vec3& hip_m) {
-        return sculpture.local_surface(hip_m, reach_m, draft);
+    return run.take(all.options.shape_ticks, [&](geometry::LocalSurface& draft, const Vec3& hip_m) -> Result<void> {
+        sculpture.local_surface(hip_m, reach_m, draft);
+        return {};
     });
 }
 

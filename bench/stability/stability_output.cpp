@@ -163,33 +163,33 @@ plot::Plot plot_of(const std::vector<Json>& rows, const char* section, const cha
     return plot;
 }
 
-constexpr std::array kCsvColumns{"section",
-                                 "grip",
-                                 "rate_Hz",
-                                 "delay_ms",
-                                 "force_alpha",
-                                 "velocity",
-                                 "wall_damping_Ns_per_m",
-                                 "controller",
-                                 "device_damping_Ns_per_m",
-                                 "largest_stable_stiffness_N_per_m",
-                                 "first_failure_N_per_m",
-                                 "failing_share_above",
-                                 "any_stiffness",
-                                 "published_N_per_m",
-                                 "theory_N_per_m",
-                                 "ratio",
-                                 "theory_applies",
-                                 "tap_speed_m_per_s",
-                                 "wanted_stiffness_N_per_m",
-                                 "rendered_stiffness_N_per_m",
-                                 "settles",
-                                 "limit_cycle_mm",
-                                 "force_change_a_tick_N",
-                                 "late_force_change_a_tick_N",
-                                 "net_energy_mJ",
-                                 "deepest_mm",
-                                 "controller_ticks"};
+constexpr std::array kStabilityColumns{"section",
+                                       "grip",
+                                       "rate_Hz",
+                                       "delay_ms",
+                                       "force_alpha",
+                                       "velocity",
+                                       "wall_damping_Ns_per_m",
+                                       "controller",
+                                       "device_damping_Ns_per_m",
+                                       "largest_stable_stiffness_N_per_m",
+                                       "first_failure_N_per_m",
+                                       "failing_share_above",
+                                       "any_stiffness",
+                                       "published_N_per_m",
+                                       "theory_N_per_m",
+                                       "ratio",
+                                       "theory_applies",
+                                       "tap_speed_m_per_s",
+                                       "wanted_stiffness_N_per_m",
+                                       "rendered_stiffness_N_per_m",
+                                       "settles",
+                                       "limit_cycle_mm",
+                                       "force_change_a_tick_N",
+                                       "late_force_change_a_tick_N",
+                                       "net_energy_mJ",
+                                       "deepest_mm",
+                                       "controller_ticks"};
 
 }  // namespace
 
@@ -212,11 +212,12 @@ std::string stability_table(const Stability& stability) {
 
 std::string stability_csv(const Stability& stability) {
     std::string text = "# simulated, the same on every machine; burin bench stability --csv\n";
-    for (std::size_t i = 0; i < kCsvColumns.size(); ++i) text += std::string(i > 0 ? "," : "") + kCsvColumns[i];
+    for (std::size_t i = 0; i < kStabilityColumns.size(); ++i)
+        text += std::string(i > 0 ? "," : "") + kStabilityColumns[i];
     text += '\n';
     for (const Json& row : stability.rows) {
-        for (std::size_t i = 0; i < kCsvColumns.size(); ++i) {
-            text += std::string(i > 0 ? "," : "") + text_of(row, kCsvColumns[i], "");
+        for (std::size_t i = 0; i < kStabilityColumns.size(); ++i) {
+            text += std::string(i > 0 ? "," : "") + text_of(row, kStabilityColumns[i], "");
         }
         text += '\n';
     }

@@ -11,43 +11,43 @@
 namespace burin::bench {
 namespace {
 
-constexpr std::array kCsvColumns{"series",
-                                 "detail",
-                                 "threads",
-                                 "resolution",
-                                 "updates",
-                                 "update_ms_median",
-                                 "update_ms_p99",
-                                 "update_ms_min",
-                                 "update_cpu_ms_median",
-                                 "tool_ms_median",
-                                 "carve_ms_median",
-                                 "mesh_ms_median",
-                                 "publish_ms_median",
-                                 "first_100_ms_median",
-                                 "last_100_ms_median",
-                                 "boolean_rays_per_s",
-                                 "bytes",
-                                 "bytes_per_ray",
-                                 "triangles",
-                                 "triangles_per_update",
-                                 "volume_error_over_removed",
-                                 "surface_rms_h",
-                                 "surface_max_h",
-                                 "cut_rms_h",
-                                 "cut_rms_m",
-                                 "edge_rms_h",
-                                 "rim_rms_h",
-                                 "rim_max_h",
-                                 "crease_rms_h",
-                                 "crease_max_h",
-                                 "crease_rms_m",
-                                 "bad_edges",
-                                 "self_intersections",
-                                 "lost_intervals",
-                                 "burin_cpu_faster_at_equal_cut_error"};
+constexpr std::array kParetoColumns{"series",
+                                    "detail",
+                                    "threads",
+                                    "resolution",
+                                    "updates",
+                                    "update_ms_median",
+                                    "update_ms_p99",
+                                    "update_ms_min",
+                                    "update_cpu_ms_median",
+                                    "tool_ms_median",
+                                    "carve_ms_median",
+                                    "mesh_ms_median",
+                                    "publish_ms_median",
+                                    "first_100_ms_median",
+                                    "last_100_ms_median",
+                                    "boolean_rays_per_s",
+                                    "bytes",
+                                    "bytes_per_ray",
+                                    "triangles",
+                                    "triangles_per_update",
+                                    "volume_error_over_removed",
+                                    "surface_rms_h",
+                                    "surface_max_h",
+                                    "cut_rms_h",
+                                    "cut_rms_m",
+                                    "edge_rms_h",
+                                    "rim_rms_h",
+                                    "rim_max_h",
+                                    "crease_rms_h",
+                                    "crease_max_h",
+                                    "crease_rms_m",
+                                    "bad_edges",
+                                    "self_intersections",
+                                    "lost_intervals",
+                                    "burin_cpu_faster_at_equal_cut_error"};
 
-std::string text_of(const Json& row, const char* key, const char* absent) {
+std::string pareto_text(const Json& row, const char* key, const char* absent) {
     if (!row.contains(key) || row[key].is_null()) return absent;
     if (row[key].is_string()) {
         std::string text = row[key].get<std::string>();
@@ -86,7 +86,7 @@ std::string pareto_table(const Pareto& pareto) {
                   "median ms", "p99 ms", "cpu ms", "vol/removed", "cut h", "edge h", "rim h", "crease h", "x slower");
     std::string text = line.data();
     for (const Json& row : pareto.rows) {
-        const auto cell = [&](const char* key) { return text_of(row, key, "-"); };
+        const auto cell = [&](const char* key) { return pareto_text(row, key, "-"); };
         std::snprintf(line.data(), line.size(), "%-58s %12s %9s %9s %9s %10s %9s %9s %9s %9s %8s\n",
                       row["series"].get<std::string>().c_str(), label_of(row).c_str(), cell("update_ms_median").c_str(),
                       cell("update_ms_p99").c_str(), cell("update_cpu_ms_median").c_str(),
@@ -102,11 +102,11 @@ std::string pareto_table(const Pareto& pareto) {
 
 std::string pareto_csv(const Pareto& pareto) {
     std::string text = "# " + pareto.machine + "; wall times; burin bench pareto --csv\n";
-    for (std::size_t i = 0; i < kCsvColumns.size(); ++i) text += std::string(i > 0 ? "," : "") + kCsvColumns[i];
+    for (std::size_t i = 0; i < kParetoColumns.size(); ++i) text += std::string(i > 0 ? "," : "") + kParetoColumns[i];
     text += '\n';
     for (const Json& row : pareto.rows) {
-        for (std::size_t i = 0; i < kCsvColumns.size(); ++i) {
-            text += std::string(i > 0 ? "," : "") + text_of(row, kCsvColumns[i], "");
+        for (std::size_t i = 0; i < kParetoColumns.size(); ++i) {
+            text += std::string(i > 0 ? "," : "") + pareto_text(row, kParetoColumns[i], "");
         }
         text += '\n';
     }

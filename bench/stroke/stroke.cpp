@@ -32,16 +32,24 @@ std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene) {
 
 double radius_of(const compute::ToolSweep& sweep) { return std::get<compute::BallTool>(sweep.shape).radius_m; }
 
+// Fails where the processor has gone on for a device: its times are no device's.
+Result<void> check_engine(sculpt::Sculpture& sculpture, const StrokeOptions& options) {
+    if (!options.on_vulkan || sculpture.engine().name() == std::string_view("vulkan")) return {};
+    const std::vector<std::string> why = sculpture.take_notices();
+    return fail("--engine vulkan", why.empty() ? "does not carve" : why.front(), "measure with --engine cpu");
+}
+
 // Makes a sculpture of the scene's uncut solid.
 Result<std::unique_ptr<sculpt::Sculpture>> start(const compute::Solid& uncut, const StrokeOptions& options,
                                                  WorkerPool& pool, StrokeRun& run) {
     const auto choice = options.on_vulkan ? sculpt::EngineChoice::vulkan : sculpt::EngineChoice::cpu;
-    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(choice, uncut, pool);
-    if (!chosen) return std::unexpected(chosen.error());
-    run.engine = chosen->engine->name();
-    run.device = options.on_vulkan ? chosen->device : "native";
-    run.software_device = chosen->software_device;
-    return std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool);
+    sculpt::ChosenEngine chosen = sculpt::choose_engine(choice, uncut, pool);
+    run.engine = chosen.engine->name();
+    run.device = options.on_vulkan ? chosen.device : "native";
+    run.software_device = chosen.software_device;
+    auto sculpture = std::make_unique<sculpt::Sculpture>(std::move(chosen.engine), pool);
+    if (const auto same = check_engine(*sculpture, options); !same) return std::unexpected(same.error());
+    return sculpture;
 }
 
 struct Carved {
@@ -56,21 +64,19 @@ struct Carved {
 Result<Carved> carve(sculpt::Sculpture& sculpture, std::span<const compute::ToolSweep> sweeps) {
     const auto published = std::make_unique<geometry::LocalSurface>();
     const auto publish = [&](const compute::ToolSweep& sweep) {
-        return sculpture.local_surface(sweep.end.position_m, kPublishedRadii * radius_of(sweep), *published);
+        sculpture.local_surface(sweep.end.position_m, kPublishedRadii * radius_of(sweep), *published);
     };
     // A session publishes once before its first update; a device then knows which triangles will be asked for.
-    if (!sweeps.empty()) {
-        if (const auto done = publish(sweeps.front()); !done) return std::unexpected(done.error());
-    }
+    if (!sweeps.empty()) publish(sweeps.front());
     Carved carved;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
         const double cpu_before_ms = process_cpu_ms();
         Stopwatch watch;
-        Result<void> done = sculpture.update({&sweeps[i], 1});
+        const Result<void> done = sculpture.update({&sweeps[i], 1});
         if (done && (i + 1) % kUpdatesAStroke == 0) sculpture.end_stroke();
         const double carved_ms = watch.lap_ms();
-        if (done) done = publish(sweeps[i]);
         if (!done) return std::unexpected(done.error());
+        publish(sweeps[i]);
         carved.publish_ms.push_back(watch.lap_ms());
         carved.tiles_lit += sculpture.bake_light(sweeps[i].end.position_m, sculpt::CarvedPart::kLitWorking);
         carved.times.update_ms.push_back(carved_ms + carved.publish_ms.back() + watch.lap_ms());
@@ -119,14 +125,13 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
     const auto sculpture = start(uncut, options, pool, run);
     if (!sculpture) return std::unexpected(sculpture.error());
     run.first_mesh_ms = (*sculpture)->first_mesh_ms();
-    if (options.on_vulkan) {
-        Stopwatch watch;
-        if (const auto ready = (*sculpture)->mesh_on_device(); !ready) return ready;
-        run.first_mesh_ms = watch.lap_ms();
-    }
+    const auto before = (*sculpture)->engine().traffic();
     Result<Carved> carved = carve(**sculpture, sweeps);
     if (!carved) return std::unexpected(carved.error());
-    if (const auto read = (*sculpture)->read_back(); !read) return read;
+    if (const auto same = check_engine(**sculpture, options); !same) return same;
+    if (const auto after = (*sculpture)->engine().traffic(); before && after)
+        run.traffic = {after->submissions - before->submissions, after->blocking_waits - before->blocking_waits,
+                       after->bytes_to_device - before->bytes_to_device, after->bytes_to_host - before->bytes_to_host};
     take_figures(**sculpture, std::move(*carved), run);
     check(**sculpture, scene, uncut, pool, run);
     return {};
@@ -145,6 +150,16 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene);
     if (const auto done = run_plain(scene, *uncut, sweeps, options, pool, run); !done) {
         return std::unexpected(done.error());
+    }
+    if (options.on_vulkan) {
+        const auto sculpture = start(*uncut, options, pool, run);
+        if (!sculpture) return std::unexpected(sculpture.error());
+        (*sculpture)->mesh_on_device();
+        Result<Carved> carved = carve(**sculpture, sweeps);
+        if (!carved) return std::unexpected(carved.error());
+        (*sculpture)->read_back();
+        if (const auto same = check_engine(**sculpture, options); !same) return std::unexpected(same.error());
+        run.with_device_mesh = std::move(carved->times);
     }
     if (options.with_undo) {
         const auto sculpture = start(*uncut, options, pool, run);

@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Carves a scene update by update with the sculpture of a session (sculpt/sculpture.hpp), and times it. In one update
 // the engine cuts one sweep; the surface is brought up to date, vertices and indices; a local surface is filled with
-// references to the tiles near the tool, ready to be published to the haptic thread. On the Vulkan engine everything is
-// done on the device (compute/vulkan/device_surface.hpp), and the device's clock gives the share of each part; the
-// triangles near the tool are read back, and their search grid is built on the host.
+// references to the tiles near the tool, ready to be published to the haptic thread. The Vulkan engine cuts on the
+// device, and the host meshes what comes home, as in a session. Beside that, with the Vulkan engine alone, the same
+// updates are timed as a rigid stroke runs them: meshed on the device (compute/vulkan/device_surface.hpp), with the
+// triangles near the tool read back and their search grid built on the host.
 //
-// A session also keeps undo and light. The same updates are timed with each of them, on a sculpture of its own; on the
-// Vulkan engine the host then meshes, as in a session. With undo, a stroke ends every kUpdatesAStroke updates. With
-// light, each update bakes as many tiles as one of a session does while the tool works; at the beginning the light of
-// the whole surface waits to be baked, as when a session begins.
+// A session also keeps undo and light. The same updates are timed with each of them, on a sculpture of its own. With
+// undo, a stroke ends every kUpdatesAStroke updates. With light, each update bakes as many tiles as one of a session
+// does while the tool works; at the beginning the light of the whole surface waits to be baked, as when a session
+// begins.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "bench/measure/lost_intervals.hpp"
 #include "bench/measure/scenes.hpp"
+#include "compute/rays/engine.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
 namespace burin::bench {
@@ -45,12 +48,14 @@ struct StrokeRun {
     // One value an update, wall time: the cut, the surface, the local surface, and all three; cpu_ms is the process's
     // time for all three on all threads. The parts are empty where the device cannot measure them.
     std::vector<double> carve_ms, mesh_ms, publish_ms, update_ms, cpu_ms;
-    UpdateTimes with_undo, with_light;                 // empty unless asked for
-    std::size_t strokes_kept = 0;                      // by the history of with_undo
-    std::size_t tiles_lit = 0;                         // baked during the updates of with_light
-    std::uint64_t rays_touched = 0, rays_changed = 0;  // summed over the updates
+    UpdateTimes with_undo, with_light;              // empty unless asked for
+    std::optional<compute::DeviceTraffic> traffic;  // of the updates without undo, light or meshing on the device
+    UpdateTimes with_device_mesh;  // with the Vulkan engine, as a rigid stroke of `burin sculpt` without undo runs
+    std::size_t strokes_kept = 0;  // by the history of with_undo
+    std::size_t tiles_lit = 0;     // baked during the updates of with_light
+    std::uint64_t rays_touched = 0, rays_changed = 0;                                   // summed over the updates
     std::uint64_t cells_remeshed = 0, triangles_remeshed = 0, triangles_published = 0;  // likewise; of whole tiles
-    double first_mesh_ms = 0.0;  // of the whole uncut solid; on a device it includes the compilation of its shaders
+    double first_mesh_ms = 0.0;  // of the whole uncut solid, on the host
     std::uint64_t rays_held = 0;
     std::size_t bytes = 0;  // of the rays, at the end
     std::uint64_t disagreeing_edges = 0;

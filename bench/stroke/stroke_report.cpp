@@ -105,6 +105,7 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
     add_update_times(report, run.update_ms, run.cpu_ms);
     add_times_with(report, "undo", run.with_undo);
     add_times_with(report, "light", run.with_light);
+    add_times_with(report, "device_mesh", run.with_device_mesh);
     const bool has_parts = !run.carve_ms.empty();
     report["carve_ms_median"] = has_parts ? Json(median(run.carve_ms)) : Json(nullptr);
     report["mesh_ms_median"] = has_parts ? Json(median(run.mesh_ms)) : Json(nullptr);
@@ -121,6 +122,11 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
     report["cells_per_update"] = static_cast<double>(run.cells_remeshed) / updates;
     report["triangles_per_update"] = static_cast<double>(run.triangles_remeshed) / updates;
     report["triangles_published_per_update"] = static_cast<double>(run.triangles_published) / updates;
+    for (const auto& [key, of] : {std::pair{"submissions_per_update", &compute::DeviceTraffic::submissions},
+                                  std::pair{"blocking_waits_per_update", &compute::DeviceTraffic::blocking_waits},
+                                  std::pair{"bytes_to_device_per_update", &compute::DeviceTraffic::bytes_to_device},
+                                  std::pair{"bytes_to_host_per_update", &compute::DeviceTraffic::bytes_to_host}})
+        report[key] = run.traffic ? Json(static_cast<double>((*run.traffic).*of) / updates) : Json(nullptr);
     add_errors(report, errors, run.cell_m);
     report["self_intersections"] = or_null(crossings.pairs);
     report["self_intersections_mended"] = run.self_intersections_mended;
@@ -188,6 +194,11 @@ std::string scene_table(const std::vector<Json>& reports) {
                                   std::pair{"update_ms_p99", "p99 ms"},
                                   std::pair{"update_with_undo_ms_median", "with undo"},
                                   std::pair{"update_with_light_ms_median", "with light"},
+                                  std::pair{"update_with_device_mesh_ms_median", "meshed on the device"},
+                                  std::pair{"submissions_per_update", "submissions"},
+                                  std::pair{"blocking_waits_per_update", "waits"},
+                                  std::pair{"bytes_to_device_per_update", "B to device"},
+                                  std::pair{"bytes_to_host_per_update", "B to host"},
                                   std::pair{"disagreeing_edges", "disagreeing"},
                                   std::pair{"self_intersections", "crossing"},
                                   std::pair{"lost_intervals", "lost"},

@@ -28,7 +28,8 @@ struct Ageing {
 [[nodiscard]] Ageing ageing(const std::vector<double>& update_ms);
 
 // update_ms_... and update_cpu_ms_... are an update's cut, surface and local surface, without undo and light;
-// update_with_undo_... and update_with_light_... are the same updates with one of them, null where they were not run.
+// update_with_undo_... and update_with_light_... are the same updates with one of them, null where they were not run,
+// and update_with_device_mesh_... those that a Vulkan device meshes; submissions, waits and bytes are null without one.
 [[nodiscard]] Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors& errors,
                             const SelfIntersections& crossings);
 // Describes a peer's run with the same keys where they mean the same. cell_m is 0 for a method without cells: figures

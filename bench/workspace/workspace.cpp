@@ -27,7 +27,7 @@ std::vector<Vec3> targets_on(const WorkspaceTask& task) {
     return targets;
 }
 
-Vec3 in_steps(const Vec3& p, double step_m) { return glm::floor(p / step_m + 0.5) * step_m; }
+Vec3 in_omni_steps(const Vec3& p, double step_m) { return glm::floor(p / step_m + 0.5) * step_m; }
 
 // Delays a position by the time of vision: what is seen now is what was a while ago.
 class Delay {
@@ -98,7 +98,7 @@ void Session::tick() {
         finger_.reset();
     }
     haptics::WorkspaceInput input;
-    input.position_device_m = in_steps(hand_.step(force_device_N_, kTick_s), omni_.resolution_m);
+    input.position_device_m = in_omni_steps(hand_.step(force_device_N_, kTick_s), omni_.resolution_m);
     window_ = haptics::with_position(window_, input.position_device_m);
     input.velocity_device_m_per_s = velocity_m_per_s(window_, omni_.resolution_m, kTick_s);
     input.buttons = view_.button ? settings_.button_mask : 0;

@@ -144,7 +144,7 @@ private:
 struct Place {
     Vec3f start, normal;
 };
-Place place_of(const shared::SurfaceVertex& vertex, float cells_per_m) {
+Place place_in_cells(const shared::SurfaceVertex& vertex, float cells_per_m) {
     const shared::Direction n = shared::decode_normal(vertex.normal);
     const Vec3f normal(n.x, n.y, n.z);
     return {Vec3f(vertex.x, vertex.y, vertex.z) * cells_per_m + normal * kStart, normal};
@@ -235,7 +235,7 @@ void bake_open(const Clearance& clearance, const Lattice& lattice, const geometr
     Rays rays(clearance, bounds);
     const auto cells_per_m = static_cast<float>(1.0 / lattice.spacing_m);
     for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
-        light[i].open = code_of(open_at(rays, place_of(tile.vertices[i], cells_per_m), cones));
+        light[i].open = code_of(open_at(rays, place_in_cells(tile.vertices[i], cells_per_m), cones));
     }
 }
 
@@ -247,7 +247,7 @@ void bake_sun(const Clearance& clearance, const Lattice& lattice, const geometry
     Rays rays(clearance, bounds);
     const auto cells_per_m = static_cast<float>(1.0 / lattice.spacing_m);
     for (std::size_t i = 0; i < tile.vertices.size(); ++i) {
-        light[i].sun = code_of(sun_at(rays, place_of(tile.vertices[i], cells_per_m), all, parts));
+        light[i].sun = code_of(sun_at(rays, place_in_cells(tile.vertices[i], cells_per_m), all, parts));
     }
 }
 

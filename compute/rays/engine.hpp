@@ -11,17 +11,17 @@
 // returns.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "base/worker_pool.hpp"
 #include "compute/rays/operation.hpp"
 #include "compute/rays/ray_batch.hpp"
 #include "compute/rays/solid.hpp"
-
-namespace burin::gpu {
-class Device;
-}
 
 namespace burin::compute {
 
@@ -46,6 +46,11 @@ struct CarveStats {
     }
 };
 
+// Counts submissions, waits and copied bytes of an engine's device since it was opened (gpu::WorkAsked).
+struct DeviceTraffic {
+    std::uint64_t submissions = 0, blocking_waits = 0, bytes_to_device = 0, bytes_to_host = 0;
+};
+
 class CarvingEngine {
 public:
     virtual ~CarvingEngine() = default;
@@ -63,14 +68,15 @@ public:
     [[nodiscard]] virtual Result<std::uint8_t> add_material(const geometry::Material& material) = 0;
     // Returns what changed since the last call or, at the first call, since the engine was made.
     [[nodiscard]] virtual Changes take_changes() = 0;
+    // Returns what the user should know of, since the last call: that the processor goes on for a device
+    // (compute/vulkan/standby_engine.hpp).
+    [[nodiscard]] virtual std::vector<std::string> take_notices() { return {}; }
+    // Returns the work of the engine's device; nothing for an engine that never had one.
+    [[nodiscard]] virtual std::optional<DeviceTraffic> traffic() const { return std::nullopt; }
 };
 
 // The pool must outlive the engine.
 [[nodiscard]] std::unique_ptr<CarvingEngine> make_cpu_engine(Solid solid, WorkerPool& pool);
-// Fails, and names a remedy, where the device cannot run the engine: no 64-bit integers or doubles in shaders, or
-// buffers too small for the solid. The engine keeps the device open, and must be called from the device's thread
-// (vulkan_engine.hpp).
-[[nodiscard]] Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Device& device);
 // Adds the other engine to the remedies of a failure of this one. Of gpu/ alone it is no remedy, since pictures are
 // drawn by the GPU whichever engine carves.
 [[nodiscard]] Error with_the_other_engine(Error failure);

@@ -7,8 +7,8 @@
 namespace burin::compute {
 namespace {
 
-constexpr double kSlack = 0x1p-20;  // lattice units; far above rounding at coordinates up to 2^27
-constexpr double kFar = 1e9;        // lattice units; farther than any point of a tool
+constexpr double kSweepSlack = 0x1p-20;  // lattice units; far above rounding at coordinates up to 2^27
+constexpr double kFar = 1e9;             // lattice units; farther than any point of a tool
 
 Vec3 unit_vector(int axis) {
     Vec3 e(0.0);
@@ -62,7 +62,7 @@ public:
         y_ = oy;
         ys_ = ey;
         yt_ = -dy;
-        noise_ = 4e-15 * (glm::dot(o, o) + distance * distance) + kSlack * (shape.tip_radius + shape.top_radius);
+        noise_ = 4e-15 * (glm::dot(o, o) + distance * distance) + kSweepSlack * (shape.tip_radius + shape.top_radius);
     }
 
     // Finds the candidates with the least and the greatest s; returns false when there are none.
@@ -83,7 +83,7 @@ public:
     }
 
 private:
-    [[nodiscard]] static bool within(double x, double length) { return x >= -kSlack && x <= length + kSlack; }
+    [[nodiscard]] static bool within(double x, double length) { return x >= -kSweepSlack && x <= length + kSweepSlack; }
     [[nodiscard]] double height(double s, double t) const { return y_ + ys_ * s + yt_ * t; }
     [[nodiscard]] double conic(double s, double t) const {
         return (ss_ * s + 2.0 * (st_ * t + s_)) * s + (tt_ * t + 2.0 * t_) * t + one_;
@@ -151,7 +151,7 @@ SweepSpan FrustumSweep::span(int axis, double ray_u, double ray_v) const {
         const double y = glm::dot(p, axis_);
         const Vec3 outward = p - axis_ * y, cap = y < 0.5 * shape_.length ? -axis_ : axis_;
         if (c.part == Part::cap) return cap;
-        const bool moving = c.t > kSlack && c.t < distance_ - kSlack;
+        const bool moving = c.t > kSweepSlack && c.t < distance_ - kSweepSlack;
         if (shape_.rim_radius >= 0.0 && !(moving && c.part == Part::rim)) {
             const double out = std::sqrt(glm::dot(outward, outward));
             const Vec3 from_rim = out > shape_.rim_radius ? outward * (1.0 - shape_.rim_radius / out) : Vec3(0.0);

@@ -10,8 +10,8 @@
 //   Box: swept along a segment it is the sum of four segments, a polytope whose faces are parallel to two of them each:
 //   six pairs of parallel planes.
 // Lattice axes and units; computed in doubles with + - * / and roots only. Rounding moves a border by less than 1e-6
-// units where the ray does not graze it. A candidate counts as feasible within kSlack, so that a corner at which three
-// borders meet is not lost to the rounding of each.
+// units where the ray does not graze it. A candidate counts as feasible within kSweepSlack, so that a corner at which
+// three borders meet is not lost to the rounding of each.
 #pragma once
 
 #include "base/space.hpp"

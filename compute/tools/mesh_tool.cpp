@@ -16,7 +16,7 @@ using shared::DexelEnd;
 using shared::kUnitsPerCell;
 
 constexpr double kLargestMeshReach = 1 << 24;  // lattice units, as for balls: 4096 cells
-constexpr double kMostTriangles = 400'000'000;
+constexpr double kMostPairs = 400'000'000;
 
 // The surfaces swept by all moves, as one mesh with a normal code for each triangle.
 struct Swept {
@@ -259,8 +259,7 @@ Result<Extent> extent_of(const MeshTool& tool, double unit_m) {
 }
 
 Result<void> check_effort(const MeshTool& tool, std::span<const StraightMove> moves) {
-    if (static_cast<double>(moves.size()) * static_cast<double>(tool.mesh->triangles.size()) <= kMostTriangles)
-        return {};
+    if (static_cast<double>(moves.size()) * static_cast<double>(tool.mesh->triangles.size()) <= kMostPairs) return {};
     return fail("tool mesh", "has too many triangles for a motion that must be split so often",
                 "raise --sweep-tolerance, give the stroke more rows, or simplify the mesh");
 }

@@ -30,7 +30,7 @@ Footprint footprint_of(const Lattice& lattice, const Box& bounds, int axis) {
 }
 
 // One row of rays of one axis, the pieces that may cover a part of it, and the resulting spans.
-struct Row {
+struct RowSpans {
     int axis = 0, v = 0;
     std::vector<std::uint32_t> pieces;
     RayBatch spans;
@@ -74,8 +74,8 @@ private:
     std::vector<SweepSpan> spans_;
 };
 
-std::vector<Row> rows_under(const Lattice& lattice, const std::vector<std::vector<Footprint>>& footprints) {
-    std::vector<Row> rows;
+std::vector<RowSpans> rows_under(const Lattice& lattice, const std::vector<std::vector<Footprint>>& footprints) {
+    std::vector<RowSpans> rows;
     for (int axis = 0; axis < 3; ++axis) {
         const std::vector<Footprint>& of_axis = footprints[static_cast<std::size_t>(axis)];
         std::vector<std::vector<std::uint32_t>> pieces_at(static_cast<std::size_t>(lattice.rays_v(axis)));
@@ -92,13 +92,13 @@ std::vector<Row> rows_under(const Lattice& lattice, const std::vector<std::vecto
     return rows;
 }
 
-RayBatch joined(const std::vector<Row>& rows) {
+RayBatch joined(const std::vector<RowSpans>& rows) {
     RayBatch batch;
     std::size_t rays = 0, ends = 0;
-    for (const Row& row : rows) rays += row.spans.rays.size(), ends += row.spans.ends.size();
+    for (const RowSpans& row : rows) rays += row.spans.rays.size(), ends += row.spans.ends.size();
     batch.rays.reserve(rays);
     batch.ends.reserve(ends);
-    for (const Row& row : rows) {
+    for (const RowSpans& row : rows) {
         for (const RayBatch::Ray& ray : row.spans.rays) batch.add(ray.code, row.spans.ends_of(ray));
     }
     return batch;
@@ -112,9 +112,9 @@ RayBatch spans_of(const Lattice& lattice, const std::vector<ConvexPiece>& pieces
             footprints[static_cast<std::size_t>(axis)].push_back(footprint_of(lattice, bounds_of(piece), axis));
         }
     }
-    std::vector<Row> rows = rows_under(lattice, footprints);
+    std::vector<RowSpans> rows = rows_under(lattice, footprints);
     pool.run(rows.size(), [&](std::size_t i) {
-        Row& row = rows[i];
+        RowSpans& row = rows[i];
         const std::vector<Footprint>& of_axis = footprints[static_cast<std::size_t>(row.axis)];
         const int deepest = lattice.cells[static_cast<std::size_t>(row.axis)] * kUnitsPerCell;
         int u_lo = lattice.rays_u(row.axis), u_hi = -1;
@@ -194,9 +194,9 @@ Result<RayBatch> spans_of_tool(const Solid& solid, const BallTool& tool, const T
     for (int axis = 0; axis < 3; ++axis) {
         footprints[static_cast<std::size_t>(axis)].push_back(footprint(solid.lattice, capsule, axis));
     }
-    std::vector<Row> rows = rows_under(solid.lattice, footprints);
+    std::vector<RowSpans> rows = rows_under(solid.lattice, footprints);
     pool.run(rows.size(), [&](std::size_t i) {
-        Row& row = rows[i];
+        RowSpans& row = rows[i];
         const Footprint& f = footprints[static_cast<std::size_t>(row.axis)].front();
         const int deepest = solid.lattice.cells[static_cast<std::size_t>(row.axis)] * kUnitsPerCell;
         for (int u = f.u_lo; u <= f.u_hi; ++u) {

@@ -94,6 +94,7 @@ Result<void> DeviceSurface::update(const Changes& changes) {
     if (const auto done = finish(); !done) return done;
     touched_.reset();
     times_ = DeviceTimes{};
+    if (const auto sent = engine_.synchronize(); !sent) return sent;
     const std::size_t most =
         static_cast<std::size_t>(engine_.device().capabilities().max_storage_buffer_bytes) / sizeof(ChangedRay);
     for (std::size_t from = 0; from < changes.rays.size(); from += most) {

@@ -47,15 +47,15 @@ void copy_to(const SharedBuffer& buffer, std::span<const T> values) {
     std::ranges::copy(values, buffer.to_device<T>().begin());
 }
 
+void keep_each_once(std::vector<std::uint32_t>& codes) {
+    std::ranges::sort(codes);
+    const auto repeated = std::ranges::unique(codes);
+    codes.erase(repeated.begin(), repeated.end());
+}
+
 std::uint32_t groups_of(std::uint32_t rays) { return (rays + shared::kCutGroup - 1) / shared::kCutGroup; }
 
 }  // namespace
-
-Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Device& device) {
-    auto engine = VulkanEngine::create(std::move(solid), device);
-    if (!engine) return std::unexpected(engine.error());
-    return std::unique_ptr<CarvingEngine>(std::move(*engine));
-}
 
 Error with_the_other_engine(Error failure) {
     constexpr const char* kOther = "use --engine cpu";
@@ -64,7 +64,7 @@ Error with_the_other_engine(Error failure) {
     return failure;
 }
 
-Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gpu::Device& device,
+Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const gpu::Device& device,
                                                            const VulkanEngineOptions& options) {
     const gpu::Capabilities& can = device.capabilities();
     if (!can.shader_int64 || !can.shader_float64 || !can.buffer_address) {
@@ -89,7 +89,10 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gp
     if (made) made = compile(engine->patch_rays_, k_patch_rays_comp, 4, "patch");
     if (made) made = compile(engine->export_rays_, k_export_rays_comp, 5, "read back");
     if (made) made = engine->synchronize();
-    if (!made) return std::unexpected(with_the_other_engine(made.error()));
+    if (!made) {
+        solid = engine->give_solid();
+        return std::unexpected(with_the_other_engine(made.error()));
+    }
     return engine;
 }
 
@@ -98,20 +101,32 @@ VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, const VulkanE
 
 Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
     if (const auto done = read_back(); !done) return std::unexpected(with_the_other_engine(done.error()));
-    if (const auto sent = synchronize(); !sent) return std::unexpected(with_the_other_engine(sent.error()));
-    if (const auto patched = patch(rays); !patched) {
-        synchronized_ = false;
-        return std::unexpected(with_the_other_engine(patched.error()));
-    }
     CarveStats stats;
     for (const RayBatch::Ray& ray : rays.rays) {
         const RayPlace place = place_of(ray.code);
         ++stats.rays_touched;
         if (assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place, rays.ends_of(ray), changes_)) {
             ++stats.rays_changed;
+            assigned_.push_back(ray.code);
         }
     }
+    // Undo, smoothing and most tools assign, often many times before the next cut.
+    if (assigned_.size() > solid_.rays_held()) keep_each_once(assigned_);
     return stats;
+}
+
+// Sends the rays that were assigned since the device was last used, as they are now.
+Result<void> VulkanEngine::send_assigned() {
+    if (assigned_.empty()) return {};
+    keep_each_once(assigned_);
+    RayBatch batch;
+    for (const std::uint32_t code : std::exchange(assigned_, {})) {
+        const RayPlace place = place_of(code);
+        batch.add(code, solid_.sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v));
+    }
+    const auto patched = patch(batch);
+    if (!patched) synchronized_ = false;
+    return patched;
 }
 
 // Sends the ends of the batch in several pieces, so that no buffer grows beyond what a device may bind.
@@ -176,7 +191,8 @@ Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
 }
 
 Result<void> VulkanEngine::synchronize() {
-    if (synchronized_) return {};
+    if (synchronized_) return send_assigned();
+    assigned_.clear();
     const std::size_t rays = solid_.rays_held();
     if (const auto kept = stale_.reserve(device_, rays * sizeof(std::uint32_t)); !kept) return kept;
     // The first cuts of a fine solid need more free ends than those of a coarse one: one for every eighth ray.
@@ -362,10 +378,13 @@ Result<void> VulkanEngine::end_pass() {
     return done;
 }
 
+// All is fetched before anything is assigned: a device that fails in between leaves the host's solid as it was.
 Result<void> VulkanEngine::read_back() {
     const std::uint32_t rays = std::exchange(stale_count_, 0);
     const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes;
     const auto most = static_cast<std::uint32_t>(std::min<std::uint64_t>(limit / sizeof(ChangedRay), 1 << 20));
+    changed_rays_.clear();
+    new_ends_.clear();
     for (std::uint32_t first = 0, some = 0; first < rays; first += some) {
         some = std::min(most, rays - first);
         const auto fetched = fetch_stale(first, some);
@@ -373,21 +392,21 @@ Result<void> VulkanEngine::read_back() {
             synchronized_ = false;
             return std::unexpected(fetched.error());
         }
-        some = *fetched;
-        const auto new_ends = exported_.from_device<DexelEnd>();
-        for (const ChangedRay& ray : changed_.from_device<ChangedRay>().first(some)) {
-            const RayPlace place = place_of(ray.ray);
-            // Returns false, which does not matter here, if the ray has its former ends again.
-            (void)assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place,
-                             new_ends.subspan(ray.first, ray.count), changes_);
-        }
+        some = fetched->changed;
+        collect(*fetched);
+    }
+    for (const ChangedRay& ray : changed_rays_) {
+        const RayPlace place = place_of(ray.ray);
+        // Returns false, which does not matter here, if the ray has its former ends again.
+        (void)assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place,
+                         std::span(new_ends_).subspan(ray.first, ray.count), changes_);
     }
     return {};
 }
 
-// Fetches some of the stale rays into changed_ and exported_. Returns how many: fewer than requested where their ends
-// do not fit into one buffer.
-Result<std::uint32_t> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32_t rays) {
+// Fetches some of the stale rays into changed_ and exported_. `changed` of what it returns says how many: fewer than
+// requested where their ends do not fit into one buffer.
+Result<CutCounters> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32_t rays) {
     const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd);
     std::uint64_t ends = std::min<std::uint64_t>(std::uint64_t{2} * rays, limit);
     for (;;) {
@@ -409,9 +428,10 @@ Result<std::uint32_t> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32
         commands->barrier();
         changed_.fetch(*commands, rays * sizeof(ChangedRay));
         exported_.fetch(*commands, ends * sizeof(DexelEnd));
-        const auto counters = counted(std::move(*commands));
+        auto counters = counted(std::move(*commands));
         if (!counters) return std::unexpected(counters.error());
-        if (counters->exported <= ends) return rays;
+        counters->changed = rays;
+        if (counters->exported <= ends) return counters;
         ends = std::min<std::uint64_t>(counters->exported, limit);
         if (counters->exported > limit) rays = std::max(1u, rays / 2);
     }

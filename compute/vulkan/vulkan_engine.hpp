@@ -16,6 +16,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "compute/rays/engine.hpp"
@@ -43,13 +44,14 @@ struct VulkanEngineCounts {
 class VulkanEngine final : public CarvingEngine {
 public:
     // Makes the engine and sends the solid to the device. Fails on a device without 64-bit integers, doubles or buffer
-    // addresses in shaders, or without space for the solid.
-    [[nodiscard]] static Result<std::unique_ptr<VulkanEngine>> create(Solid solid, const gpu::Device& device,
+    // addresses in shaders, or without space for the solid, which then stays the caller's.
+    [[nodiscard]] static Result<std::unique_ptr<VulkanEngine>> create(Solid&& solid, const gpu::Device& device,
                                                                       const VulkanEngineOptions& options = {});
 
     [[nodiscard]] const char* name() const override { return "vulkan"; }
     [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override;
-    // Assigns the batch's rays. Only the batch is sent: in one submission, or more when the store is full.
+    // Assigns the batch's rays, on the host alone. The device is sent them before it is used again: each once, in one
+    // submission for all batches since, or more when the store is full.
     [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
     // Returns the host's solid, which lags behind the device's after deferred cuts, until read_back.
     [[nodiscard]] const Solid& solid() const override { return solid_; }
@@ -57,6 +59,12 @@ public:
         return burin::compute::add_material(solid_, material);
     }
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
+    [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
+        const gpu::WorkAsked asked = device_.asked();
+        return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host};
+    }
+    // Hands over the host's solid; afterwards the engine may only be destroyed.
+    [[nodiscard]] Solid give_solid() { return std::move(solid_); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
 
@@ -79,13 +87,14 @@ public:
     [[nodiscard]] const gpu::Buffer& counters() const { return counters_.buffer(); }
     [[nodiscard]] std::uint32_t passed_rays() const { return passed_rays_; }
     [[nodiscard]] gpu::Device& device() { return device_; }
-    // Sends the host's solid to the device if the device does not hold it.
+    // Sends the host's solid to the device if the device does not hold it, or the rays that were assigned since.
     [[nodiscard]] Result<void> synchronize();
 
 private:
     VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options);
+    [[nodiscard]] Result<void> send_assigned();
     [[nodiscard]] Result<void> patch(const RayBatch& rays);
-    [[nodiscard]] Result<std::uint32_t> fetch_stale(std::uint32_t first, std::uint32_t rays);
+    [[nodiscard]] Result<shared::CutCounters> fetch_stale(std::uint32_t first, std::uint32_t rays);
     [[nodiscard]] Result<CarveStats> cut_on_device(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> check_longest() const;
@@ -105,8 +114,9 @@ private:
     VulkanEngineCounts counts_;
     gpu::ComputePipeline cut_rays_, patch_rays_, export_rays_;
     DeviceSolid device_solid_;
-    // Set while the device holds the same ends as solid_, or newer ones after deferred cuts.
+    // Set while the device holds the same ends as solid_, but for assigned_, or newer ones after deferred cuts.
     bool synchronized_ = false;
+    std::vector<std::uint32_t> assigned_;  // codes of rays that the host has and the device has not; some several times
     // Number of ends that are taken in the device's store.
     std::uint32_t used_ = 0;
     // Upper bound of the number of ends of a ray.

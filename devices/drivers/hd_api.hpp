@@ -16,10 +16,10 @@
 namespace burin::devices {
 
 using HdHandle = unsigned int;
-struct HdError {
-    unsigned int code = 0;
-    int internal_code = 0;  // the device's own
-    HdHandle device = 0;
+struct HdError {  // goes through a C function by value, and so has no initial values
+    unsigned int code;
+    int internal_code;  // the device's own
+    HdHandle device;
 };
 static_assert(sizeof(HdError) == 12);
 

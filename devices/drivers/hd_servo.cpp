@@ -62,8 +62,8 @@ HdDevice::~HdDevice() { servo_->close(*this); }
 
 std::vector<std::string> HdDevice::take_messages() {
     std::vector<std::string> messages;
-    HdError last;
-    for (HdError notice; notices_.pop(notice);) {
+    HdError last{};
+    for (HdError notice{}; notices_.pop(notice);) {
         if (notice.code == last.code && notice.internal_code == last.internal_code) continue;
         last = notice;
         const std::string who = name_.empty() ? "the omni" : "the omni " + name_;
@@ -89,9 +89,13 @@ Result<std::shared_ptr<HdServo>> HdServo::of_library(const std::string& library)
     if (auto known = servos[library].lock()) return known;
     auto api = load_hd_api(library);
     if (!api) return std::unexpected(api.error());
-    std::shared_ptr<HdServo> servo(new HdServo(*api, library));
+    std::shared_ptr<HdServo> servo = of_api(*api, library, std::make_unique<MonotonicClock>());
     servos[library] = servo;
     return servo;
+}
+
+std::shared_ptr<HdServo> HdServo::of_api(const HdApi& api, const std::string& library, std::unique_ptr<Clock> clock) {
+    return std::shared_ptr<HdServo>(new HdServo(api, library, std::move(clock)));
 }
 
 HdServo::~HdServo() {
@@ -107,7 +111,7 @@ HdHandle HdServo::init(const std::string& name, std::string& why) {
     const std::span<const char* const> names = name.empty() ? std::span<const char* const>(usual) : named;
     for (const char* const one : names) {
         const HdHandle handle = api_.init_device(one);
-        HdError newest;
+        HdError newest{};
         for (int i = 0; i < 16; ++i) {
             const HdError error = api_.error();
             if (error.code == 0) break;
@@ -183,9 +187,9 @@ void HdServo::stop() {
     // relaxed: the flag and the count say nothing of other memory.
     pauses_.store(true, std::memory_order_relaxed);
     const std::uint64_t turns = turns_.load(std::memory_order_relaxed);
-    const Nanoseconds until_ns = clock_.now_ns() + kMostWait_ns;
-    while (turns_.load(std::memory_order_relaxed) < turns + 2 && clock_.now_ns() < until_ns)
-        clock_.sleep_until(clock_.now_ns() + 1'000'000);
+    const Nanoseconds until_ns = clock_->now_ns() + kMostWait_ns;
+    while (turns_.load(std::memory_order_relaxed) < turns + 2 && clock_->now_ns() < until_ns)
+        clock_->sleep_until(clock_->now_ns() + 1'000'000);
     api_.stop_scheduler();
     api_.unschedule(scheduled_);
     runs_ = false;
@@ -201,10 +205,10 @@ void HdServo::close(HdDevice& device) {
 }
 
 void HdServo::turn() noexcept {
-    const Nanoseconds now_ns = clock_.now_ns();
+    const Nanoseconds now_ns = clock_->now_ns();
     for (HdDevice* const device : devices_)
         if (device != nullptr) serve(*device, now_ns);
-    take_errors(clock_.now_ns());
+    take_errors(clock_->now_ns());
     turns_.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -287,11 +291,11 @@ void HdServo::take_errors(Nanoseconds now_ns) noexcept {
 
 // Opens devices anew that are gone.
 void HdServo::watch() {
-    Nanoseconds tried_ns = clock_.now_ns();
+    Nanoseconds tried_ns = clock_->now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        if (clock_.now_ns() - tried_ns < kAgain_ns) continue;
-        tried_ns = clock_.now_ns();
+        if (clock_->now_ns() - tried_ns < kAgain_ns) continue;
+        tried_ns = clock_->now_ns();
         const std::lock_guard lock(mutex_);
         open_again();
     }

@@ -72,6 +72,9 @@ public:
 
     // Returns the servo of a library, which all who ask for it share.
     [[nodiscard]] static Result<std::shared_ptr<HdServo>> of_library(const std::string& library);
+    // Returns a servo of a loaded library that is shared with nobody. The clock is the machine's, or a test's.
+    [[nodiscard]] static std::shared_ptr<HdServo> of_api(const HdApi& api, const std::string& library,
+                                                         std::unique_ptr<Clock> clock);
     ~HdServo();
     HdServo(const HdServo&) = delete;
     HdServo& operator=(const HdServo&) = delete;
@@ -83,7 +86,8 @@ public:
 
 private:
     friend class HdDevice;
-    HdServo(const HdApi& api, std::string library) : api_(api), library_(std::move(library)) {}
+    HdServo(const HdApi& api, std::string library, std::unique_ptr<Clock> clock)
+        : api_(api), library_(std::move(library)), clock_(std::move(clock)) {}
     [[nodiscard]] HdHandle init(const std::string& name, std::string& why);
     void start();
     void stop();
@@ -96,7 +100,7 @@ private:
 
     HdApi api_;
     std::string library_;
-    MonotonicClock clock_;
+    std::unique_ptr<Clock> clock_;
     std::mutex mutex_;                               // of open, close and opening anew; never the servo's thread's
     std::array<HdDevice*, kMostDevices> devices_{};  // changed while the scheduler stands
     bool runs_ = false;

@@ -32,26 +32,33 @@ Vec3 kept_within(const Vec3& given, const Vec3& most, std::array<std::atomic<std
 
 }  // namespace
 
-HilWand::HilWand(const HilApi& api, std::string card, const WandDescription& wand)
+HilWand::HilWand(const HilApi& api, std::string card, const WandDescription& wand, std::unique_ptr<Clock> clock)
     : api_(api),
       card_name_(std::move(card)),
       wand_(wand),
       description_(device_of_hardware(wand_)),
-      device_from_maker_(device_from_maker(wand_)) {}
+      device_from_maker_(device_from_maker(wand_)),
+      clock_(std::move(clock)) {}
 
 Result<std::unique_ptr<HilWand>> HilWand::open(const std::string& library, const std::string& card,
                                                const WandDescription& wand) {
-    auto api = load_hil_api(library);
+    const auto api = load_hil_api(library);
     if (!api) return std::unexpected(api.error());
-    std::unique_ptr<HilWand> opened(new HilWand(*api, card, wand));
+    return serve_card(*api, card, wand, std::make_unique<MonotonicClock>());
+}
+
+Result<std::unique_ptr<HilWand>> HilWand::serve_card(const HilApi& api, const std::string& card,
+                                                     const WandDescription& wand, std::unique_ptr<Clock> clock,
+                                                     const std::function<void(HilWand&)>& begins) {
+    std::unique_ptr<HilWand> opened(new HilWand(api, card, wand, std::move(clock)));
     HilError error = opened->open_card();
     if (error >= 0) error = opened->set_to_zero();
     if (error < 0)
-        return fail(
-            "haptic device wand",
-            "the card " + wand.mechanism.card + " " + card + " cannot be opened: " + hil_error_text(*api, error),
-            "see that it is there, may be opened by this user, and is the one that the wand is on: "
-            "wand:IDENTIFIER; if it is in use, end the other program");
+        return fail("haptic device wand",
+                    "the card " + wand.mechanism.card + " " + card + " cannot be opened: " + hil_error_text(api, error),
+                    "see that it is there, may be opened by this user, and is the one that the wand is on: "
+                    "wand:IDENTIFIER; if it is in use, end the other program");
+    if (begins) begins(*opened);
     opened->thread_ = std::thread([w = opened.get()] { w->serve(); });
     return opened;
 }
@@ -104,13 +111,13 @@ HilError HilWand::set_to_zero() noexcept {
 void HilWand::serve() {
     static_cast<void>(ask_for_servo_priority());
     const Nanoseconds period_ns = nanoseconds(1.0 / wand_.rate_Hz);
-    Nanoseconds due_ns = clock_.now_ns();
+    Nanoseconds due_ns = clock_->now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {
         // A late servo makes up for five turns at most, and rests half a period before each, so that one that cannot
         // keep up leaves its core to others.
-        due_ns = std::max(due_ns + period_ns, clock_.now_ns() - 5 * period_ns);
-        clock_.sleep_until(std::max(due_ns, clock_.now_ns() + period_ns / 2));
-        turn(clock_.now_ns());
+        due_ns = std::max(due_ns + period_ns, clock_->now_ns() - 5 * period_ns);
+        clock_->sleep_until(std::max(due_ns, clock_->now_ns() + period_ns / 2));
+        turn(clock_->now_ns());
     }
 }
 

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -42,6 +43,12 @@ public:
     // Opens the card, sets the counters to zero, for which the handle has to be in its jig, and begins to serve it.
     [[nodiscard]] static Result<std::unique_ptr<HilWand>> open(const std::string& library, const std::string& card,
                                                                const WandDescription& wand);
+    // Opens the card as open() does, with a loaded library and with the machine's clock or a test's. `begins` may be
+    // empty; otherwise it is called before the first turn.
+    [[nodiscard]] static Result<std::unique_ptr<HilWand>> serve_card(const HilApi& api, const std::string& card,
+                                                                     const WandDescription& wand,
+                                                                     std::unique_ptr<Clock> clock,
+                                                                     const std::function<void(HilWand&)>& begins = {});
     ~HilWand() override;
     HilWand(const HilWand&) = delete;
     HilWand& operator=(const HilWand&) = delete;
@@ -68,7 +75,7 @@ private:
         Notice what = Notice::failed;
         HilError error = 0;
     };
-    HilWand(const HilApi& api, std::string card, const WandDescription& wand);
+    HilWand(const HilApi& api, std::string card, const WandDescription& wand, std::unique_ptr<Clock> clock);
     [[nodiscard]] HilError open_card() noexcept;
     void close_card() noexcept;
     [[nodiscard]] HilError set_to_zero() noexcept;
@@ -87,7 +94,7 @@ private:
     WandDescription wand_;
     DeviceDescription description_;
     Pose device_from_maker_;
-    MonotonicClock clock_;
+    std::unique_ptr<Clock> clock_;
     ServedExchange exchange_;
     Ring<Told> told_{64};  // this thread -> the frame's
     // Flags and counts of their own, that say nothing of other memory: relaxed order is enough for all of them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The steps of an emulated arm in real time, a thousand a second: what its library has written last acts on it, as long
-// as that is renewed, and what it does is published. One thread.
+// as that is renewed, and what it does is published. One thread, of the priority of a servo where that is granted: no
+// program keeps a real device from its steps.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "base/clock.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/shared_memory.hpp"
+#include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
 
@@ -23,6 +25,7 @@ struct EmulatedArmSteps {
 // time stands.
 template <typename Shared>
 void run_emulated_arm(Shared& shared, SimulatedOmni& arm, const EmulatedArmSteps& steps) {
+    static_cast<void>(ask_for_servo_priority());
     constexpr Nanoseconds kPeriod_ns = 1'000'000;
     MonotonicClock clock;
     const Nanoseconds begun_ns = clock.now_ns();

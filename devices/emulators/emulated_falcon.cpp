@@ -7,19 +7,69 @@
 #include <algorithm>
 #include <cerrno>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/falcon/falcon_device.hpp"
 #include "devices/falcon/falcon_line.hpp"
-#include "devices/falcon/falcon_packet.hpp"
 #include "devices/falcon/falcon_port.hpp"
 #include "devices/falcon/falcon_socket.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/emulator_socket.hpp"
+#include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
 namespace {
+
+// The firmware's end of the line, from the packet's form alone (devices/falcon/falcon_packet.hpp) and without the
+// driver's code, so that a fault in one of the two shows where they meet: '<', three numbers of four characters, the
+// lowest nibble first and 'A' for zero, a character of states, one that says nothing, '>'.
+constexpr std::size_t kPacketLength = 16, kStatesAt = 13;
+
+std::optional<unsigned> nibble_of(char character, unsigned most) {
+    const int value = static_cast<unsigned char>(character) - 'A';
+    return value >= 0 && value <= static_cast<int>(most) ? std::optional(static_cast<unsigned>(value)) : std::nullopt;
+}
+
+struct HeardByFalcon {
+    FalconCounts motors{};
+    unsigned int lamps = 0;  // green 2, blue 4, red 8
+    bool homes = false;
+};
+
+// Returns what a whole packet says; nothing where it is none.
+std::optional<HeardByFalcon> heard_in(const std::string& packet) {
+    if (packet.size() != kPacketLength || packet.front() != '<' || packet.back() != '>') return std::nullopt;
+    HeardByFalcon heard;
+    for (std::size_t leg = 0; leg < kFalconLegs; ++leg) {
+        unsigned value = 0, place = 1;
+        for (std::size_t i = 0; i < 4; ++i, place *= 16) {
+            const auto nibble = nibble_of(packet[1 + 4 * leg + i], 15);
+            if (!nibble) return std::nullopt;
+            value += place * *nibble;
+        }
+        heard.motors[leg] =
+            static_cast<std::int16_t>(value < 0x8000 ? static_cast<int>(value) : static_cast<int>(value) - 0x10000);
+    }
+    const auto states = nibble_of(packet[kStatesAt], 15);
+    if (!states) return std::nullopt;
+    heard.homes = *states % 2 == 1;
+    heard.lamps = *states - (heard.homes ? 1 : 0);
+    return heard;
+}
+
+std::string packet_said(const FalconCounts& encoders, unsigned buttons, bool is_homed) {
+    std::string packet = "<";
+    for (const std::int16_t encoder : encoders) {
+        unsigned value = encoder < 0 ? static_cast<unsigned>(0x10000 + encoder) : static_cast<unsigned>(encoder);
+        for (int i = 0; i < 4; ++i, value /= 16) packet += static_cast<char>('A' + value % 16);
+    }
+    packet += static_cast<char>('A' + buttons % 16 + (is_homed ? 0x70u : 0u));
+    return packet + "A>";
+}
 
 std::vector<std::byte> bytes_in(std::string_view text) {
     const auto bytes = std::as_bytes(std::span(text));
@@ -80,7 +130,7 @@ public:
         has_firmware_ = owner_.options_.has_firmware;
         owner_.drill_->is_homed = owner_.options_.is_homed;
         loader_ = Loader::sleeps;
-        reader_.forget();
+        waiting_.clear();
     }
 
 private:
@@ -105,8 +155,11 @@ private:
 
     void hear(std::span<const std::byte> bytes) {
         if (has_firmware_ && baud_ == kFtdiRun) {
-            for (const std::byte byte : bytes)
-                if (const auto packet = reader_.take(byte); packet) answer(*packet);
+            for (const std::byte byte : bytes) {
+                waiting_ += std::to_integer<char>(byte);
+                if (waiting_.front() != '<') waiting_.clear();
+                if (waiting_.size() == kPacketLength) answer(std::exchange(waiting_, {}));
+            }
             return;
         }
         if (loader_ == Loader::loads && baud_ == kFtdiUpload) {
@@ -123,18 +176,18 @@ private:
         }
     }
 
-    void answer(const FalconBytes& packet) {
-        const auto command = falcon_command(packet);
+    void answer(const std::string& packet) {
+        const auto command = heard_in(packet);
         if (!command) return;
+        owner_.heard_->keep(packet);
         has_packet_ = true;
         motors_ = command->motors;
         owner_.written_->set(motors_);
         owner_.drill_->lamps = command->lamps;
-        FalconReport report{.encoders = encoders_, .buttons = static_cast<std::uint8_t>(buttons_ & 0xf), .homed = 0};
-        if (owner_.drill_->is_homed && command->homes) report.homed = 7;
-        if (owner_.drill_->is_lost) report.encoders = {-4000, 4000, 0};
+        const FalconCounts encoders = owner_.drill_->is_lost ? FalconCounts{-4000, 4000, 0} : encoders_;
         for (int i = 0; i < owner_.drill_->babble; ++i) said_.push_back(static_cast<std::byte>("<>A\x7f"[i % 4]));
-        const FalconBytes bytes = falcon_bytes(report);
+        const std::vector<std::byte> bytes =
+            bytes_in(packet_said(encoders, buttons_, owner_.drill_->is_homed && command->homes));
         said_.insert(said_.end(), bytes.begin(), bytes.end());
     }
 
@@ -147,7 +200,7 @@ private:
     std::uint16_t baud_ = 0;
     Loader loader_ = Loader::sleeps;
     std::size_t loaded_ = 0;
-    FalconReader reader_;
+    std::string waiting_;  // the bytes of a packet that is not whole yet
     std::vector<std::byte> said_;
     unsigned int pieces_ = 0;
 };
@@ -161,12 +214,24 @@ Result<EmulatedFalcon> EmulatedFalcon::create(const std::string& name, EmulatedF
     return falcon;
 }
 
+void EmulatedFalcon::Heard::keep(const std::string& packet) {
+    const std::lock_guard lock(mutex);
+    packets.push_back(packet);
+    if (packets.size() > kMostHeard) packets.pop_front();
+}
+
+std::vector<std::string> EmulatedFalcon::heard() const {
+    const std::lock_guard lock(heard_->mutex);
+    return {heard_->packets.begin(), heard_->packets.end()};
+}
+
 Vec3 EmulatedFalcon::written_N() const {
     const auto pose = falcon_forward(falcon_angles(encoders_->get()));
     return pose ? falcon_force(*pose, falcon_torques_of(written())) : Vec3(0.0);
 }
 
 void EmulatedFalcon::run(const std::function<bool()>& ends) {
+    static_cast<void>(ask_for_servo_priority());
     constexpr Nanoseconds kPeriod_ns = 1'000'000;
     MonotonicClock clock;
     auto hand = SimulatedHand::create(options_.script, HandPath::monotone_cubic);

@@ -10,8 +10,11 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +55,9 @@ public:
     [[nodiscard]] FalconCounts written() const { return written_->get(); }
     // Returns the force at the grip that they make where it is.
     [[nodiscard]] Vec3 written_N() const;
+    // Returns the newest kMostHeard packets that the host has sent, in their order, as they came: "<AAAAAAAAAAAADA>".
+    [[nodiscard]] std::vector<std::string> heard() const;
+    static constexpr std::size_t kMostHeard = 4096;
     [[nodiscard]] int firmware_loads() const { return drill_->loads; }
     [[nodiscard]] unsigned int lamps() const { return drill_->lamps; }
 
@@ -81,6 +87,11 @@ private:
     private:
         std::atomic<std::uint64_t> word_ = 0;
     };
+    struct Heard {
+        void keep(const std::string& packet);
+        std::mutex mutex;
+        std::deque<std::string> packets;
+    };
     class Device;
     EmulatedFalcon(OwnedFile listener, EmulatedFalconOptions options)
         : listener_(std::move(listener)), options_(std::move(options)) {}
@@ -88,6 +99,7 @@ private:
     OwnedFile listener_;
     EmulatedFalconOptions options_;
     std::unique_ptr<Drill> drill_ = std::make_unique<Drill>();
+    std::unique_ptr<Heard> heard_ = std::make_unique<Heard>();
     std::unique_ptr<Counts> written_ = std::make_unique<Counts>(), encoders_ = std::make_unique<Counts>();
 };
 

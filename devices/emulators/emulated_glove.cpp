@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "devices/emulators/glove_wire.hpp"
+#include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
 namespace {
@@ -68,9 +70,9 @@ double wanted_N(const EmulatedGlove& glove, std::size_t finger) {
 
 }  // namespace
 
-EmulatedGlove stepped(EmulatedGlove glove) {
+EmulatedGlove stepped(EmulatedGlove glove, bool in_time) {
     glove.time_s += EmulatedGlove::kStep_s;
-    glove.since_command_s += EmulatedGlove::kStep_s;
+    if (in_time) glove.since_command_s += EmulatedGlove::kStep_s;
     if (glove.since_command_s > EmulatedGlove::kWatchdog_s) glove = stopped(glove);
     measure_pistons(glove);
     const double follows = 1.0 - std::exp(-2.0 * std::numbers::pi * EmulatedGlove::kBand_Hz * EmulatedGlove::kStep_s);
@@ -104,7 +106,8 @@ EmulatedGlove with_command(EmulatedGlove glove, const GloveCommand& command) {
             if ((glove.local >> i & 1u) == 0 && glove.blended[i] == 0.0) glove.laws[i] = {};
     }
     glove.since_command_s = 0.0;
-    glove.commanded = true;
+    // A host says stop until its session begins, which takes a busy machine long; the script waits for that.
+    glove.commanded = glove.commanded || !command.stop;
     return glove;
 }
 
@@ -144,40 +147,57 @@ Result<GlovePort> GlovePort::create() {
 GlovePort::GlovePort(GlovePort&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       far_end_(std::exchange(other.far_end_, -1)),
-      name_(std::move(other.name_)) {}
+      name_(std::move(other.name_)),
+      heard_(std::move(other.heard_)) {}
 
 GlovePort::~GlovePort() {
     if (far_end_ >= 0) ::close(far_end_);
     if (file_ >= 0) ::close(file_);
 }
 
+std::vector<HeardGloveFrame> GlovePort::heard() const {
+    const std::lock_guard lock(heard_->mutex);
+    return {heard_->frames.begin(), heard_->frames.end()};
+}
+
+EmulatedGlove GlovePort::hear(EmulatedGlove glove, GloveControllerEar& ear) {
+    std::array<std::byte, 256> bytes;
+    const ssize_t count = ::read(file_, bytes.data(), bytes.size());
+    for (ssize_t i = 0; i < count; ++i) {
+        auto heard = ear.take(bytes[static_cast<std::size_t>(i)]);
+        if (!heard) continue;
+        glove = with_command(glove, heard->command);
+        const std::lock_guard lock(heard_->mutex);
+        heard_->frames.push_back(std::move(*heard));
+        if (heard_->frames.size() > kMostHeard) heard_->frames.pop_front();
+    }
+    return glove;
+}
+
 void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends,
                     const std::function<void(const EmulatedGlove&)>& watch) {
+    static_cast<void>(ask_for_servo_priority());
     MonotonicClock clock;
-    GloveFrameReader<GloveCommand> reader;
+    GloveControllerEar ear;
     const Nanoseconds step_ns = nanoseconds(EmulatedGlove::kStep_s);
     Nanoseconds due_ns = clock.now_ns();
     double next_set_s = glove.time_s;
-    GloveBytes on_line;  // a set takes a period to go out: it is of where the fingers were when its turn came
+    std::vector<std::byte> on_line;  // a set takes a period to go out: it is of where the fingers were at its turn
     while (!ends()) {
         due_ns = std::max(due_ns + step_ns, clock.now_ns() - 50 * step_ns);
+        const bool in_time = clock.now_ns() < due_ns;
         clock.sleep_until(due_ns);
-        std::array<std::byte, 256> bytes;
-        const ssize_t count = ::read(file_, bytes.data(), bytes.size());
-        for (ssize_t i = 0; i < count; ++i)
-            if (const auto command = reader.take(bytes[static_cast<std::size_t>(i)]))
-                glove = with_command(glove, *command);
-        glove = stepped(glove);
+        glove = stepped(hear(glove, ear), in_time);
         if (watch) watch(glove);
         for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i].store(glove.given_N[i], std::memory_order_relaxed);
         if (glove.time_s < next_set_s) continue;
         next_set_s = std::max(next_set_s + kSet_s, glove.time_s - kSet_s);
         if (is_silent_.load(std::memory_order_relaxed) || is_silent(glove)) continue;
-        const GloveBytes frame = std::exchange(on_line, frame_of(set_of(glove)));
+        const std::vector<std::byte> frame = std::exchange(on_line, controller_frame(set_of(glove)));
         ++glove.number;
-        if (frame.count == 0) continue;
+        if (frame.empty()) continue;
         // Frames that nobody reads are lost, as on a real serial line.
-        if (::write(file_, frame.bytes.data(), frame.count) < 0) static_cast<void>(::tcflush(file_, TCIOFLUSH));
+        if (::write(file_, frame.data(), frame.size()) < 0) static_cast<void>(::tcflush(file_, TCIOFLUSH));
     }
 }
 

@@ -12,11 +12,17 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
+#include <deque>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
+#include "devices/emulators/glove_wire.hpp"
 #include "devices/gloves/glove_hand.hpp"
 #include "devices/gloves/grip_shape.hpp"
 
@@ -36,7 +42,7 @@ struct EmulatedGlove {
     // good.
     double silent_from_s = 0.0, silent_for_s = 0.0;
     double time_s = 0.0, scripted_s = 0.0;
-    bool commanded = false;  // ever
+    bool commanded = false;  // to give forces, ever
     Grip grip = {};
     GloveForces commanded_N{}, given_N{};
     GloveLaws laws{};         // the newest of each finger; none that holds: there is none
@@ -48,8 +54,9 @@ struct EmulatedGlove {
     GloveJoints joints{};
     std::uint8_t number = 0;  // of the next set
 };
-// Takes the controller on by a step.
-[[nodiscard]] EmulatedGlove stepped(EmulatedGlove glove);
+// Takes the controller on by a step. in_time: the step begins when it is due. One that makes up for the emulator's own
+// delay says nothing of the host's silence, and does not count towards kWatchdog_s.
+[[nodiscard]] EmulatedGlove stepped(EmulatedGlove glove, bool in_time = true);
 [[nodiscard]] EmulatedGlove with_command(EmulatedGlove glove, const GloveCommand& command);
 [[nodiscard]] bool is_silent(const EmulatedGlove& glove);
 // Returns the set that it sends now.
@@ -72,12 +79,21 @@ public:
     void fall_silent(bool is_silent) { is_silent_.store(is_silent, std::memory_order_relaxed); }
     // Returns the forces that the pistons gave last. Any thread.
     [[nodiscard]] double given_N(std::size_t finger) const { return given_N_[finger].load(std::memory_order_relaxed); }
+    // Returns the newest kMostHeard frames that the host has sent, in their order, as they came. Any thread.
+    [[nodiscard]] std::vector<HeardGloveFrame> heard() const;
+    static constexpr std::size_t kMostHeard = 4096;
 
 private:
+    struct Heard {
+        std::mutex mutex;
+        std::deque<HeardGloveFrame> frames;
+    };
     GlovePort(int file, int far_end, std::string name) : file_(file), far_end_(far_end), name_(std::move(name)) {}
+    [[nodiscard]] EmulatedGlove hear(EmulatedGlove glove, GloveControllerEar& ear);
 
     int file_, far_end_;  // the far end is held open, so that a program may come and go
     std::string name_;
+    std::unique_ptr<Heard> heard_ = std::make_unique<Heard>();
     std::atomic<bool> is_silent_ = false;
     std::array<std::atomic<double>, kGloveFingers> given_N_{};
 };

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/clock.hpp"
 #include "devices/presence/emulator_socket.hpp"
+#include "devices/served/served_arm.hpp"
 #include "devices/spacemouse/spacemouse_port.hpp"
 
 namespace burin::devices {
@@ -53,27 +55,30 @@ Result<EmulatedSpaceMouse> EmulatedSpaceMouse::create(const std::string& name, E
     return EmulatedSpaceMouse(std::move(*listener), std::move(options));
 }
 
+std::vector<HidBytes> cap_reports(const CapStand& before, const CapStand& now, bool joined) {
+    std::vector<HidBytes> reports;
+    if (now.buttons != before.buttons) reports.push_back(cap_button_report(now.buttons));
+    if (is_resting(now) && is_resting(before)) return reports;
+    if (joined) {
+        reports.push_back(cap_joined_report(now.push, now.turn));
+    } else {
+        reports.push_back(cap_push_report(now.push));
+        reports.push_back(cap_turn_report(now.turn));
+    }
+    return reports;
+}
+
 void EmulatedSpaceMouse::report(const OwnedFile& host, const CapStand& cap) {
-    const SpaceMouseKeys keys = emulated_product(options_.joined).keys;
-    if (cap.buttons != told_.buttons) send_bytes(host, button_bytes(cap.buttons, keys));
     const HidBytes instead = [&] {
         const std::lock_guard held(drill_->lock);
         return drill_->instead;
     }();
-    if (!instead.empty()) {
-        send_bytes(host, instead);
-    } else if (!is_resting(cap) || !is_resting(told_)) {
-        if (options_.joined) {
-            send_bytes(host, joined_bytes(cap.push, cap.turn));
-        } else {
-            send_bytes(host, push_bytes(cap.push));
-            send_bytes(host, turn_bytes(cap.turn));
-        }
-    }
-    told_ = cap;
+    const std::vector<HidBytes> scripted = cap_reports(std::exchange(told_, cap), cap, options_.joined);
+    for (const HidBytes& report : instead.empty() ? scripted : std::vector<HidBytes>{instead}) send_bytes(host, report);
 }
 
 void EmulatedSpaceMouse::run(const std::function<bool()>& ends) {
+    static_cast<void>(ask_for_servo_priority());
     MonotonicClock clock;
     OwnedFile host;
     const Nanoseconds begun_ns = clock.now_ns();

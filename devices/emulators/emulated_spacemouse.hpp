@@ -15,8 +15,8 @@
 
 #include "base/error.hpp"
 #include "devices/emulators/emulated_motion.hpp"
+#include "devices/emulators/spacemouse_wire.hpp"
 #include "devices/presence/owned_file.hpp"
-#include "devices/spacemouse/spacemouse_report.hpp"
 
 namespace burin::devices {
 
@@ -29,6 +29,10 @@ struct CapStand {
 // The usual script: rests, presses the cap away, circles with the first button down while it turns to and fro, and
 // pulls it back, over 12 seconds. The hand that it leads comes back to where it was.
 [[nodiscard]] CapStand circling_cap(double time_s);
+
+// Returns the reports of a cap that stood as `before` in the reports before: its buttons where they have changed, and
+// push and turn unless it rests and has rested. Pure.
+[[nodiscard]] std::vector<HidBytes> cap_reports(const CapStand& before, const CapStand& now, bool joined);
 
 struct EmulatedSpaceMouseOptions {
     bool joined = true;  // as a SpaceMouse Wireless; else as a SpaceNavigator

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "devices/served/served_arm.hpp"
+
 namespace burin::devices {
 namespace {
 
@@ -88,6 +90,7 @@ void EmulatedWand::publish(const Pose& device_from_handle, Nanoseconds now_ns) {
 }
 
 void EmulatedWand::run(const std::function<bool()>& ends) {
+    static_cast<void>(ask_for_servo_priority());
     constexpr Nanoseconds kPeriod_ns = 1'000'000;
     MonotonicClock clock;
     const auto hand = SimulatedHand::create(options_.script, HandPath::monotone_cubic);

@@ -14,6 +14,7 @@
 #include "devices/emulators/emulated_vrpn.hpp"
 #include "devices/emulators/emulated_wand.hpp"
 #include "devices/trackers/dtrack_protocol.hpp"
+#include "devices/trackers/vrpn_protocol.hpp"
 
 namespace burin::devices {
 namespace {
@@ -94,7 +95,7 @@ Result<void> run_dtrack(const EmulatorOptions& options) {
     return run_emulated_dtrack(*to, options.silence, options.ends);
 }
 
-constexpr std::array kKinds{
+constexpr std::array kEmulators{
     EmulatorKind{"glove", "a force-feedback glove on a serial line, whose fingers close and open", run_glove},
     EmulatorKind{"omni", "a PHANTOM Omni whose hand circles with its button down; --at emulated-2 for a second one",
                  run_omni},
@@ -114,22 +115,22 @@ constexpr std::array kKinds{
 
 }  // namespace
 
-std::span<const EmulatorKind> emulator_kinds() { return kKinds; }
+std::span<const EmulatorKind> emulator_kinds() { return kEmulators; }
 
 Result<void> run_emulator(std::string_view name, const EmulatorOptions& options) {
-    const auto kind = std::ranges::find(kKinds, name, &EmulatorKind::name);
-    if (kind != kKinds.end() && !kind->has_layouts && !options.layout.empty())
+    const auto kind = std::ranges::find(kEmulators, name, &EmulatorKind::name);
+    if (kind != kEmulators.end() && !kind->has_layouts && !options.layout.empty())
         return fail("emulated " + std::string(name), "has no layouts: " + options.layout, "leave --layout out");
-    if (kind != kKinds.end()) return kind->run(options);
-    std::array<std::string_view, kKinds.size()> names;
-    std::ranges::transform(kKinds, names.begin(), &EmulatorKind::name);
+    if (kind != kEmulators.end()) return kind->run(options);
+    std::array<std::string_view, kEmulators.size()> names;
+    std::ranges::transform(kEmulators, names.begin(), &EmulatorKind::name);
     return fail("emulator " + std::string(name), "is none that Burin has",
                 "did you mean " + std::string(nearest_name(name, names)) + "? There are: " + joined(names));
 }
 
 std::string emulator_usage() {
     std::string text;
-    for (const EmulatorKind& kind : kKinds)
+    for (const EmulatorKind& kind : kEmulators)
         text += (text.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.usage);
     return text;
 }

@@ -76,7 +76,11 @@ public:
         else
             link_->command(forces_N_, laws_);
     }
-    void offer(std::size_t finger, const DriveLaw& law) noexcept { laws_[finger] = law; }
+    // Limits the force of a law that the controller renders by itself to the piston's most, as commanded forces are.
+    void offer(std::size_t finger, const DriveLaw& law) noexcept {
+        laws_[finger] = law;
+        laws_[finger].most_N = std::clamp(law.most_N, 0.0, kMostPistonForce_N);
+    }
 
 private:
     // Takes where the palm and the joints are now.

@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "base/text.hpp"
+#include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
 namespace {
@@ -158,6 +159,7 @@ void GloveLink::send_forces(Nanoseconds now_ns) {
 }
 
 void GloveLink::run() {
+    static_cast<void>(ask_for_servo_priority());
     Nanoseconds sent_ns = 0;
     // relaxed: as where it is set.
     while (!ends_.load(std::memory_order_relaxed)) {

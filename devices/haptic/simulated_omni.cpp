@@ -8,7 +8,7 @@
 namespace burin::devices {
 namespace {
 
-constexpr double kStep_s = 50e-6;
+constexpr double kModelStep_s = 50e-6;
 static_assert(SimulatedOmni::kStep_ns == 50'000);
 
 double quantised(double x_m, double quantum_m) {
@@ -19,11 +19,11 @@ Vec3 quantised(const Vec3& p_m, double quantum_m) {
     return {quantised(p_m.x, quantum_m), quantised(p_m.y, quantum_m), quantised(p_m.z, quantum_m)};
 }
 
-double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+double omni_length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 // The device's own protection: a force that is not finite becomes zero, one that is too strong is scaled down.
 Vec3 clamped(const Vec3& force_N, double max_N) {
-    const double l = length(force_N);
+    const double l = omni_length(force_N);
     if (!std::isfinite(l)) return Vec3(0.0);
     return l > max_N ? force_N * (max_N / l) : force_N;
 }
@@ -86,12 +86,12 @@ void SimulatedOmni::step() noexcept {
     const Vec3 pull = acting_force_N_ + grip.stiffness_N_per_m * (target.position_device_m - position_m_) +
                       grip.damping_Ns_per_m * target.velocity_device_m_per_s;
     const double damping = model_.damping_Ns_per_m + grip.damping_Ns_per_m;
-    Vec3 v = (velocity_m_per_s_ + (kStep_s / mass) * pull) / (1.0 + (kStep_s / mass) * damping);
+    Vec3 v = (velocity_m_per_s_ + (kModelStep_s / mass) * pull) / (1.0 + (kModelStep_s / mass) * damping);
     // Applies Coulomb friction as an impulse that stops the motion if it can, and otherwise opposes it in full.
-    const double brake = kStep_s * model_.friction_N / mass;
-    const double speed = length(v);
+    const double brake = kModelStep_s * model_.friction_N / mass;
+    const double speed = omni_length(v);
     v = speed <= brake ? Vec3(0.0) : v * (1.0 - brake / speed);
-    position_m_ += kStep_s * v;
+    position_m_ += kModelStep_s * v;
     const Vec3 half = 0.5 * model_.workspace_m;
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(position_m_[axis]) <= half[axis]) continue;

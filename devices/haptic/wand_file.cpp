@@ -13,7 +13,7 @@
 namespace burin::devices {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 1 << 20;
+constexpr std::uint64_t kMostFileBytes = 1 << 20;
 
 // Bounds of what a device can be: beyond them a number is in another unit.
 constexpr double kMostLength_m = 10.0, kMostForce_N = 1000.0, kMostTorque_Nm = 100.0;
@@ -316,7 +316,7 @@ WandOrProblems parse_wand(std::string_view text, const std::string& name, const 
 }
 
 Result<WandDescription> read_wand(const std::filesystem::path& path, const WandDescription& otherwise) {
-    const Result<std::string> text = read_text_file(path, kMostBytes);
+    const Result<std::string> text = read_text_file(path, kMostFileBytes);
     if (!text) return std::unexpected(text.error());
     WandOrProblems wand = parse_wand(*text, path.string(), otherwise);
     if (wand) return std::move(*wand);

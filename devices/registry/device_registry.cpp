@@ -150,7 +150,7 @@ std::vector<DevicePresence> look_for_recordings() {
              {}}};
 }
 
-constexpr std::array kKinds{
+constexpr std::array kHapticKinds{
     HapticKind{.name = kDefaultHapticDevice,
                .usage = "a PHANTOM Omni in a simulated hand",
                .parts = 1,
@@ -306,21 +306,21 @@ struct ChosenKind {
 // Splits NAME:FILE. Fails where there is no device of the name.
 Result<ChosenKind> chosen(std::string_view name) {
     const std::string_view kind_name = name.substr(0, name.find(':'));
-    const auto kind = std::ranges::find(kKinds, kind_name, &HapticKind::name);
-    if (kind != kKinds.end())
+    const auto kind = std::ranges::find(kHapticKinds, kind_name, &HapticKind::name);
+    if (kind != kHapticKinds.end())
         return ChosenKind{&*kind, std::string(name.substr(std::min(name.size(), kind_name.size() + 1)))};
     const std::string where = "haptic device " + std::string(name);
     if (tracker_kind_of(name) != nullptr)
         return fail(where, "is a tracker, which has no force", "give it as --tracker " + std::string(name));
     // wand@LIBRARY, where wand:@LIBRARY is meant.
     const std::size_t end = name.find_first_of("@,=");
-    const auto meant = std::ranges::find(kKinds, name.substr(0, end), &HapticKind::name);
-    if (end != std::string_view::npos && meant != kKinds.end())
+    const auto meant = std::ranges::find(kHapticKinds, name.substr(0, end), &HapticKind::name);
+    if (end != std::string_view::npos && meant != kHapticKinds.end())
         return fail(
             where, "has no colon behind the device's name",
             "write " + std::string(meant->name) + ":" + std::string(name.substr(name[end] == '@' ? end : end + 1)));
-    std::array<std::string_view, kKinds.size()> names;
-    std::ranges::transform(kKinds, names.begin(), &HapticKind::name);
+    std::array<std::string_view, kHapticKinds.size()> names;
+    std::ranges::transform(kHapticKinds, names.begin(), &HapticKind::name);
     return fail(where, "is no device that Burin knows",
                 "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
 }
@@ -367,7 +367,7 @@ DeviceNature nature_of(const ChosenKind& wanted) {
 
 }  // namespace
 
-std::span<const HapticKind> haptic_kinds() { return kKinds; }
+std::span<const HapticKind> haptic_kinds() { return kHapticKinds; }
 
 Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
     const Result<ChosenKind> wanted = chosen(name);
@@ -409,7 +409,7 @@ bool has_handle(std::string_view name, const Recordings* recordings) {
 
 std::string devices_with_handles() {
     std::vector<std::string_view> names;
-    for (const HapticKind& kind : kKinds)
+    for (const HapticKind& kind : kHapticKinds)
         if (kind.handle != nullptr) names.push_back(kind.name);
     return joined(names);
 }
@@ -422,7 +422,7 @@ std::string handle_file_of(std::string_view name) {
 
 std::string haptic_usage() {
     std::string text;
-    for (const HapticKind& kind : kKinds) {
+    for (const HapticKind& kind : kHapticKinds) {
         if (!text.empty()) text += "; ";
         text += std::string(kind.name) + ": " + std::string(kind.usage);
     }

@@ -5,9 +5,9 @@
 
 namespace burin::devices {
 
-Result<std::unique_ptr<LineServo>> LineServo::open(std::unique_ptr<DeviceLine> line) {
+Result<std::unique_ptr<LineServo>> LineServo::open(std::unique_ptr<DeviceLine> line, std::unique_ptr<Clock> clock) {
     if (const auto opened = line->open(); !opened) return std::unexpected(opened.error());
-    std::unique_ptr<LineServo> servo(new LineServo(std::move(line)));
+    std::unique_ptr<LineServo> servo(new LineServo(std::move(line), std::move(clock)));
     servo->thread_ = std::thread([s = servo.get()] { s->run(); });
     return servo;
 }
@@ -31,11 +31,11 @@ std::vector<std::string> LineServo::take_messages() {
 void LineServo::run() {
     static_cast<void>(ask_for_servo_priority());
     constexpr Nanoseconds kPeriod_ns = nanoseconds(kServedTurn_s);
-    Nanoseconds due_ns = clock_.now_ns();
+    Nanoseconds due_ns = clock_->now_ns();
     while (!ends_.load(std::memory_order_relaxed)) {
-        due_ns = std::max(due_ns + kPeriod_ns, clock_.now_ns() - 5 * kPeriod_ns);
+        due_ns = std::max(due_ns + kPeriod_ns, clock_->now_ns() - 5 * kPeriod_ns);
         // One that cannot keep up leaves its core to others.
-        clock_.sleep_until(std::max(due_ns, clock_.now_ns() + kPeriod_ns / 2));
+        clock_->sleep_until(std::max(due_ns, clock_->now_ns() + kPeriod_ns / 2));
         if (is_open_)
             turn();
         else
@@ -48,12 +48,12 @@ void LineServo::run() {
 }
 
 void LineServo::turn() noexcept {
-    const Nanoseconds now_ns = clock_.now_ns();
+    const Nanoseconds now_ns = clock_->now_ns();
     const bool may = held_ == DeviceFault::none && state_.fault == DeviceFault::none;
     state_.fault = DeviceFault::none;
     if (!line_->turn(may ? exchange_.wanted_N(now_ns) : Vec3(0.0), state_)) return lose();
     if (!finite(state_.pose_device.position_m)) state_.fault = DeviceFault::other;
-    publish(clock_.now_ns());
+    publish(clock_->now_ns());
     take_notice();
 }
 
@@ -77,17 +77,17 @@ void LineServo::lose() noexcept {
     take_notice();
     line_->close();
     is_open_ = false;
-    tried_ns_ = clock_.now_ns();
+    tried_ns_ = clock_->now_ns();
     state_.fault = DeviceFault::disconnected;
     publish(tried_ns_);
 }
 
 void LineServo::open_again() {
-    const Nanoseconds now_ns = clock_.now_ns();
+    const Nanoseconds now_ns = clock_->now_ns();
     publish(now_ns);
     if (now_ns - tried_ns_ < kLineAgain_ns) return;
     is_open_ = line_->open().has_value();
-    tried_ns_ = clock_.now_ns();
+    tried_ns_ = clock_->now_ns();
     take_notice();
 }
 

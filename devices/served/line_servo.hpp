@@ -45,8 +45,9 @@ public:
 
 class LineServo final : public ServedLink {
 public:
-    // Opens the line, and starts the thread.
-    [[nodiscard]] static Result<std::unique_ptr<LineServo>> open(std::unique_ptr<DeviceLine> line);
+    // Opens the line, and starts the thread, which sleeps by the clock: the machine's, or a test's.
+    [[nodiscard]] static Result<std::unique_ptr<LineServo>> open(
+        std::unique_ptr<DeviceLine> line, std::unique_ptr<Clock> clock = std::make_unique<MonotonicClock>());
     ~LineServo() override;
     LineServo(const LineServo&) = delete;
     LineServo& operator=(const LineServo&) = delete;
@@ -55,7 +56,8 @@ public:
     [[nodiscard]] std::vector<std::string> take_messages() override;
 
 private:
-    explicit LineServo(std::unique_ptr<DeviceLine> line) : line_(std::move(line)), notices_(64) {}
+    LineServo(std::unique_ptr<DeviceLine> line, std::unique_ptr<Clock> clock)
+        : clock_(std::move(clock)), line_(std::move(line)), notices_(64) {}
     void run();
     void turn() noexcept;
     void publish(Nanoseconds now_ns) noexcept;
@@ -63,10 +65,10 @@ private:
     void open_again();
     void take_notice() noexcept;
 
+    std::unique_ptr<Clock> clock_;
     std::unique_ptr<DeviceLine> line_;
     ServedExchange exchange_;
     Ring<LineNotice> notices_;
-    MonotonicClock clock_;
     std::atomic<bool> ends_ = false;
     std::thread thread_;
     LineNotice told_;  // the frame's thread's

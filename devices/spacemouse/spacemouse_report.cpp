@@ -71,15 +71,6 @@ Vec3 triple_at(std::span<const std::byte> bytes) {
     return {hid.x, -hid.z, hid.y};
 }
 
-void append(HidBytes& bytes, const Vec3& device) {
-    for (const double share : {device.x, device.z, -device.y}) {
-        const auto number = static_cast<std::uint16_t>(
-            static_cast<std::int16_t>(std::lround(std::clamp(share, -1.0, 1.0) * kSpaceMouseFull)));
-        bytes.push_back(static_cast<std::byte>(number & 0xff));
-        bytes.push_back(static_cast<std::byte>(number >> 8));
-    }
-}
-
 }  // namespace
 
 std::span<const SpaceMouseProduct> spacemouse_products() { return kProducts; }
@@ -111,37 +102,6 @@ std::optional<SpaceMouseReport> spacemouse_report(std::span<const std::byte> byt
         default: break;
     }
     return report;
-}
-
-HidBytes joined_bytes(const Vec3& push, const Vec3& turn) {
-    HidBytes bytes{std::byte{1}};
-    append(bytes, push);
-    append(bytes, turn);
-    return bytes;
-}
-
-HidBytes push_bytes(const Vec3& push) {
-    HidBytes bytes{std::byte{1}};
-    append(bytes, push);
-    return bytes;
-}
-
-HidBytes turn_bytes(const Vec3& turn) {
-    HidBytes bytes{std::byte{2}};
-    append(bytes, turn);
-    return bytes;
-}
-
-HidBytes button_bytes(std::uint32_t buttons, SpaceMouseKeys keys) {
-    HidBytes bytes(keys == SpaceMouseKeys::plain ? 3 : 5, std::byte{0});
-    bytes[0] = std::byte{3};
-    for (std::size_t button = 0; button < 32; ++button) {
-        if ((buttons >> button & 1u) == 0) continue;
-        if (keys != SpaceMouseKeys::plain && button >= kProOrder.size()) continue;
-        const std::size_t bit = keys == SpaceMouseKeys::plain ? button : kProOrder[button];
-        if (1 + bit / 8 < bytes.size()) bytes[1 + bit / 8] |= std::byte{1} << (bit % 8);
-    }
-    return bytes;
 }
 
 bool is_multi_axis(std::span<const std::byte> descriptor) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The HID reports of a 3Dconnexion SpaceMouse and its kin: bytes to how its cap is pushed and turned, and back. Pure.
+// The HID reports of a 3Dconnexion SpaceMouse and its kin: bytes to how its cap is pushed and turned. Pure.
 //
 //   01  x y z              translation, 7 bytes: devices until about 2012, which report the turn apart
 //   01  x y z rx ry rz     both, 13 bytes: the wireless ones, Pro Wireless, Enterprise, the Universal Receiver
@@ -10,6 +10,7 @@
 // y towards the user, z down; turns by the right-hand rule about them.
 // Sources: Linux input events of FreeSpacenav spacenavd bac572a (dev_usb_linux.c, dev.c: products, axes, button orders)
 // and raw reports of JakubAndrysek/PySpaceMouse 95cf9cb (devices.toml: layouts of each product, masks, 350).
+// The device's end is in devices/emulators/spacemouse_wire.hpp and has no code in common with this.
 // Frame: device (base/space.hpp): x to the right, y up, z towards the user.
 #pragma once
 
@@ -19,7 +20,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "base/space.hpp"
 
@@ -54,14 +54,6 @@ struct SpaceMouseReport {
 // Returns what the bytes say, report number first; nothing in it: a report of another kind. Nothing at all: the length
 // is not that of the report. Numbers beyond full deflection count as full.
 [[nodiscard]] std::optional<SpaceMouseReport> spacemouse_report(std::span<const std::byte> bytes, SpaceMouseKeys keys);
-
-// The bytes of a report, as a device sends them: for emulated ones and for tests.
-using HidBytes = std::vector<std::byte>;
-[[nodiscard]] HidBytes joined_bytes(const Vec3& push, const Vec3& turn);
-[[nodiscard]] HidBytes push_bytes(const Vec3& push);
-[[nodiscard]] HidBytes turn_bytes(const Vec3& turn);
-// buttons: bit 0 is the first button, at its place in the mask of such keys.
-[[nodiscard]] HidBytes button_bytes(std::uint32_t buttons, SpaceMouseKeys keys);
 
 // Whether a HID descriptor begins with a multi-axis controller (usage page 1, usage 8): of the interfaces of a
 // receiver or a keyboard-like device that is the one that is pushed and turned.

@@ -5,8 +5,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/text.hpp"
-
 namespace burin::devices {
 namespace {
 
@@ -126,22 +124,6 @@ bool read_flysticks(DTrackLine line, std::vector<DTrackFlystick>& to) {
     return line.is_sound();
 }
 
-std::string block_of(std::initializer_list<double> numbers, int decimals) {
-    std::string text = "[";
-    for (const double number : numbers) text += (text.size() > 1 ? " " : "") + formatted("%.*f", decimals, number);
-    return text + "]";
-}
-
-std::string place_and_turn(const Pose& pose, bool has_angles) {
-    const Vec3 mm = 1000.0 * pose.position_m;
-    const glm::dmat3 turn = glm::mat3_cast(pose.orientation);
-    // The three angles say what the matrix says: whoever reads this format is told to use the matrix.
-    std::string text = has_angles ? block_of({mm.x, mm.y, mm.z, 0.0, 0.0, 0.0}, 4) : block_of({mm.x, mm.y, mm.z}, 4);
-    return text + block_of({turn[0][0], turn[0][1], turn[0][2], turn[1][0], turn[1][1], turn[1][2], turn[2][0],
-                            turn[2][1], turn[2][2]},
-                           9);
-}
-
 }  // namespace
 
 DTrackFrame dtrack_frame(std::string_view datagram) {
@@ -171,24 +153,6 @@ DTrackFrame dtrack_frame(std::string_view datagram) {
     }
     frame.flysticks = has_newer ? std::move(newer) : std::move(older);
     return frame;
-}
-
-std::string dtrack_datagram(const DTrackFrame& frame) {
-    std::string text;
-    if (frame.number) text += "fr " + std::to_string(*frame.number) + "\r\n";
-    text += "6df2 " + std::to_string(frame.flysticks.size()) + " " + std::to_string(frame.flysticks.size());
-    for (const DTrackFlystick& stick : frame.flysticks) {
-        text += formatted(" [%d %.3f %u %zu]", stick.body.number, stick.body.is_tracked ? 1.0 : -1.0,
-                          stick.button_count, stick.sticks.size());
-        text += place_and_turn(stick.body.pose, false) + "[";
-        if (stick.button_count > 0) text += std::to_string(stick.buttons);
-        for (const double value : stick.sticks) text += formatted(text.ends_with('[') ? "%.2f" : " %.2f", value);
-        text += "]";
-    }
-    text += "\r\n6d " + std::to_string(frame.bodies.size());
-    for (const DTrackBody& body : frame.bodies)
-        text += formatted(" [%d %.3f]", body.number, body.is_tracked ? 1.0 : -1.0) + place_and_turn(body.pose, true);
-    return text + "\r\n";
 }
 
 }  // namespace burin::devices

@@ -8,7 +8,7 @@
 //                                               joysticks; their states, 32 buttons a number, sticks from -1 to 1
 // Millimetres; a rotation is column by column. Lines that begin with another word are left out, and so are numbers at
 // a block's end that are not known here. Source: the parser of DTrackSDK (github.com/ar-tracking/DTrackSDK, 110f7e5).
-// Pure; any thread.
+// The controller's end is in devices/emulators/dtrack_wire.hpp and has no code in common with this. Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,5 @@ struct DTrackFrame {
 
 // Reads a datagram. Numbers are as they come: a place may be infinite, a rotation none.
 [[nodiscard]] DTrackFrame dtrack_frame(std::string_view datagram);
-// Writes one, with bodies and the newer form of flysticks.
-[[nodiscard]] std::string dtrack_datagram(const DTrackFrame& frame);
 
 }  // namespace burin::devices

@@ -21,7 +21,7 @@
 namespace burin::devices {
 namespace {
 
-int as_milliseconds(Nanoseconds time_ns) { return static_cast<int>(time_ns / 1'000'000); }
+int whole_milliseconds(Nanoseconds time_ns) { return static_cast<int>(time_ns / 1'000'000); }
 
 std::unexpected<std::string> because(int code) { return std::unexpected(std::string(std::strerror(code))); }
 
@@ -60,7 +60,7 @@ std::expected<sockaddr_in, std::string> resolved_within(const NetworkAddress& ad
         search->found = std::move(found);
         search->is_done.give();
     }).detach();
-    const auto woken = stop->wait_for(search->is_done.file(), as_milliseconds(within_ns));
+    const auto woken = stop->wait_for(search->is_done.file(), whole_milliseconds(within_ns));
     if (woken == StopSign::Woken::by_sign) return std::unexpected(std::string(kToldToEnd));
     const std::lock_guard lock(search->mutex);
     if (!search->found) return std::unexpected("no server says where " + address.host + " is");
@@ -119,7 +119,7 @@ std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanos
     std::array<pollfd, 2> ready{
         {{socket.get(), POLLOUT, 0}, {stop != nullptr ? stop->file() : -1, POLLIN, 0}}};  // poll skips a negative file
     const int came =
-        ::poll(ready.data(), ready.size(), as_milliseconds(std::max<Nanoseconds>(until_ns - clock.now_ns(), 0)));
+        ::poll(ready.data(), ready.size(), whole_milliseconds(std::max<Nanoseconds>(until_ns - clock.now_ns(), 0)));
     if (came > 0 && ready[1].revents != 0) return std::unexpected(std::string(kToldToEnd));
     if (came == 0) return std::unexpected(std::string("it does not answer"));
     int code = 0;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kLineNames{"head", "wand", "wand0", "wand1"};
 constexpr std::array<std::string_view, 4> kDTrackNames{"body", "flystick", "flystick0", "flystick1"};
 
-constexpr std::array kKinds{
+constexpr std::array kTrackerKinds{
     TrackerKind{"udp", "udp:PORT, or udp:ADDRESS:PORT for other machines", open_udp_tracker, nullptr, kLineNames},
     TrackerKind{
         "vrpn",
@@ -59,18 +59,18 @@ std::vector<TrackerSample> TrackerQueue::take() {
     return taken;
 }
 
-std::span<const TrackerKind> tracker_kinds() { return kKinds; }
+std::span<const TrackerKind> tracker_kinds() { return kTrackerKinds; }
 
 std::string tracker_usage() {
     std::string text;
-    for (const TrackerKind& kind : kKinds) text += (text.empty() ? "" : "; ") + std::string(kind.usage);
+    for (const TrackerKind& kind : kTrackerKinds) text += (text.empty() ? "" : "; ") + std::string(kind.usage);
     return text;
 }
 
 const TrackerKind* tracker_kind_of(std::string_view where) {
     const std::string_view scheme = where.substr(0, where.find(':'));
-    const auto kind = std::ranges::find(kKinds, scheme, &TrackerKind::scheme);
-    return kind != kKinds.end() && (scheme.size() < where.size() || kind->may_be_bare) ? &*kind : nullptr;
+    const auto kind = std::ranges::find(kTrackerKinds, scheme, &TrackerKind::scheme);
+    return kind != kTrackerKinds.end() && (scheme.size() < where.size() || kind->may_be_bare) ? &*kind : nullptr;
 }
 
 Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host) {

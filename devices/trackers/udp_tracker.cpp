@@ -18,7 +18,7 @@
 namespace burin::devices {
 namespace {
 
-constexpr std::size_t kMostBytes = 4096;  // per datagram: some twenty poses
+constexpr std::size_t kMostDatagramBytes = 4096;  // per datagram: some twenty poses
 constexpr const char* kRemedy =
     "give udp:PORT, or udp:ADDRESS:PORT with an address of this machine, such as udp:0.0.0.0:5005";
 
@@ -85,7 +85,7 @@ UdpTracker::~UdpTracker() {
 }
 
 void UdpTracker::listen() {
-    std::array<char, kMostBytes> datagram{};
+    std::array<char, kMostDatagramBytes> datagram{};
     std::array<pollfd, 2> ready{{{socket_, POLLIN, 0}, {stop_, POLLIN, 0}}};
     while (true) {
         if (poll(ready.data(), ready.size(), -1) < 0 && errno != EINTR) return;
@@ -93,7 +93,8 @@ void UdpTracker::listen() {
         const ssize_t sent = recv(socket_, datagram.data(), datagram.size(), MSG_TRUNC);  // bytes, also lost ones
         if (sent < 0) continue;
         const auto bytes = static_cast<std::size_t>(sent);
-        receive({datagram.data(), std::min(bytes, kMostBytes)}, bytes > kMostBytes, host_.clock.now_ns());
+        receive({datagram.data(), std::min(bytes, kMostDatagramBytes)}, bytes > kMostDatagramBytes,
+                host_.clock.now_ns());
         if (host_.on_sample) host_.on_sample();
     }
 }
@@ -101,9 +102,9 @@ void UdpTracker::listen() {
 void UdpTracker::receive(std::string_view datagram, bool cut_off, Nanoseconds now_ns) {
     if (cut_off) {  // what is left of the last line may read as another sample
         datagram = datagram.substr(0, datagram.rfind('\n') + 1);
-        inbox_.refuse(
-            "tracker: a datagram is longer than " + std::to_string(kMostBytes) + " bytes; send fewer lines in each",
-            now_ns);
+        inbox_.refuse("tracker: a datagram is longer than " + std::to_string(kMostDatagramBytes) +
+                          " bytes; send fewer lines in each",
+                      now_ns);
     }
     while (!datagram.empty()) {
         const std::size_t end = datagram.find('\n');

@@ -17,10 +17,9 @@ constexpr std::size_t kAlign = 8;
 
 constexpr std::size_t padded(std::size_t bytes) { return (bytes + kAlign - 1) / kAlign * kAlign; }
 
-template <typename Number>
-void put(std::vector<std::byte>& to, Number value) {
-    std::array<std::byte, sizeof(Number)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(Number));
+void put(std::vector<std::byte>& to, std::int32_t value) {
+    std::array<std::byte, sizeof(value)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(value));
     if constexpr (std::endian::native == std::endian::little) std::ranges::reverse(bytes);
     for (const std::byte byte : bytes) to.push_back(byte);
 }
@@ -63,48 +62,16 @@ VrpnBytes& VrpnBytes::name(VrpnSystemType kind, std::int32_t number, std::string
     return message(number, kind, payload);
 }
 
-VrpnBytes& VrpnBytes::message(std::int32_t sender, std::int32_t type, std::span<const std::byte> payload,
-                              std::int64_t time_us) {
+VrpnBytes& VrpnBytes::message(std::int32_t sender, std::int32_t type, std::span<const std::byte> payload) {
     put(bytes_, static_cast<std::int32_t>(kVrpnHeaderBytes + payload.size()));
-    put(bytes_, static_cast<std::int32_t>(time_us / 1'000'000));
-    put(bytes_, static_cast<std::int32_t>(time_us % 1'000'000));
+    put(bytes_, 0);  // seconds and microseconds
+    put(bytes_, 0);
     put(bytes_, sender);
     put(bytes_, type);
-    put(bytes_, std::int32_t{0});
+    put(bytes_, 0);
     for (const std::byte byte : payload) bytes_.push_back(byte);
     bytes_.resize(bytes_.size() + padded(payload.size()) - payload.size());
     return *this;
-}
-
-std::vector<std::byte> vrpn_payload(const VrpnPose& pose) {
-    std::vector<std::byte> bytes;
-    put(bytes, pose.sensor);
-    put(bytes, std::int32_t{0});
-    for (int i = 0; i < 3; ++i) put(bytes, pose.position_m[i]);
-    for (const double c : {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w})
-        put(bytes, c);
-    return bytes;
-}
-
-std::vector<std::byte> vrpn_payload(const VrpnButton& button) {
-    std::vector<std::byte> bytes;
-    put(bytes, button.button);
-    put(bytes, button.state);
-    return bytes;
-}
-
-std::vector<std::byte> vrpn_payload_of_buttons(std::span<const std::int32_t> states) {
-    std::vector<std::byte> bytes;
-    put(bytes, static_cast<std::int32_t>(states.size()));
-    for (const std::int32_t state : states) put(bytes, state);
-    return bytes;
-}
-
-std::vector<std::byte> vrpn_payload_of_channels(std::span<const double> channels) {
-    std::vector<std::byte> bytes;
-    put(bytes, static_cast<double>(channels.size()));
-    for (const double channel : channels) put(bytes, channel);
-    return bytes;
 }
 
 std::optional<VrpnPose> vrpn_pose(std::span<const std::byte> payload) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bytes of VRPN 7, the Virtual-Reality Peripheral Network, over one TCP connection: what both ends send, and a
-// reader of it that trusts nothing.
+// The bytes of VRPN 7, the Virtual-Reality Peripheral Network, over one TCP connection: what a client sends, and a
+// reader of what a server sends that trusts nothing. The server's end is in devices/emulators/vrpn_wire.hpp and has no
+// code in common with this.
 //
 // Each end first sends a cookie of 24 bytes, "vrpn: ver. 07.38  0" and zeros, whose version must agree up to the point.
 // Then messages follow, all numbers big-endian: six int32 (length, seconds, microseconds, sender, type, sequence), and
@@ -39,15 +40,13 @@ inline constexpr std::string_view kVrpnPose = "vrpn_Tracker Pos_Quat", kVrpnButt
                                   kVrpnButtons = "vrpn_Button States", kVrpnChannels = "vrpn_Analog Channel",
                                   kVrpnPing = "vrpn_Base ping_message", kVrpnPong = "vrpn_Base pong_message";
 
-// Bytes to send; append in the order in which they are to go out.
+// Bytes that a client sends, without times; append in the order in which they are to go out.
 class VrpnBytes {
 public:
     VrpnBytes& cookie();
     VrpnBytes& name(VrpnSystemType kind, std::int32_t number, std::string_view name);
-    VrpnBytes& message(std::int32_t sender, std::int32_t type, std::span<const std::byte> payload = {},
-                       std::int64_t time_us = 0);
+    VrpnBytes& message(std::int32_t sender, std::int32_t type, std::span<const std::byte> payload = {});
     [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
-    void clear() { bytes_.clear(); }
 
 private:
     std::vector<std::byte> bytes_;
@@ -61,10 +60,6 @@ struct VrpnPose {
 struct VrpnButton {
     std::int32_t button = 0, state = 0;
 };
-[[nodiscard]] std::vector<std::byte> vrpn_payload(const VrpnPose& pose);
-[[nodiscard]] std::vector<std::byte> vrpn_payload(const VrpnButton& button);
-[[nodiscard]] std::vector<std::byte> vrpn_payload_of_buttons(std::span<const std::int32_t> states);
-[[nodiscard]] std::vector<std::byte> vrpn_payload_of_channels(std::span<const double> channels);
 
 // Read a payload; nothing where it is shorter than what it should hold, or says more than VRPN allows. Numbers are as
 // they come: they may be NaN.

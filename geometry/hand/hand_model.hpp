@@ -50,7 +50,8 @@ struct HandModel {
 [[nodiscard]] const HandModel& known_hand_model(bool is_left);
 
 // Returns the hand with a finer skin: each triangle becomes four, and every place moves to where the surface that
-// Loop's rules subdivide without end comes nearer (Loop, Smooth Subdivision Surfaces Based on Triangles, 1987).
+// Loop's rules subdivide without end comes nearer (Loop, Smooth Subdivision Surfaces Based on Triangles, 1987). The
+// border of a skin that is open follows the rules of Hoppe and others (Piecewise Smooth Surface Reconstruction, 1994).
 // Bindings are subdivided by the same rules, and keep their four greatest weights.
 [[nodiscard]] HandModel with_finer_skin(const HandModel& hand);
 

@@ -104,10 +104,13 @@ HandModel with_finer_skin(const HandModel& hand) {
             if (middle.sides < 2) middle.opposite[middle.sides] = t[(i + 2) % 3];
             ++middle.sides;
         }
-    std::vector<std::vector<std::uint32_t>> around(hand.skin_m.size());
+    std::vector<std::vector<std::uint32_t>> around(hand.skin_m.size()), border(hand.skin_m.size());
     for (const auto& [edge, middle] : edges) {
         around[edge.first].push_back(edge.second);
         around[edge.second].push_back(edge.first);
+        if (middle.sides == 2) continue;
+        border[edge.first].push_back(edge.second);
+        border[edge.second].push_back(edge.first);
     }
     HandModel finer = hand;
     finer.skin_m.clear();
@@ -118,12 +121,19 @@ HandModel with_finer_skin(const HandModel& hand) {
         finer.bindings.push_back(greatest_of(place.weights));
     };
     for (std::uint32_t v = 0; v < hand.skin_m.size(); ++v) {
-        const auto n = static_cast<double>(around[v].size());
-        const double part = 0.375 + 0.25 * std::cos(2.0 * std::numbers::pi / n);
-        const double each = n > 0.0 ? (0.625 - part * part) / n : 0.0;
         MixedPlace place;
-        place.add(hand, v, 1.0 - n * each);
-        for (const std::uint32_t other : around[v]) place.add(hand, other, each);
+        if (border[v].empty()) {
+            const auto n = static_cast<double>(around[v].size());
+            const double part = 0.375 + 0.25 * std::cos(2.0 * std::numbers::pi / n);
+            const double each = n > 0.0 ? (0.625 - part * part) / n : 0.0;
+            place.add(hand, v, 1.0 - n * each);
+            for (const std::uint32_t other : around[v]) place.add(hand, other, each);
+        } else {
+            // A border is a curve of its own, which nothing beside it draws inwards; where several meet it stays.
+            const bool is_curve = border[v].size() == 2;
+            place.add(hand, v, is_curve ? 0.75 : 1.0);
+            for (std::size_t i = 0; is_curve && i < 2; ++i) place.add(hand, border[v][i], 0.125);
+        }
         put(place);
     }
     for (auto& [edge, middle] : edges) {

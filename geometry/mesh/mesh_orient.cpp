@@ -9,10 +9,10 @@
 namespace burin::geometry {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 struct Neighbour {
-    std::uint32_t triangle = kNone;
+    std::uint32_t triangle = kNoTriangle;
     bool agrees = true;  // the two triangles run along the shared edge in opposite directions
 };
 
@@ -44,7 +44,7 @@ Patch gather(std::uint32_t first, const Neighbours& neighbours, std::vector<bool
     for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
         const std::uint32_t t = patch.triangles[i];
         for (const Neighbour& n : neighbours[t]) {
-            if (n.triangle == kNone) {
+            if (n.triangle == kNoTriangle) {
                 patch.open = true;
             } else if (!seen[n.triangle]) {
                 seen[n.triangle] = true;

@@ -13,7 +13,7 @@
 namespace burin::geometry {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using CornersOfTriangle = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t kSlices = kVrmlSlices;
 constexpr std::uint32_t kStacks = kVrmlSlices / 2;  // from pole to pole
@@ -51,7 +51,8 @@ void add_band(TriangleMesh& mesh, std::uint32_t lower, std::uint32_t upper) {
 void add_fan(TriangleMesh& mesh, std::uint32_t ring, std::uint32_t point, bool down) {
     for (std::uint32_t i = 0; i < kSlices; ++i) {
         const std::uint32_t next = (i + 1) % kSlices;
-        mesh.triangles.push_back(down ? Corners{point, ring + next, ring + i} : Corners{point, ring + i, ring + next});
+        mesh.triangles.push_back(down ? CornersOfTriangle{point, ring + next, ring + i}
+                                      : CornersOfTriangle{point, ring + i, ring + next});
     }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace burin::haptics {
@@ -54,16 +55,16 @@ public:
 
     [[nodiscard]] Vec3 nearest() const {
         Vec3 sum = weights_[0] * corners_[0].w;
-        for (int i = 1; i < count_; ++i) sum += weights_[i] * corners_[i].w;
+        for (std::size_t i = 1; i < count_; ++i) sum += weights_[i] * corners_[i].w;
         return sum;
     }
     [[nodiscard]] Vec3 on_triangle() const {
         Vec3 sum = weights_[0] * corners_[0].on_triangle;
-        for (int i = 1; i < count_; ++i) sum += weights_[i] * corners_[i].on_triangle;
+        for (std::size_t i = 1; i < count_; ++i) sum += weights_[i] * corners_[i].on_triangle;
         return sum;
     }
     [[nodiscard]] bool holds(const Vec3& w) const {
-        for (int i = 0; i < count_; ++i)
+        for (std::size_t i = 0; i < count_; ++i)
             if (corners_[i].w == w) return true;
         return false;
     }
@@ -145,7 +146,7 @@ private:
 
     std::array<Corner, 3> corners_;
     std::array<double, 3> weights_{};
-    int count_ = 0;
+    std::size_t count_ = 0;
 };
 
 }  // namespace

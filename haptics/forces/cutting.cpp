@@ -11,7 +11,7 @@ namespace {
 
 // Of the tool's size or of one radian: so much motion asks for another look.
 constexpr double kLookAgain = 0.1, kLookAgainWhileFree = 0.02;
-constexpr std::uint32_t kMostStride = 16384, kStrideOfPieces = 64;
+constexpr std::uint32_t kMostCutStride = 16384, kStrideOfPieces = 64;
 // Pieces from which on a look that was not complete was too fine. With fewer the contact has taken this tick's work,
 // and the next one may have more; only after so many ticks in a row the look is made coarser all the same.
 constexpr std::uint32_t kFairPieces = 1000, kMostMissed = 20;
@@ -296,7 +296,7 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
             as_before.known = look.engagement, as_before.known.surface_sequence = 0;
         as_before.known.missed = known.missed + 1;
         if (most.pieces >= kFairPieces || as_before.known.missed >= kMostMissed) {
-            as_before.known.stride = std::min(known.stride * 2, kMostStride);
+            as_before.known.stride = std::min(known.stride * 2, kMostCutStride);
             as_before.known.missed = 0;
         }
         return as_before;

@@ -18,13 +18,13 @@ constexpr double kNoForce_N = 0.001, kNoTorque_Nm = 0.0001;
 double sum_of_axes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Dissipation and limits of one kind of motion: translation or rotation.
-struct Resistance {
+struct DeviceLosses {
     double friction = 0.0, damping = 0.0, speed = 0.0, step = 0.0;
 };
-Resistance of_translation(const PromiseLimits& promise, const DeviceDescription& device) {
+DeviceLosses of_translation(const PromiseLimits& promise, const DeviceDescription& device) {
     return {device.friction_N, device.damping_Ns_per_m, promise.speed_m_per_s, device.resolution_m};
 }
-Resistance of_rotation(const PromiseLimits& promise, const DeviceDescription& device) {
+DeviceLosses of_rotation(const PromiseLimits& promise, const DeviceDescription& device) {
     return {device.angular_friction_Nm, device.angular_damping_Nms_per_rad, promise.turn_speed_rad_per_s,
             device.orientation_step_rad};
 }
@@ -63,14 +63,14 @@ void over_pieces(const EnergyAccount& account, const PromiseLimits& promise, con
 
 // ---- What the read positions admit
 
-struct Way {
+struct StepsWay {
     double shortest = 0.0;          // at least, since the last sample
     double squares_per_time = 0.0;  // integral of v^2, at least, now that it is known
 };
 
-Way follow(Path& path, const Vec3& position, Nanoseconds time_ns, double step) {
+StepsWay follow(Path& path, const Vec3& position, Nanoseconds time_ns, double step) {
     const double half = 0.5 * std::sqrt(3.0) * step;  // half a step along each axis
-    Way way;
+    StepsWay way;
     const Vec3 away = position - path.play;
     const double distance = glm::length(away);
     if (distance > half) {
@@ -93,7 +93,7 @@ Way follow(Path& path, const Vec3& position, Nanoseconds time_ns, double step) {
 void restart(Path& path, const Vec3& position, Nanoseconds time_ns) { path = {position, position, position, time_ns}; }
 
 // Rotation vector from one orientation to the next, for small angles.
-Vec3 turn_between(const Quat& from, const Quat& to) {
+Vec3 turn_since(const Quat& from, const Quat& to) {
     Quat q = to * glm::conjugate(from);
     if (q.w < 0.0) q = -q;
     return {2.0 * q.x, 2.0 * q.y, 2.0 * q.z};
@@ -101,7 +101,7 @@ Vec3 turn_between(const Quat& from, const Quat& to) {
 
 // What a change of the force costs where the position at that moment is uncertain: by half a step, and by as much as
 // the tool can be off the straight line between two samples, `since` after the first and `until` before the second.
-double uncertain_J(const Vec3& change, double way, double since_s, double until_s, const Resistance& r) {
+double uncertain_J(const Vec3& change, double way, double since_s, double until_s, const DeviceLosses& r) {
     const double mean = way / (since_s + until_s);
     const double off = std::min(std::max(0.0, r.speed - mean) * std::max(since_s, until_s),
                                 (r.speed + mean) * std::min(since_s, until_s));
@@ -111,7 +111,7 @@ double uncertain_J(const Vec3& change, double way, double since_s, double until_
 // ---- What a wrench may cost
 
 // The most that a constant force takes out in the time, beyond friction and damping, at any speed up to the limit.
-double loss_J(double force, double time_s, const Resistance& r) {
+double loss_J(double force, double time_s, const DeviceLosses& r) {
     const double over = force - r.friction;
     if (over <= 0.0) return 0.0;
     const double v = r.damping > 0.0 ? std::min(r.speed, over / (2.0 * r.damping)) : r.speed;
@@ -119,7 +119,7 @@ double loss_J(double force, double time_s, const Resistance& r) {
 }
 
 // The greatest force for which that is at most the budget.
-double most_force(double budget_J, double time_s, const Resistance& r) {
+double most_force(double budget_J, double time_s, const DeviceLosses& r) {
     if (!(budget_J > 0.0)) return r.friction;
     if (r.damping > 0.0) {
         const double slow = 2.0 * std::sqrt(r.damping * budget_J / time_s);
@@ -129,8 +129,8 @@ double most_force(double budget_J, double time_s, const Resistance& r) {
 }
 
 // The same for force and torque together; without what damping dissipates, which is on the safe side.
-double most_share(double budget_J, double time_s, double force, const Resistance& t, double torque,
-                  const Resistance& r) {
+double most_share(double budget_J, double time_s, double force, const DeviceLosses& t, double torque,
+                  const DeviceLosses& r) {
     const double rate = std::max(0.0, budget_J) / time_s;
     const double by_force = t.speed * force, by_torque = r.speed * torque;
     return std::min({(rate + t.speed * t.friction) / by_force, (rate + r.speed * r.friction) / by_torque,
@@ -185,8 +185,8 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
         return step;
     }
     step.counted = true;
-    const Resistance t = of_translation(promise, device), r = of_rotation(promise, device);
-    const Vec3 turned = in.turns ? turn_between(account.orientation_device, in.orientation_device) : Vec3(0.0);
+    const DeviceLosses t = of_translation(promise, device), r = of_rotation(promise, device);
+    const Vec3 turned = in.turns ? turn_since(account.orientation_device, in.orientation_device) : Vec3(0.0);
     double charge_J = 0.0;
     over_pieces(account, promise, device, account.time_ns, in.time_ns, in.time_ns,
                 [&](Nanoseconds from, Nanoseconds to, const DeviceWrench& acting, const DeviceWrench* before) {
@@ -202,10 +202,10 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
                         charge_J += uncertain_J(acting.torque_device_Nm - before->torque_device_Nm, glm::length(turned),
                                                 since_s, until_s, r);
                 });
-    const Way went = follow(next.moved, in.position_device_m, in.time_ns, t.step);
+    const StepsWay went = follow(next.moved, in.position_device_m, in.time_ns, t.step);
     double dissipated_J = t.friction * went.shortest + t.damping * went.squares_per_time;
     if (in.turns) {
-        const Way spun = follow(next.turned, account.turned.at + turned, in.time_ns, r.step);
+        const StepsWay spun = follow(next.turned, account.turned.at + turned, in.time_ns, r.step);
         dissipated_J += r.friction * spun.shortest + r.damping * spun.squares_per_time;
     }
     next.budget_J += step.taken_J + dissipated_J - charge_J;
@@ -227,7 +227,7 @@ double longest_gap_s(const PromiseLimits& promise) noexcept { return (promise.lo
 
 Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, const PromiseLimits& promise,
                       const DeviceDescription& device, Nanoseconds now_ns) noexcept {
-    const Resistance t = of_translation(promise, device), r = of_rotation(promise, device);
+    const DeviceLosses t = of_translation(promise, device), r = of_rotation(promise, device);
     const bool may_turn = rotation_is_known(device);
     if (!account.counting) return {1.0, t.friction, may_turn ? r.friction : HUGE_VAL};
     const bool turns = wrench.torque_device_Nm != Vec3(0.0) && may_turn;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/flush_folder.hpp"
 
 namespace burin::record {
 namespace {
@@ -98,6 +99,7 @@ Result<void> NewFile::finish() {
     if (::close(std::exchange(fd_, -1)) != 0) return failed(errno);
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) return failed(errno);
     temporary_.clear();
+    flush_folder_of(path_);
     return {};
 }
 

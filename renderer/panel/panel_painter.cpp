@@ -16,11 +16,12 @@ namespace {
 
 using gpu::structure;
 
-constexpr const char* kWhere = "panel";
+constexpr const char* kPanelPainter = "panel";
 constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
-const std::array<VkVertexInputBindingDescription, 1> kBindings{{{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}}};
-const std::array<VkVertexInputAttributeDescription, 3> kAttributes{
+const std::array<VkVertexInputBindingDescription, 1> kPanelBindings{
+    {{0, sizeof(PanelVertex), VK_VERTEX_INPUT_RATE_VERTEX}}};
+const std::array<VkVertexInputAttributeDescription, 3> kPanelAttributes{
     {{0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, x)},
      {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(PanelVertex, u)},
      {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(PanelVertex, rgba)}}};
@@ -38,7 +39,8 @@ bool is_whole(const PanelMesh& mesh) {
 Result<void> make_room(gpu::Device& device, gpu::Commands& commands, gpu::Buffer& buffer, gpu::BufferUse use,
                        std::uint64_t size_bytes) {
     if (buffer.size_bytes() >= size_bytes) return {};
-    auto larger = gpu::Buffer::create(device, use, std::max<std::uint64_t>(4096, size_bytes + size_bytes / 2), kWhere);
+    auto larger =
+        gpu::Buffer::create(device, use, std::max<std::uint64_t>(4096, size_bytes + size_bytes / 2), kPanelPainter);
     if (!larger) return std::unexpected(larger.error());
     commands.keep_alive(std::move(buffer));
     buffer = std::move(*larger);
@@ -99,7 +101,7 @@ Result<void> PanelPainter::create_pass() {
     const auto& core = device_.core();
     VkRenderPass pass = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateRenderPass(core->device, &info, nullptr, &pass); r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no render pass", r);
+        return gpu::vulkan_failure(kPanelPainter, "no render pass", r);
     }
     pass_ = gpu::RenderPassHandle(core, pass);
     return {};
@@ -137,8 +139,8 @@ Result<void> PanelPainter::create_pipeline() {
     spec.fragment_spirv = k_panel_frag;
     spec.render_pass = pass_.raw();
     spec.layout = layout_.raw();
-    spec.bindings = kBindings;
-    spec.attributes = kAttributes;
+    spec.bindings = kPanelBindings;
+    spec.attributes = kPanelAttributes;
     spec.depth_test = spec.depth_write = false;
     spec.blend = true;
     spec.name = "panel pipeline";
@@ -156,7 +158,7 @@ Result<void> PanelPainter::resize(ImageSize size) {
                                               .format = kFormat,
                                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                              .name = kWhere});
+                                              .name = kPanelPainter});
     if (!image) return std::unexpected(image.error());
     const VkImageView view = image->view();
     auto info = structure<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
@@ -169,7 +171,7 @@ Result<void> PanelPainter::resize(ImageSize size) {
     const auto& core = device_.core();
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateFramebuffer(core->device, &info, nullptr, &framebuffer); r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no framebuffer", r);
+        return gpu::vulkan_failure(kPanelPainter, "no framebuffer", r);
     }
     framebuffer_ = gpu::FramebufferHandle(core, framebuffer);
     image_ = std::move(*image);

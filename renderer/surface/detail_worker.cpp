@@ -14,7 +14,7 @@ constexpr int kNice = 5;
 
 }  // namespace
 
-DetailWorker::~DetailWorker() {
+void DetailWorker::end() {
     if (!thread_.joinable()) return;
     {
         const std::lock_guard lock(mutex_);

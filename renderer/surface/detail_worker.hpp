@@ -43,13 +43,15 @@ struct DetailDone {
 class DetailWorker {
 public:
     DetailWorker() = default;
-    ~DetailWorker();  // finishes the patch in progress and begins no other
+    ~DetailWorker() { end(); }
     DetailWorker(const DetailWorker&) = delete;
     DetailWorker& operator=(const DetailWorker&) = delete;
 
     void give(DetailJob job);
     [[nodiscard]] std::vector<DetailDone> take();
     [[nodiscard]] std::size_t waiting() const { return waiting_; }  // number of patches given and not yet taken
+    // Finishes the patch in progress and begins no other; what is done can still be taken. Nothing is given afterwards.
+    void end();
 
 private:
     void run();

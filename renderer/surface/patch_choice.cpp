@@ -11,7 +11,7 @@ namespace burin::renderer {
 namespace {
 
 // Largest error of a coarser level: below what the position of a sample can show.
-constexpr double kMostError_px = 0.5;
+constexpr double kMostPatchError_px = 0.5;
 // And of a group's, of a moving picture, in its larger pixels.
 constexpr double kMostMovingError_px = 0.75;
 // Edge lengths up to which light is computed at vertices: all triangles up to the first, since light changes too little
@@ -132,7 +132,7 @@ private:
 };
 
 std::uint8_t level_of(const PatchStore::Patch& patch, const PatchPixel& pixel) {
-    const double most_m = kMostError_px * pixel.at(patch.shape);
+    const double most_m = kMostPatchError_px * pixel.at(patch.shape);
     std::uint8_t level = 0;
     for (std::size_t i = 1; i < patch.levels.size(); ++i)
         if (patch.levels[i].error_m <= most_m) level = static_cast<std::uint8_t>(i);

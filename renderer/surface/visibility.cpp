@@ -48,7 +48,7 @@ bool outside(const glm::dvec4& plane, const Box& box) {
     return glm::dot(Vec3(plane), farthest_inside) + plane.w < 0.0;
 }
 
-Vec3 corner_of(const Box& box, int corner) {
+Vec3 box_corner(const Box& box, int corner) {
     return {(corner & 1) != 0 ? box.hi.x : box.lo.x, (corner & 2) != 0 ? box.hi.y : box.lo.y,
             (corner & 4) != 0 ? box.hi.z : box.lo.z};
 }
@@ -178,7 +178,7 @@ bool bent(const EyePair& eyes, const Box& box) {
     double farthest_m = 0.0, nearest_m = HUGE_VAL;
     for (int corner = 0; corner < 8; ++corner) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const glm::dvec4 clip = fade.clip_from_patch[i] * glm::dvec4(corner_of(box, corner), 1.0);
+            const glm::dvec4 clip = fade.clip_from_patch[i] * glm::dvec4(box_corner(box, corner), 1.0);
             nearest_m = std::min(nearest_m, clip.w);
             if (i == 2) farthest_m = std::max(farthest_m, fade.middle_to_screen_m - clip.w);
             seen[i].include({clip.x / clip.w, clip.y / clip.w, 0.0});
@@ -215,7 +215,7 @@ bool turned_away(const EyeFrustum& eye, const PatchShape& patch) {
 
 bool behind(const Vec3& eye, const Box& box, const Box& occluder) {
     for (int corner = 0; corner < 8; ++corner) {
-        if (!meets(eye, corner_of(box, corner), occluder)) return false;
+        if (!meets(eye, box_corner(box, corner), occluder)) return false;
     }
     return true;
 }

@@ -24,7 +24,7 @@ namespace burin::session {
 namespace {
 
 constexpr const char *kUnit = "unit", *kBounds = "workpiece bounds m", *kView = "view", *kSource = "source",
-                     *kSettings = "settings";
+                     *kSettings = "settings", *kHardness = "hardness", *kYield = "yield kPa", *kGrain = "grain mm";
 
 // Writes numbers so that they read back to the same bits.
 std::string exact(std::span<const double> numbers) {
@@ -178,10 +178,12 @@ void describe_workpiece(const document::DocumentReader& reader, sculpt::LoadedWo
 
 std::string number_in(double value) { return exact(std::array{value}); }
 
+constexpr const char* kCannotBeCut = "inf";  // a hardness that no command sets
+
 // Puts what a command sets into the options; commands that set something else change nothing.
 struct IntoOptions {
     SculptOptions& options;
-    bool keeps_tool;  // that the options have
+    bool keeps_tool, keeps_hardness;  // that the options have
 
     void operator()(const SetTool& set) const {
         if (keeps_tool) return;
@@ -202,11 +204,10 @@ struct IntoOptions {
         options.tool.material = exact(of_255);
     }
     void operator()(const SetMaterial& set) const {
-        if (options.feel.hardness == sculpt::FeelOptions{}.hardness)
-            options.feel.hardness = sculpt::feel_presets()[static_cast<std::size_t>(set.preset)].name;
+        if (!keeps_hardness) options.feel.hardness = sculpt::feel_presets()[static_cast<std::size_t>(set.preset)].name;
     }
     void operator()(const SetQuantity& set) const {
-        if (set.quantity == Quantity::hardness)
+        if (set.quantity == Quantity::hardness && !keeps_hardness)
             options.feel.hardness = number_in(set.value / sculpt::kHardnessUnit_Ns_per_m3);
         if (set.quantity == Quantity::stiffness && !options.feel.stiffness_N_per_m)
             options.feel.stiffness_N_per_m = set.value;
@@ -217,6 +218,18 @@ struct IntoOptions {
     }
     void operator()(const auto&) const {}
 };
+
+// Takes what of the material's feel no command sets, where the options leave it open.
+void take_feel(const document::DocumentReader& reader, bool keeps_hardness, sculpt::FeelOptions& feel) {
+    const auto take = [&](const char* fact, std::optional<double>& into) {
+        const auto number = sculpt::parse_numbers(reader.fact(fact), 1, fact);
+        if (number && !into) into = number->front();
+    };
+    take(kGrain, feel.grain_mm);
+    if (keeps_hardness) return;
+    take(kYield, feel.yield_kPa);
+    if (reader.fact(kHardness) == kCannotBeCut) feel.hardness = kCannotBeCut;
+}
 
 std::string line_of(const SessionCommand& command) {
     const CommandInput input = as_input(command);
@@ -306,10 +319,12 @@ Result<void> take_settings_of_document(SculptOptions& options) {
     if (path.empty()) return {};
     const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
     if (!reader) return std::unexpected(reader.error());
-    const IntoOptions into{options, !options.tool.shape.empty()};
+    const IntoOptions into{options, !options.tool.shape.empty(),
+                           options.feel.hardness != sculpt::FeelOptions{}.hardness};
     // A command that this program does not know is left out: what it set is not there either.
     for (const std::string& line : reader->commands())
         if (const Result<SessionCommand> command = parse_command_line(line)) std::visit(into, *command);
+    take_feel(*reader, into.keeps_hardness, options.feel);
     return {};
 }
 
@@ -324,7 +339,7 @@ std::vector<std::string> saved_commands(const SessionState& state) {
     const auto add = [&](bool given, Quantity quantity) {
         if (given) commands.emplace_back(SetQuantity{quantity, descriptor_of(quantity).value(state)});
     };
-    add(state.feel.hardness_kPa_per_mm_s.has_value(), Quantity::hardness);
+    add(std::isfinite(state.feel.hardness_kPa_per_mm_s.value_or(HUGE_VAL)), Quantity::hardness);
     add(state.feel.friction.has_value(), Quantity::friction);
     add(state.feel.stiffness_N_per_m.has_value(), Quantity::stiffness);
     if (state.mirror.any()) commands.emplace_back(SetMirror{state.mirror});
@@ -338,6 +353,11 @@ std::map<std::string, std::string> saved_facts(const SculptOptions& options, con
     std::map<std::string, std::string> facts(options.provenance.begin(), options.provenance.end());
     const Similarity& view = state.world_from_object;
     facts[kUnit] = name_of(state.export_unit);
+    // Empty where there is none: a fact that is not written stays as it was.
+    const sculpt::FeelSettings& feel = state.feel;
+    facts[kHardness] = std::isinf(feel.hardness_kPa_per_mm_s.value_or(0.0)) ? kCannotBeCut : "";
+    facts[kYield] = feel.yield_kPa ? number_in(*feel.yield_kPa) : "";
+    facts[kGrain] = feel.grain_mm ? number_in(*feel.grain_mm) : "";
     if (!workpiece_object.empty())
         facts[kBounds] = exact(std::array{workpiece_object.lo.x, workpiece_object.lo.y, workpiece_object.lo.z,
                                           workpiece_object.hi.x, workpiece_object.hi.y, workpiece_object.hi.z});

@@ -205,6 +205,10 @@ SessionRecord LiveFrames::record() const {
 void add_threads(SessionRecord& record, LiveSession& session) {
     const haptics::HapticLoop& loop = session.loop();
     record.carve_update = summarised(session.carving_duration());
+    if (const compute::CarvingEngine* const engine = session.engine()) {
+        record.engine = engine->name();
+        record.engine_traffic = engine->traffic();
+    }
     record.machine_pace = session.hands().pace();
     record.lost_targets = session.hands().lost_targets();
     record.ticks = loop.ticks();

@@ -86,19 +86,16 @@ Result<devices::SimulatedHand> pressing_hand(sculpt::Sculpture& carving, const s
                                              const sculpt::Feel& feel, const Similarity& object_from_device) {
     const double around_m = sculpt::reach_of(tool.shape) + sculpt::size_of(tool.shape);
     geometry::LocalSurface surface;
-    Result<void> outcome;
     // Seen from within the tool, for the tip of one lies in the surface that it touches; but not far up its shank.
     const Vec3 middle = 0.5 * (Vec3(tool_surface.lo_m) + Vec3(tool_surface.hi_m));
     const double up_m = glm::length(middle);
     const Vec3 within = up_m > tool_surface.size_m ? (tool_surface.size_m / up_m) * middle : middle;
     const auto into_material = [&](const Pose& pose) {
         const Vec3 place = pose * within;
-        if (const auto done = carving.local_surface(place, around_m, surface); !done) outcome = done;
+        carving.local_surface(place, around_m, surface);
         return haptics::into_material(surface, place, around_m);
     };
-    Result<devices::SimulatedHand> hand = hand_along(stroke, object_from_device, feel, into_material);
-    if (!outcome) return std::unexpected(outcome.error());
-    return hand;
+    return hand_along(stroke, object_from_device, feel, into_material);
 }
 
 LoopTimes times_of(const haptics::HapticLoop& loop) {

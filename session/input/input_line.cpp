@@ -15,9 +15,9 @@ namespace burin::session {
 namespace {
 
 // Takes a line's arguments one by one. The first error is kept; after it everything taken is a default.
-class Arguments {
+class LineArguments {
 public:
-    explicit Arguments(std::span<const std::string> words) : words_(words) {}
+    explicit LineArguments(std::span<const std::string> words) : words_(words) {}
 
     [[nodiscard]] bool more() const { return !complaint_ && next_ < words_.size(); }
     std::string word() {
@@ -104,52 +104,52 @@ constexpr std::array<std::string_view, 3> kMotions = {"press", "release", "repea
 constexpr std::span<const std::string_view> kPressOrRelease(kMotions.data(), 2);
 constexpr std::array<std::string_view, 2> kFocus = {"gained", "lost"};
 
-Input read_key(Arguments& a) {
+Input read_key(LineArguments& a) {
     const auto motion = static_cast<KeyMotion>(a.one_of(kMotions, "motion of a key"));
     const auto key = static_cast<Key>(a.one_of(key_names(), "key"));
     return KeyInput{key, motion, a.modifiers()};
 }
-Input read_mouse(Arguments& a) { return MouseMove{a.vec2()}; }
-Input read_button(Arguments& a) {
+Input read_mouse(LineArguments& a) { return MouseMove{a.vec2()}; }
+Input read_button(LineArguments& a) {
     const bool pressed = a.one_of(kPressOrRelease, "motion of a button") == 0;
     const auto button = static_cast<MouseButton>(a.one_of(mouse_button_names(), "mouse button"));
     return MouseClick{button, pressed, a.modifiers()};
 }
-Input read_scroll(Arguments& a) {
+Input read_scroll(LineArguments& a) {
     const Vec2 steps = a.vec2();
     return Scroll{steps, a.modifiers()};
 }
-Input read_text(Arguments& a) { return TextInput{a.word()}; }
-Input read_resize(Arguments& a) {
+Input read_text(LineArguments& a) { return TextInput{a.word()}; }
+Input read_resize(LineArguments& a) {
     const std::uint32_t width_px = a.count();
     return WindowResize{width_px, a.count()};
 }
-Input read_focus(Arguments& a) { return WindowFocus{a.one_of(kFocus, "change of focus") == 0}; }
-Input read_close(Arguments&) { return WindowClose{}; }
-Input read_head(Arguments& a) {
+Input read_focus(LineArguments& a) { return WindowFocus{a.one_of(kFocus, "change of focus") == 0}; }
+Input read_close(LineArguments&) { return WindowClose{}; }
+Input read_head(LineArguments& a) {
     const Pose pose = a.pose();
     return HeadInput{pose, !a.flag("lost")};
 }
-Input read_wand(Arguments& a) {
+Input read_wand(LineArguments& a) {
     const std::uint32_t wand = a.count();
     const Pose pose = a.pose();
     return WandInput{wand, pose, !a.flag("lost")};
 }
-Input read_wand_button(Arguments& a) {
+Input read_wand_button(LineArguments& a) {
     const std::uint32_t wand = a.count();
     const bool pressed = a.one_of(kPressOrRelease, "motion of a button") == 0;
     return WandClick{wand, a.count(), pressed};
 }
-Input read_wand_stick(Arguments& a) {
+Input read_wand_stick(LineArguments& a) {
     const std::uint32_t wand = a.count();
     return WandStick{wand, a.vec2()};
 }
-Input read_command(Arguments& a) {
+Input read_command(LineArguments& a) {
     CommandInput command{a.word(), {}};
     while (a.more()) command.arguments.push_back(a.word());
     return command;
 }
-Input read_frame(Arguments& a) {
+Input read_frame(LineArguments& a) {
     if (!a.more()) return FrameStart{-1};  // shown when drawn; the caller knows the time
     const std::string text = a.word();
     const auto display_ns = time_of_text(text);
@@ -160,9 +160,9 @@ Input read_frame(Arguments& a) {
 struct Kind {
     std::string_view name;
     std::string_view arguments;
-    Input (*read)(Arguments&);
+    Input (*read)(LineArguments&);
 };
-constexpr std::array kKinds = {
+constexpr std::array kInputKinds = {
     // in the order of Input's alternatives
     Kind{"key", "press|release|repeat KEY [MODIFIERS]", read_key},
     Kind{"mouse", "X_PX Y_PX", read_mouse},
@@ -179,7 +179,7 @@ constexpr std::array kKinds = {
     Kind{"command", "NAME [ARGUMENTS]", read_command},
     Kind{"frame", "[DISPLAY_TIME_S]", read_frame},
 };
-static_assert(kKinds.size() == std::variant_size_v<Input>);
+static_assert(kInputKinds.size() == std::variant_size_v<Input>);
 
 struct Writer {
     std::string line;
@@ -257,10 +257,10 @@ std::string usage(const Kind& kind) {
 }
 
 Result<const Kind*> kind_named(const std::string& name, const std::string& where) {
-    std::array<std::string_view, kKinds.size()> names;
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-        names[i] = kKinds[i].name;
-        if (names[i] == name) return &kKinds[i];
+    std::array<std::string_view, kInputKinds.size()> names;
+    for (std::size_t i = 0; i < kInputKinds.size(); ++i) {
+        names[i] = kInputKinds[i].name;
+        if (names[i] == name) return &kInputKinds[i];
     }
     return fail(where,
                 "'" + name + "' is no kind of input; the nearest is '" + std::string(nearest_name(name, names)) + "'",
@@ -269,7 +269,7 @@ Result<const Kind*> kind_named(const std::string& name, const std::string& where
 
 Result<InputEvent> make_event(Nanoseconds time_ns, const Kind& kind, std::span<const std::string> words,
                               const std::string& where) {
-    Arguments arguments(words);
+    LineArguments arguments(words);
     InputEvent event{time_ns, kind.read(arguments)};
     if (const auto complaint = arguments.complaint())
         return fail(where, std::string(kind.name) + ": " + *complaint, usage(kind));
@@ -314,7 +314,7 @@ std::optional<Nanoseconds> time_of_text(std::string_view text) {
 std::string line_of(const InputEvent& event) {
     BURIN_CHECK(event.time_ns >= 0 && event.time_ns <= kLongestSession_ns && is_sensible(event.input));
     Writer writer{text_of_time(event.time_ns)};
-    writer.word(kKinds.at(event.input.index()).name);
+    writer.word(kInputKinds.at(event.input.index()).name);
     std::visit(writer, event.input);
     return writer.line;
 }

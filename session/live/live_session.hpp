@@ -107,6 +107,10 @@ public:
     [[nodiscard]] scene::SceneService& scene() { return scene_.service(); }
     // Returns the durations of the scene's updates in which the carved surface changed.
     [[nodiscard]] const haptics::Histogram& carving_duration() const { return scene_.news().carving_duration(); }
+    // After the threads have ended; null where nothing is carved.
+    [[nodiscard]] const compute::CarvingEngine* engine() const {
+        return scene_.workpiece() != nullptr ? &scene_.workpiece()->engine() : nullptr;
+    }
     [[nodiscard]] SessionTimes& times() { return times_; }
     // Returns when a picture changes without input, in session time: a message goes, a tool-tip comes. None: never.
     [[nodiscard]] std::optional<Nanoseconds> changes_ns() const;

@@ -16,22 +16,22 @@ constexpr double kSlightestPace = 1e-3, kGreatestPace = 1e3;
 constexpr std::size_t kMostPartsOfHands = 16;
 constexpr Nanoseconds kLatestStart_ns = Nanoseconds{1} << 60;  // 36 years after a machine's start
 
-struct Kind {
+struct LogKind {
     std::string_view name, arguments;
 };
-constexpr std::array kKinds = {
-    Kind{"clock", "START_NS TICK_PERIOD_NS RESOLUTION_M [PACE]"},
-    Kind{"ticks", "FIRST TICK;TICK;..."},
-    Kind{"updates", "FIRST UPDATE;UPDATE;..."},
-    Kind{"output", "SCREEN WIDTH_PX HEIGHT_PX X_PX Y_PX"},
-    Kind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
-    Kind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
-    Kind{"kept", "TICK"},
-    Kind{"activity", "CHECK"},
-    Kind{"saw", "TICK UPDATES CHECK [TICK OF EACH FURTHER PART...]"},
-    Kind{"refused", "STEREO_MODE"},
-    Kind{"said", "\"MESSAGE\""},
-    Kind{"end", "CHECK"},
+constexpr std::array kLogKinds = {
+    LogKind{"clock", "START_NS TICK_PERIOD_NS RESOLUTION_M [PACE]"},
+    LogKind{"ticks", "FIRST TICK;TICK;..."},
+    LogKind{"updates", "FIRST UPDATE;UPDATE;..."},
+    LogKind{"output", "SCREEN WIDTH_PX HEIGHT_PX X_PX Y_PX"},
+    LogKind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
+    LogKind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
+    LogKind{"kept", "TICK"},
+    LogKind{"activity", "CHECK"},
+    LogKind{"saw", "TICK UPDATES CHECK [TICK OF EACH FURTHER PART...]"},
+    LogKind{"refused", "STEREO_MODE"},
+    LogKind{"said", "\"MESSAGE\""},
+    LogKind{"end", "CHECK"},
 };
 
 template <typename T>
@@ -46,7 +46,7 @@ std::optional<T> number(const std::string& word) {
 }
 
 template <typename T>
-std::string text(T number) {
+std::string shortest_text(T number) {
     std::array<char, 32> digits;
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }
@@ -93,50 +93,53 @@ bool take_lines(const std::vector<std::string>& words, std::size_t line, Text& t
 // ---- Writing
 
 std::string text_of(const ThreadClock& clock) {
-    return "clock " + text(clock.start_ns) + " " + text(clock.period_ns) + " " + text(clock.resolution_m) + " " +
-           text(clock.pace);
+    return "clock " + shortest_text(clock.start_ns) + " " + shortest_text(clock.period_ns) + " " +
+           shortest_text(clock.resolution_m) + " " + shortest_text(clock.pace);
 }
 
 std::string text_of(const OutputSeen& output) {
     const wall::OutputPlace& p = output.place;
-    return "output " + text(output.screen) + " " + text(p.size.width) + " " + text(p.size.height) + " " +
-           text(p.monitor_x) + " " + text(p.monitor_y);
+    return "output " + shortest_text(output.screen) + " " + shortest_text(p.size.width) + " " +
+           shortest_text(p.size.height) + " " + shortest_text(p.monitor_x) + " " + shortest_text(p.monitor_y);
 }
 
 std::string text_of(const PanelPlotted& p) {
-    return "plotted " + text(p.tick_us) + " " + text(p.frame_ms) + " " + text(p.frame_limit_ms);
+    return "plotted " + shortest_text(p.tick_us) + " " + shortest_text(p.frame_ms) + " " +
+           shortest_text(p.frame_limit_ms);
 }
 
 std::string text_of(const PanelNumbers& numbers) {
-    std::string line = "figures " + text(numbers.figures.frames_per_s);
-    visit_figures(numbers.figures, [&](const std::optional<double>& x) { line += " " + (x ? text(*x) : "-"); });
-    visit_savings(numbers.savings, [&](const auto& x) { line += " " + text(x); });
+    std::string line = "figures " + shortest_text(numbers.figures.frames_per_s);
+    visit_figures(numbers.figures,
+                  [&](const std::optional<double>& x) { line += " " + (x ? shortest_text(*x) : "-"); });
+    visit_savings(numbers.savings, [&](const auto& x) { line += " " + shortest_text(x); });
     for (const std::string& warning : numbers.warnings) line += " " + burin::session::quoted(warning);
     return line;
 }
 
 std::string text_of(const FrameSeen& frame) {
-    std::string line = "saw " + text(frame.ticks.front()) + " " + text(frame.updates) + " " + text(frame.check);
-    for (std::size_t part = 1; part < frame.ticks.size(); ++part) line += " " + text(frame.ticks[part]);
+    std::string line = "saw " + shortest_text(frame.ticks.front()) + " " + shortest_text(frame.updates) + " " +
+                       shortest_text(frame.check);
+    for (std::size_t part = 1; part < frame.ticks.size(); ++part) line += " " + shortest_text(frame.ticks[part]);
     return line;
 }
 
-std::string activity_text(std::uint64_t check) { return "activity " + text(check); }
-std::string kept_text(std::uint64_t acknowledged) { return "kept " + text(acknowledged); }
+std::string activity_text(std::uint64_t check) { return "activity " + shortest_text(check); }
+std::string kept_text(std::uint64_t acknowledged) { return "kept " + shortest_text(acknowledged); }
 std::string refused_text(wall::StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
 std::string message_text(const std::string& message) { return "said " + burin::session::quoted(message); }
-std::string end_text(std::uint64_t check) { return "end " + text(check); }
+std::string end_text(std::uint64_t check) { return "end " + shortest_text(check); }
 
 // ---- Reading
 
 bool ThreadLogReader::knows(std::string_view kind) {
-    return std::ranges::find(kKinds, kind, &Kind::name) != kKinds.end();
+    return std::ranges::find(kLogKinds, kind, &LogKind::name) != kLogKinds.end();
 }
 
 Result<void> ThreadLogReader::take(const std::vector<std::string>& words, std::size_t line, const std::string& where) {
     const std::string& kind = words.front();
     const auto wrong = [&](const std::string& what) {
-        const Kind& known = *std::ranges::find(kKinds, std::string_view(kind), &Kind::name);
+        const LogKind& known = *std::ranges::find(kLogKinds, std::string_view(kind), &LogKind::name);
         return fail(where, kind + ": " + what,
                     "write: TIME_S " + kind + " " + std::string(known.arguments) +
                         "; or take such lines out, all of them: the rest is a log of the input alone");

@@ -14,7 +14,7 @@ namespace burin::session {
 namespace {
 
 using Parsed = Result<SessionCommand>;
-using Arguments = std::span<const std::string>;
+using CommandWords = std::span<const std::string>;
 
 // The input log's bound on all lengths.
 constexpr double kMostLength_m = 10.0;
@@ -68,7 +68,7 @@ Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) 
     return SetQuantity{range.quantity, (*number)[0]};
 }
 
-Parsed parse_tool(Arguments words) {
+Parsed parse_tool(CommandWords words) {
     const std::string& text = words[0];
     // Looks the kind up first, because this error offers the nearest name.
     const auto kind = choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds());
@@ -82,13 +82,13 @@ Parsed parse_tool(Arguments words) {
     return SetTool{std::move(*tool)};
 }
 
-Parsed parse_operation(Arguments words) {
+Parsed parse_operation(CommandWords words) {
     const auto operation = choice_of("operation", words[0], sculpt::operations());
     if (!operation) return std::unexpected(operation.error());
     return SetOperation{operation->operation};
 }
 
-Parsed parse_colour(Arguments words) {
+Parsed parse_colour(CommandWords words) {
     const std::string where = "command colour " + words[0];
     const char* const remedy = "write red,green,blue from 0 to 1, such as 0.8,0.2,0.1";
     const auto numbers = sculpt::parse_numbers(words[0], 3, where);
@@ -99,13 +99,13 @@ Parsed parse_colour(Arguments words) {
     return SetColour{{(*numbers)[0], (*numbers)[1], (*numbers)[2]}};
 }
 
-Parsed parse_material(Arguments words) {
+Parsed parse_material(CommandWords words) {
     const auto preset = choice_of("material", words[0], sculpt::feel_presets());
     if (!preset) return std::unexpected(preset.error());
     return SetMaterial{preset->preset};
 }
 
-Parsed parse_technique(Arguments words) {
+Parsed parse_technique(CommandWords words) {
     const auto technique = choice_of("technique", words[0], techniques());
     if (!technique) return std::unexpected(technique.error());
     return SetTechnique{technique->technique};
@@ -118,51 +118,51 @@ Result<T> of_command(Result<T> result, const std::string& command) {
     return result;
 }
 
-Parsed parse_mode(Arguments words) {
+Parsed parse_mode(CommandWords words) {
     const auto mode = of_command(wall::parse_stereo_mode(words[0]), "stereo-mode " + words[0]);
     if (!mode) return std::unexpected(mode.error());
     return SetStereoMode{*mode};
 }
 
-Parsed parse_pattern(Arguments words) {
+Parsed parse_pattern(CommandWords words) {
     const auto pattern = of_command(wall::parse_test_pattern(words[0]), "test-pattern " + words[0]);
     if (!pattern) return std::unexpected(pattern.error());
     return SetTestPattern{*pattern};
 }
 
-Parsed parse_eye_swap(Arguments words) {
+Parsed parse_eye_swap(CommandWords words) {
     if (words.empty()) return RunAction{Action::swap_eyes};
     const auto on = parse_switch("swap-eyes", words[0]);
     if (!on) return std::unexpected(on.error());
     return SetEyeSwap{*on};
 }
 
-Parsed parse_edges(Arguments words) {
+Parsed parse_edges(CommandWords words) {
     const auto comfort =
         of_command(parse_edge_comfort(words[0], "edge-comfort " + words[0]), "edge-comfort " + words[0]);
     if (!comfort) return std::unexpected(comfort.error());
     return SetEdgeComfort{*comfort};
 }
 
-Parsed parse_force(Arguments words) {
+Parsed parse_force(CommandWords words) {
     const auto on = parse_switch("force", words[0]);
     if (!on) return std::unexpected(on.error());
     return SetForce{*on};
 }
 
-Parsed parse_amplifiers(Arguments words) {
+Parsed parse_amplifiers(CommandWords words) {
     const auto on = parse_switch("amplifiers", words[0]);
     if (!on) return std::unexpected(on.error());
     return SetAmplifiers{*on};
 }
 
-Parsed parse_force_shown(Arguments words) {
+Parsed parse_force_shown(CommandWords words) {
     const auto on = parse_switch("show-force", words[0]);
     if (!on) return std::unexpected(on.error());
     return SetForceShown{*on};
 }
 
-Parsed parse_catch_drill(Arguments words) {
+Parsed parse_catch_drill(CommandWords words) {
     const auto on = parse_switch("catch-drill", words[0]);
     if (!on) return std::unexpected(on.error());
     return SetCatchDrill{*on};
@@ -175,7 +175,7 @@ Result<std::string> parse_path(std::string_view command, const std::string& path
     return path;
 }
 
-Parsed parse_export(Arguments words) {
+Parsed parse_export(CommandWords words) {
     auto path = parse_path("export", words[0], "part.stl");
     if (!path) return std::unexpected(path.error());
     return ExportTo{std::move(*path)};
@@ -187,7 +187,7 @@ Result<void> check_document_name(const std::string& command, const std::string& 
                 "name it .burin; export FILE writes a mesh");
 }
 
-Parsed parse_save(Arguments words) {
+Parsed parse_save(CommandWords words) {
     if (words.empty()) return SaveTo{};
     auto path = parse_path("save", words[0], "bust.burin");
     if (!path) return std::unexpected(path.error());
@@ -195,7 +195,7 @@ Parsed parse_save(Arguments words) {
     return SaveTo{std::move(*path)};
 }
 
-Parsed parse_save_as(Arguments words) {
+Parsed parse_save_as(CommandWords words) {
     if (words.empty()) return RunAction{Action::save_as};
     auto path = parse_path("save-as", words[0], "bust.burin");
     if (!path) return std::unexpected(path.error());
@@ -213,7 +213,7 @@ Result<std::size_t> parse_count(std::string_view word, const std::string& where)
     return fail(where, "is not a count", "write a whole number, such as 3");
 }
 
-Parsed parse_document(Arguments words) {
+Parsed parse_document(CommandWords words) {
     const auto is = choice("document", words[0], document_states());
     if (!is) return std::unexpected(is.error());
     DocumentTold told{.is = static_cast<DocumentIs>(*is), .name = words[1]};
@@ -236,7 +236,7 @@ Parsed parse_document(Arguments words) {
     return TellDocument{std::move(told)};
 }
 
-Parsed parse_quit(Arguments words) {
+Parsed parse_quit(CommandWords words) {
     if (words.empty()) return RunAction{Action::quit};
     if (words[0] == "discard") return QuitDiscard{};
     if (words[0] == "save") return QuitSave{};
@@ -244,7 +244,7 @@ Parsed parse_quit(Arguments words) {
     return no_argument("quit", words[0], "write quit, quit save, or quit discard, which forgets what was not saved");
 }
 
-Parsed parse_screenshot(Arguments words) {
+Parsed parse_screenshot(CommandWords words) {
     auto path = parse_path("screenshot", words[0], "wall.png");
     if (!path) return std::unexpected(path.error());
     return ScreenshotTo{std::move(*path)};
@@ -277,7 +277,7 @@ Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& proper
     return value;
 }
 
-Parsed parse_object(Arguments words) {
+Parsed parse_object(CommandWords words) {
     const auto property = choice_of("object " + words[0], words[1], scene::object_properties());
     if (!property) return std::unexpected(property.error());
     const std::string where = "command object " + words[0] + " " + words[1] + " " + words[2];
@@ -286,38 +286,38 @@ Parsed parse_object(Arguments words) {
     return EditObject{words[0], property->property, *value};
 }
 
-Parsed parse_act(Arguments words) { return DoAct{{words.begin(), words.end()}}; }
+Parsed parse_act(CommandWords words) { return DoAct{{words.begin(), words.end()}}; }
 
-Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
+Parsed parse_select(CommandWords words) { return SelectObject{words[0]}; }
 
-Parsed parse_hand(Arguments words) { return LeadHand{words[0]}; }
+Parsed parse_hand(CommandWords words) { return LeadHand{words[0]}; }
 
-Parsed parse_calibrate(Arguments words) {
+Parsed parse_calibrate(CommandWords words) {
     if (words.empty()) return CalibrateHandle{};
     if (words[0] == "reset") return CalibrateHandle{.reset = true};
     return no_argument("calibrate", words[0], "write calibrate, or calibrate reset");
 }
 
-Parsed parse_mouse(Arguments words) {
+Parsed parse_mouse(CommandWords words) {
     const auto at = choice("mouse", words[0], mouse_mode_names());
     if (!at) return std::unexpected(at.error());
     return SetMouse{static_cast<MouseMode>(*at)};
 }
 
-Parsed parse_mirror(Arguments words) {
+Parsed parse_mirror(CommandWords words) {
     const auto mirror = sculpt::parse_mirror(words[0], "command mirror " + words[0]);
     if (!mirror) return std::unexpected(mirror.error());
     return SetMirror{*mirror};
 }
 
 template <Quantity quantity>
-Parsed parse_number_of(Arguments words) {
+Parsed parse_number_of(CommandWords words) {
     return parse_quantity(descriptor_of(quantity), words[0]);
 }
 
 struct Entry {
     CommandSpec spec;
-    Parsed (*parse)(Arguments);
+    Parsed (*parse)(CommandWords);
 };
 
 template <Quantity quantity>

@@ -17,7 +17,7 @@ namespace {
 // Height of the wall that a desktop window stands for; its width follows the window's shape.
 constexpr double kDeskHeight_m = 2.286;
 
-constexpr ImageSize kPanelWindow_px{340, 900};
+constexpr ImageSize kPanelScreen_px{340, 900};
 
 ImageSize asked_size(const LiveOptions& options) {
     return {static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height)};
@@ -133,7 +133,7 @@ Result<SessionWall> wall_of_file(const LiveOptions& options) {
 Result<SessionWall> session_wall(const LiveOptions& options) {
     Result<SessionWall> wall = options.wall.empty() ? desk_wall(options) : wall_of_file(options);
     if (!wall || !options.panel_window) return wall;
-    wall->screens.push_back({.name = "panel", .monitor = {}, .direct = {}, .size = kPanelWindow_px, .shown = {}});
+    wall->screens.push_back({.name = "panel", .monitor = {}, .direct = {}, .size = kPanelScreen_px, .shown = {}});
     return wall;
 }
 

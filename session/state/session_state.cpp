@@ -16,14 +16,14 @@
 namespace burin::session {
 namespace {
 
-// Size of the workpiece's longest side as a share of the screen's height; it stands with its front about in the
+// Size of the workpiece's longest_of side as a share of the screen's height; it stands with its front about in the
 // screen's own plane, where eyes rest best.
 constexpr double kHeightOnScreen = 0.52;
 // The same of a world, which is wide rather than high.
 constexpr double kWorldOnScreen = 0.8;
 // Size of a handle's workspace that is shown as large as a world of that size.
 constexpr double kOfWorkspace = 0.8;
-// Distance of its center behind the screen, as a share of its own longest side.
+// Distance of its center behind the screen, as a share of its own longest_of side.
 constexpr double kBehindScreen = 0.4;
 // Height of its center above the screen's lower edge, as a share of the screen's height.
 constexpr double kAboveLowerEdge = 0.55;
@@ -32,15 +32,15 @@ constexpr double kWorkspaceCovers = 1.1;
 // Distance of the resting hand from the workspace's border.
 constexpr double kClearsBorder_m = 0.0005;
 
-double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+double longest_of(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 // Returns the size that is to fill its share of the screen. With a handle it is at least a share of the workspace: in a
 // small world the resting handle would be right before the viewer's nose.
 double size_before_viewer_m(const Room& room, const HeldHandle* held) {
-    const double size_m = longest(room.workpiece_object.extent());
+    const double size_m = longest_of(room.workpiece_object.extent());
     if (held == nullptr) return size_m;
     const double scale = object_from_device(*held, room.workpiece_object).scale;
-    return std::max(size_m, kOfWorkspace * scale * longest(room.workspace_device_m));
+    return std::max(size_m, kOfWorkspace * scale * longest_of(room.workspace_device_m));
 }
 
 Similarity place_workpiece(const Room& room, const HeldHandle* held) {
@@ -67,7 +67,7 @@ Similarity place_workspace(const Room& room, const HandRoom& hand, const Similar
     const Vec3 size = reached.extent() * world_from_object.scale;
     const Vec3 needed = kWorkspaceCovers * size / hand.workspace_device_m;
     Vec3 place = reached.center();
-    if (room.covers_depth) return {world_from_object * place, world_from_object.orientation, longest(needed)};
+    if (room.covers_depth) return {world_from_object * place, world_from_object.orientation, longest_of(needed)};
     place.z = room.workpiece_object.hi.z;
     return {world_from_object * place, world_from_object.orientation, std::max(needed.x, needed.y)};
 }
@@ -75,10 +75,10 @@ Similarity place_workspace(const Room& room, const HandRoom& hand, const Similar
 // Where the hand's workspace is in the workpiece's own frame while the mouse leads the hand along its surface: around
 // all of it, with room for the tool on each side, however it is turned before the viewer.
 Similarity object_from_device_on_surface(const Room& room) {
-    constexpr double kRoomForTool = 0.3;  // of the longest side
+    constexpr double kRoomForTool = 0.3;  // of the longest_of side
     const Box& all = room.workpiece_object;
-    const Vec3 needed = all.extent() + 2.0 * kRoomForTool * longest(all.extent());
-    return {all.center(), Quat(1.0, 0.0, 0.0, 0.0), longest(needed / room.workspace_device_m)};
+    const Vec3 needed = all.extent() + 2.0 * kRoomForTool * longest_of(all.extent());
+    return {all.center(), Quat(1.0, 0.0, 0.0, 0.0), longest_of(needed / room.workspace_device_m)};
 }
 
 // Returns where the hand rests: this far before the workspace's front.
@@ -100,7 +100,7 @@ void move_into_comfort(SessionState& state, const Room& room) {
     if (room.wall.desk) return;
     const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
     if (!sight.visible) return;
-    const double radius_m = 0.5 * state.world_from_object.scale * longest(room.workpiece_object.extent());
+    const double radius_m = 0.5 * state.world_from_object.scale * longest_of(room.workpiece_object.extent());
     const Similarity world_from_device = place_workspace(room, room, state.world_from_object, state.handle.get());
     const std::array<wall::ContentBall, 2> content{
         {{state.world_from_object * room.workpiece_object.center(), radius_m},

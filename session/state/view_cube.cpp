@@ -15,10 +15,10 @@ namespace burin::session {
 namespace {
 
 // Its edge, and how far its middle is from the borders of the picture, as shares of the picture's height.
-constexpr double kEdge = 0.1, kFromBorder = 0.112;
+constexpr double kCubeEdge = 0.1, kCubeFromBorder = 0.112;
 // How far it stands before the screen, as a share of the way to the eye, so that the workpiece does not hide it. In
 // stereo it is in the screen's own plane, where eyes rest.
-constexpr double kBefore = 0.45;
+constexpr double kMonoBefore = 0.45;
 
 struct Face {
     Action view;
@@ -131,13 +131,13 @@ std::optional<Similarity> view_cube(const SessionState& state, const Room& room)
     const wall::Screen& s = state.seen_from.screen;
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const double high_m = glm::length(upright), wide_m = glm::length(across);
-    const double free_m = room.free_width * wide_m, from_m = kFromBorder * high_m;
+    const double free_m = room.free_width * wide_m, from_m = kCubeFromBorder * high_m;
     if (free_m < 4.0 * from_m) return std::nullopt;
     const Vec3& eye = state.seen_from.eye_world;
     const Vec3 on_screen =
         s.lower_left_world + ((free_m - from_m) / wide_m) * across + ((high_m - from_m) / high_m) * upright;
     const bool mono = wall::needs_of(output_on(room.wall, room.wall.main, state.output).mode).one_eye_point;
-    const double before = mono ? kBefore : 0.0;
+    const double before = mono ? kMonoBefore : 0.0;
     const Vec3 middle = state.world_from_object * room.workpiece_object.center();
     // As the workpiece is seen in the middle of the picture, and not from the side that the corner would show.
     const Quat turn = from_to(glm::normalize(eye - middle), glm::normalize(eye - on_screen));
@@ -145,7 +145,7 @@ std::optional<Similarity> view_cube(const SessionState& state, const Room& room)
     return Similarity{
         glm::mix(on_screen, eye, before),
         glm::normalize(turn * state.world_from_object.orientation * glm::conjugate(home) * world_from_screen(s)),
-        kEdge * high_m * (1.0 - before)};
+        kCubeEdge * high_m * (1.0 - before)};
 }
 
 std::optional<Action> face_met(const Similarity& world_from_cube, const Vec3& eye_world, const Vec3& through_world) {

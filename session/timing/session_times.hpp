@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compute/rays/engine.hpp"
 #include "haptics/histogram.hpp"
 #include "session/timing/frame_times.hpp"
 
@@ -143,6 +144,8 @@ struct SessionRecord {
     Nanoseconds rested_ns = 0, rested_processor_ns = 0;
     // On the carving thread, of updates that changed the surface.
     FigureSummary carve_update;
+    std::string engine;  // that carved at the end; empty where nothing was carved
+    std::optional<compute::DeviceTraffic> engine_traffic;
     double machine_pace = 1.0;  // that bounded a tick's work (haptics::WorkSettings)
     std::uint64_t ticks = 0, late_ticks = 0, missed_deadlines = 0;
     std::uint64_t lost_targets = 0;  // of the steered hand

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "base/flush_folder.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 
@@ -233,6 +234,7 @@ Result<void> append(const std::filesystem::path& file, Journal& journal, Json va
     if (done && ::fdatasync(handle) != 0) done = failed("cannot be synced to the disk");
     ::close(handle);
     if (!done) return done;
+    if (journal.entries.empty()) flush_folder_of(file);  // its first line: the file may be new
     const std::size_t number = journal.entries.empty() ? 1 : journal.entries.back().line + 1;
     const bool has_words = !text_of(value, "participant").empty();
     journal.entries.push_back({number, std::move(value), has_words});

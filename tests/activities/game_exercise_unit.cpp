@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "activities/rehab/game/game_exercise.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::activities {
 namespace {
@@ -161,6 +162,37 @@ TEST(GameExercise, EndsWithItsTimeAndStaysAsItIsThen) {
     game.stay(Vec3(1.0), kFlat, 1.0);
     EXPECT_EQ(game.state.end, ExerciseEnd::time_over);
     EXPECT_NEAR(game.state.time_s(), 0.5, 1e-9);
+}
+
+// The ball lies in the palm as it was taken, however that stood then and turns afterwards.
+TEST(GameExercise, CarriesTheBallAlongAsThePalmTurns) {
+    const GameSettings settings{.throws = 1};
+    const GameRoom room;
+    for (std::size_t pose = 0; pose < kUnevenPoses; ++pose) {
+        GameState state;
+        ExerciseTurn turn;
+        turn.time_ns = 1'000'000'000;
+        const auto go_to = [&](const Pose& palm, double closure) {
+            turn.time_ns += 1'000'000;
+            turn.scene_from_hand = {palm.position_m, palm.orientation, 1.0};
+            turn.closure = closure;
+            state = step_game(state, settings, room, turn).state;
+        };
+        const Quat stands = uneven_turn(pose);
+        const Vec3 beside_m = 0.2 * GameState::kReach_m * uneven_direction(pose);
+        const Pose taken{room.serve_m + beside_m - stands * kGrip_hand_m, stands};
+        go_to(taken, kFlat);
+        for (int i = 0; i < 3; ++i) go_to(taken, kCupped);
+        ASSERT_EQ(state.phase, GamePhase::held) << pose;
+        const Vec3 in_palm_m = glm::conjugate(taken.orientation) * (room.serve_m - taken.position_m);
+        for (int i = 1; i <= 100; ++i) {
+            const Pose palm{taken.position_m + 0.01 * i * uneven_offset(pose + 1),
+                            stands * glm::angleAxis(0.02 * i, uneven_direction(pose + 2))};
+            go_to(palm, kCupped);
+            ASSERT_LT(glm::distance(state.ball.place_m, palm.position_m + palm.orientation * in_palm_m), 1e-12)
+                << pose << " " << i;
+        }
+    }
 }
 
 }  // namespace burin::activities

@@ -5,112 +5,11 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
-#include <tuple>
-#include <vector>
+#include <string>
 
-#include "devices/gloves/grip_shape.hpp"
+#include "tests/activities/acted_hand.hpp"
 
 namespace burin::activities {
-namespace {
-
-constexpr scene::ObjectId kBall = 1, kTable = 2;
-
-// A ball on a table, as a world's objects.
-session::WorldObjects world() {
-    const auto cube = [](double half_m) {
-        auto mesh = std::make_shared<geometry::TriangleMesh>();
-        for (int i = 0; i < 8; ++i)
-            mesh->positions_m.push_back(
-                {(i & 1) != 0 ? half_m : -half_m, (i & 2) != 0 ? half_m : -half_m, (i & 4) != 0 ? half_m : -half_m});
-        return mesh;
-    };
-    session::WorldObjects objects;
-    for (const auto& [id, name, half_m] : {std::tuple(kBall, "ball", 0.03), std::tuple(kTable, "table", 0.3)}) {
-        scene::SceneObject object;
-        object.id = id;
-        object.name = name;
-        object.mesh = cube(half_m);
-        objects.objects.push_back(std::make_shared<const scene::SceneObject>(object));
-    }
-    return objects;
-}
-
-// A hand whose fingers are bent, with contacts as they are set.
-class ActedHand {
-public:
-    void bend(devices::GripShape shape, double closed) {
-        for (std::size_t i = 0; i < kFelt; ++i) joints_[i] = devices::bent_in(shape, i, closed);
-    }
-    void touch(std::size_t finger, scene::ObjectId object, const Vec3& normal) {
-        objects_[finger] = object;
-        normals_[finger] = normal;
-    }
-    void press(double depth_m) { depth_m_ = depth_m; }
-    void touch_nothing() { objects_ = {}; }
-    void move_to(const Pose& palm) { palm_ = palm; }
-
-    void be_lost(bool is_lost) { fault_ = is_lost ? devices::DeviceFault::disconnected : devices::DeviceFault::none; }
-
-    [[nodiscard]] haptics::TickRecord tick(std::size_t finger) const {
-        const Pose tip = devices::place_of(devices::usual_hand()[finger], joints_[finger]).hand_from_tip;
-        haptics::TickRecord record;
-        record.tick = tick_;
-        record.time_ns = static_cast<Nanoseconds>(tick_) * 1'000'000;
-        record.sample.position_device_m = palm_ * tip.position_m;
-        record.sample.orientation_device = palm_.orientation * tip.orientation;
-        std::copy(joints_[finger].begin(), joints_[finger].end(), record.sample.joints.begin());
-        record.sample.fault = fault_;
-        record.contact.point_count = 1;
-        if (objects_[finger] == 0) return record;
-        record.flags = haptics::kTickInContact;
-        record.contact.points[0].object = static_cast<std::uint32_t>(objects_[finger]);
-        record.contact.points[0].normal_object = normals_[finger];
-        record.contact.points[0].hip_object_m = record.sample.position_device_m;
-        record.contact.points[0].proxy_object_m = record.sample.position_device_m + depth_m_ * normals_[finger];
-        return record;
-    }
-    // Has the activity go on by so many turns of this hand.
-    session::ActivityOrders go_on(Grasp& activity, int turns) {
-        session::ActivityOrders all;
-        const session::WorldObjects objects = world();
-        for (int i = 0; i < turns; ++i) {
-            ++tick_;
-            std::array<std::vector<haptics::TickRecord>, kFelt> ticks;
-            std::vector<session::PartView> parts;
-            for (std::size_t finger = 0; finger < kFelt; ++finger) {
-                ticks[finger] = {tick(finger)};
-                parts.push_back({"", ticks[finger], {}});
-            }
-            const std::array hands{session::HandView{{}, parts}};
-            session::ActivityOrders orders;
-            activity.step({0, hands, {}, &objects}, orders);
-            for (auto& hold : orders.holds) all.holds.push_back(hold);
-            for (auto& edit : orders.edits) all.edits.push_back(edit);
-            all.parameters = all.parameters || orders.parameters;
-            for (auto& message : orders.messages) all.messages.push_back(message);
-        }
-        return all;
-    }
-
-private:
-    std::uint64_t tick_ = 1000;
-    double depth_m_ = 0.002;
-    devices::DeviceFault fault_ = devices::DeviceFault::none;
-    Pose palm_{{0.1, 0.2, 0.3}, glm::normalize(Quat(0.7, -0.6, 0.2, 0.1))};
-    devices::GloveJoints joints_{};
-    std::array<scene::ObjectId, kFelt> objects_{};
-    std::array<Vec3, kFelt> normals_{};
-};
-
-void hold_ball(ActedHand& hand) {
-    hand.bend(devices::GripShape::whole, 0.7);
-    hand.touch(0, kBall, {0.0, 0.0, -1.0});
-    hand.touch(1, kBall, {0.0, 0.1, 1.0});
-    hand.touch(2, kBall, {0.1, 0.0, 1.0});
-}
-
-}  // namespace
 
 TEST(HandReading, KnowsWhereTheHandIsByItsThumb) {
     ActedHand acted;
@@ -222,6 +121,70 @@ TEST(Grasp, SetsAFingertipThatStaysBehindAThingToTheHand) {
     EXPECT_EQ(index.placement.number, 1u);
     EXPECT_LT(glm::distance(index.placement.position_object_m, hand.tick(1).sample.position_device_m), 1e-12);
     EXPECT_EQ(thumb.placement.number, 0u);
+}
+
+// Time behind a thing is that of one stay: what it was behind before counts no more.
+TEST(Grasp, SetsNoFingertipToTheHandForSeveralShortStaysBehindAThing) {
+    for (std::size_t finger = 0; finger < kFelt; ++finger) {
+        Grasp activity({});
+        ActedHand hand;
+        hand.bend(devices::GripShape::pinch, 0.2);
+        hand.touch(finger, kBall, {0.0, 0.0, 1.0});
+        for (int stay = 0; stay < 5; ++stay) {
+            hand.press(0.08);
+            EXPECT_FALSE(hand.go_on(activity, 100).parameters) << finger << ", stay " << stay;
+            hand.press(0.005);
+            EXPECT_FALSE(hand.go_on(activity, 100).parameters) << finger << ", after stay " << stay;
+        }
+        hand.press(0.08);
+        EXPECT_TRUE(hand.go_on(activity, 200).parameters) << finger;
+    }
+}
+
+// A finger's own fault is no loss of the glove, whichever finger it is.
+TEST(Grasp, SaysThatTheGloveIsLostWhereAllFingersAreAndOfNoneAlone) {
+    for (std::size_t finger = 0; finger < kFelt; ++finger) {
+        Grasp activity({});
+        ActedHand hand;
+        hold_ball(hand);
+        ASSERT_EQ(hand.go_on(activity, 50).holds.size(), 1u);
+        hand.have_fault(finger, devices::DeviceFault::overspeed);
+        const auto faulty = hand.go_on(activity, 500);
+        EXPECT_TRUE(faulty.messages.empty()) << finger << ": " << faulty.messages.front();
+        EXPECT_TRUE(faulty.holds.empty()) << finger << " holds on";
+        hand.be_lost(true);
+        hand.have_fault(finger, devices::DeviceFault::none);
+        EXPECT_TRUE(hand.go_on(activity, 500).holds.empty()) << finger << " alone is well";
+        hand.be_lost(true);
+        EXPECT_EQ(hand.go_on(activity, 500).holds.size(), 1u) << "lets go";
+    }
+}
+
+TEST(Grasp, SaysOfEachGraspHowFarItHasCarriedTheThing) {
+    Grasp activity({});
+    ActedHand hand;
+    Vec3 at_m(0.1, 0.2, 0.3);
+    const Quat turn = glm::normalize(Quat(0.7, -0.6, 0.2, 0.1));
+    for (const double way_m : {0.25, 0.04, 0.131}) {
+        hold_ball(hand);
+        hand.move_to({at_m, turn});
+        ASSERT_EQ(hand.go_on(activity, 50).holds.size(), 1u);
+        const Vec3 way = way_m * glm::normalize(Vec3(0.3, -0.7, 0.5));
+        hand.move_to({at_m += way, turn});
+        hand.go_on(activity, 50);
+        EXPECT_LT(glm::distance(activity.grasps().back().carried_m, way), 1e-12) << way_m;
+        hand.touch_nothing();
+        hand.bend(devices::GripShape::whole, 0.1);
+        const auto ended = hand.go_on(activity, 200);
+        ASSERT_FALSE(ended.messages.empty());
+        // Fingers that open take the grip along a little.
+        const long told_mm = std::lround(1e3 * glm::length(activity.grasps().back().carried_m));
+        EXPECT_NEAR(static_cast<double>(told_mm), 1e3 * way_m, 50.0);
+        const std::string told = "carried " + std::to_string(told_mm) + " mm";
+        EXPECT_TRUE(ended.messages.back().contains(told)) << ended.messages.back();
+        hand.move_to({at_m += Vec3(0.05, 0.4, -0.2), turn});  // empty
+        hand.go_on(activity, 50);
+    }
 }
 
 TEST(Grasp, TakesNoTable) {

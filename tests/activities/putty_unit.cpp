@@ -66,6 +66,33 @@ TEST(PuttyExercise, CountsAKneadThatReachesItsForceAndRelaxes) {
     EXPECT_DOUBLE_EQ(score_of(putty.state(), settings), 100.0);
 }
 
+// Whatever the attempt before was, each counts as what it is.
+TEST(PuttyExercise, CountsEachAttemptAsItWouldTheFirst) {
+    enum class Attempt { kneaded, wrong, weak, broken };
+    constexpr std::array kAttempts{Attempt::kneaded, Attempt::wrong, Attempt::weak, Attempt::broken};
+    const PuttySettings settings{.level = 2, .kneads = 100, .time_limit_s = 1000.0};  // a pinch of 2.5 N
+    for (const Attempt before : kAttempts)
+        for (const Attempt attempt : kAttempts) {
+            Kneading putty(settings);
+            unsigned kneads = 0, too_weak = 0, wrong_grip = 0;
+            for (const Attempt one : {before, attempt, before}) {
+                if (one == Attempt::kneaded) putty.pinch(0.5, 2.6), ++kneads;
+                if (one == Attempt::wrong) putty.whole(0.5, 2.6), ++wrong_grip;
+                if (one == Attempt::weak) putty.pinch(0.5, 2.4), ++too_weak;
+                if (one == Attempt::broken) {  // the right grip, never for as long as a knead takes
+                    for (int time = 0; time < 3; ++time) putty.pinch(0.15, 2.6), putty.whole(0.01, 2.6);
+                    ++wrong_grip;
+                }
+                putty.pinch(0.1, 0.0);
+                const std::string of =
+                    std::to_string(static_cast<int>(attempt)) + " after " + std::to_string(static_cast<int>(before));
+                EXPECT_EQ(putty.state().kneads, kneads) << of;
+                EXPECT_EQ(putty.state().too_weak, too_weak) << of;
+                EXPECT_EQ(putty.state().wrong_grip, wrong_grip) << of;
+            }
+        }
+}
+
 TEST(PuttyExercise, TellsWhatIsTooWeak) {
     const PuttySettings settings{.shape = PuttyShape::ellipsoid, .kneads = 4};  // 3 N
     Kneading putty(settings);

@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <utility>
 
 #include "activities/train/scripted_visit.hpp"
 
@@ -110,6 +113,35 @@ TEST_F(TrainingRuns, WaitForTheOperatorAndShowPagesForTheirTime) {
     EXPECT_STREQ(run_->place()->stage->name.c_str(), "model");
 }
 
+// A stage begins without the events of the stage before, and without what was said too often there.
+TEST_F(TrainingRuns, SayOfEachStageItsOwnEventsAndLeaveNothingSaidForTheNext) {
+    std::size_t pages = 0, worlds = 0;
+    while (run_->place() != nullptr && (pages < 2 || worlds < 3)) {
+        const std::string name = run_->place()->stage->name;
+        say("start");
+        static_cast<void>(run_->session() != nullptr ? ++worlds : ++pages);
+        hold(Vec3(0.0), 5);
+        now_ns_ += kMs_ns;
+        std::vector<RunEvent> said = frame().events;
+        ASSERT_EQ(run_->phase(), TrainingRun::Phase::in_stage) << name << " has just begun";
+        for (int time = 0; time < 3; ++time) say("stop");  // an impatient operator
+        hold(Vec3(0.0), 3);
+        now_ns_ += kMs_ns;
+        std::ranges::copy(frame().events, std::back_inserter(said));
+        ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended) << name;
+        ASSERT_EQ(said.size(), 2u) << name;
+        EXPECT_EQ(said[0].name, "stage begun");
+        EXPECT_EQ(said[0].value, name);
+        EXPECT_EQ(said[1].name, "stage ended");
+        EXPECT_EQ(said[1].value, study::name_of(study::StageResult::stopped));
+        const EndedStage ended = run_->take_end();
+        EXPECT_EQ(ended.end.result, study::StageResult::stopped);
+        EXPECT_EQ(ended.events.size(), 1u) << name;
+    }
+    EXPECT_GE(pages, 2u);
+    EXPECT_GE(worlds, 3u);
+}
+
 TEST_F(TrainingRuns, TakeATrialFromTheStartCapToTheEndCap) {
     skip_to("test");
     say("start");
@@ -128,6 +160,32 @@ TEST_F(TrainingRuns, TakeATrialFromTheStartCapToTheEndCap) {
     const EndedStage ended = run_->take_end();
     EXPECT_EQ(ended.end.result, study::StageResult::valid_exit);
     EXPECT_NEAR(ended.record.at("time_s").get<double>(), 2.0, 0.1);
+}
+
+// A cap counts as touched when both points of the wand are in it. One alone, whichever it is, does not count.
+TEST_F(TrainingRuns, ShowACapAsTouchedWhereBothPointsAreInIt) {
+    skip_to("test");
+    say("start");
+    const study::StudyWorld& tube = worlds_.at("tube")->world();
+    hold(Vec3(0.0, 0.0, 0.3), 1);
+    const std::array<Vec3, 2> first_m = frame().moment->points_m;
+    const Vec3 half_m = 0.5 * (first_m[1] - first_m[0]);
+    ASSERT_GT(glm::length(half_m), 0.01);
+    for (const bool at_end : {false, true}) {
+        const study::CapBox cap = at_end ? study::end_cap(tube) : study::start_cap(tube);
+        const Vec3 middle_m = cap.centre_m + 0.5 * cap.depth_m * cap.z;
+        std::set<std::pair<bool, bool>> seen;
+        for (int step = -100; step <= 100; ++step) {
+            hold(middle_m + 0.1 * step * half_m, 1);
+            const TrainingShown shown = frame();
+            ASSERT_TRUE(shown.moment);
+            const auto is_in = [&](const Vec3& point_m) { return study::inside(cap, point_m, point_m).has_value(); };
+            const bool one = is_in(shown.moment->points_m[0]), other = is_in(shown.moment->points_m[1]);
+            seen.insert({one, other});
+            EXPECT_EQ(at_end ? shown.moment->end_touched : shown.moment->start_touched, one && other) << step;
+        }
+        EXPECT_EQ(seen.size(), 4u) << "none, either and both, " << at_end;
+    }
 }
 
 TEST_F(TrainingRuns, SayThatAStoppedTrialCountsAsEnded) {

@@ -255,11 +255,14 @@ TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {
 TEST(DeviceCheck, TheCommandFailsWhereADeviceIsPulledAndSaysWhatItNeeds) {
     const Workplace at;
     const std::string burin = kBurinCommand;
-    const auto pulled = at.run(
-        "(" + burin +
-        " devices emulate falcon --seconds 60 --silent-from 0.5 --at emulated-pulled-$$ > f.txt &) ; while ! test -s "
-        "f.txt; do sleep 0.05; done; " +
-        burin + " devices test falcon:emulated-pulled-$$ --yes --seconds 2");
+    // Once the check has seen the device the emulator is killed, however long either took to get there.
+    const auto pulled = at.run("(" + burin +
+                               " devices emulate falcon --at emulated-pulled-$$ > f.txt & emulator=$!; while ! test -s "
+                               "f.txt; do sleep 0.05; done; " +
+                               burin +
+                               " devices test falcon:emulated-pulled-$$ --yes --seconds 2 > said.txt 2>&1 & check=$!; "
+                               "while ! grep -q answers said.txt && kill -0 $check; do sleep 0.05; done; kill -9 "
+                               "$emulator; wait $check; status=$?; cat said.txt; exit $status)");
     EXPECT_EQ(pulled.status, 1);
     EXPECT_TRUE(pulled.output.contains("failed   position")) << pulled.output;
     EXPECT_TRUE(pulled.output.contains("is gone: see that its cable and its power are plugged in")) << pulled.output;

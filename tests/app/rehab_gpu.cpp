@@ -11,6 +11,7 @@
 #include "base/json.hpp"
 #include "gpu/device.hpp"
 #include "tests/activities/foretold_throws.hpp"
+#include "tests/app/real_time.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -28,6 +29,19 @@ protected:
                " --outputs " + path("out");
     }
     [[nodiscard]] std::string path(const std::string& name) const { return (at / name).string(); }
+    // On an emulated glove at the far end of a line, which ends by itself. It leaves g.session and g.json.
+    [[nodiscard]] std::string with_glove(const std::string& options, const std::string& name = "ball") const {
+        return "rm -f port.txt g.json; (" + std::string(kBurinCommand) +
+               " glove emulate --seconds 60 > port.txt &) ; while ! test -s port.txt; do sleep 0.05; done; " +
+               rehab("--device glove:$(cat " + path("port.txt") + ") --offscreen --record " + path("g.session") +
+                         " --report " + path("g.json") + " " + options,
+                     name);
+    }
+    // The range of motion of the index finger's first joint in the report g.json; 0 where there is none.
+    [[nodiscard]] double bent_index_rad() const {
+        const Json json = Json::parse(at.read("g.json"), nullptr, false);
+        return json.is_object() ? json.at("fingers").at(1).at("range_of_motion_rad").at(1).get<double>() : 0.0;
+    }
     const Workplace at;
 };
 
@@ -103,19 +117,20 @@ TEST_F(RehabSessions, EndWithTheCatchesThatTheSeedForetells) {
     }
 }
 
-// In real time: how much of it is caught depends on the machine as well.
+// In real time: what is grasped and caught depends on the machine as well. What comes of it at the hand's own pace the
+// tests of what a seed foretells ask.
 TEST_F(RehabSessions, WithAThrownBallAreDoneAgainToTheBit) {
     const auto recorded = at.run(rehab("--hand scripted --offscreen --throws 2 --seed 1 --record " + path("t.session") +
                                            " --results " + path("results") + " --participant 4",
                                        "game"));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    EXPECT_TRUE(recorded.output.contains("the hand grasps ball")) << recorded.output;
     EXPECT_TRUE(at.read("results/report.html").contains("Participant 4: Game"));
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("t.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
-    for (const std::string of : {"caught: 1 of 2 throws", "caught: 2 of 2 throws", "missed", "the hand lets go"})
+    for (const std::string of :
+         {"the hand grasps ball", "caught: 1 of 2 throws", "caught: 2 of 2 throws", "missed", "the hand lets go"})
         EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
@@ -123,41 +138,41 @@ TEST_F(RehabSessions, WithPuttyAreDoneAgainToTheBit) {
     const auto recorded = at.run(rehab(
         "--hand scripted --offscreen --kneads 1 --hardness soft --seed 2 --record " + path("p.session"), "putty"));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    EXPECT_TRUE(recorded.output.contains("the hand pinches putty")) << recorded.output;
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("p.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
-    EXPECT_EQ(replayed.output.contains("knead 1 of 1 counted"), recorded.output.contains("knead 1 of 1 counted"));
+    for (const std::string of : {"the hand pinches putty", "knead 1 of 1 counted"})
+        EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
 TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
     const auto recorded =
         at.run(rehab("--hand scripted --offscreen --repetitions 1 --seed 2 --record " + path("h.session")));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    // In real time: how many squeezes come to count depends on the machine as well.
-    EXPECT_TRUE(recorded.output.contains("the hand grasps ball")) << recorded.output;
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("h.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
-    for (const std::string of : {"the hand grasps", "squeeze 1 of 1 counted", "held too short;", "the hand lets go"})
+    for (const std::string of :
+         {"the hand grasps ball", "squeeze 1 of 1 counted", "held too short;", "the hand lets go"})
         EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
 }
 
 // The glove at the far end of a line, whose fingers close and open by themselves. In real time, on machines that may
 // be busy: how much of it counts is not foretold.
 TEST_F(RehabSessions, RunOnAGloveAreRecordedAndDoneAgainToTheBit) {
-    const auto recorded = at.run(
-        "(" + std::string(kBurinCommand) + " glove emulate --seconds 60 > " + path("port.txt") +
-        " &) ; while ! test -s " + path("port.txt") + "; do sleep 0.05; done; " +
-        rehab("--device glove:$(cat " + path("port.txt") + ") --offscreen --repetitions 1 --hold 0.1 --record " +
-              path("g.session") + " --results " + path("results") + " --participant 12 --report " + path("g.json")));
+    Workplace::Outcome recorded;
+    const auto late = kept_from_real_time(at, "g.session", [&] {
+        recorded = at.run(with_glove("--repetitions 1 --hold 0.1 --results " + path("results") + " --participant 12"));
+        return bent_index_rad() > 0.2;
+    });
+    if (late) GTEST_SKIP() << *late;
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     const Json json = Json::parse(at.read("g.json"));
     ASSERT_FALSE(json.at("events").empty()) << recorded.output;
     EXPECT_EQ(json.at("events").at(0).at("what"), "begun");
-    EXPECT_GT(json.at("fingers").at(1).at("range_of_motion_rad").at(1).get<double>(), 0.2) << recorded.output;
+    EXPECT_GT(bent_index_rad(), 0.2) << recorded.output;
     EXPECT_TRUE(at.read("results/report.html").contains("Participant 12: Ball"));
     EXPECT_TRUE(recorded.output.contains("results/participant-012/")) << recorded.output;
     const auto replayed =
@@ -168,16 +183,16 @@ TEST_F(RehabSessions, RunOnAGloveAreRecordedAndDoneAgainToTheBit) {
 
 // Likewise; what of it is caught is not foretold.
 TEST_F(RehabSessions, OfTheGameOnAGloveAreRecordedAndDoneAgainToTheBit) {
-    const auto recorded =
-        at.run("(" + std::string(kBurinCommand) + " glove emulate --seconds 60 > " + path("port.txt") +
-               " &) ; while ! test -s " + path("port.txt") + "; do sleep 0.05; done; " +
-               rehab("--device glove:$(cat " + path("port.txt") + ") --offscreen --throws 1 --time-limit 3 --record " +
-                         path("g.session") + " --report " + path("g.json"),
-                     "game"));
+    Workplace::Outcome recorded;
+    const auto late = kept_from_real_time(at, "g.session", [&] {
+        recorded = at.run(with_glove("--throws 1 --time-limit 3", "game"));
+        return bent_index_rad() > 0.2;
+    });
+    if (late) GTEST_SKIP() << *late;
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     const Json json = Json::parse(at.read("g.json"));
     EXPECT_EQ(json.at("exercise"), "game");
-    EXPECT_GT(json.at("fingers").at(1).at("range_of_motion_rad").at(1).get<double>(), 0.2) << recorded.output;
+    EXPECT_GT(bent_index_rad(), 0.2) << recorded.output;
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("g.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;

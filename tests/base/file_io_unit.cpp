@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "tests/support/flush_log.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin {
@@ -54,6 +57,23 @@ TEST(ReadTextFile, KeepsItsLimitAndNamesAMissingFile) {
     EXPECT_EQ(read_back("12345", 5), "12345");
     EXPECT_NE(read_back("12345", 4).find("more than the limit of 4"), std::string::npos);
     EXPECT_NE(read_text_file("no/such/file").error().line().find("no/such/file"), std::string::npos);
+}
+
+// A power cut leaves the old content or the new: the bytes are on the disk before the name is, and the name at the end.
+TEST(WriteFileAtomically, BringsTheBytesAndThenTheNameToTheDisk) {
+    const Workplace place;
+    for (const char* const content : {"first", "second"}) {
+        forget_flushes();
+        const std::string text = content;
+        ASSERT_TRUE(write_file_atomically(place / "a.txt", std::as_bytes(std::span(text))));
+        EXPECT_EQ(place.read("a.txt"), content);
+        const std::vector<Flushed> all = all_flushes();
+        ASSERT_EQ(all.size(), 2u);
+        EXPECT_FALSE(all[0].is_folder);
+        EXPECT_NE(all[0].path, (place / "a.txt").string()) << "under another name";
+        EXPECT_TRUE(all[1].is_folder);
+        EXPECT_EQ(all[1].names, std::vector<std::string>{"a.txt"}) << "once it has its name";
+    }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "bodies/soft_part.hpp"
 #include "bodies/solver/plastic_flow.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::bodies {
 namespace {
@@ -140,14 +141,38 @@ TEST(PlasticFlow, LeavesAStretchTheStressOfYieldAndTheRestToTheRestShape) {
     }
 }
 
+// Also of what is turned, pressed together or drawn apart: what flows is the shape, and the rest shape's volume stays.
 TEST(PlasticFlow, LetsWhatIsBeyondYieldFallWithItsTime) {
     const SoftBody& body = putty_ball();
-    SoftState state = body.at_rest();
-    map_by(body, state, stretched(1.4));
-    const double yield_Pa = body.material().yield_Pa, before_Pa = stresses_of(body, state).front();
-    for (int i = 0; i < 3; ++i) flow(body, state, body.material().relaxes_s / 3.0);
-    EXPECT_NEAR((stresses_of(body, state).front() - yield_Pa) / (before_Pa - yield_Pa), std::exp(-1.0), 1e-9);
-    EXPECT_EQ(state.flow.flowing_count, body.rest().cells.size());
+    const double yield_Pa = body.material().yield_Pa;
+    const glm::dmat3 turned = glm::mat3_cast(uneven_turn(0)) * stretched(1.4) * glm::mat3_cast(uneven_turn(1));
+    for (const glm::dmat3& map : {stretched(1.4), turned, 0.9 * turned, 1.1 * turned}) {
+        SoftState state = body.at_rest();
+        map_by(body, state, map);
+        const double before_Pa = stresses_of(body, state).front();
+        for (int i = 0; i < 3; ++i) flow(body, state, body.material().relaxes_s / 3.0);
+        EXPECT_NEAR((stresses_of(body, state).front() - yield_Pa) / (before_Pa - yield_Pa), std::exp(-1.0), 1e-9);
+        EXPECT_NEAR(glm::determinant(state.flow.metrics.front()), 1.0, 1e-12);
+        EXPECT_EQ(state.flow.flowing_count, body.rest().cells.size());
+    }
+}
+
+// A body that was only carried and turned is held where it was, however unevenly it is held.
+TEST(PlasticFlow, LeavesTheShapeOfACarriedBodyInItsPlace) {
+    const SoftBody& body = putty_ball();
+    const std::vector<Vec3>& rest = body.rest().places_m;
+    for (std::size_t pose = 0; pose < kUnevenPoses; ++pose) {
+        SoftState state = body.at_rest();
+        map_by(body, state, glm::mat3_cast(uneven_turn(pose)));
+        std::vector<double> holds_N_per_m;
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            state.places_m[i] += uneven_offset(pose);
+            holds_N_per_m.push_back(100.0 + 7.0 * static_cast<double>(i % 13));
+        }
+        std::vector<Vec3> held_at_m(rest.size());
+        follow_shape(body, state, holds_N_per_m, held_at_m);
+        for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_LT(glm::length(held_at_m[i] - rest[i]), 1e-9);
+    }
 }
 
 TEST(PlasticFlow, LeavesABodyBelowYieldAsAnElasticOneToTheBit) {
@@ -209,28 +234,31 @@ TEST(PlasticFlow, RefusesAMaterialThatCannotBe) {
     }
 }
 
-// The dent is what stays when the fingers go away. It may change by 0.1 % from a second after they have stopped on.
-TEST(Putty, KeepsItsDentWhileFingersAreStillForAMinute) {
+// The dent is what stays when the fingers go away. From a second after they have stopped on, it may change in two
+// seconds by as much as makes 0.1 % in a minute: what creeps does so evenly, or faster at first.
+TEST(Putty, KeepsItsDentWhileFingersAreStill) {
+    constexpr double kWatched_s = 2.0, kMost = 0.001 * kWatched_s / 60.0;
     Putty putty_ball(putty());
     const Vec3 up(0.0, 1.0, 0.0);
     putty_ball.close(up, kPutty_m, 0.75 * kPutty_m, 0.5);
     const haptics::TickRecord still = pinch(up, 0.75 * kPutty_m);
     putty_ball.hold(still, 1.0);
     const double early_m = dent_m(putty_ball.part(), putty_ball.let_go()), early_N = putty_ball.felt_N(still);
-    putty_ball.hold(still, 59.0);
+    putty_ball.hold(still, kWatched_s);
     const double late_m = dent_m(putty_ball.part(), putty_ball.let_go());
     EXPECT_GT(early_m, 0.3 * kPutty_m) << "of 0.5 that the fingers went in";
-    EXPECT_NEAR(late_m / early_m, 1.0, 0.001);
-    EXPECT_NEAR(putty_ball.felt_N(still) / early_N, 1.0, 0.001);
+    EXPECT_NEAR(late_m / early_m, 1.0, kMost);
+    EXPECT_NEAR(putty_ball.felt_N(still) / early_N, 1.0, kMost);
 }
 
 TEST(Putty, StaysClosedWholeAndAsLargeWhateverItsKneading) {
+    constexpr int kKneads = 12;
     for (const Vec3& half_axes_m : {Vec3(kPutty_m), Vec3(0.05, 0.032, 0.032)}) {
         Putty kneaded(putty(2e3), half_axes_m);
         const SoftBody& body = kneaded.part().body();
         std::mt19937 random(7);
         const auto draw = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
-        for (int knead = 0; knead < 25; ++knead) {
+        for (int knead = 0; knead < kKneads; ++knead) {
             const Vec3 axis = glm::normalize(Vec3(draw(), draw(), draw()));
             const double at_m = 1.0 / glm::length(axis / half_axes_m);
             kneaded.close(axis, 1.3 * at_m, 0.45 * at_m, 0.12);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bodies/soft_part.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::bodies {
 namespace {
@@ -225,6 +226,151 @@ TEST(SoftPart, IsLeftAloneByAHandWhoseForceIsOff) {
     EXPECT_EQ(through.part().state().places_m, through.part().body().rest().places_m);
     EXPECT_TRUE(through.part().models(0).empty());
     EXPECT_NE(pressed.part().state().places_m, pressed.part().body().rest().places_m);
+}
+
+// ---- A body that lies turned
+
+namespace {
+
+// Five points of a fingertip, so deep in a body that lies at a pose, from a direction of the body's own frame.
+haptics::TickRecord touch_of(const Pose& scene_from_body, const Vec3& half_axes_m, const Vec3& from_body,
+                             double depth_m) {
+    haptics::TickRecord tick = fingertip(0.0, from_body);
+    const double surface_m = 1.0 / glm::length(from_body / half_axes_m);
+    const Vec3 middle = tick.contact.points[0].hip_object_m;
+    for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+        Vec3& place = tick.contact.points[i].hip_object_m;
+        place = scene_from_body * (place - middle + (surface_m - depth_m) * from_body);
+    }
+    return tick;
+}
+
+SoftPartSetup turned_setup(std::size_t pose) {
+    SoftPartSetup setup = coarse_setup();
+    setup.scene_from_body = uneven_pose(pose);
+    FlightRoom room;
+    room.gravity_m_per_s2 = Vec3(0.0);
+    setup.room = room;
+    return setup;
+}
+
+}  // namespace
+
+TEST(SoftPart, IsPushedTheWayThatItIsTouchedHoweverItLies) {
+    for (std::size_t pose = 0; pose < kUnevenPoses; ++pose)
+        for (const std::size_t way : {pose, (pose + 2) % kUnevenPoses}) {
+            const SoftPartSetup setup = turned_setup(pose);
+            Pressing body(setup);
+            const Vec3 from_body = uneven_direction(way), from_scene = setup.scene_from_body.orientation * from_body;
+            const auto tick = touch_of(setup.scene_from_body, setup.half_axes_m, from_body, 0.002);
+            body.part().frame().fly({setup.scene_from_body.position_m, Vec3(0.0), {}}, 0);
+            body.press(tick, 4 * kTick_ns);
+            body.press(tick, 8 * kTick_ns);
+            body.press(tick, 12 * kTick_ns);
+            const Vec3 velocity = body.part().frame().velocity_at(body.part().frame().pose().position_m);
+            ASSERT_GT(glm::length(velocity), 0.01);
+            EXPECT_GT(glm::dot(glm::normalize(velocity), -from_scene), 0.99) << pose << " from " << way;
+            const Vec3 gone_m = body.part().frame().pose().position_m - setup.scene_from_body.position_m;
+            EXPECT_GT(glm::dot(glm::normalize(gone_m), -from_scene), 0.99) << pose << " from " << way;
+        }
+}
+
+TEST(SoftPart, TellsItsModelsInTheSceneHoweverItLies) {
+    for (const std::size_t pose : {0u, 3u}) {
+        SoftPartSetup setup = turned_setup(pose);
+        setup.half_axes_m = {0.03, 0.042, 0.036};
+        Pressing body(setup);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double sign : {-1.0, 1.0}) {
+                Vec3 from_body(0.0);
+                from_body[axis] = sign;
+                const auto tick = touch_of(setup.scene_from_body, setup.half_axes_m, from_body, 0.0005);
+                body.press(tick, (1 + axis) * 100 * kTick_ns + (sign > 0.0 ? 50 * kTick_ns : 0));
+                ASSERT_EQ(body.part().models(0).size(), 5u) << pose << ", axis " << axis;
+                for (const geometry::LocalModel& model : body.part().models(0)) {
+                    EXPECT_GT(glm::dot(model.normal_object, setup.scene_from_body.orientation * from_body), 0.95);
+                    EXPECT_LT(glm::distance(model.place_object_m, tick.contact.points[model.point].hip_object_m),
+                              1e-12);
+                    EXPECT_GT(model.force_N, 0.0);
+                }
+            }
+    }
+}
+
+// What stands is as the update has it; what a hand holds is where that hand was when it told of itself last.
+TEST(SoftPart, HasItsModelsAsOfTheHandThatTouchesItWhileItIsHeld) {
+    const SoftPartSetup setup = turned_setup(1);
+    Pressing body(setup);
+    SoftPart& part = body.part();
+    const std::array<std::size_t, 3> hands{0, 1, 5};
+    const std::array<Nanoseconds, 3> ago_ns{1'300'000, 2'700'000, 600'000};
+    Nanoseconds now_ns = 100 * kTick_ns;
+    const auto update = [&] {
+        now_ns += 4 * kTick_ns;
+        for (std::size_t i = 0; i < hands.size(); ++i) {
+            haptics::TickRecord tick = touch_of(part.frame().pose(), setup.half_axes_m, uneven_direction(i), 0.0005);
+            tick.time_ns = now_ns - ago_ns[i];
+            part.take_ticks(hands[i], {&tick, 1});
+        }
+        ASSERT_TRUE(part.update(now_ns, nullptr));
+    };
+    const auto expect_times = [&](bool is_held, const std::string& of) {
+        for (std::size_t i = 0; i < hands.size(); ++i) {
+            ASSERT_FALSE(part.models(hands[i]).empty()) << of;
+            for (const geometry::LocalModel& model : part.models(hands[i]))
+                EXPECT_EQ(model.time_ns, is_held ? now_ns - ago_ns[i] : now_ns) << of << ", hand " << hands[i];
+        }
+    };
+    for (const std::size_t holds : {5u, 5u, 1u}) {
+        part.frame().put(part.frame().pose().position_m);
+        update();
+        expect_times(false, "it stands");
+        part.frame().take_hold(std::array<std::size_t, 1>{holds});
+        update();
+        expect_times(true, "held by " + std::to_string(holds));
+        update();
+        expect_times(true, "still");
+        part.frame().let_go();
+        update();
+        expect_times(false, "it flies");
+    }
+}
+
+// The surface of a held body moves as the hand does, which turns: each point of it with its own velocity in the scene.
+TEST(SoftPart, HasModelsThatMoveAsItsSurfaceInAHandThatTurns) {
+    constexpr std::size_t kCarries = 6;  // no finger: a part that carries the body itself
+    for (std::size_t pose = 0; pose < kUnevenPoses; ++pose) {
+        const SoftPartSetup setup = turned_setup(pose);
+        Pressing body(setup);
+        SoftPart& part = body.part();
+        const Vec3 turns_rad_per_s = 3.0 * uneven_direction(pose + 1), goes_m_per_s = 2.0 * uneven_offset(pose + 2);
+        Pose palm{uneven_offset(pose + 3), uneven_turn(pose + 4)};
+        Nanoseconds now_ns = 100 * kTick_ns;
+        for (int update = 0; update < 12; ++update) {
+            constexpr double kUpdate_s = 0.004;
+            now_ns += nanoseconds(kUpdate_s);
+            palm.position_m += kUpdate_s * goes_m_per_s;
+            palm.orientation = glm::angleAxis(3.0 * kUpdate_s, uneven_direction(pose + 1)) * palm.orientation;
+            haptics::TickRecord carries;
+            carries.time_ns = now_ns;
+            carries.sample.position_device_m = palm.position_m;
+            carries.sample.orientation_device = palm.orientation;
+            part.take_ticks(kCarries, {&carries, 1});
+            haptics::TickRecord touches =
+                touch_of(part.frame().pose(), setup.half_axes_m, uneven_direction(pose), 0.002);
+            touches.time_ns = now_ns;
+            part.take_ticks(0, {&touches, 1});
+            if (update == 0) part.frame().take_hold(std::array{kCarries});
+            ASSERT_TRUE(part.update(now_ns, nullptr));
+            if (update < 2) continue;
+            ASSERT_FALSE(part.models(0).empty()) << pose;
+            for (const geometry::LocalModel& model : part.models(0)) {
+                const Vec3 moves_m_per_s =
+                    goes_m_per_s + glm::cross(turns_rad_per_s, model.place_object_m - palm.position_m);
+                EXPECT_LT(glm::distance(model.velocity_object_m_per_s, moves_m_per_s), 0.005) << pose << " " << update;
+            }
+        }
+    }
 }
 
 }  // namespace burin::bodies

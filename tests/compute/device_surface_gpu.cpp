@@ -63,7 +63,7 @@ TEST_F(DeviceSurfaceGpu, NoiseHasTheSameSurfaceWhateverItsRaysSay) {
         for (const double p : {0.02, 0.2, 0.5}) {
             for (int round = 0; round < repeated(2); ++round) {
                 const Solid solid = noise_solid({20, 17, 34}, p, rays, ++seed);
-                auto engine = VulkanEngine::create(solid, device());
+                auto engine = VulkanEngine::create(Solid(solid), device());
                 ASSERT_TRUE(engine);
                 const auto surface = surface_of(**engine);
                 ASSERT_NE(surface, nullptr);

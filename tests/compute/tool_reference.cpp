@@ -125,12 +125,24 @@ Pose pose_at(const ToolSweep& sweep, double share) {
     return {sweep.start.position_m + share * (sweep.end.position_m - sweep.start.position_m), turned};
 }
 
+// From one pose to the next the place moves, as the tool sees it, by no more than the tool's own way and the arc of its
+// turn, and its distance changes by no more than that. So poses that cannot be the nearest are passed by.
 double signed_distance_from_poses(const ToolSweep& sweep, const Vec3& p_object, int poses) {
+    const Vec3 way = sweep.end.position_m - sweep.start.position_m;
+    const double farthest =
+        std::max(glm::length(p_object - sweep.start.position_m), glm::length(p_object - sweep.end.position_m));
+    const double cosine =
+        std::abs(glm::dot(glm::normalize(sweep.start.orientation), glm::normalize(sweep.end.orientation)));
+    const double angle = 2.0 * std::acos(std::min(1.0, cosine));
+    const double step = (glm::length(way) + angle * farthest) / poses;
     double best = 1e300;
-    for (int i = 0; i <= poses; ++i) {
+    for (int i = 0; i <= poses;) {
         const Pose pose = pose_at(sweep, static_cast<double>(i) / poses);
-        best = std::min(best,
-                        signed_distance(sweep.shape, glm::conjugate(pose.orientation) * (p_object - pose.position_m)));
+        const double here =
+            signed_distance(sweep.shape, glm::conjugate(pose.orientation) * (p_object - pose.position_m));
+        best = std::min(best, here);
+        const double passed_by = step > 0.0 ? std::floor((here - best) / step) : poses;
+        i += std::max(1, static_cast<int>(std::min<double>(passed_by, poses)));
     }
     return best;
 }

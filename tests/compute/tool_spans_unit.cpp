@@ -217,7 +217,7 @@ TEST(ToolSpans, BullNosesStayWithinTheirTolerance) {
 TEST(ToolSpans, NormalsAreTheGradientOfTheDistance) {
     const Solid solid = bench_solid();
     Random random(9);
-    int looked_at = 0, off = 0;
+    int looked_at = 0, at_border = 0, off = 0;
     for (int i = 0; i < repeated(200); ++i) {
         ToolSweep sweep = any_straight_sweep(random, without_ball(i));
         sweep.tolerance_cells = 0.004;  // so that a bull-nose's slices lie on its surface
@@ -230,7 +230,13 @@ TEST(ToolSpans, NormalsAreTheGradientOfTheDistance) {
             const RayPlace place = place_of(ray.code);
             const shared::DexelEnd end = spans->ends_of(ray)[static_cast<std::size_t>(random.small(0, 1))];
             const int deepest = solid.lattice.cells[static_cast<std::size_t>(place.axis)] * 4096;
-            if (depth_of(end) == 0 || depth_of(end) == deepest) continue;
+            if (depth_of(end) == 0 || depth_of(end) == deepest) {  // cut off by the lattice's face, which looks outward
+                const shared::Direction face = shared::decode_normal(end.normal);
+                const double outward = Vec3(face.x, face.y, face.z)[place.axis] * (depth_of(end) == 0 ? -1.0 : 1.0);
+                ++at_border;
+                off += outward > 0.999 ? 0 : 1;
+                continue;
+            }
             Vec3 units;
             units[place.axis] = depth_of(end);
             units[(place.axis + 1) % 3] = place.u * 4096.0;
@@ -245,6 +251,7 @@ TEST(ToolSpans, NormalsAreTheGradientOfTheDistance) {
         }
     }
     EXPECT_GT(looked_at, repeated(1000));
+    EXPECT_GT(at_border, repeated(20));
     EXPECT_EQ(off, 0);
 }
 

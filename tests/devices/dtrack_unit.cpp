@@ -5,11 +5,13 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
+#include "devices/emulators/dtrack_wire.hpp"
 #include "devices/emulators/emulated_dtrack.hpp"
 #include "devices/trackers/dtrack_tracker.hpp"
 
@@ -114,7 +116,7 @@ TEST(DTrackProtocol, WritesWhatItReads) {
     const Quat turned = glm::angleAxis(1.1, glm::normalize(Vec3(1.0, -2.0, 0.5)));
     frame.bodies = {{0, true, {{0.1, 1.65, 2.0}, turned}}, {3, false, {}}};
     frame.flysticks = {{{1, true, {{-0.4, 1.2, 1.4}, turned}}, 5, 9u, {0.25, -1.0}}};
-    const DTrackFrame again = dtrack_frame(dtrack_datagram(frame));
+    const DTrackFrame again = dtrack_frame(controller_datagram(frame));
     EXPECT_EQ(again.fault, "");
     ASSERT_EQ(again.bodies.size(), 2u);
     ASSERT_EQ(again.flysticks.size(), 1u);
@@ -148,7 +150,9 @@ TEST(DTrackTracker, P2HearsHeadAndFlystickOfTheEmulatedOne) {
     HeardDTrack dtrack;
     std::atomic<bool> ends = false;
     std::thread sends([&] {
-        EXPECT_TRUE(run_emulated_dtrack({"127.0.0.1", dtrack.tracker().port()}, {}, [&] { return ends.load(); }));
+        constexpr double kBeforePress_s = 2.8;  // of the emulated motion
+        EXPECT_TRUE(run_emulated_dtrack(
+            {"127.0.0.1", dtrack.tracker().port()}, {}, [&] { return ends.load(); }, kBeforePress_s));
     });
     int heads = 0, wands = 0;
     std::vector<WandClick> clicks;
@@ -157,8 +161,9 @@ TEST(DTrackTracker, P2HearsHeadAndFlystickOfTheEmulatedOne) {
             if (const auto* head = std::get_if<HeadInput>(&sample.input)) {
                 ++heads;
                 EXPECT_NEAR(head->pose_world.position_m.z, 2.0, 1e-7);
+                // Six decimals of the rotation, and three of the millimetres.
                 EXPECT_NEAR(2.0 * std::atan2(head->pose_world.orientation.y, head->pose_world.orientation.w),
-                            0.15 * head->pose_world.position_m.x / 0.2, 1e-6);
+                            0.15 * head->pose_world.position_m.x / 0.2, 2e-6);
             }
             if (const auto* wand = std::get_if<WandInput>(&sample.input)) {
                 ++wands;
@@ -177,6 +182,41 @@ TEST(DTrackTracker, P2HearsHeadAndFlystickOfTheEmulatedOne) {
     EXPECT_TRUE(dtrack.messages().contains("DTrack at 127.0.0.1 is there"));
 }
 
+// Text as the controller's, in which nothing of the one flystick is as the other's: buttons 1 and 3 of the first, 2
+// and 5 of the second.
+TEST(DTrackTracker, GivesEachOfTwoFlysticksItsOwnPlaceButtonsAndStick) {
+    HeardDTrack dtrack;
+    dtrack.send(
+        "fr 21\r\n6df2 2 2 [0 1.000 8 2][-312.500 1250.000 437.500][0 1 0 0 0 1 1 0 0][5 0.25 -0.75] "
+        "[1 1.000 8 2][187.500 875.000 -625.000][0 0 1 1 0 0 0 1 0][18 -0.50 0.60] \r\n"
+        "6d 2 [0 1.000][125.000 1656.250 2031.250 0 0 0][1 0 0 0 1 0 0 0 1] "
+        "[1 1.000][999.000 998.000 997.000 0 0 0][1 0 0 0 1 0 0 0 1] \r\n");
+    const auto heard = dtrack.heard(9);
+    const std::array<Vec3, 2> places_m{Vec3(-0.3125, 1.25, 0.4375), Vec3(0.1875, 0.875, -0.625)};
+    const std::array<Quat, 2> turns{Quat(0.5, 0.5, 0.5, 0.5), Quat(0.5, -0.5, -0.5, -0.5)};
+    std::vector<WandClick> clicks;
+    std::vector<WandStick> sticks;
+    std::vector<std::uint32_t> wands;
+    for (const TrackerSample& sample : heard) {
+        if (const auto* head = std::get_if<HeadInput>(&sample.input)) {
+            EXPECT_LT(glm::distance(head->pose_world.position_m, Vec3(0.125, 1.65625, 2.03125)), 1e-12);
+        } else if (const auto* wand = std::get_if<WandInput>(&sample.input)) {
+            wands.push_back(wand->wand);
+            ASSERT_LT(wand->wand, 2u);
+            EXPECT_LT(glm::distance(wand->pose_world.position_m, places_m[wand->wand]), 1e-12) << wand->wand;
+            EXPECT_GT(std::abs(glm::dot(wand->pose_world.orientation, turns[wand->wand])), 1.0 - 1e-12) << wand->wand;
+        } else if (const auto* click = std::get_if<WandClick>(&sample.input)) {
+            clicks.push_back(*click);
+        } else if (const auto* stick = std::get_if<WandStick>(&sample.input)) {
+            sticks.push_back(*stick);
+        }
+    }
+    EXPECT_EQ(heard.size(), 9u) << "a head, two wands, two presses of each and its stick";
+    EXPECT_EQ(wands, (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(clicks, (std::vector<WandClick>{{0, 0, true}, {0, 2, true}, {1, 1, true}, {1, 4, true}}));
+    EXPECT_EQ(sticks, (std::vector<WandStick>{{0, {0.25, -0.75}}, {1, {-0.5, 0.6}}}));
+}
+
 TEST(DTrackTracker, AbsorbsTenThousandMeasurementsASecondAndHasTheNewest) {
     HeardDTrack dtrack;
     constexpr std::uint32_t kMeasurements = 10'000;
@@ -186,7 +226,7 @@ TEST(DTrackTracker, AbsorbsTenThousandMeasurementsASecondAndHasTheNewest) {
         for (std::uint32_t number = 1; number <= kMeasurements; ++number) {
             frame.number = number;
             frame.bodies[0].pose.position_m.x = 0.0001 * number;
-            dtrack.send(dtrack_datagram(frame));
+            dtrack.send(controller_datagram(frame));
             // Datagrams that a busy machine does not take in time are lost: a few at a time.
             if (number % 20 == 0) std::this_thread::sleep_for(milliseconds(2));
         }
@@ -233,7 +273,8 @@ TEST(DTrackTracker, LeavesOutWhatIsOvertakenAndWhatIsNoMeasurement) {
 
 TEST(DTrackTracker, ListensToOneMachineUntilThatIsSilent) {
     HeardDTrack dtrack;
-    dtrack.send(kHead);
+    // Its 60th measurement; the other machine's first is not older, as it counts by itself.
+    dtrack.send("fr 60" + kHead.substr(4));
     ASSERT_EQ(dtrack.heard(1).size(), 1u);
     // All of 127.0.0.0/8 is this machine: a second sender.
     const auto other = receive_at({"127.0.0.2", 0}).value();

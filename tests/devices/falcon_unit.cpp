@@ -131,7 +131,7 @@ TEST(Falcon, UnpluggedWhilePressingIsLeftWithoutForceEveryTime) {
     TickedArm falcon("falcon:" + own_falcon());
     ASSERT_TRUE(falcon.is_well());
     const Vec3 presses(0.0, 0.0, 2.0);
-    constexpr int kDrills = 10;  // each takes more than a second, as it is looked for each second
+    constexpr int kDrills = 4;  // each takes more than a second; in told time: AfterAFault
     int without_force = 0;
     for (int drill = 0; drill < kDrills; ++drill) {
         ASSERT_TRUE(falcon.ticks_until(presses, [&](const DeviceSample& s) {
@@ -346,6 +346,9 @@ TEST(Falcon, ItsEndLeavesNoForceAndGivesItBack) {
             << refused_falcon(own_falcon());
     }
     EXPECT_TRUE(is_zero(running->written()));
+    const std::vector<std::string> heard = running->heard();
+    ASSERT_FALSE(heard.empty());
+    EXPECT_EQ(heard.back().substr(0, 13), "<AAAAAAAAAAAA") << "the last packet has no torque";
     EXPECT_TRUE(TickedArm("falcon:" + own_falcon()).is_well());
 }
 

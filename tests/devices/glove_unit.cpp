@@ -186,6 +186,32 @@ TEST(EmulatedGloves, G2RenderByTheirLawAsLongAsTheHostIsHeardAndNoLonger) {
     EXPECT_LT(glove.given_N[2], 1e-3);
 }
 
+// A host says stop from when it has opened the line; its session begins much later on a busy machine.
+TEST(EmulatedGloves, BeginTheirScriptWithTheFirstForcesAndNotWithStopsOrLaws) {
+    EmulatedGlove glove{.motion = GloveMotion::closing};
+    const EmulatedGlove straight = stepped(glove);
+    for (int i = 0; i < 5000; ++i) glove = stepped(with_command(glove, {.stop = true}));
+    glove = stepped(with_command(glove, {.law = GloveCommand::Law{2, DriveLaw{.holds = true}}}));
+    EXPECT_EQ(glove.scripted_s, 0.0);
+    EXPECT_EQ(glove.joints, straight.joints) << "the hand is open";
+    // It closes after two seconds, and goes on where the host stops it.
+    glove = stepped(with_command(glove, {.forces_N = {}}));
+    for (int i = 0; i < 1500; ++i) glove = stepped(with_command(glove, {.stop = true}));
+    EXPECT_NEAR(glove.scripted_s, 1501 * EmulatedGlove::kStep_s, 1e-9);
+    for (std::size_t finger = 0; finger < kGloveFingers; ++finger)
+        EXPECT_GT(glove.joints[finger][1], straight.joints[finger][1] + 0.1) << finger;
+}
+
+TEST(EmulatedGloves, ADelayOfTheirOwnIsNoSilenceOfTheHost) {
+    EmulatedGlove glove{.motion = GloveMotion::still};
+    glove = with_command(glove, {.forces_N = {1.0, 2.0, 3.0, 4.0}});
+    for (int i = 0; i < 200; ++i) glove = stepped(glove, false);
+    for (std::size_t finger = 0; finger < kGloveFingers; ++finger)
+        EXPECT_NEAR(glove.given_N[finger], 1.0 + static_cast<double>(finger), 0.01) << finger;
+    for (int i = 0; i < 200; ++i) glove = stepped(glove);
+    for (std::size_t finger = 0; finger < kGloveFingers; ++finger) EXPECT_LT(glove.given_N[finger], 1e-6) << finger;
+}
+
 TEST(Gloves, SayWhatIsWrongWithAPort) {
     MonotonicClock clock;
     const auto refused = [&](const std::string& name) {
@@ -213,11 +239,11 @@ TEST(Gloves, G1FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
     ASSERT_TRUE(opened) << opened.error().line();
     ASSERT_EQ(opened->parts.size(), 4u);
     EXPECT_EQ(opened->parts[1].name, "index");
-    // Ticks of a millisecond until the fingers have closed a good deal, but no longer than some seconds.
-    Vec3 first_m(0.0), last_m(0.0), along(0.0);
-    double longest_step_m = 0.0, given_N = 0.0, measured_N = 0.0;
-    bool has_paused = false;
-    for (int tick = 0; tick < 4000 && (given_N < 1.0 || measured_N < 0.5); ++tick) {
+    // Ticks of a millisecond until the fingers have closed a good deal and have been pushed open again.
+    Vec3 first_m(0.0), along(0.0);
+    double farthest_m = 0.0, given_N = 0.0, measured_N = 0.0;
+    const Nanoseconds until_ns = clock.now_ns() + 30 * kNanosecondsPerSecond;
+    for (int tick = 0; clock.now_ns() < until_ns && (given_N < 1.0 || measured_N < 0.5); ++tick) {
         clock.sleep_until(clock.now_ns() + 1'000'000);
         for (std::size_t i = 0; i < 4; ++i) {
             const DeviceSample sample = opened->parts[i].device->read();
@@ -228,23 +254,17 @@ TEST(Gloves, G1FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
             along = sample.drive.along_device;
             EXPECT_TRUE(is_late || (sample.drive.state & kDriveMeasured) != 0);
             measured_N = std::max(measured_N, sample.drive.measured_N);
-            has_paused = has_paused || is_late;
-            if (tick > 0 && !has_paused)
-                longest_step_m = std::max(longest_step_m, glm::distance(sample.position_device_m, last_m));
             if (tick == 0) first_m = sample.position_device_m;
-            last_m = sample.position_device_m;
-            if (!is_late) has_paused = false;
+            farthest_m = std::max(farthest_m, glm::distance(sample.position_device_m, first_m));
         }
         for (std::size_t i = 0; i < 4; ++i)
-            opened->parts[i].device->write(
-                {i == 1 && glm::distance(first_m, last_m) > 0.03 ? 2.0 * along : Vec3(0.0), Vec3(0.0)});
+            opened->parts[i].device->write({i == 1 && farthest_m > 0.03 ? 2.0 * along : Vec3(0.0), Vec3(0.0)});
         given_N = running.port().given_N(1);
     }
-    EXPECT_GT(glm::distance(first_m, last_m), 0.03);
+    EXPECT_GT(farthest_m, 0.03);
     EXPECT_GT(given_N, 1.0) << "the index finger is pushed open";
     EXPECT_LT(running.port().given_N(0), 0.01);
     EXPECT_GT(measured_N, 0.5) << "what the controller measures comes back";
-    EXPECT_LT(longest_step_m, 0.02) << "a tick sees a motion, and no jumps from set to set";
 }
 
 TEST(Gloves, AreNotSharedByTwoPrograms) {

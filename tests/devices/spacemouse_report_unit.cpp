@@ -10,7 +10,9 @@
 #include <numbers>
 #include <string>
 
+#include "devices/emulators/spacemouse_wire.hpp"
 #include "devices/spacemouse/spacemouse_rates.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::devices {
 namespace {
@@ -110,16 +112,15 @@ TEST(SpaceMouseReport, CountsMoreThanFullAsFull) {
 TEST(SpaceMouseReport, IsReadAsItWasWritten) {
     for (double share = -1.0; share <= 1.0; share += 0.1) {
         const Vec3 push(share, -share, 0.5 * share), turn(0.3 * share, share, -share);
-        const auto joined = read_plain(joined_bytes(push, turn));
+        const auto joined = read_plain(cap_joined_report(push, turn));
         ASSERT_TRUE(joined && joined->push && joined->turn);
         EXPECT_LE(glm::distance(*joined->push, push), 1.0 / kSpaceMouseFull);
         EXPECT_LE(glm::distance(*joined->turn, turn), 1.0 / kSpaceMouseFull);
-        EXPECT_EQ(read_plain(push_bytes(push))->push, joined->push);
-        EXPECT_EQ(read_plain(turn_bytes(turn))->turn, joined->turn);
+        EXPECT_EQ(read_plain(cap_push_report(push))->push, joined->push);
+        EXPECT_EQ(read_plain(cap_turn_report(turn))->turn, joined->turn);
     }
     for (std::uint32_t buttons = 0; buttons < 16; ++buttons)
-        for (const SpaceMouseKeys keys : {SpaceMouseKeys::plain, SpaceMouseKeys::pro, SpaceMouseKeys::receiver})
-            EXPECT_EQ(spacemouse_report(button_bytes(buttons, keys), keys)->buttons, buttons);
+        EXPECT_EQ(read_plain(cap_button_report(buttons))->buttons, buttons);
 }
 
 TEST(SpaceMouseProduct, IsFoundByItsNumbers) {
@@ -146,6 +147,17 @@ TEST(SpaceMouseRate, TurnsAboutTheAxisOfTheAngularVelocity) {
     for (int i = 0; i < 1000; ++i) turn = turned(turn, Vec3(0.0, 0.5 * std::numbers::pi, 0.0), 0.001);
     EXPECT_LT(glm::distance(turn * Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, -1.0)), 1e-9) << "a quarter turn about +y";
     EXPECT_EQ(turned(turn, Vec3(0.0), 1.0), turn);
+}
+
+// The axis is the device frame's, however the hand is turned already.
+TEST(SpaceMouseRate, TurnsAboutTheFramesAxisWhateverIsTurned) {
+    for (std::size_t i = 0; i < kUnevenPoses; ++i) {
+        const Quat begin = uneven_turn(i);
+        const Vec3 axis = uneven_direction(i + 2);
+        const Quat by = turned(begin, 3.0 * axis, 0.2) * glm::conjugate(begin);
+        EXPECT_LT(glm::distance(by * axis, axis), 1e-12) << i;
+        EXPECT_GT(std::abs(glm::dot(by, glm::angleAxis(0.6, axis))), 1.0 - 1e-12) << i;
+    }
 }
 
 TEST(SpaceMouseSettings, AreReadAndBoundedAndNamedWhenWrong) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "devices/emulators/vrpn_wire.hpp"
+
 namespace burin::devices {
 namespace {
 
@@ -46,11 +48,12 @@ std::vector<std::byte> header_of(std::int32_t length) {
 TEST(VrpnProtocol, WritesAndReadsTheBytesThatTheProtocolSays) {
     const auto by_hand =
         bytes_of({0, 0, 0, 32, 0, 0, 0, 2, 0, 0, 0, 5, 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 1});
-    EXPECT_EQ(VrpnBytes().message(1, 4, vrpn_payload(VrpnButton{3, 1}), 2'000'005).bytes(), by_hand);
+    EXPECT_EQ(VrpnServerBytes().message(1, 4, vrpn_button_change(3, 1), 2'000'005).bytes(), by_hand);
     // A name of two letters and its zero: 4 + 3 bytes, padded by one that the length does not count.
     const auto name_by_hand = bytes_of({0,    0,    0,    31,   0, 0, 0, 0, 0, 0, 0, 0, 0,   0,   0, 7,
                                         0xff, 0xff, 0xff, 0xfe, 0, 0, 0, 0, 0, 0, 0, 3, 'a', 'b', 0, 0});
     EXPECT_EQ(VrpnBytes().name(kVrpnType, 7, "ab").bytes(), name_by_hand);
+    EXPECT_EQ(VrpnServerBytes().type(7, "ab").bytes(), name_by_hand);
     VrpnReader reader = greeted();
     feed(reader, by_hand);
     feed(reader, name_by_hand);
@@ -58,6 +61,7 @@ TEST(VrpnProtocol, WritesAndReadsTheBytesThatTheProtocolSays) {
     ASSERT_TRUE(message);
     EXPECT_EQ(message->sender, 1);
     EXPECT_EQ(message->type, 4);
+    EXPECT_EQ(message->time_us, 2'000'005);
     EXPECT_EQ(vrpn_button(message->payload)->button, 3);
     VrpnNames names;
     EXPECT_TRUE(names.take(*reader.next()));
@@ -67,9 +71,9 @@ TEST(VrpnProtocol, WritesAndReadsTheBytesThatTheProtocolSays) {
 }
 
 TEST(VrpnProtocol, ReadsMessagesThatComeByteByByte) {
-    VrpnBytes sent;
-    const VrpnPose pose{2, {1.0, -2.5, 3.0}, {0.5, 0.5, -0.5, 0.5}};
-    sent.cookie().name(kVrpnSender, 5, "Tracker0").message(5, 1, vrpn_payload(pose));
+    VrpnServerBytes sent;
+    const Pose pose{{1.0, -2.5, 3.0}, {0.5, 0.5, -0.5, 0.5}};
+    sent.cookie().sender(5, "Tracker0").message(5, 1, vrpn_pos_quat(2, pose));
     VrpnReader reader;
     std::vector<VrpnPose> poses;
     int messages = 0;
@@ -118,18 +122,18 @@ TEST(VrpnProtocol, GivesUpAStreamWithALengthThatNoMessageHas) {
 
 TEST(VrpnProtocol, TakesNoCountAtItsWord) {
     const std::vector<std::int32_t> states(kMostVrpnButtons + 1, 1);
-    EXPECT_FALSE(vrpn_buttons(vrpn_payload_of_buttons(states)));
-    EXPECT_TRUE(vrpn_buttons(vrpn_payload_of_buttons(std::span(states).first(kMostVrpnButtons))));
-    auto cut = vrpn_payload_of_buttons(std::span(states).first(10));
+    EXPECT_FALSE(vrpn_buttons(vrpn_button_states(states)));
+    EXPECT_TRUE(vrpn_buttons(vrpn_button_states(std::span(states).first(kMostVrpnButtons))));
+    auto cut = vrpn_button_states(std::span(states).first(10));
     cut.resize(cut.size() - 1);
     EXPECT_FALSE(vrpn_buttons(cut));
     EXPECT_FALSE(vrpn_buttons({}));
     const std::vector<double> channels(kMostVrpnChannels + 1, 0.5);
-    EXPECT_FALSE(vrpn_channels(vrpn_payload_of_channels(channels)));
-    auto nan = vrpn_payload_of_channels(std::span(channels).first(2));
+    EXPECT_FALSE(vrpn_channels(vrpn_analog_channels(channels)));
+    auto nan = vrpn_analog_channels(std::span(channels).first(2));
     nan[0] = nan[1] = static_cast<std::byte>(0xff);
     EXPECT_FALSE(vrpn_channels(nan)) << "a count that is no number";
-    auto pose = vrpn_payload(VrpnPose{});
+    auto pose = vrpn_pos_quat(0, {});
     pose.pop_back();
     EXPECT_FALSE(vrpn_pose(pose));
     EXPECT_FALSE(vrpn_button(bytes_of({0, 0, 0, 1, 0, 0, 0})));

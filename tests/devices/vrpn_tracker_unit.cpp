@@ -5,14 +5,19 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include "devices/emulators/emulated_vrpn.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::devices {
 namespace {
@@ -73,11 +78,11 @@ public:
     }
     void greet() {
         accept();
-        send(VrpnBytes().cookie().name(kVrpnSender, 9, "Tracker0").name(kVrpnType, 7, kVrpnPose).bytes());
+        send(VrpnServerBytes().cookie().sender(9, "Tracker0").type(7, "vrpn_Tracker Pos_Quat").bytes());
     }
     void send_pose(const Vec3& position_m, const Quat& orientation = {1, 0, 0, 0}, std::int32_t sensor = 0,
                    std::int64_t time_us = 0) const {
-        send(VrpnBytes().message(9, 7, vrpn_payload(VrpnPose{sensor, position_m, orientation}), time_us).bytes());
+        send(VrpnServerBytes().message(9, 7, vrpn_pos_quat(sensor, {position_m, orientation}), time_us).bytes());
     }
 
 private:
@@ -104,6 +109,9 @@ std::vector<Kind> of_kind(const std::vector<TrackerSample>& samples) {
     return found;
 }
 
+// Of the emulated motion: just before the wand's button goes down.
+constexpr double kBeforePress_s = 2.8;
+
 std::string refused(const std::string& where) {
     MonotonicClock clock;
     const auto tracker = open_tracker(where, {clock, {}, {}});
@@ -119,7 +127,7 @@ std::string all_messages(Tracker& tracker) {
 }  // namespace
 
 TEST(VrpnTracker, P2HearsHeadWandButtonAndStickOfTheEmulatedServer) {
-    RunningServer server({.rate_Hz = 100.0});
+    RunningServer server({.rate_Hz = 100.0, .begins_s = kBeforePress_s});
     MonotonicClock clock;
     auto tracker = open_tracker(server.where(), {clock, {}, {}});
     ASSERT_TRUE(tracker) << tracker.error().line();
@@ -172,6 +180,59 @@ TEST(VrpnTracker, AbsorbsTenThousandReportsASecondAndHasTheNewest) {
     EXPECT_EQ(tracker->refused(), 0u);
 }
 
+// Nothing of the one wand is as the other's. The server's numbers of devices and types are none that the client uses.
+TEST(VrpnTracker, GivesEachOfTwoWandsItsOwnSensorButtonsAndStick) {
+    RawServer server;
+    MonotonicClock clock;
+    const auto tracker = server.opened(
+        clock,
+        ",head=Tracker0/0,wand0=Tracker0/1,wand1=Tracker0/2,buttons0=Button0,buttons1=Button1,stick0=Analog0,"
+        "stick1=Analog1");
+    VrpnServerBytes said;
+    said.sender(4, "Button0").sender(6, "Button1").sender(2, "Analog1").sender(3, "Analog0");
+    said.type(11, "vrpn_Button Change").type(12, "vrpn_Analog Channel").type(13, "vrpn_Button States");
+    for (const int sensor : {0, 1, 2}) {
+        Pose pose = uneven_pose(static_cast<std::size_t>(sensor));
+        said.message(9, 7, vrpn_pos_quat(sensor, pose));
+    }
+    said.message(4, 11, vrpn_button_change(1, 1)).message(6, 13, vrpn_button_states(std::array{0, 0, 1}));
+    said.message(3, 12, vrpn_analog_channels(std::array{0.25, -0.75}));
+    said.message(2, 12, vrpn_analog_channels(std::array{-0.5, 0.6}));
+    said.message(6, 11, vrpn_button_change(2, 0));
+    server.send(said.bytes());
+    const auto heard = heard_until(*tracker, [](const auto& all) { return of_kind<WandClick>(all).size() >= 3; });
+    const auto is_at = [](const Pose& pose, std::size_t index) {
+        return glm::distance(pose.position_m, uneven_offset(index)) < 1e-12 &&
+               std::abs(glm::dot(pose.orientation, uneven_turn(index))) > 1.0 - 1e-12;
+    };
+    const auto heads = of_kind<HeadInput>(heard);
+    const auto wands = of_kind<WandInput>(heard);
+    ASSERT_EQ(heads.size(), 1u);
+    EXPECT_TRUE(is_at(heads[0].pose_world, 0));
+    ASSERT_EQ(wands.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(wands[i].wand, i);
+        EXPECT_TRUE(is_at(wands[i].pose_world, i + 1)) << i;
+    }
+    EXPECT_EQ(of_kind<WandClick>(heard), (std::vector<WandClick>{{0, 1, true}, {1, 2, true}, {1, 2, false}}));
+    EXPECT_EQ(of_kind<WandStick>(heard), (std::vector<WandStick>{{0, {0.25, -0.75}}, {1, {-0.5, 0.6}}}));
+    EXPECT_EQ(tracker->refused(), 0u);
+}
+
+TEST(VrpnTracker, TheUsualSecondWandIsTheTrackersThirdSensor) {
+    RawServer server;
+    MonotonicClock clock;
+    const auto tracker = server.opened(clock);
+    for (const int sensor : {2, 1, 0}) server.send_pose({0.3 + sensor, 1.0, 2.0}, {1, 0, 0, 0}, sensor);
+    const auto heard = heard_until(*tracker, [](const auto& all) { return all.size() >= 3; });
+    ASSERT_EQ(heard.size(), 3u);
+    EXPECT_EQ(std::get<WandInput>(heard[0].input).wand, 1u);
+    EXPECT_EQ(std::get<WandInput>(heard[0].input).pose_world.position_m.x, 2.3);
+    EXPECT_EQ(std::get<WandInput>(heard[1].input).wand, 0u);
+    EXPECT_EQ(std::get<WandInput>(heard[1].input).pose_world.position_m.x, 1.3);
+    EXPECT_EQ(std::get<HeadInput>(heard[2].input).pose_world.position_m.x, 0.3);
+}
+
 TEST(VrpnTracker, RenamesAxesOfPlacesAndTurnsAlike) {
     RawServer server;
     MonotonicClock clock;
@@ -197,8 +258,8 @@ TEST(VrpnTracker, LeavesOutWhatIsNoPoseAndSaysSo) {
     server.send_pose({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0});
     server.send_pose({0.0, 1650.0, 0.0});                  // millimetres
     server.send_pose({0.0, 1.65, 0.0}, {1, 0, 0, 0}, 77);  // a sensor that nobody asked for
-    server.send(VrpnBytes().message(9, 7, std::vector<std::byte>(63)).bytes());
-    server.send(VrpnBytes().message(1234, 4321, std::vector<std::byte>(64)).bytes());  // numbers without a name
+    server.send(VrpnServerBytes().message(9, 7, std::vector<std::byte>(63)).bytes());
+    server.send(VrpnServerBytes().message(1234, 4321, std::vector<std::byte>(64)).bytes());  // numbers without a name
     server.send_pose({0.0, 1.65, 0.0}, {1.005, 0.0, 0.0, 0.0});
     const auto heard = heard_until(*tracker, [](const auto& all) { return !all.empty(); });
     ASSERT_EQ(heard.size(), 1u);
@@ -211,7 +272,7 @@ TEST(VrpnTracker, LeavesOutWhatIsNoPoseAndSaysSo) {
 }
 
 TEST(VrpnTracker, LosesWhatItTrackedWithItsServerAndFindsItAgain) {
-    auto server = std::make_unique<RunningServer>();
+    auto server = std::make_unique<RunningServer>(EmulatedVrpnOptions{.begins_s = kBeforePress_s});
     const std::uint16_t port = server->port();
     MonotonicClock clock;
     const auto tracker = open_tracker(server->where(), {clock, {}, {}}).value();
@@ -247,7 +308,6 @@ TEST(VrpnTracker, PingsAServerThatIsQuietAndLeavesOneThatIsSilent) {
     ASSERT_EQ(lost.size(), 2u);
     EXPECT_FALSE(std::get<HeadInput>(lost[1].input).tracked);
     EXPECT_GE(lost[1].time_ns - lost[0].time_ns, TrackerTranslator::kStopped_ns);
-    EXPECT_LT(lost[1].time_ns - lost[0].time_ns, VrpnTracker::kSilent_ns) << "before the server is given up";
     std::string said;
     for (int i = 0; i < 10'000 && !said.contains("is silent"); ++i) {
         said += all_messages(*leaves);
@@ -255,6 +315,7 @@ TEST(VrpnTracker, PingsAServerThatIsQuietAndLeavesOneThatIsSilent) {
     }
     EXPECT_TRUE(said.contains("no new pose of Tracker0/0 has come for 1 s: it is lost where it was")) << said;
     EXPECT_TRUE(said.contains("is silent")) << said;
+    EXPECT_LT(said.find("no new pose"), said.find("is silent")) << "before the server is given up: " << said;
     EXPECT_GE(quiet.pings(), 1u);
     EXPECT_FALSE(all_messages(*keeps).contains("silent"));
 }
@@ -271,12 +332,17 @@ TEST(VrpnTracker, TakesNoPoseThatIsStaleByTheServersOwnTime) {
         return kThen_us +
                std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began).count();
     };
-    server.send_pose({0.1, 1.6, 2.0}, {1, 0, 0, 0}, 0, now_us());
+    // All in one piece, so that nothing keeps the tracker from its work between two of them.
+    VrpnServerBytes report;
+    const auto add = [&](double x_m, std::int64_t time_us) {
+        report.message(9, 7, vrpn_pos_quat(0, {{x_m, 1.6, 2.0}, {1, 0, 0, 0}}), time_us);
+    };
+    add(0.1, now_us());
     const std::int64_t repeated_us = now_us();
-    server.send_pose({0.2, 1.6, 2.0}, {1, 0, 0, 0}, 0, repeated_us);
-    for (int i = 0; i < 3; ++i) server.send_pose({0.2, 1.6, 2.0}, {1, 0, 0, 0}, 0, repeated_us);
-    server.send_pose({0.3, 1.6, 2.0}, {1, 0, 0, 0}, 0, now_us() - 700'000);  // late by 0.7 s
-    server.send_pose({0.4, 1.6, 2.0}, {1, 0, 0, 0}, 0, now_us() + 1);
+    for (int i = 0; i < 4; ++i) add(0.2, repeated_us);
+    add(0.3, now_us() - 700'000);  // late by 0.7 s
+    add(0.4, now_us() + 1);
+    server.send(report.bytes());
     const auto heads = of_kind<HeadInput>(heard_until(*tracker, [](const auto& all) { return all.size() >= 4; }));
     ASSERT_EQ(heads.size(), 4u);
     EXPECT_EQ(heads[0].pose_world.position_m.x, 0.1);
@@ -306,7 +372,12 @@ TEST(VrpnTracker, TheListSaysHowOldTheNewestPoseIs) {
     const auto stale = look_for_vrpn_at(*network_address(old.where().substr(5), {}));
     greets.join();
     ASSERT_EQ(stale.size(), 1u);
-    EXPECT_TRUE(stale[0].cause.contains("its newest pose is 5.")) << stale[0].cause;
+    // At least the five seconds; more where a busy machine has read it late.
+    const std::string_view words = "its newest pose is ";
+    const std::size_t at = stale[0].cause.find(words);
+    ASSERT_NE(at, std::string::npos) << stale[0].cause;
+    const double age_s = std::strtod(stale[0].cause.c_str() + at + words.size(), nullptr);
+    EXPECT_TRUE(age_s >= 5.0 && age_s < 35.0) << stale[0].cause;
     EXPECT_TRUE(stale[0].cause.contains("stale")) << stale[0].cause;
 }
 

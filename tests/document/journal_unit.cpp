@@ -13,12 +13,14 @@
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <random>
 
 #include "base/clock.hpp"
 #include "document/document_reader.hpp"
 #include "document/document_writer.hpp"
 #include "document/log_check.hpp"
+#include "record/database.hpp"
 #include "tests/record/failing_disk.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -73,6 +75,15 @@ struct WriterProgress {
     }
 }
 
+// Waits for a state. Who waits longer than any machine takes has waited for nothing.
+bool comes(const std::function<bool()>& is_there) {
+    constexpr Nanoseconds kLongest_ns = 30'000'000'000;
+    MonotonicClock clock;
+    for (const Nanoseconds end_ns = clock.now_ns() + kLongest_ns; !is_there(); sched_yield())
+        if (clock.now_ns() > end_ns) return false;
+    return true;
+}
+
 int journal_kill_runs() {
     const char* wanted = std::getenv("BURIN_KILL_RUNS");
     return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 8;
@@ -96,7 +107,7 @@ TEST(Journal, LosesNothingThatWasAcknowledgedWhenItIsKilled) {
         const pid_t child = fork();
         ASSERT_GE(child, 0);
         if (child == 0) work_for_ever(path, *progress);
-        while (progress->noted < until) sched_yield();
+        EXPECT_TRUE(comes([&] { return progress->noted >= until; }));
         for (std::uint64_t spin = 0; spin < spins; ++spin) std::atomic_signal_fence(std::memory_order_seq_cst);
         kill(child, SIGKILL);
         int status = 0;
@@ -240,6 +251,52 @@ TEST(Journal, ThatWasTakenAwayIsToldAtTheEnd) {
     EXPECT_TRUE(news[0].failed && news[0].failed->line().contains("is not there any more")) << news[0].failed->line();
 }
 
+// Without its log a file says nothing of its newest changes: somebody may yet find it.
+TEST(Journal, WhoseLogIsNotBesideItIsKept) {
+    const Workplace at;
+    const std::string path = at / "work-1.burin";
+    Content unsaved = beginning();
+    unsaved.facts[kUnsavedFact] = "1";
+    {
+        DocumentWriter writer;
+        writer.keep_journal(path, unsaved);
+        EXPECT_EQ(writer.end_journal(false), path);
+    }
+    const std::string all_saved = "DELETE FROM meta WHERE key = '" + std::string(kUnsavedFact) + "'; ";
+    for (const bool had_log : {true, false}) {
+        auto database = record::Database::open(path, record::Database::Use::write);
+        ASSERT_TRUE(database);
+        ASSERT_TRUE(
+            database->run(all_saved + (had_log ? "PRAGMA journal_mode = WAL" : "PRAGMA journal_mode = DELETE")));
+        ASSERT_TRUE(database->close());
+        ASSERT_FALSE(fs::exists(path + "-wal"));
+        static_cast<void>(left_journals((at / "").string()));
+        EXPECT_EQ(fs::exists(path), had_log) << "one at rest, of which all is saved, goes";
+    }
+}
+
+// The one that it goes on from is the only copy until then.
+TEST(Journal, TakesThePlaceOfTheOneBeforeOnceItIsThere) {
+    const Workplace at;
+    const std::string before = at / "before-1.burin", later = at / "later/work-1.burin";
+    for (const char* const ending : {"", "-wal", "-shm"}) at.write("before-1.burin" + std::string(ending), "mine");
+    DocumentWriter writer({}, std::chrono::milliseconds(1));
+    Content unsaved = beginning();
+    unsaved.facts[kUnsavedFact] = "1";
+    writer.keep_journal(later, unsaved, before);
+    for (int round = 0; round < 2; ++round) {  // the first try, and that of all that is asked for later
+        writer.finish();
+        for (const char* const ending : {"", "-wal", "-shm"})
+            EXPECT_EQ(at.read("before-1.burin" + std::string(ending)), "mine") << ending << " in round " << round;
+        ASSERT_TRUE(comes([&] { return writer.wants_all(); }));
+        if (round == 1) fs::create_directory(at / "later");
+        writer.begin_anew(unsaved);
+    }
+    writer.finish();
+    for (const char* const ending : {"", "-wal", "-shm"}) EXPECT_FALSE(fs::exists(before + ending)) << ending;
+    EXPECT_EQ(writer.end_journal(false), later) << "it has what nobody has saved";
+}
+
 // ---- A disk that refuses
 
 namespace {
@@ -248,12 +305,11 @@ class JournalOnABadDisk : public testing::Test {
 protected:
     void SetUp() override { disk.reset(); }
     void TearDown() override { disk.reset(); }
-    // Waits for what the writer finds by itself.
+    // Waits for what the writer finds by itself; some news that is a failure where it finds nothing.
     static std::vector<JournalNews> next_news(DocumentWriter& writer) {
-        for (;;) {
-            if (auto news = writer.take_journal_news(); !news.empty()) return news;
-            sched_yield();
-        }
+        std::vector<JournalNews> news;
+        if (!comes([&] { return !(news = writer.take_journal_news()).empty(); })) news.resize(1);
+        return news;
     }
     void fill_up_before_a_change(DocumentWriter& writer) {
         writer.keep_journal(path, beginning());
@@ -263,8 +319,8 @@ protected:
         writer.finish();
         EXPECT_TRUE(next_news(writer)[0].failed);
     }
-    void wait_for_tries(int count) const {
-        for (const int before = disk.writes; disk.writes < before + count;) sched_yield();
+    [[nodiscard]] bool tries_again(int count) const {
+        return comes([this, wanted = disk.writes + count] { return disk.writes >= wanted; });
     }
     static Content now(std::int64_t number) {
         Content content = beginning();
@@ -291,7 +347,7 @@ TEST_F(JournalOnABadDisk, IsTriedAgainUntilItHasAll) {
     const auto failed = next_news(writer);
     ASSERT_EQ(failed.size(), 1u);
     EXPECT_TRUE(failed[0].failed && failed[0].failed->line().contains("the disk is full"));
-    wait_for_tries(3);
+    ASSERT_TRUE(tries_again(3));
     EXPECT_TRUE(writer.take_journal_news().empty()) << "it is told once";
     EXPECT_EQ(writer.safe_up_to(), 1);
     disk.is_full = false;
@@ -316,13 +372,13 @@ TEST_F(JournalOnABadDisk, BeginsAnewWithAllWhereTooMuchWouldHaveToBeKept) {
         writer.finish();
     }
     EXPECT_TRUE(next_news(writer)[0].failed);
-    while (!writer.wants_all()) sched_yield();
+    ASSERT_TRUE(comes([&] { return writer.wants_all(); }));
     writer.begin_anew(now(20));
     writer.finish();
     EXPECT_TRUE(writer.take_journal_news().empty()) << "the disk is still full";
     EXPECT_EQ(writer.safe_up_to(), 1);
     disk.is_full = false;
-    while (!writer.wants_all()) sched_yield();
+    ASSERT_TRUE(comes([&] { return writer.wants_all(); }));
     writer.begin_anew(now(20));
     EXPECT_FALSE(next_news(writer)[0].failed);
     EXPECT_EQ(writer.safe_up_to(), 20);
@@ -367,7 +423,7 @@ TEST_F(JournalOnABadDisk, ThatCouldNotBeginBeginsWhenItCanAndKnowsWhatWasSaved) 
     writer.finish();
     EXPECT_EQ(writer.safe_up_to(), 1);
     fs::create_directory(at / "later");
-    while (!writer.wants_all()) sched_yield();
+    ASSERT_TRUE(comes([&] { return writer.wants_all(); }));
     writer.begin_anew(now(2));
     EXPECT_FALSE(next_news(writer)[0].failed);
     EXPECT_EQ(writer.safe_up_to(), 2);

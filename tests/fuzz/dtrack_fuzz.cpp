@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "devices/emulators/dtrack_wire.hpp"
 #include "devices/trackers/dtrack_protocol.hpp"
 #include "devices/trackers/tracker_bodies.hpp"
 
@@ -38,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (const auto* stick = std::get_if<WandStick>(&sample.input))
             require(std::abs(stick->position.x) <= 1.0 && std::abs(stick->position.y) <= 1.0);
     }
-    const DTrackFrame again = dtrack_frame(dtrack_datagram(frame));
+    const DTrackFrame again = dtrack_frame(controller_datagram(frame));
     if (frame.fault.empty()) require(again.number == frame.number);
     return 0;
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "devices/emulators/spacemouse_wire.hpp"
 #include "devices/spacemouse/spacemouse_rates.hpp"
 #include "devices/spacemouse/spacemouse_report.hpp"
 
@@ -35,12 +36,12 @@ void check_report(std::span<const std::byte> bytes, SpaceMouseKeys keys) {
     if (report->push) check_deflection(*report->push);
     if (report->turn) check_deflection(*report->turn);
     if (report->push && report->turn) {
-        const auto again = spacemouse_report(joined_bytes(*report->push, *report->turn), keys);
+        const auto again = spacemouse_report(cap_joined_report(*report->push, *report->turn), keys);
         require_spacemouse(again == report);
     } else if (report->push) {
-        require_spacemouse(bytes.size() == 7 && spacemouse_report(push_bytes(*report->push), keys) == report);
+        require_spacemouse(bytes.size() == 7 && spacemouse_report(cap_push_report(*report->push), keys) == report);
     } else if (report->turn) {
-        require_spacemouse(bytes.size() == 7 && spacemouse_report(turn_bytes(*report->turn), keys) == report);
+        require_spacemouse(bytes.size() == 7 && spacemouse_report(cap_turn_report(*report->turn), keys) == report);
     }
     if (report->buttons) require_spacemouse(bytes.size() >= 2 && bytes[0] == std::byte{3});
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer body of the reader of VRPN's bytes. Whatever a server sends, in whatever pieces: no fault, no more names
-// than the bound, payloads within what was sent, and samples that a session takes.
+// than the bound, payloads within what was sent, and samples that a session takes. The emulated server's own reader of
+// what a client sends gets the same.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
+#include "devices/emulators/emulated_vrpn.hpp"
 #include "devices/trackers/tracker_bodies.hpp"
 #include "devices/trackers/vrpn_protocol.hpp"
 
@@ -63,6 +66,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (const auto channels = vrpn_channels(message->payload)) translator.channels("a", *channels, 0);
         }
     }
+    VrpnServerEar ear;
+    if (size > 0 && data[0] >= 64) static_cast<void>(ear.take(VrpnBytes().cookie().bytes()));
+    for (std::size_t at = 1; at < size && !ear.is_lost(); at += piece)
+        for (const HeardVrpn& said : ear.take(std::as_bytes(std::span(data + at, std::min(piece, size - at))))) {
+            require(said.payload.size() <= size);
+            static_cast<void>(emulated_vrpn_answer(said));
+        }
     require(names.senders().size() <= kMostVrpnNames);
     for (const TrackerSample& sample : inbox.take()) check(sample);
     return 0;

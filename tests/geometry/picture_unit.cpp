@@ -260,4 +260,53 @@ TEST(Pictures, ALineOfHashesHasFewReadings) {
     EXPECT_EQ(names_in("tex.png # the scan #2").size(), 3u);
 }
 
+// Stripes of black and white, each one pixel wide, in both ways but along a picture of one row or column.
+Picture striped(std::uint32_t width, std::uint32_t height) {
+    std::vector<std::uint8_t> pixels;
+    pixels.reserve(std::size_t{3} * width * height);
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x) pixels.insert(pixels.end(), 3, (x + y) % 2 == 0 ? 255 : 0);
+    return {width, height, std::move(pixels), true};
+}
+
+// What is kept of a picture is what a face smaller than a pixel is sampled from: the pixels themselves where it is not
+// too wide, and else their mean.
+TEST(Pictures, WhatIsWiderOrHigherThanTheLimitIsKeptAtHalvesOfItsSizeAlone) {
+    const auto keeps_its_pixels = [](std::uint32_t width, std::uint32_t height) {
+        const Picture picture = striped(width, height);
+        const double s = 0.5 / width, t = 0.5 / height;
+        const std::array corners{Vec2(s, t), Vec2(s + 1e-9, t), Vec2(s, t + 1e-9)};
+        const int found = picture.colours_of(corners, {})[0][0];
+        EXPECT_TRUE(found == 0 || found == 255 || std::abs(found - 128) <= 2) << found;
+        return found == 0 || found == 255;
+    };
+    for (const std::uint32_t wide : {1u, 2u, kWidestPicture / 2, kWidestPicture - 1, kWidestPicture}) {
+        EXPECT_TRUE(keeps_its_pixels(wide, 1)) << wide;
+        EXPECT_TRUE(keeps_its_pixels(1, wide)) << wide;
+        EXPECT_TRUE(keeps_its_pixels(wide, 3)) << wide;
+    }
+    for (const std::uint32_t wide : {kWidestPicture + 2, 2 * kWidestPicture, 4 * kWidestPicture, 8 * kWidestPicture}) {
+        EXPECT_FALSE(keeps_its_pixels(wide, 1)) << wide;
+        EXPECT_FALSE(keeps_its_pixels(1, wide)) << wide;
+        EXPECT_FALSE(keeps_its_pixels(wide, 4)) << wide;
+        EXPECT_FALSE(keeps_its_pixels(4, wide)) << wide;
+    }
+}
+
+// Stripes of four pixels: a picture four times too wide keeps the third level, in which they are one pixel wide, and
+// none finer or coarser.
+TEST(Pictures, AreHalvedNoOftenerThanTheLimitAsks) {
+    for (const std::uint32_t times : {2u, 4u, 8u}) {
+        const std::uint32_t width = times * kWidestPicture;
+        std::vector<std::uint8_t> pixels;
+        for (std::uint32_t x = 0; x < width; ++x) pixels.insert(pixels.end(), 3, x / times % 2 == 0 ? 255 : 0);
+        const Picture picture(width, 1, std::move(pixels), true);
+        for (std::uint32_t stripe = 0; stripe < kWidestPicture; stripe += 97) {
+            const double s = (stripe + 0.5) / kWidestPicture;
+            const std::array corners{Vec2(s, 0.5), Vec2(s + 1e-9, 0.5), Vec2(s, 0.5)};
+            EXPECT_EQ(int{picture.colours_of(corners, {})[0][0]}, stripe % 2 == 0 ? 255 : 0) << times << " " << stripe;
+        }
+    }
+}
+
 }  // namespace burin::geometry

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
@@ -135,6 +137,55 @@ TEST(Easing, ALargerToolPushesTheHandOverFiftyMilliseconds) {
         before_N = now_N;
     }
     EXPECT_NEAR(before_N, 300.0 * 0.007, 1e-3);
+}
+
+TEST(Easing, TheTorqueOfAContactAndWhatItStoresFadeAsItsForceDoes) {
+    EasedForce state;
+    const Vec3 from_Nm(0.02, -0.07, 0.05), to_Nm(-0.04, 0.01, 0.06);
+    const ContactForce from{{{1.0, 0.0, 0.0}, from_Nm}, 0.003}, to{{{0.0, 1.0, 0.0}, to_Nm}, 0.008};
+    for (int i = 0; i < 3; ++i) static_cast<void>(eased(state, from, 0.0, kDt));
+    int between = 0;
+    for (int i = 0; i < 60; ++i) {
+        const ContactForce now = eased(state, to, i == 0 ? kEase_s : 0.0, kDt);
+        const double left = now.wrench.force_device_N.x, come = now.wrench.force_device_N.y;
+        between += left > 0.01 && come > 0.01 ? 1 : 0;
+        EXPECT_LT(glm::distance(now.wrench.torque_device_Nm, left * from_Nm + come * to_Nm), 1e-12) << i;
+        EXPECT_NEAR(now.stored_J, left * 0.003 + come * 0.008, 1e-12) << i;
+    }
+    EXPECT_GT(between, 40);
+}
+
+// Stiffness and damping have their own rooms: what one has left is not the other's.
+TEST(Easing, APointThatComesTakesNoMoreOfEitherThanTheOthersHaveLeft) {
+    std::array<EasedWall, 2> walls;
+    const CoupledWall whole{1000.0, 8.0}, half{400.0, 5.0};
+    for (int i = 0; i < 100; ++i) ease_walls(walls, std::array<std::optional<CoupledWall>, 2>{whole, {}}, kDt);
+    for (int i = 0; i < 100; ++i) {
+        ease_walls(walls, std::array<std::optional<CoupledWall>, 2>{half, half}, kDt);
+        const CoupledWall one = walls[0].wall(), other = walls[1].wall();
+        EXPECT_LE(one.stiffness_N_per_m + other.stiffness_N_per_m, 1000.0 + 1e-9) << i;
+        EXPECT_LE(one.damping_Ns_per_m + other.damping_Ns_per_m, 10.0 + 1e-9) << i;
+        if (i > 0) continue;
+        EXPECT_EQ(other.stiffness_N_per_m, 0.0) << "the first has 600 N/m to give, and gives 12 a tick";
+        EXPECT_NEAR(other.damping_Ns_per_m, 2.0, 1e-12) << "the first has 3 Ns/m to give";
+    }
+    for (const EasedWall& wall : walls) {
+        EXPECT_NEAR(wall.wall().stiffness_N_per_m, 400.0, 1e-9);
+        EXPECT_NEAR(wall.wall().damping_Ns_per_m, 5.0, 1e-9);
+    }
+}
+
+TEST(Easing, BothFrictionsOfAMaterialThatIsEditedAreReachedInFiftyMilliseconds) {
+    EasedFriction friction;
+    const TouchMaterial bark{.static_friction = 0.9, .dynamic_friction = 0.7};
+    const TouchMaterial ice{.static_friction = 0.3, .dynamic_friction = 0.1};
+    for (int i = 0; i < 5; ++i) static_cast<void>(with_eased_friction(friction, bark, i > 0, kDt));
+    for (int i = 1; i <= 60; ++i) {
+        const TouchMaterial now = with_eased_friction(friction, ice, true, kDt);
+        const double share = std::min(i / 50.0, 1.0);
+        EXPECT_NEAR(now.static_friction, 0.9 - 0.6 * share, 1e-12) << i;
+        EXPECT_NEAR(now.dynamic_friction, 0.7 - 0.6 * share, 1e-12) << i;
+    }
 }
 
 TEST(Easing, AContactThatChangesInEveryTickFallsSilent) {

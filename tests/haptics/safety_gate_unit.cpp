@@ -67,6 +67,24 @@ TEST(SafetyGate, ForceLimitWinsOverSlewLimitWhenItIsLowered) {
     EXPECT_LE(glm::length(out.output.given.force_device_N), 0.5);
 }
 
+TEST(SafetyGate, ALoopThatStoodStillIsALossWhetherForceOrTorqueWasHeld) {
+    const Vec3 force_N(0.3, -0.2, 0.5), torque_Nm(0.02, 0.05, -0.03);
+    for (const bool has_force : {false, true})
+        for (const bool has_torque : {false, true}) {
+            GateState state{.given = {}, .ramp = 1.0, .well_s = 10.0};
+            if (has_force) state.given.force_device_N = force_N;
+            if (has_torque) state.given.torque_device_Nm = torque_Nm;
+            GateInput in = asking_for(force_N);
+            in.wanted.torque_device_Nm = torque_Nm;
+            in.device_max_torque_Nm = Vec3(1.0);
+            in.most_torque_Nm = 1.0;
+            in.loop_gap_s = 0.1;
+            const GateStep out = pass_gate(state, in, {}, kDt);
+            EXPECT_EQ(out.output.cause, has_force || has_torque ? GateCause::lost_loop : GateCause::none)
+                << has_force << has_torque;
+        }
+}
+
 TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
     struct Case {
         GateCause cause;

@@ -107,7 +107,7 @@ Progress go_over_bumps(const geometry::LocalSurface& surface, const ToolShape& s
 TEST(ShapeBumps, AToolThatIsDrawnOverFineBumpsNeverStandsStill) {
     const burin::test::PropertyCases cases = burin::test::property_cases();
     Random random(cases.seed);
-    const int ticks = compute::test::repeated(static_cast<int>(cases.count / 2));
+    const int ticks = burin::test::costly_cases(2500);
     for (const double edge_m : {0.0002, 0.0001, 0.00005})
         for (const bool rough : {false, true}) {
             const test::Surface surface = field_of_bumps(edge_m, 0.006, rough, cases.seed);

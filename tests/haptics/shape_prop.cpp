@@ -11,6 +11,7 @@
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/haptics/turned_tools.hpp"
+#include "tests/support/property_cases.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -92,11 +93,12 @@ geometry::LocalSurface& bumps(double edge_m) {
 }  // namespace
 
 TEST(ShapeProxy, StaysOutOfBumpsAndLosesNoContact) {
+    const int ticks = burin::test::costly_cases(4000);
     for (const KnownTool& tool : {test::box_tool({0.002, 0.0015, 0.0025}), test::cylinder_tool(0.002, 0.006),
                                   test::cylinder_tool(0.003, 0.0015)})
         for (const double edge_m : {0.001, 0.0003})
             for (const double friction : {0.0, 0.3}) {
-                const Walk found = walk(tool, bumps(edge_m), 0.005, friction, compute::test::repeated(800), 3);
+                const Walk found = walk(tool, bumps(edge_m), 0.005, friction, ticks, 3);
                 std::printf(
                     "%s edge %.1f mm friction %.1f: %d ticks, %d in contact, %d lost, %d limited, %d unfit, "
                     "deepest %.3f\n",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tests/house/asserting_tests.hpp"
 #include "tests/house/house_figures.hpp"
 #include "tests/house/source_tree.hpp"
 #include "tests/house/structure_rules.hpp"
@@ -25,6 +26,29 @@ TEST(Types, AreDefinedOnce) {
 TEST(Types, AreFoundInThisRepository) {
     const Names types = types_defined_in(read_text(std::string(BURIN_SOURCE_FOLDER) + "/base/error.hpp"));
     EXPECT_NE(std::ranges::find(types, "burin::Error"), types.end());
+}
+
+TEST(Tests, ExpectSomething) {
+    const Findings found = tests_without_expectation(BURIN_SOURCE_FOLDER);
+    for (const std::string& place : found.places) ADD_FAILURE() << place << " expects nothing, and cannot fail";
+    EXPECT_GE(found.looked_at, 1000u) << "hardly any test was read";
+}
+
+TEST(TestRules, SeeATestThatExpectsNothing) {
+    const ScratchFolder tree;
+    write_text(tree.path() / "tests/a/helper.hpp",
+               "inline void looks(int a) { EXPECT_EQ(a, 1); }\ntemplate <typename T> bool by(T a) noexcept { looks(a); "
+               "return true; }\ninline int idle(int a) { return a; }\n");
+    write_text(tree.path() / "tests/a/a_unit.cpp",
+               "TEST(A, Expects) { if (true) { ASSERT_TRUE(true); } }\nTEST_F(A, Asks) { by<int>(1); }\n"
+               "TEST(A, ExpectsInALambda) { const auto f = [] { ADD_FAILURE() << 1; }; f(); }\n"
+               "RC_GTEST_PROP(A, Holds, (int a)) { RC_ASSERT(a == a); }\n"
+               "TEST(A, Idles) { idle(1); }\nTEST_F(A, Says) { const char* s = \"EXPECT_EQ({1)\"; }\n"
+               "TEST(A, Comments) { // EXPECT_TRUE(true)\n}\nTEST(A, Ends) { const int large = 1'000'000; }\n");
+    const Findings found = tests_without_expectation(tree.path());
+    EXPECT_EQ(found.looked_at, 8u);
+    EXPECT_EQ(found.places, (Names{"tests/a/a_unit.cpp: A.Comments", "tests/a/a_unit.cpp: A.Ends",
+                                   "tests/a/a_unit.cpp: A.Idles", "tests/a/a_unit.cpp: A.Says"}));
 }
 
 TEST(FragmentRules, CountShortFilesByFolder) {

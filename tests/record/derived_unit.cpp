@@ -10,6 +10,7 @@
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"
 #include "tests/record/made_ticks.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::record {
 namespace {
@@ -164,6 +165,48 @@ TEST(Motion, IsReadBackAsItWasRecorded) {
     const auto missing = MotionColumns::find(*renamed, 0);
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().line().find("has no column buttons"), std::string::npos);
+}
+
+// Each number of a sample and of the motion is another, and comes back as itself.
+TEST(Motion, OfAOneWayDriveIsReadBackNumberByNumber) {
+    const Workplace at;
+    Ring<haptics::TickRecord> ring(64);
+    devices::DeviceDescription device = test::device_with(4);
+    device.drives_one_way = true;
+    std::vector<haptics::TickRecord> ticks;
+    for (std::uint64_t tick = 1; tick <= 20; ++tick) {
+        haptics::TickRecord record = test::made_tick(tick, 2);
+        const double t = 0.01 * static_cast<double>(tick);
+        record.sample.drive = {{0.1 + t, -0.2 - t, 0.3 - t}, {-0.4 + t, 0.5 + t, 0.6 - t}, 0.07 + t, 0.8 + t, 5u};
+        record.sample.drive.state += static_cast<std::uint32_t>(tick);
+        record.sample.fault = static_cast<devices::DeviceFault>(tick % 3);
+        record.motion.object_from_device = {uneven_offset(tick), uneven_turn(tick), kUnevenScales[tick % kUnevenPoses]};
+        record.parameter_sequence = 1000 + tick;
+        ticks.push_back(record);
+        ring.push(record);
+    }
+    auto writer = RecordWriter::create(at / "a", {{"made", device, test::probe_of(2), &ring}}, {});
+    ASSERT_TRUE(writer);
+    ASSERT_TRUE((*writer)->close());
+    auto reader = RecordReader::open(at / "a");
+    ASSERT_TRUE(reader);
+    const auto columns = MotionColumns::find(*reader, 0);
+    ASSERT_TRUE(columns) << columns.error().line();
+    RowWalk walk(*reader, 0);
+    for (const haptics::TickRecord& wanted : ticks) {
+        ASSERT_TRUE(*walk.next());
+        const RecordedTick found = columns->at(walk.block(), walk.row());
+        EXPECT_EQ(found.sample.drive.along_device, wanted.sample.drive.along_device);
+        EXPECT_EQ(found.sample.drive.moves_device, wanted.sample.drive.moves_device);
+        EXPECT_EQ(found.sample.drive.length_m, wanted.sample.drive.length_m);
+        EXPECT_EQ(found.sample.drive.measured_N, wanted.sample.drive.measured_N);
+        EXPECT_EQ(found.sample.drive.state, wanted.sample.drive.state);
+        EXPECT_EQ(found.sample.fault, wanted.sample.fault);
+        for (std::size_t joint = 0; joint < 4; ++joint)
+            EXPECT_EQ(found.sample.joints[joint], wanted.sample.joints[joint]) << joint;
+        EXPECT_EQ(found.object_from_device, wanted.motion.object_from_device);
+        EXPECT_EQ(found.parameter_sequence, wanted.parameter_sequence);
+    }
 }
 
 TEST(Compare, OfARangeLooksAtItsTicksAlone) {

@@ -3,9 +3,13 @@
 // values compare_unit.cpp compares with the text.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 #include "tests/record/made_ticks.hpp"
+#include "tests/support/flush_log.hpp"
 
 namespace burin::record {
 namespace {
@@ -46,6 +50,42 @@ bool has_modules(const Workplace& at, const std::string& modules) {
 }
 
 }  // namespace
+
+TEST(NewFiles, AreOnTheDiskBeforeTheyHaveTheirNameAndThenInTheirFolder) {
+    const Workplace at;
+    for (const bool ends : {true, false}) {
+        forget_flushes();
+        auto file = NewFile::create(at / "a.csv");
+        ASSERT_TRUE(file);
+        ASSERT_TRUE(file->write("1,2\n"));
+        ASSERT_TRUE(file->write_at(0, "3"));
+        if (!ends) break;
+        const std::string temporary = file->temporary();
+        ASSERT_TRUE(file->finish());
+        const std::vector<Flushed> all = all_flushes();
+        ASSERT_EQ(all.size(), 2u) << "the file, and then its folder with its name";
+        EXPECT_EQ(all[0].path, std::filesystem::weakly_canonical(temporary).string());
+        EXPECT_TRUE(all[1].is_folder);
+        EXPECT_EQ(all[1].names, std::vector<std::string>{"a.csv"});
+        EXPECT_EQ(at.read("a.csv"), "3,2\n");
+        std::filesystem::remove(at / "a.csv");
+    }
+    EXPECT_EQ(at.files(), 0u) << "one that was not ended has left nothing";
+}
+
+TEST(NewFiles, OfARecordingAreInTheirFolderFromTheBeginning) {
+    const Workplace at;
+    forget_flushes();
+    test::Recording recording(4096);
+    ASSERT_TRUE(recording.begin(at / "a.session", WriterOptions{}));
+    const std::vector<Flushed> all = all_flushes();
+    const auto is_named = [](const Flushed& one) {
+        return one.is_folder && std::ranges::find(one.names, "a.session") != one.names.end();
+    };
+    EXPECT_TRUE(std::ranges::any_of(all, is_named));
+    EXPECT_TRUE(std::ranges::any_of(all, [](const Flushed& one) { return one.path.contains("/a.session"); }));
+    ASSERT_TRUE(recording.writer->close());
+}
 
 TEST(ExportTrials, HoldTheTicksOfTheirTimesAloneInEveryFormat) {
     const Workplace at;

@@ -60,9 +60,33 @@ TEST(DetailWorker, GivesTheLevelsOfEveryPatchWithWhatTheyAreOf) {
     }
 }
 
+// All of it would take the worker many seconds.
 TEST(DetailWorker, EndsWithWorkLeft) {
+    constexpr std::uint32_t kGiven = 5000;
+    std::weak_ptr<const geometry::SurfaceTile> held;
+    {
+        DetailWorker worker;
+        const auto tile = hill(40, 0.1);
+        held = tile;
+        for (std::uint32_t i = 0; i < kGiven; ++i) worker.give({i, tile, {}, 0.05});
+        worker.end();
+        const std::vector<DetailDone> done = worker.take();
+        EXPECT_LT(done.size(), std::size_t{kGiven}) << "it begins no other patch";
+        EXPECT_EQ(worker.waiting() + done.size(), std::size_t{kGiven});
+        for (std::size_t i = 0; i < done.size(); ++i) EXPECT_EQ(done[i].job.patch, i) << "what was begun is whole";
+        const std::vector<PatchLevel> wanted = coarser_levels(tile->vertices, tile->indices, {}, 0.05);
+        for (const DetailDone& one : done) EXPECT_EQ(one.levels.size(), wanted.size());
+        worker.end();
+        EXPECT_TRUE(worker.take().empty()) << "once it has ended it stays so";
+    }
+    EXPECT_TRUE(held.expired()) << "it keeps nothing of what it was given";
+}
+
+TEST(DetailWorker, EndsWithoutHavingBeenGivenAnything) {
     DetailWorker worker;
-    for (std::uint32_t i = 0; i < 200; ++i) worker.give({i, hill(40, 0.1), {}, 0.05});
+    worker.end();
+    EXPECT_TRUE(worker.take().empty());
+    EXPECT_EQ(worker.waiting(), 0u);
 }
 
 }  // namespace burin::renderer

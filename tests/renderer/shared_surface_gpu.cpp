@@ -108,7 +108,7 @@ protected:
     // drawn whole.
     std::array<int, 3> settle(std::initializer_list<std::size_t> until) {
         std::array<int, 3> whole{};
-        for (int frame = 0, rest = 0; frame < 5000 && rest < 10; ++frame) {
+        for (int frame = 0, rest = 0; frame < 30'000 && rest < 10; ++frame) {
             surface_->refine_beside(true);
             flush();
             for (std::size_t i = 0; i < 3; ++i) {
@@ -176,7 +176,7 @@ TEST_F(SharedSurface, GoesOnBeingSimplifiedWhateverBecomesOfAScreen) {
     surface_->refine_beside(true);
     ASSERT_TRUE(shared_[0].resize(kSizes[3], Views::left));
     shared_.erase(shared_.begin() + 1, shared_.end());
-    for (int frame = 0; frame < 5000 && shared_[0].stats().patch_counts.coarser < kRow; ++frame) {
+    for (int frame = 0; frame < 30'000 && shared_[0].stats().patch_counts.coarser < kRow; ++frame) {
         surface_->refine_beside(true);
         flush();
         ASSERT_TRUE(shared_[0].render(scene_of(0)));

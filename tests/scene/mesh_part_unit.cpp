@@ -200,6 +200,16 @@ TEST(MeshPart, WhatSeveralPartsHoldGoesWithTheirMiddleAndIsFeltByThemWhereItShal
     }
 }
 
+TEST(MeshPart, AnObjectThatIsFeltNoMoreGivesItsMaterialBackEachTime) {
+    TouchedScene scene(cubes(2));
+    for (int time = 0; time < 3 * static_cast<int>(haptics::kMostMaterials); ++time) {
+        ASSERT_TRUE(scene.part->edit(1, SetMaterial{{.stiffness_N_per_m = 200.0 + time}})) << time;
+        ASSERT_TRUE(scene.part->edit(1, SetFelt{false})) << time;
+        ASSERT_TRUE(scene.part->edit(1, SetMaterial{{.stiffness_N_per_m = 500.0 + time}})) << "while nobody feels it";
+        ASSERT_TRUE(scene.part->edit(1, SetFelt{true})) << time;
+    }
+}
+
 // Whatever signs their quaternions have, which mean the same turns.
 TEST(SceneMotion, TheFrameOfAGripIsThatOfItsOnlyPartOrInTheMiddleOfAll) {
     HandPose one;
@@ -213,10 +223,13 @@ TEST(SceneMotion, TheFrameOfAGripIsThatOfItsOnlyPartOrInTheMiddleOfAll) {
     right.scene_from_hand.orientation = -glm::angleAxis(0.6, Vec3(0.0, 1.0, 0.0));
     right.scene_from_hand.position_m = {0.3, 0.2, 0.1};
     right.velocity_m_per_s = {0.0, 0.0, 1.0};
+    left.angular_velocity_rad_per_s = {0.4, -0.2, 1.0};
+    right.angular_velocity_rad_per_s = {0.2, 0.6, -3.0};
     const HandPose both = grip_frame(std::array{left, right});
     EXPECT_LT(glm::length(both.scene_from_hand.position_m - Vec3(0.2, 0.2, 0.2)), 1e-15);
     EXPECT_NEAR(glm::angle(both.scene_from_hand.orientation), 0.4, 1e-12);
     EXPECT_LT(glm::length(both.velocity_m_per_s - Vec3(0.5, 1.0, 2.0)), 1e-15);
+    EXPECT_LT(glm::length(both.angular_velocity_rad_per_s - Vec3(0.3, 0.2, -1.0)), 1e-15);
 }
 
 namespace {

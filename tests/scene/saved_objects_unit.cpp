@@ -100,6 +100,32 @@ TEST(SavedObjects, OfAMeshThatIsLostKeepTheirNumbersAndLeaveTheOthersWhole) {
     expect_same(loaded->objects[2], objects[2]);
 }
 
+TEST(SavedObjects, WhoseColoursAreLostAreCountedAndWhole) {
+    std::vector<SceneObject> objects = four_objects();
+    for (SceneObject& object : objects) {
+        CornerColours colours(object.mesh->triangles.size());
+        for (std::size_t i = 0; i < colours.size(); ++i)
+            colours[i].fill({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(20 * object.id), 5});
+        take_colours(object, std::move(colours));
+    }
+    const Pages sound = saved(objects);
+    Pages pages = sound;
+    for (std::int64_t lost = 1; lost <= 3; ++lost) {
+        std::erase_if(pages.pages, [&](const auto& page) {
+            return page.first.kind == "colours" && page.first.number / 4096 == lost + 1;
+        });
+        const auto loaded = load_objects(pages, "w.burin");
+        ASSERT_TRUE(loaded) << loaded.error().line();
+        EXPECT_EQ(loaded->lost,
+                  std::to_string(lost) + (lost == 1 ? " object" : " objects") + " lost the colours of its file");
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            const bool is_bare = i >= 1 && i <= static_cast<std::size_t>(lost);
+            EXPECT_EQ(loaded->objects[i].corner_colours == nullptr, is_bare) << i;
+            EXPECT_EQ(loaded->objects[i].seen, objects[i].seen) << i;
+        }
+    }
+}
+
 TEST(SavedObjects, OfADamagedLastPageAreStillCounted) {
     Pages pages = saved(four_objects());
     pages.pages.erase({"object", 4});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/text.hpp"
 #include "scene/object_property.hpp"
 #include "scene/vrml_world.hpp"
 #include "scene/world_settings.hpp"
@@ -78,6 +79,31 @@ TEST_F(WorldOfAnybody, HasTheColourOfEachFaceAndOfEachCorner) {
             ASSERT_LT(at, 6u);
             EXPECT_EQ((*object.corner_colours)[t][k], of_point[at]);
         }
+    }
+}
+
+// A shape that is mirrored is turned inside out, and its corners keep their colours.
+TEST_F(WorldOfAnybody, HasTheColourOfEachCornerHoweverItIsMirrored) {
+    const std::array<Vec3, 6> points{Vec3(0), {.1, 0, 0}, {.1, .1, 0}, {0, .1, 0}, {.1, 0, .05}, {.1, .1, .05}};
+    const std::array<Colour, 6> of_point{kRed, kGreen, kBlue, kBlue, kRed, kGreen};
+    const std::string shape =
+        two_faces("color Color { color [ 1 0 0, 0 1 0, 0 0 1, 0 0 1, 1 0 0, 0 1 0 ] }").substr(kVrml.size());
+    for (int mirrored = 0; mirrored < 8; ++mirrored) {
+        const Vec3 scale((mirrored & 1) != 0 ? -1.0 : 1.0, (mirrored & 2) != 0 ? -1.0 : 1.0,
+                         (mirrored & 4) != 0 ? -1.0 : 1.0);
+        const World world =
+            read("m.wrl", kVrml + "Transform { scale " + formatted("%g %g %g", scale.x, scale.y, scale.z) +
+                              " children [ " + shape + " ] }");
+        const SceneObject& object = world.objects.at(0);
+        ASSERT_TRUE(object.corner_colours);
+        for (std::size_t t = 0; t < object.mesh->triangles.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 p = scale * object.mesh->positions_m[object.mesh->triangles[t][k]];
+                const auto at = std::ranges::find_if(points, [&](const Vec3& q) { return glm::distance(p, q) < 1e-9; });
+                ASSERT_TRUE(at != points.end()) << mirrored;
+                EXPECT_EQ((*object.corner_colours)[t][k], of_point[static_cast<std::size_t>(at - points.begin())])
+                    << mirrored << ", triangle " << t;
+            }
     }
 }
 

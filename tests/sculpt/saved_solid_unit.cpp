@@ -18,7 +18,7 @@ struct SavedBall {
     Sculpture carving{engine(*load_workpiece({.source = "ball:0.1", .resolution = 90, .room = 0.1}, pool)), pool};
 
     std::unique_ptr<compute::CarvingEngine> engine(LoadedWorkpiece workpiece) {
-        return std::move(choose_engine(EngineChoice::cpu, std::move(workpiece.solid), pool)->engine);
+        return std::move(choose_engine(EngineChoice::cpu, std::move(workpiece.solid), pool).engine);
     }
     void stroke(const Vec3& from, const Vec3& to) {
         const auto material = carving.add_material({"red", {200, 10, 10}});
@@ -52,7 +52,7 @@ TEST(SavedSolid, IsTheSameToTheBitAndGoesOnTheSame) {
     ASSERT_TRUE(loaded) << loaded.error().line();
     EXPECT_EQ(loaded->lost, "");
     expect_same(loaded->solid, ball.solid());
-    Sculpture opened(std::move(choose_engine(EngineChoice::cpu, std::move(loaded->solid), ball.pool)->engine),
+    Sculpture opened(std::move(choose_engine(EngineChoice::cpu, std::move(loaded->solid), ball.pool).engine),
                      ball.pool);
     scene::Pages again;
     ASSERT_TRUE(opened.save(again));

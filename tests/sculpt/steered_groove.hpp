@@ -208,27 +208,31 @@ struct GrooveDifference {
 inline GrooveDifference difference(const Groove& one, const Groove& other, const GroovePath& path, double from_s,
                                    double to_s) {
     struct Place {
-        double time_s;
-        Vec3 device_m;
+        double time_s, away_m;
     };
-    std::vector<Place> places;
-    for (double t = path.begin_s; t <= path.end_s; t += 0.004) places.push_back({t, path.at(t)});
+    // For each ray the place that is nearest, and how near.
+    std::vector<Place> nearest(one.height_m.size(), {NAN, 0.003});
+    const auto ray = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(one.nodes_x) + static_cast<std::size_t>(x);
+    };
+    for (double t = path.begin_s; t <= path.end_s; t += 0.004) {
+        const Vec3 at = (path.at(t) + block_from_device() - one.origin_object) / kGrooveCell_m;
+        constexpr double kNear_cells = 0.003 / kGrooveCell_m;
+        const int from_x = std::max(0, static_cast<int>(at.x - kNear_cells)),
+                  from_y = std::max(0, static_cast<int>(at.y - kNear_cells));
+        for (int y = from_y; y <= at.y + kNear_cells && y < one.nodes_y; ++y)
+            for (int x = from_x; x <= at.x + kNear_cells && x < one.nodes_x; ++x) {
+                const double away_m = kGrooveCell_m * std::hypot(at.x - x, at.y - y);
+                if (away_m < nearest[ray(x, y)].away_m) nearest[ray(x, y)] = {t, away_m};
+            }
+    }
     GrooveDifference worst;
     std::vector<double> all;
     for (int y = 1; y + 1 < one.nodes_y; ++y) {
         for (int x = 1; x + 1 < one.nodes_x; ++x) {
-            const Vec3 node = one.origin_object + kGrooveCell_m * Vec3(x, y, 0.0) - block_from_device();
-            const Place* nearest = nullptr;
-            double least = 0.003;
-            for (const Place& place : places) {
-                const double d = std::hypot(place.device_m.x - node.x, place.device_m.y - node.y);
-                if (d < least) {
-                    least = d;
-                    nearest = &place;
-                }
-            }
-            if (nearest == nullptr || nearest->time_s < from_s || nearest->time_s > to_s) continue;
-            double slope = 0.0;  // the steepest beside, since a groove has edges
+            const double time_s = nearest[ray(x, y)].time_s;
+            if (!(time_s >= from_s && time_s <= to_s)) continue;  // none is near where it is not a number
+            double slope = 0.0;                                   // the steepest beside, since a groove has edges
             for (const Groove* g : {&one, &other}) {
                 for (int side = -1; side <= 1; side += 2) {
                     const double dx = (g->at(x + side, y) - g->at(x, y)) / kGrooveCell_m,
@@ -242,7 +246,7 @@ inline GrooveDifference difference(const Groove& one, const Groove& other, const
             all.push_back(apart);
             if (apart > worst.most_cells) {
                 worst.most_cells = apart;
-                worst.at_s = nearest->time_s;
+                worst.at_s = time_s;
             }
         }
     }

@@ -18,7 +18,7 @@ namespace {
 const Tool kBall{compute::BallTool{0.02}, compute::Operation::cut, 0};
 
 std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
-    return std::move(choose_engine(EngineChoice::cpu, *compute::make_ball(0.1, 32, {"skin"}), pool)->engine);
+    return std::move(choose_engine(EngineChoice::cpu, *compute::make_ball(0.1, 32, {"skin"}), pool).engine);
 }
 
 // A sample of material without hardness, which gives way where the hand is.

@@ -50,13 +50,14 @@ public:
     }
     [[nodiscard]] Result<void> finish() override {
         finished = true;
-        return {};
+        return cannot_write.empty() ? Result<void>{} : fail(cannot_write, "cannot be written", "free some space");
     }
 
     std::string page;
     std::vector<std::uint64_t> ticks;
     std::size_t objects = 0;
     bool calm = false, finished = false;
+    std::string cannot_write;       // at the end
     bool governs_from_now = false;  // in each step, once the panel is laid out
 
 private:
@@ -118,6 +119,28 @@ TEST(SessionActivity, SeesEveryTickOnceInOrder) {
     for (std::size_t i = 0; i < ticks.size(); ++i) ASSERT_EQ(ticks[i], i + 1);
     EXPECT_EQ(watched.activity->objects, 1u);
     EXPECT_TRUE(watched.activity->finished);
+}
+
+// Whoever did a visit must know that nothing of it is on the disk, and so must a script, by the status.
+TEST(SessionActivity, WhatItCouldNotWriteAtItsEndIsToldAndFailsTheSession) {
+    for (const char* const lost : {"", "trials.csv"}) {
+        const auto watching = std::make_shared<Watching>();
+        watching->cannot_write = lost;
+        WatchedSession watched(watching);
+        watched.frame({});
+        testing::internal::CaptureStderr();
+        watched.session->finish_scene();
+        const std::string said = testing::internal::GetCapturedStderr();
+        const auto outcome = watched.session->files().outcome();
+        const auto is_told = [](const Message& message) {
+            return message.text.contains("trials.csv: cannot be written") && message.kind == MessageKind::error;
+        };
+        const bool is_lost = *lost != '\0';
+        EXPECT_TRUE(watching->finished);
+        EXPECT_EQ(static_cast<bool>(outcome), !is_lost) << said;
+        EXPECT_EQ(std::ranges::count_if(watched.session->messages(), is_told), is_lost ? 1 : 0) << said;
+        EXPECT_EQ(said.contains("trials.csv: cannot be written"), is_lost) << said;
+    }
 }
 
 TEST(SessionActivity, ItsActsChangeObjectsTicksAndPictures) {

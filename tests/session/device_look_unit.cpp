@@ -49,7 +49,7 @@ TEST(DeviceLook, AreLookedForWithoutHoldingUpAFrame) {
             {"--device", "", {{devices::Presence::there, std::to_string(count), "", ""}}}};
     });
     const auto frames_until = [&](const std::function<bool()>& done) {
-        for (int i = 0; i < 10000 && !done(); ++i) {
+        for (int i = 0; i < 30'000 && !done(); ++i) {
             look.show(true);
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "session/live/live_session.hpp"
 #include "session/panel/panel.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/support/uneven_poses.hpp"
 
 namespace burin::session {
 namespace {
@@ -139,6 +141,8 @@ TEST(SessionHands, AHandThatHoldsTurnsThePieceUnderTheOther) {
     const Vec3 right_world_m = home * right_m;
     desk.frame({MouseClick{MouseButton::right, true, {}}});
     desk.settle();
+    const Vec3 held_m = desk.tool(1).hip_object_m;
+    const Quat held_turn = desk.tool(1).orientation_object;
     EXPECT_TRUE(desk.session->channels(1).parameters.newest().holds) << "what is held does not push its hand";
     desk.frame({MouseClick{MouseButton::middle, true, {.ctrl = true}}});
     desk.drag({120.0, 0.0});
@@ -147,7 +151,14 @@ TEST(SessionHands, AHandThatHoldsTurnsThePieceUnderTheOther) {
     const Similarity turned = desk.session->state().world_from_object;
     EXPECT_GT(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(turned.orientation, home.orientation)))), 0.2);
     EXPECT_EQ(turned.scale, home.scale);
-    EXPECT_LT(glm::distance(turned * desk.tool(0).hip_object_m, right_world_m), 1e-3) << "the other hand rests";
+    EXPECT_LT(glm::distance(desk.tool(1).hip_object_m, held_m), 1e-3) << "the piece goes with the hand that holds it";
+    EXPECT_GT(std::abs(glm::dot(desk.tool(1).orientation_object, held_turn)), 1.0 - 1e-5);
+    desk.drag({0.0, 90.0});  // along, as it lies turned
+    EXPECT_LT(glm::distance(desk.tool(1).hip_object_m, held_m), 1e-3);
+    EXPECT_GT(std::abs(glm::dot(desk.tool(1).orientation_object, held_turn)), 1.0 - 1e-5);
+    const Similarity moved = desk.session->state().world_from_object;
+    EXPECT_GT(glm::distance(moved.position_m, turned.position_m), 1e-3);
+    EXPECT_LT(glm::distance(moved * desk.tool(0).hip_object_m, right_world_m), 1e-3) << "the other hand rests";
     EXPECT_GT(glm::distance(desk.tool(0).hip_object_m, right_m), 1e-3) << "and so it is elsewhere on the piece";
     desk.frame({MouseClick{MouseButton::right, false, {}}});
     desk.settle();
@@ -317,6 +328,67 @@ TEST(SessionHands, TheForceOfTheOtherIsSwitchedWhileTheFirstIsLed) {
     EXPECT_FALSE(desk.session->channels(1).parameters.newest().enabled);
     EXPECT_EQ(desk.session->state().hand_name, "right");
     EXPECT_EQ(desk.session->state().desk.target_device_m, target_m) << "and stays where it was led";
+}
+
+// What a hand holds and where it is stays its own, however often the others are led meanwhile.
+TEST(SessionHands, LeftBehindKeepTheirButtonsAndPlaces) {
+    HandsAtABall desk({"right=simulated", "left=simulated"});
+    desk.frames(2);
+    const std::array<std::string, 2> names{"right", "left"};
+    for (const std::size_t first : {0u, 1u})
+        for (std::uint32_t buttons = 0; buttons < 4; ++buttons) {
+            const std::size_t second = 1 - first;
+            SessionState state = desk.session->state();
+            const auto be = [&](std::size_t hand, std::uint32_t pressed) {
+                state.desk.buttons = pressed;
+                state.desk.target_device_m = uneven_offset(hand);
+                state.desk.target_turn_device = uneven_turn(hand);
+            };
+            const auto expect = [&](std::size_t hand, std::uint32_t pressed) {
+                EXPECT_EQ(state.hand, hand);
+                EXPECT_EQ(state.desk.buttons, pressed) << names[hand] << ", first " << first;
+                EXPECT_EQ(state.desk.target_device_m, uneven_offset(hand)) << names[hand];
+                EXPECT_EQ(state.desk.target_turn_device, uneven_turn(hand)) << names[hand];
+            };
+            ASSERT_TRUE(lead_hand(state, names[first]));
+            be(first, buttons);
+            ASSERT_TRUE(lead_hand(state, names[second]));
+            EXPECT_EQ(state.desk.buttons, 0u) << "the other had none";
+            EXPECT_EQ(state.hands[first].target.buttons, buttons);
+            be(second, 3 - buttons);
+            for (int times = 0; times < 3; ++times) {
+                ASSERT_TRUE(lead_hand(state, names[first]));
+                expect(first, buttons);
+                EXPECT_EQ(state.hands[second].target.buttons, 3 - buttons);
+                ASSERT_TRUE(lead_hand(state, names[second]));
+                expect(second, 3 - buttons);
+                EXPECT_EQ(state.hands[first].target.buttons, buttons);
+            }
+        }
+}
+
+TEST(SessionHands, LeftBehindHoldTheirButtonsDownInEachTick) {
+    for (const auto& [button, bit] : {std::pair{MouseButton::left, 1u}, std::pair{MouseButton::right, 2u}})
+        for (const std::size_t first : {0u, 1u}) {
+            HandsAtABall desk({"right=simulated", "left=simulated"});
+            const std::array<std::string, 2> names{"right", "left"};
+            desk.frame({lead(names[first])});
+            desk.frame({MouseMove{{640.0, 360.0}}});
+            desk.frame({MouseClick{button, true, {}}});
+            desk.settle();
+            ASSERT_EQ(desk.tool(first).buttons, bit);
+            for (const std::size_t led : {1 - first, first, 1 - first, first}) {
+                desk.frame({lead(names[led])});
+                for (int i = 0; i < 20; ++i) {
+                    desk.frame();
+                    EXPECT_EQ(desk.tool(first).buttons, bit) << names[first] << " while " << names[led] << " is led";
+                    EXPECT_EQ(desk.tool(1 - first).buttons, 0u);
+                }
+            }
+            desk.frame({MouseClick{button, false, {}}});
+            desk.settle();
+            EXPECT_EQ(desk.tool(first).buttons, 0u);
+        }
 }
 
 TEST(SessionHands, SayWhichHandsThereAreWhereAnotherIsAskedFor) {

@@ -33,7 +33,7 @@ protected:
     }
     void begin(compute::Solid solid) {
         carving = std::make_unique<sculpt::Sculpture>(
-            std::move(sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(solid), pool)->engine), pool);
+            std::move(sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(solid), pool).engine), pool);
     }
     // A part of a stroke; each number is at another place.
     void carve(int number) {

@@ -24,6 +24,7 @@ TEST(SessionRecording, KeepsWhatIsTouchedAndWhatAnActivityWritesAsEvents) {
     auto reader = record::RecordReader::open(path);
     ASSERT_TRUE(reader);
     const auto events = *reader->events();
+    ASSERT_GE(events.size(), 2u);
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(events, [&](const auto& e) { return e.name == name && e.value == "block"; });
     };

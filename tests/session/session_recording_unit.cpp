@@ -71,7 +71,7 @@ TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
     const Workplace place;
     const std::string path = (place / "a.session").string();
     const std::uint64_t ticks = record_live(short_options(path));
-    ASSERT_GT(ticks, 20u) << "however busy the machine is";
+    ASSERT_GE(ticks, 500u) << "however busy the machine is: the script's half second has its ticks";
 
     auto log = log_in(path);
     ASSERT_TRUE(log) << log.error().line();
@@ -110,7 +110,7 @@ TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
 }
 
 // What hands touch, what an activity has them hold, and how the object moves and is felt then. The session runs in real
-// time, so a machine that is slow has seconds for each act: the hand moves on long after it could take hold.
+// time, and its script waits for the hand's ticks.
 TEST(SessionRecording, OfAnActivityThatGraspsWithFourFingersIsDoneAgainToTheBit) {
     const std::string script = R"(burin-input 1 test
 0.02 mouse 320 180
@@ -129,7 +129,9 @@ TEST(SessionRecording, OfAnActivityThatGraspsWithFourFingersIsDoneAgainToTheBit)
     EXPECT_GE(live->holds[0].by.size(), 2u);
     const double way_m = glm::length(live->let_go_m - live->took_m);
     EXPECT_GT(way_m, 0.001);
-    EXPECT_NEAR(glm::length(live->at.position_m), way_m, 0.3 * way_m) << "it has gone along with the hand";
+    // The hand's way is known from the first frame that sees the block move, which is later the slower frames are.
+    EXPECT_GT(glm::length(live->at.position_m), 0.7 * way_m) << "it has gone along with the hand";
+    EXPECT_LT(glm::length(live->at.position_m), 2.0 * way_m) << "it has gone along with the hand";
 
     auto log = log_in(path);
     ASSERT_TRUE(log) << log.error().line();

@@ -48,7 +48,7 @@ std::unique_ptr<UdpTracker> open_port(Clock& clock) {
 // Waits until so many have come, but not for ever.
 std::vector<TrackerSample> heard_by(UdpTracker& port, std::size_t count) {
     std::vector<TrackerSample> all;
-    for (int i = 0; i < 3000 && all.size() < count; ++i) {
+    for (int i = 0; i < 30'000 && all.size() < count; ++i) {
         for (TrackerSample& heard : port.take()) all.push_back(std::move(heard));
         if (all.size() < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -134,7 +134,7 @@ TEST(UdpTracker, KeepsABoundedNumberOfSamplesThatNobodyTakesAndCountsTheRest) {
     for (int i = 0; i < kLines; ++i) lines += "head 0 1.6 2 0 0 0 1\n";
     for (int sent = 1; sent <= kDatagrams; ++sent) {
         sender.send(lines);
-        for (int i = 0; i < 3000 && datagrams < sent; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int i = 0; i < 30'000 && datagrams < sent; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         ASSERT_EQ(datagrams, sent);
     }
     const std::size_t kept = port.take().size();
@@ -160,7 +160,7 @@ TEST(UdpTracker, SaysWhatItRefusesAtMostOnceASecond) {
     const auto send_nonsense = [&] {
         sender.send("haed 0 0 0 0 0 0 1");
         ++sent;
-        for (int i = 0; i < 3000 && datagrams < sent; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int i = 0; i < 30'000 && datagrams < sent; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         ASSERT_EQ(datagrams, sent);
     };
     for (int i = 0; i < 5; ++i) send_nonsense();

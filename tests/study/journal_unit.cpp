@@ -2,11 +2,14 @@
 // The journal by itself: what it finds, where it goes on, and what stays of who is erased.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/sha256.hpp"
 #include "study/folder/journal.hpp"
 #include "tests/study/short_study.hpp"
+#include "tests/support/flush_log.hpp"
 
 namespace burin::study {
 namespace {
@@ -56,6 +59,25 @@ TEST(StudyJournal, GoesOnBehindALineThatAPowerCutTore) {
         EXPECT_EQ(again.entries.back().value["event"], "five");
         EXPECT_TRUE(place.read("journal").starts_with(whole.substr(0, whole.size() - missing)));
     }
+}
+
+TEST(StudyJournal, IsOnTheDiskWithEachLineAndInItsFolderWithTheFirst) {
+    const Workplace place;
+    const std::string path = std::filesystem::weakly_canonical(place / "journal").string();
+    Journal journal;
+    for (const char* event : {"one", "two"}) {
+        const bool is_first = journal.entries.empty();
+        forget_flushes();
+        ASSERT_TRUE(append(place / "journal", journal, Json{{"event", event}}));
+        const std::vector<Flushed> all = all_flushes();
+        ASSERT_EQ(all.size(), is_first ? 2u : 1u);
+        EXPECT_EQ(all[0].path, path);
+        EXPECT_FALSE(all[0].is_folder);
+        if (!is_first) break;
+        EXPECT_TRUE(all[1].is_folder);
+        EXPECT_EQ(all[1].names, std::vector<std::string>{"journal"});
+    }
+    EXPECT_EQ(journal.entries.size(), 2u);
 }
 
 TEST(StudyJournal, TellsOfAClockThatWentBack) {

@@ -4,6 +4,7 @@
 namespace burin {
 
 const char* const kBurinCommand = BURIN_COMMAND;
+const char* const kPosingLayer = POSING_LAYER;
 const char* const kMeshAudit = MESH_AUDIT;
 const char* const kSessionsFolder = BURIN_SOURCES "/assets/sessions";
 const char* const kWallsFolder = BURIN_SOURCES "/assets/walls";

@@ -7,6 +7,7 @@
 namespace burin {
 
 extern const char* const kBurinCommand;    // the program burin
+extern const char* const kPosingLayer;     // the folder of tests/tools/vulkan_layer as it is built
 extern const char* const kMeshAudit;       // the judge of meshes, tests/tools
 extern const char* const kSessionsFolder;  // assets/sessions
 extern const char* const kWallsFolder;     // assets/walls

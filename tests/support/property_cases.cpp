@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/property_cases.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -29,6 +30,12 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
 PropertyCases property_cases() {
     return {.seed = from_environment("BURIN_TEST_SEED", PropertyCases{}.seed),
             .count = from_environment("BURIN_TEST_CASES", kCases)};
+}
+
+int costly_cases(int all) {
+    constexpr std::uint64_t kSoak = 5000, kWhole = 10'000;
+    const std::uint64_t count = property_cases().count, of = static_cast<std::uint64_t>(all);
+    return static_cast<int>(count >= kSoak ? of : std::max<std::uint64_t>(1, of * count / kWhole));
 }
 
 void set_up_properties() {

@@ -185,10 +185,8 @@ Result<void> make(const std::filesystem::path& file) {
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
     workpiece->solid.materials.push_back(sculpt::material_of(*settings));
     const Box bounds = bounds_of(workpiece->solid.lattice);
-    Result<sculpt::ChosenEngine> chosen =
-        sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(workpiece->solid), pool);
-    if (!chosen) return std::unexpected(chosen.error());
-    sculpt::Sculpture carving(std::move(chosen->engine), pool);
+    sculpt::ChosenEngine chosen = sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(workpiece->solid), pool);
+    sculpt::Sculpture carving(std::move(chosen.engine), pool);
     Result<session::Pictures> pictures =
         session::Pictures::create(std::filesystem::absolute(file).parent_path(), bounds);
     if (!pictures) return std::unexpected(pictures.error());

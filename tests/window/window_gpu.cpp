@@ -3,9 +3,12 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <semaphore>
 #include <thread>
 
+#include "base/clock.hpp"
 #include "tests/window/window_test.hpp"
 #include "window/key_names.hpp"
 
@@ -81,12 +84,34 @@ TEST_F(WindowTest, NamesTheMonitorsThereAreWhenOneIsMissing) {
     EXPECT_FALSE(Window::create({.height = 1 << 20}));
 }
 
+// One that does not sleep is awake before anybody wakes it; one that nobody wakes sleeps all the time that it may.
 TEST_F(WindowTest, SleepsUntilItIsWoken) {
+    constexpr double kLongest_s = 60.0;
     Window window = open();
-    static_cast<void>(window.wait(0.2));  // what opening brought
-    std::thread waker([] { wake(); });
-    static_cast<void>(window.wait(30.0));  // would outlast the patience of whoever runs this
-    waker.join();
+    while (!window.wait(0.2).empty()) {  // what opening brought
+    }
+    MonotonicClock clock;
+    for (int times = 0; times < 5; ++times) {
+        std::binary_semaphore may_wake(0);
+        std::atomic<bool> woken{false};
+        std::thread waker([&] {
+            may_wake.acquire();
+            for (int i = 0; i < 20'000; ++i) std::this_thread::yield();  // meanwhile it has gone to sleep
+            woken = true;
+            wake();
+        });
+        const Nanoseconds from_ns = clock.now_ns();
+        may_wake.release();
+        const std::vector<WindowEvent> events = window.wait(kLongest_s);
+        EXPECT_TRUE(woken) << "it was awake before";
+        EXPECT_LT(seconds(clock.now_ns() - from_ns), kLongest_s) << "nobody woke it";
+        EXPECT_TRUE(events.empty()) << "to be woken is no event";
+        waker.join();
+    }
+    wake();  // before it sleeps: it does not miss that
+    const Nanoseconds from_ns = clock.now_ns();
+    static_cast<void>(window.wait(kLongest_s));
+    EXPECT_LT(seconds(clock.now_ns() - from_ns), kLongest_s);
 }
 
 TEST_F(WindowTest, TellsOfANewSizeAndAskedToClose) {

@@ -28,7 +28,7 @@ protected:
     // The first event of a kind for which `wanted` holds; waits for it, but not for ever.
     template <typename Event, typename Wanted>
     static std::optional<Event> next(Window& window, const Wanted& wanted) {
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < 600; ++i) {
             for (const WindowEvent& event : window.wait(0.05)) {
                 const Event* found = std::get_if<Event>(&event);
                 if (found != nullptr && wanted(*found)) return *found;

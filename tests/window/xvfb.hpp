@@ -24,6 +24,12 @@ public:
     }
     [[nodiscard]] const std::string& name() const { return name_; }
 
+    // Its server dies, as by a crash.
+    void die() const {
+        kill(child_, SIGKILL);
+        waitpid(child_, nullptr, 0);
+    }
+
     Xvfb(const Xvfb&) = delete;
     Xvfb& operator=(const Xvfb&) = delete;
 

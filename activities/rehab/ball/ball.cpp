@@ -7,10 +7,10 @@ namespace burin::activities {
 namespace {
 
 // The world's ball, as assets/worlds/hand.toml has it: its number, its place and its size.
-constexpr std::uint32_t kObject = 2;
+constexpr std::uint32_t kBallObject = 2;
 constexpr Vec3 kPlace_m{0.02, 0.0825, 0.0};
 constexpr double kRadius_m = 0.035;
-constexpr double kElementsAlongRadius = 3.2;  // 1,632 elements: the scene's thread has more to do than them
+constexpr double kBallElementsAlongRadius = 3.2;  // 1,632 elements: the scene's thread has more to do than them
 
 constexpr std::array kColours{"yellow", "red", "green", "blue"};  // as BallColour has them
 
@@ -54,10 +54,10 @@ Ball::Ball(const SettingValues& values) : values_(values), settings_(ball_settin
 
 bodies::SoftPartSetup Ball::body() const {
     bodies::SoftPartSetup body;
-    body.object = kObject;
+    body.object = kBallObject;
     body.scene_from_body.position_m = kPlace_m;
     body.half_axes_m = Vec3(kRadius_m);
-    body.spacing_m = kRadius_m / kElementsAlongRadius;
+    body.spacing_m = kRadius_m / kBallElementsAlongRadius;
     body.material.young_Pa = kind_of(settings_.colour).young_Pa;
     return body;
 }

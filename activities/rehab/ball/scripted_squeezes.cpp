@@ -12,10 +12,10 @@ namespace {
 
 // The simulated hand's own: how long it takes from open to where the lowest target is just reached, to as far as it
 // closes, and back.
-constexpr double kReaches_s = 1.38, kCloses_s = 2.0, kOpens_s = 1.6;
+constexpr double kSqueezeReaches_s = 1.38, kSqueezeCloses_s = 2.0, kSqueezeOpens_s = 1.6;
 // A hold that is shorter than this is over before a hand that has just reached it has opened.
 constexpr double kLeastHold_s = 0.7;
-constexpr double kFirst_s = 2.85;  // when the script's arm is above the ball
+constexpr double kFirstSqueeze_s = 2.85;  // when the script's arm is above the ball
 
 }  // namespace
 
@@ -30,9 +30,9 @@ std::vector<ScriptedSqueeze> drawn_squeezes(const BallSettings& settings, std::u
         const bool too_short =
             share() < 0.3 && settings.hold_s >= kLeastHold_s && (squeezes.empty() || !squeezes.back().too_short);
         const double held_s = too_short ? 0.3 * settings.hold_s * share() : settings.hold_s + 0.5 + 0.5 * share();
-        const double closed_s = (too_short ? kReaches_s : kCloses_s) + held_s;
+        const double closed_s = (too_short ? kSqueezeReaches_s : kSqueezeCloses_s) + held_s;
         squeezes.push_back({at_s, at_s + closed_s, too_short});
-        at_s += closed_s + kOpens_s + 0.4 * share();
+        at_s += closed_s + kSqueezeOpens_s + 0.4 * share();
         counted += too_short ? 0 : 1;
     }
     return squeezes;
@@ -53,12 +53,12 @@ std::string with_squeezes(std::string_view script, const std::vector<ScriptedSqu
         if (squeeze == shown) text += formatted("%.3f command screenshot squeezed.png\n", squeeze->opens_s - 0.05);
         text += formatted("%.3f button release left\n", squeeze->opens_s);
     }
-    const double end_s = squeezes.empty() ? 0.0 : squeezes.back().opens_s + kOpens_s;
+    const double end_s = squeezes.empty() ? 0.0 : squeezes.back().opens_s + kSqueezeOpens_s;
     return text + formatted("%.3f command quit\n", end_s);
 }
 
 std::string scripted_ball(const SettingValues& values, std::uint64_t seed, std::string_view script) {
-    return with_squeezes(script, drawn_squeezes(ball_settings(values), seed, kFirst_s));
+    return with_squeezes(script, drawn_squeezes(ball_settings(values), seed, kFirstSqueeze_s));
 }
 
 }  // namespace burin::activities

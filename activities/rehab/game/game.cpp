@@ -12,12 +12,12 @@ namespace burin::activities {
 namespace {
 
 // The world's ball and line, as assets/worlds/game.toml has them.
-constexpr std::uint32_t kObject = 2;
+constexpr std::uint32_t kGameObject = 2;
 constexpr const char* kLine = "line";
-constexpr double kLineThick_m = 0.004;        // on the wall; its middle counts
-constexpr double kLineAtWall_m = 0.0005;      // before the wall's face
-constexpr double kElementsAlongRadius = 3.2;  // as many as the ball that is squeezed has
-constexpr double kYoung_Pa = 50e3;            // as a yellow one: it gives when it is caught
+constexpr double kLineThick_m = 0.004;            // on the wall; its middle counts
+constexpr double kLineAtWall_m = 0.0005;          // before the wall's face
+constexpr double kGameElementsAlongRadius = 3.2;  // as many as the ball that is squeezed has
+constexpr double kYoung_Pa = 50e3;                // as a yellow one: it gives when it is caught
 
 // The palm looks at the wall, and a little up: so a ball lies in it and is thrown away from it. Where the grip comes
 // to: from above the floor to above the line, from behind where the ball waits to half the way to the wall.
@@ -57,10 +57,10 @@ Game::Game(const SettingValues& values) : values_(values), settings_(game_settin
 
 bodies::SoftPartSetup Game::body() const {
     bodies::SoftPartSetup body;
-    body.object = kObject;
+    body.object = kGameObject;
     body.scene_from_body.position_m = room_.serve_m;
     body.half_axes_m = Vec3(room_.radius_m);
-    body.spacing_m = room_.radius_m / kElementsAlongRadius;
+    body.spacing_m = room_.radius_m / kGameElementsAlongRadius;
     body.material.young_Pa = kYoung_Pa;
     return body;
 }

@@ -16,7 +16,7 @@ constexpr double kBegins_z_m = 0.12, kLeaves_z_m = -0.08;  // where it begins to
 constexpr double kEnds_z_m = -0.13;
 // The simulated hand's own: how long it takes until it has opened so far that it throws, from a ball that it holds; how
 // long from open until it has taken one, and until it holds it as firmly as it does.
-constexpr double kOpens_s = 0.375, kTakes_s = 0.9, kHolds_s = 1.4;
+constexpr double kThrowOpens_s = 0.375, kThrowTakes_s = 0.9, kThrowHolds_s = 1.4;
 constexpr double kFree_s = 0.15;  // by which it is closed before the ball comes
 constexpr double kShown_s = 0.5;  // from the throw until a picture shows the ball, which comes from the wall
 // From the front the hand hides the ball: so the eyes go to the right first, by the key for that. They come no nearer
@@ -147,13 +147,13 @@ std::string with_throws(std::string_view script, const std::vector<ScriptedThrow
             hand.go(room.serve_m.y, kRest_z_m, 0.7);
             hand.go(room.serve_m.y, room.serve_m.z, 0.5);
             hand.press(hand.now_s());
-            hand.rest(kHolds_s);
+            hand.rest(kThrowHolds_s);
         }
         hand.go(thrown.from_m.y, room.serve_m.z, 0.6);
         hand.go(thrown.from_m.y, kBegins_z_m, 0.4);
         hand.rest(0.2);
         const double leaves_s = hand.now_s() + (kBegins_z_m - kLeaves_z_m) / kThrow_m_per_s;
-        hand.release(leaves_s - kOpens_s);
+        hand.release(leaves_s - kThrowOpens_s);
         if (&thrown == &throws.front()) hand.later(leaves_s + kShown_s, "command screenshot thrown.png");
         hand.go(thrown.from_m.y, kEnds_z_m, (kBegins_z_m - kEnds_z_m) / kThrow_m_per_s, true);
         hand.go(thrown.waits_m.y, thrown.waits_m.z,
@@ -163,7 +163,7 @@ std::string with_throws(std::string_view script, const std::vector<ScriptedThrow
         if (thrown.caught != ScriptedCatch::with_open_hand)
             hand.press(leaves_s + std::max(0.05, 0.5 * (thrown.returns_s - kFree_s - kClosesAgain_s)));
         holds = above && thrown.caught == ScriptedCatch::there;
-        hand.rest(std::max(0.0, leaves_s + thrown.returns_s + kHolds_s - hand.now_s()));
+        hand.rest(std::max(0.0, leaves_s + thrown.returns_s + kThrowHolds_s - hand.now_s()));
         if (holds) continue;
         const double missed_s = above ? flight.bounces[2].at_s : flight.bounces[0].at_s;
         hand.release(hand.now_s());

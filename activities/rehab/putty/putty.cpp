@@ -9,10 +9,10 @@ namespace burin::activities {
 namespace {
 
 // It takes the place of the world's putty, as assets/worlds/putty.toml has it: its number, and the top of its stand.
-constexpr std::uint32_t kObject = 2;
+constexpr std::uint32_t kPuttyObject = 2;
 constexpr Vec3 kOnStand_m{0.02, 0.0475, 0.0};
 // A ball as two fingertips take it, and an ellipsoid that lies across the fingers.
-constexpr Vec3 kBall_m{0.025}, kEllipsoid_m{0.032, 0.032, 0.048};
+constexpr Vec3 kPinchBall_m{0.025}, kGraspEllipsoid_m{0.032, 0.032, 0.048};
 constexpr double kElementsAlongLeast = 3.2;  // about 1,630 elements of the ball, 2,400 of the ellipsoid
 
 constexpr std::array kShapes{"ball", "ellipsoid"};           // as PuttyShape has them
@@ -57,8 +57,8 @@ Putty::Putty(const SettingValues& values) : values_(values), settings_(putty_set
 
 bodies::SoftPartSetup Putty::body() const {
     bodies::SoftPartSetup body;
-    body.object = kObject;
-    body.half_axes_m = settings_.is_pinch() ? kBall_m : kEllipsoid_m;
+    body.object = kPuttyObject;
+    body.half_axes_m = settings_.is_pinch() ? kPinchBall_m : kGraspEllipsoid_m;
     body.scene_from_body.position_m = kOnStand_m + Vec3(0.0, body.half_axes_m.y, 0.0);
     body.spacing_m = body.half_axes_m.y / kElementsAlongLeast;
     body.material.young_Pa = kind_of(settings_.hardness).young_Pa;

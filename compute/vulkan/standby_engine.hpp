@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan engine with the processor's standing by: what a device cannot do, or can no longer do, the processor goes
+// on with, from the host's solid.
+//
+// Data flow: carve, assign -> the Vulkan engine. When that fails its host's solid is as it was before the call
+// (engine.hpp); the processor's engine takes this solid over and does the call again. Both give the same ends, so
+// nothing shows of it but one notice for the user. There is no way back to the device.
+// The host's solid lacks deferred cuts that were not read back (device_surface.hpp): whoever defers cuts has to do them
+// again after give_up().
+// Thread: that of the engines; the pool must outlive the engine.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compute/vulkan/vulkan_engine.hpp"
+
+namespace burin::compute {
+
+class StandbyEngine final : public CarvingEngine {
+public:
+    // Carves on the device from the beginning, or, where that cannot hold the solid, on the processor, with a notice.
+    StandbyEngine(Solid solid, const gpu::Device& device, WorkerPool& pool, const VulkanEngineOptions& options = {});
+    // Carves on the processor from the beginning, and says why no device does.
+    StandbyEngine(Solid solid, const Error& why, WorkerPool& pool);
+
+    // "cpu" once the processor carves.
+    [[nodiscard]] const char* name() const override { return engine_->name(); }
+    [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override;
+    [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
+    [[nodiscard]] const Solid& solid() const override { return engine_->solid(); }
+    [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
+        return engine_->add_material(material);
+    }
+    [[nodiscard]] Changes take_changes() override;
+    [[nodiscard]] std::vector<std::string> take_notices() override;
+    // Returns the work of the device, also after it was given up.
+    [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
+        return on_device_ != nullptr ? on_device_->traffic() : last_traffic_;
+    }
+
+    // The device's engine; null once the processor carves.
+    [[nodiscard]] VulkanEngine* on_device() { return on_device_; }
+    // Lets the processor go on from the host's solid, if it does not already.
+    void give_up(const Error& why);
+
+private:
+    void let_the_processor_carve(Solid solid, const Error& why);
+
+    WorkerPool& pool_;
+    std::unique_ptr<CarvingEngine> engine_;
+    VulkanEngine* on_device_ = nullptr;  // engine_, while that is the device's
+    Changes before_;                     // made on the device, and not taken when it was given up
+    std::optional<DeviceTraffic> last_traffic_;
+    std::vector<std::string> notices_;
+};
+
+}  // namespace burin::compute

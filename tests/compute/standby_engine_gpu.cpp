@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// A device that is lost, at whichever of its calls, costs nothing that was carved: the processor's engine goes on, and
+// all that the two have changed is what the processor alone changes.
+#include "compute/vulkan/standby_engine.hpp"
+
+#include <map>
+#include <utility>
+
+#include "compute/rays/history.hpp"
+#include "tests/compute/vulkan_engine_fixture.hpp"
+
+namespace burin::compute::test {
+namespace {
+
+class StandbyEngineGpu : public VulkanEngineGpu {
+protected:
+    WorkerPool pool_{1};
+};
+
+// The rays of a lattice plane, emptied: what undo and other tools assign.
+RayBatch emptied(const Solid& solid, Random& random) {
+    RayBatch batch;
+    const int axis = random.small(0, 2), v = random.small(1, solid.lattice.rays_v(axis) - 2);
+    for (int u = 1; u < solid.lattice.rays_u(axis) - 1; ++u) batch.add(shared::ray_code(axis, u, v), {});
+    return batch;
+}
+
+// Which rays have changed, and what each held before its first change. The processor records each ball's change of a
+// ray, the device the change of all balls of a call.
+std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> first_held(const Changes& changes) {
+    std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> held;
+    for (const shared::ChangedRay& ray : changes.rays) {
+        const auto [at, is_first] = held.try_emplace(ray.ray);
+        if (!is_first) continue;
+        for (const shared::DexelEnd& end : changes.before_of(ray))
+            at->second.emplace_back(end.depth_material, end.normal);
+    }
+    return held;
+}
+
+}  // namespace
+
+TEST_F(StandbyEngineGpu, GoesOnWithTheProcessorAtWhicheverCallTheDeviceIsLost) {
+    for (int lost_at = 0; lost_at < repeated(8); ++lost_at) {
+        Random random(static_cast<std::uint64_t>(lost_at));
+        const Solid solid = unit_cube(24);
+        auto own = gpu::Device::create({.validation = true});
+        ASSERT_TRUE(own);
+        StandbyEngine engine(solid, *own, pool_);
+        ASSERT_NE(engine.on_device(), nullptr);
+        const auto alone = make_cpu_engine(solid, pool_);
+        for (int call = 0; call < 8; ++call) {
+            if (call == lost_at) own->core()->lose_at_next_submit = true;
+            const bool assigns = call < 7 && random.chance(0.4);
+            const RayBatch batch = emptied(solid, random);
+            std::vector<BallSweep> sweeps(3);
+            for (BallSweep& sweep : sweeps) sweep = random_sweep(random, solid.lattice.spacing_m);
+            sweeps.push_back(
+                {Vec3(0.5), Vec3(0.4, 0.5, 0.1 * call), 0.1, 1});  // reaches the lattice, whatever the rest
+            const auto done = assigns ? engine.assign(batch) : engine.carve(sweeps);
+            const auto expected = assigns ? alone->assign(batch) : alone->carve(sweeps);
+            ASSERT_TRUE(done) << done.error().line();
+            ASSERT_TRUE(expected);
+            EXPECT_EQ(done->rays_changed, expected->rays_changed);
+            // Assigned rays are sent with the next cut, which is the first call that notices the loss.
+            if (call < lost_at) {
+                EXPECT_STREQ(engine.name(), "vulkan");
+            } else if (!assigns) {
+                EXPECT_STREQ(engine.name(), "cpu");
+            }
+            ASSERT_TRUE(engine.solid().same_content(alone->solid())) << "lost at " << lost_at << ", call " << call;
+            // Taken after every second call, so that some are of both engines.
+            if (call % 2 == 0) continue;
+            EXPECT_EQ(first_held(engine.take_changes()), first_held(alone->take_changes()));
+        }
+        const auto notices = engine.take_notices();
+        ASSERT_EQ(notices.size(), 1u);
+        EXPECT_TRUE(notices[0].ends_with("the processor carves instead, and nothing is lost")) << notices[0];
+        EXPECT_TRUE(engine.take_notices().empty());
+    }
+}
+
+TEST_F(StandbyEngineGpu, CarvesWithTheProcessorFromTheBeginningWhereTheDeviceLacksSomething) {
+    const Solid solid = unit_cube(16);
+    for (bool gpu::Capabilities::* lacking :
+         {&gpu::Capabilities::shader_int64, &gpu::Capabilities::shader_float64, &gpu::Capabilities::buffer_address}) {
+        capabilities().*lacking = false;
+        StandbyEngine engine(solid, device(), pool_);
+        capabilities().*lacking = true;
+        EXPECT_EQ(engine.on_device(), nullptr);
+        EXPECT_TRUE(engine.solid().same_content(solid)) << "the solid is not lost with the engine that did not come";
+        EXPECT_EQ(engine.take_notices().size(), 1u);
+        EXPECT_TRUE(engine.carve(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.2, 1}}));
+    }
+}
+
+TEST_F(StandbyEngineGpu, KeepsItsDeviceAfterASweepThatMakesNoSense) {
+    StandbyEngine engine(unit_cube(16), device(), pool_);
+    EXPECT_FALSE(engine.carve(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), -1.0, 1}}));
+    EXPECT_NE(engine.on_device(), nullptr);
+    EXPECT_TRUE(engine.take_notices().empty());
+}
+
+TEST_F(StandbyEngineGpu, UndoesWhatALostDeviceHasCarved) {
+    const Solid solid = unit_cube(24);
+    auto own = gpu::Device::create({.validation = true});
+    ASSERT_TRUE(own);
+    StandbyEngine engine(solid, *own, pool_);
+    History history(History::kDefaultBudget_bytes);
+    for (const double x : {0.2, 0.5, 0.8}) {
+        if (x == 0.8) own->core()->lose_at_next_submit = true;
+        ASSERT_TRUE(engine.carve(std::vector<BallSweep>{{Vec3(x, 0.5, 1.0), Vec3(x, 0.6, 0.9), 0.1, 1}}));
+        history.record(engine.take_changes());
+        history.end_stroke();
+    }
+    EXPECT_EQ(engine.on_device(), nullptr);
+    for (int stroke = 0; stroke < 3; ++stroke) {
+        const auto undone = history.undo(engine);
+        ASSERT_TRUE(undone && *undone);
+        (void)engine.take_changes();
+    }
+    EXPECT_TRUE(engine.solid().same_content(solid));
+}
+
+}  // namespace burin::compute::test
