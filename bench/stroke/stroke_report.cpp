@@ -211,7 +211,7 @@ std::string scene_table(const std::vector<Json>& reports) {
     std::string text;
     for (std::size_t row = 0; row <= reports.size(); ++row) {
         for (const auto& [key, title] : kColumns) {
-            const std::string cell = row == 0 ? title : text_of(reports[row - 1][key]);
+            const std::string cell = row == 0 ? title : text_of(reports[row - 1].value(key, Json()));
             const std::size_t width = std::string_view(key) == "scene" ? 28 : 12;
             text += std::string(width > cell.size() ? width - cell.size() : 1, ' ') + cell;
         }
