@@ -14,7 +14,8 @@ Json describe_traffic(const compute::DeviceTraffic& traffic) {
     return {{"submissions", traffic.submissions},
             {"blocking_waits", traffic.blocking_waits},
             {"bytes_to_device", traffic.bytes_to_device},
-            {"bytes_to_host", traffic.bytes_to_host}};
+            {"bytes_to_host", traffic.bytes_to_host},
+            {"most_memory_bytes", traffic.most_memory_bytes}};
 }
 
 Json describe_carving(const sculpt::Sculpture& carving) {

@@ -80,8 +80,7 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = static_cast<std::uint32_t>(type);
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    ++core->allocations;
-    if (const VkResult r = core->vk.vkAllocateMemory(core->device, &allocate, nullptr, &memory); r != VK_SUCCESS) {
+    if (const VkResult r = core->allocate(allocate, memory); r != VK_SUCCESS) {
         return vulkan_failure(where, mebibytes(size_bytes) + " could not be allocated", r);
     }
     buffer.memory_ = MemoryHandle(core, memory);

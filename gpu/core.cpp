@@ -135,6 +135,26 @@ int Core::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags required
     return best;
 }
 
+VkResult Core::allocate(const VkMemoryAllocateInfo& info, VkDeviceMemory& to) {
+    ++allocations;
+    const VkResult result = vk.vkAllocateMemory(device, &info, nullptr, &to);
+    const bool is_own =
+        (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
+    if (result != VK_SUCCESS || !is_own) return result;
+    own_pieces_.emplace(to, info.allocationSize);
+    own_bytes += info.allocationSize;
+    most_own_bytes = std::max(most_own_bytes, own_bytes);
+    return result;
+}
+
+void Core::free(VkDeviceMemory piece) {
+    if (const auto own = own_pieces_.find(piece); own != own_pieces_.end()) {
+        own_bytes -= own->second;
+        own_pieces_.erase(own);
+    }
+    vk.vkFreeMemory(device, piece, nullptr);
+}
+
 void Core::destroy(const CommandSet& set) {
     for (VkDescriptorPool pool : set.descriptor_pools) vk.vkDestroyDescriptorPool(device, pool, nullptr);
     for (const StagingChunk& chunk : set.staging) destroy(chunk);
@@ -144,7 +164,7 @@ void Core::destroy(const CommandSet& set) {
 
 void Core::destroy(const StagingChunk& chunk) {
     vk.vkDestroyBuffer(device, chunk.buffer, nullptr);
-    vk.vkFreeMemory(device, chunk.memory, nullptr);
+    free(chunk.memory);
 }
 
 void Core::destroy(VkObjectType type, std::uint64_t bits) {
@@ -152,7 +172,7 @@ void Core::destroy(VkObjectType type, std::uint64_t bits) {
         case VK_OBJECT_TYPE_BUFFER: return vk.vkDestroyBuffer(device, handle_of<VkBuffer>(bits), nullptr);
         case VK_OBJECT_TYPE_IMAGE: return vk.vkDestroyImage(device, handle_of<VkImage>(bits), nullptr);
         case VK_OBJECT_TYPE_IMAGE_VIEW: return vk.vkDestroyImageView(device, handle_of<VkImageView>(bits), nullptr);
-        case VK_OBJECT_TYPE_DEVICE_MEMORY: return vk.vkFreeMemory(device, handle_of<VkDeviceMemory>(bits), nullptr);
+        case VK_OBJECT_TYPE_DEVICE_MEMORY: return free(handle_of<VkDeviceMemory>(bits));
         case VK_OBJECT_TYPE_PIPELINE: return vk.vkDestroyPipeline(device, handle_of<VkPipeline>(bits), nullptr);
         case VK_OBJECT_TYPE_PIPELINE_LAYOUT:
             return vk.vkDestroyPipelineLayout(device, handle_of<VkPipelineLayout>(bits), nullptr);

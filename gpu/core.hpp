@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,10 @@ public:
     std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
     // For tests: how many pieces of memory were asked of the driver.
     std::uint64_t allocations = 0;
+    // Of the device's own memory: held now, and at most so far.
+    std::uint64_t own_bytes = 0, most_own_bytes = 0;
+    // All memory of buffers and images comes from here, and goes back through retire() or destruction.
+    [[nodiscard]] VkResult allocate(const VkMemoryAllocateInfo& info, VkDeviceMemory& to);
     // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
     bool lost = false;
     // For tests: makes the next submission fail as if the GPU were gone, or the next acquisition of an image as if the
@@ -108,7 +113,9 @@ private:
     void destroy(VkObjectType type, std::uint64_t handle);
     void destroy(const CommandSet& set);
     void destroy(const StagingChunk& chunk);
+    void free(VkDeviceMemory piece);
 
+    std::unordered_map<VkDeviceMemory, std::uint64_t> own_pieces_;  // bytes of each piece of the device's own memory
     std::vector<Retired> retired_;
     std::vector<std::pair<std::uint64_t, CommandSet>> retired_sets_;
     std::vector<CommandSet> free_sets_;

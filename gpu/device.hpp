@@ -67,11 +67,12 @@ struct Capabilities {
     std::uint32_t max_image_size = 0;       // width and height of a 2D image
 };
 
-// Counts the work of a device since it was opened. Nothing is copied where the host sees the device's memory.
+// Counts the work of a device since it was opened, and its memory. Nothing is copied where the host sees that.
 struct WorkAsked {
     std::uint64_t submissions = 0;
     std::uint64_t blocking_waits = 0;  // for work that no wait before had covered
     std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
+    std::uint64_t most_memory_bytes = 0;  // of the device's own memory, held at once
 };
 
 enum class Prefer { hardware, software };  // a preference: where there is only the other kind, it is taken

@@ -38,8 +38,7 @@ Result<Image> Image::create(Device& device, const ImageSpec& spec) {
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = static_cast<std::uint32_t>(type);
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    ++core->allocations;
-    if (const VkResult r = core->vk.vkAllocateMemory(core->device, &allocate, nullptr, &memory); r != VK_SUCCESS) {
+    if (const VkResult r = core->allocate(allocate, memory); r != VK_SUCCESS) {
         return vulkan_failure(where, "could not be allocated", r);
     }
     image.memory_ = MemoryHandle(core, memory);

@@ -318,7 +318,8 @@ void RecordStore::give_up(Error why) {
     sealed_bytes_ = note_bytes_ = 0;
 }
 
-Result<void> RecordStore::write_facts_of_end(std::uint64_t notes_lost) {
+Result<void> RecordStore::write_facts_of_end(std::uint64_t notes_lost,
+                                             const std::vector<std::pair<std::string, std::string>>& facts) {
     if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
     for (std::size_t h = 0; h < parts_.size(); ++h) {
         const std::string of_hand = ", hand " + std::to_string(h),
@@ -327,15 +328,17 @@ Result<void> RecordStore::write_facts_of_end(std::uint64_t notes_lost) {
         if (const auto done = put_fact("ticks never run" + of_hand, std::to_string(parts_[h].never_run)); !done)
             return done;
     }
+    for (const auto& [key, value] : facts)
+        if (const auto done = put_fact(key, value); !done) return done;
     if (const auto done = put_fact("notes lost", std::to_string(notes_lost)); !done) return done;
     if (const auto done = put_fact("end", failure_ ? failure_->line() : "regular"); !done) return done;
     return commit_with_link();
 }
 
-void RecordStore::end(std::uint64_t notes_lost) {
+void RecordStore::end(std::uint64_t notes_lost, const std::vector<std::pair<std::string, std::string>>& facts) {
     Result<void> ended;
     if (!failure_) {
-        ended = write_facts_of_end(notes_lost);
+        ended = write_facts_of_end(notes_lost, facts);
     } else {
         static_cast<void>(write_facts_of_end(notes_lost));  // where the disk takes it again
         if (database_->in_transaction()) static_cast<void>(database_->run("ROLLBACK"));

@@ -41,7 +41,7 @@ public:
     // Brings what waits to the disk, where a block is full, the time has come, or this is the last turn.
     void commit_what_is_due(bool last);
     // Notes how the recording ended, and makes the file one that travels alone.
-    void end(std::uint64_t notes_lost);
+    void end(std::uint64_t notes_lost, const std::vector<std::pair<std::string, std::string>>& facts);
 
     [[nodiscard]] std::uint64_t acknowledged(std::size_t hand) const { return parts_[hand].acknowledged; }
     [[nodiscard]] std::uint64_t transactions() const { return transactions_; }
@@ -74,7 +74,8 @@ private:
     [[nodiscard]] Result<void> insert_note(const StoreNote& note);
     [[nodiscard]] Result<void> insert_clock();
     [[nodiscard]] Result<void> check_place();
-    [[nodiscard]] Result<void> write_facts_of_end(std::uint64_t notes_lost);
+    [[nodiscard]] Result<void> write_facts_of_end(std::uint64_t notes_lost,
+                                                  const std::vector<std::pair<std::string, std::string>>& facts);
     void give_up(Error why);
     void save_elsewhere(Error& why);
     [[nodiscard]] std::size_t waiting_bytes() const { return sealed_bytes_ + note_bytes_; }

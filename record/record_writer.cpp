@@ -74,6 +74,11 @@ void RecordWriter::end_trial(std::int64_t trial, Nanoseconds time_ns, std::strin
     add_note({{.kind = StoreNote::Kind::trial_end, .time_ns = time_ns, .text = std::move(state), .trial = trial}});
 }
 
+void RecordWriter::note_fact(std::string key, std::string value) {
+    const std::lock_guard lock(mutex_);
+    facts_of_end_.emplace_back(std::move(key), std::move(value));
+}
+
 void RecordWriter::take_now() {
     std::unique_lock lock(mutex_);
     if (ending_) return;
@@ -114,6 +119,7 @@ Result<void> RecordWriter::close() {
 void RecordWriter::run() {
     for (bool last = false; !last;) {
         std::vector<Note> notes;
+        std::vector<std::pair<std::string, std::string>> facts;
         std::uint64_t turn = 0, notes_lost = 0;
         {
             std::unique_lock lock(mutex_);
@@ -123,11 +129,12 @@ void RecordWriter::run() {
             notes.swap(notes_);
             note_bytes_ = 0;
             notes_lost = notes_lost_;
+            if (last) facts.swap(facts_of_end_);
         }
         for (Note& note : notes) store_->add(std::move(note));
         store_->take_ticks();
         store_->commit_what_is_due(last);
-        if (last) store_->end(notes_lost);
+        if (last) store_->end(notes_lost, facts);
         // release: the file holds these ticks before anybody reads the number.
         for (std::size_t i = 0; i < hands_; ++i)
             acknowledged_[i].store(store_->acknowledged(i), std::memory_order_release);

@@ -95,6 +95,9 @@ public:
     [[nodiscard]] std::int64_t begin_trial(Nanoseconds time_ns, std::string name);
     void end_trial(std::int64_t trial, Nanoseconds time_ns, std::string state);
 
+    // Writes a fact at the end, which is not known before.
+    void note_fact(std::string key, std::string value);
+
     // Returns when the writer has taken all that the rings hold now. For simulated time, whose ticks no clock holds
     // back: a ring would overflow.
     void take_now();
@@ -127,6 +130,7 @@ private:
     std::vector<Note> notes_;
     std::size_t note_bytes_ = 0;
     std::uint64_t notes_lost_ = 0;
+    std::vector<std::pair<std::string, std::string>> facts_of_end_;
     std::int64_t trials_ = 0;
     std::uint64_t asked_ = 0, answered_ = 0;  // turns of the thread that take_now() has asked for, and that were made
     bool ending_ = false;

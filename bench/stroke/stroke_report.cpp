@@ -127,6 +127,7 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
                                   std::pair{"bytes_to_device_per_update", &compute::DeviceTraffic::bytes_to_device},
                                   std::pair{"bytes_to_host_per_update", &compute::DeviceTraffic::bytes_to_host}})
         report[key] = run.traffic ? Json(static_cast<double>((*run.traffic).*of) / updates) : Json(nullptr);
+    report["device_memory_bytes"] = run.traffic ? Json(run.traffic->most_memory_bytes) : Json(nullptr);
     add_errors(report, errors, run.cell_m);
     report["self_intersections"] = or_null(crossings.pairs);
     report["self_intersections_mended"] = run.self_intersections_mended;
@@ -199,6 +200,7 @@ std::string scene_table(const std::vector<Json>& reports) {
                                   std::pair{"blocking_waits_per_update", "waits"},
                                   std::pair{"bytes_to_device_per_update", "B to device"},
                                   std::pair{"bytes_to_host_per_update", "B to host"},
+                                  std::pair{"device_memory_bytes", "device memory"},
                                   std::pair{"disagreeing_edges", "disagreeing"},
                                   std::pair{"self_intersections", "crossing"},
                                   std::pair{"lost_intervals", "lost"},

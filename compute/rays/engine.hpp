@@ -46,9 +46,10 @@ struct CarveStats {
     }
 };
 
-// Counts submissions, waits and copied bytes of an engine's device since it was opened (gpu::WorkAsked).
+// Counts submissions, waits and copied bytes of an engine's device since it was opened, and the most of its memory that
+// was held at once (gpu::WorkAsked).
 struct DeviceTraffic {
-    std::uint64_t submissions = 0, blocking_waits = 0, bytes_to_device = 0, bytes_to_host = 0;
+    std::uint64_t submissions = 0, blocking_waits = 0, bytes_to_device = 0, bytes_to_host = 0, most_memory_bytes = 0;
 };
 
 class CarvingEngine {

@@ -61,7 +61,8 @@ public:
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
-        return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host};
+        return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host,
+                             asked.most_memory_bytes};
     }
     // Hands over the host's solid; afterwards the engine may only be destroyed.
     [[nodiscard]] Solid give_solid() { return std::move(solid_); }

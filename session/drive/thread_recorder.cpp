@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "session/record/carved_by.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -99,6 +100,8 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
         outside();
     }
     if (!file_) return;
+    if (const compute::CarvingEngine* const engine = session_.engine())
+        file_->fact_of_end(kCarvedByFact, carved_by(*engine));
     // Its ticks go on where its log has ended.
     if (const auto closed = file_->close(); !closed && recording_)
         session_.files().notify_of_loss(closed.error().line());

@@ -16,6 +16,7 @@
 #include "sculpt/progress.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "session/drive/driver.hpp"
+#include "session/record/carved_by.hpp"
 
 namespace burin::session {
 namespace {
@@ -121,6 +122,7 @@ struct FeltRecording {
     std::string path;  // empty: nothing
     std::vector<std::pair<std::string, std::string>> facts;
     haptics::Probe probe;
+    const compute::CarvingEngine* engine;  // that carves
 };
 
 // The frames of a felt stroke, one for each carving update: they show nothing and collect figures. The ring of tick
@@ -152,6 +154,7 @@ public:
             wanted.path, {{device.name, device, wanted.probe, &channels_.records}}, std::move(options));
         if (!made) return std::unexpected(made.error());
         recorder_ = std::move(*made);
+        engine_ = wanted.engine;
         return {};
     }
 
@@ -169,6 +172,7 @@ public:
     [[nodiscard]] Result<void> finish() {
         Result<void> closed;
         if (recorder_) {
+            recorder_->note_fact(kCarvedByFact, carved_by(*engine_));
             closed = recorder_->close();
         } else {
             keeper_.take(channels_);
@@ -194,6 +198,7 @@ private:
     FigureKeeper keeper_;
     sculpt::Progress progress_;
     bool waits_for_recorder_ = false;
+    const compute::CarvingEngine* engine_ = nullptr;
     std::unique_ptr<record::RecordWriter> recorder_;  // last: its thread calls the keeper until it has ended
 };
 
@@ -274,7 +279,7 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     sculpt::CarvedScene carved(carving, channels, tool, options.feel.material.hardness_Ns_per_m3, reach_m, {});
     carved.start_at(stroke.front().position_object_m);
     const auto feel = options.real_time ? feel_in_real_time : feel_in_simulated_time;
-    const FeltRecording recording{options.record, options.facts, felt_tool.probe};
+    const FeltRecording recording{options.record, options.facts, felt_tool.probe, &carving.engine()};
     if (const auto felt = feel(std::move(*hand), channels, carved, recording, figures); !felt)
         return std::unexpected(felt.error());
     figures.surfaces_published = carved.published();

@@ -31,7 +31,11 @@ Result<SessionPicture> SessionPicture::create(gpu::Device& device, std::uint32_t
     return SessionPicture(device, samples, std::move(surface));
 }
 
-Result<void> SessionPicture::fit(ImageSize eye, Views views) {
+Result<void> SessionPicture::fit(ImageSize output, const wall::OutputSettings& settings) {
+    return fit_eye(wall::eye_size(settings.mode, output), views_shown(settings));
+}
+
+Result<void> SessionPicture::fit_eye(ImageSize eye, Views views) {
     if (renderer_ && eye == eye_ && views == views_) return {};
     if (renderer_) {
         const auto done = renderer_->resize(eye, views);
@@ -52,7 +56,7 @@ Result<void> SessionPicture::fit(ImageSize eye, Views views) {
 
 Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<renderer::Scene> scene, ImageSize output,
                                   const wall::OutputSettings& settings, std::uint32_t pixel) {
-    if (const auto fits = fit(wall::eye_size(settings.mode, output), views_shown(settings)); !fits) return fits;
+    if (const auto fits = fit(output, settings); !fits) return fits;
     const bool was_dark = std::exchange(dark_, !scene.has_value());
     if (dark_) {
         stats_ = {};

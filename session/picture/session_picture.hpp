@@ -38,6 +38,9 @@ public:
 
     // Draws with all triangles, for screenshots: the progress of refine_beside() must not show in them.
     void draw_in_full(bool full) { full_ = full; }
+    // Makes ready for an output of this size and mode, as draw() does. An Error of the device's memory leaves what it was
+    // ready for.
+    [[nodiscard]] Result<void> fit(ImageSize output, const wall::OutputSettings& settings);
     // Records the scene for an output of this size and mode; without a scene it is dark. stats().parts says what of the
     // eyes' pictures changed.
     // pixel: see Renderer::record.
@@ -63,7 +66,7 @@ public:
 private:
     SessionPicture(const gpu::Device& device, std::uint32_t samples, std::shared_ptr<renderer::SurfaceStore> surface)
         : device_(device), samples_(samples), surface_(std::move(surface)) {}
-    [[nodiscard]] Result<void> fit(ImageSize eye, Views views);
+    [[nodiscard]] Result<void> fit_eye(ImageSize eye, Views views);
     [[nodiscard]] renderer::EyesView eyes_to_show(const wall::OutputSettings& settings, Result<void>& failed);
     [[nodiscard]] std::optional<renderer::OverlayView> overlay() const;
 

@@ -137,7 +137,8 @@ private:
     [[nodiscard]] Result<void> fit_modes(LiveSession& session);
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen in a
     // state it can show.
-    [[nodiscard]] Result<void> fit_mode(std::size_t screen, wall::StereoMode mode);
+    [[nodiscard]] Result<void> fit_mode(std::size_t screen, const wall::OutputSettings& wanted);
+    [[nodiscard]] Result<void> fit_outputs(std::size_t screen, wall::StereoMode mode);
     [[nodiscard]] Result<bool> draw_screens(LiveSession& session);
     [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, LiveSession& session,
                                            std::optional<renderer::Scene> scene);

@@ -50,7 +50,7 @@ Result<void> Presenter::fit_modes(LiveSession& session) {
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         ScreenStage& screen = screens_[i];
         if (is_empty(screen.place.size)) continue;  // minimised
-        if (const auto fits = fit_mode(i, session.output_on(i).mode); !fits) {
+        if (const auto fits = fit_mode(i, session.output_on(i)); !fits) {
             if (device_->lost()) return fits;
             session.refuse_mode(screen.shown.mode, fits.error());
         }
@@ -59,9 +59,20 @@ Result<void> Presenter::fit_modes(LiveSession& session) {
     return {};
 }
 
-Result<void> Presenter::fit_mode(std::size_t i, wall::StereoMode mode) {
+Result<void> Presenter::fit_mode(std::size_t i, const wall::OutputSettings& wanted) {
     ScreenStage& screen = screens_[i];
-    if (!screen.output || mode == screen.shown.mode) return {};
+    const wall::StereoMode before = screen.shown.mode;
+    if (wanted.mode == before) return {};
+    if (const auto fits = fit_outputs(i, wanted.mode); !fits) return fits;
+    const auto fits = screen.picture->fit(screen.place.size, wanted);
+    if (!fits && !device_->lost())
+        if (const auto back = fit_outputs(i, before); !back) return back;
+    return fits;
+}
+
+Result<void> Presenter::fit_outputs(std::size_t i, wall::StereoMode mode) {
+    ScreenStage& screen = screens_[i];
+    if (!screen.output) return {};
     const wall::ModeNeeds needs = wall::needs_of(mode);
     if (needs.two_windows && screen.window == nullptr) {
         return fail("screen " + wall_->screens[i].name, "it is driven directly, so that the right eye has no window",

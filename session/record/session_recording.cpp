@@ -85,6 +85,10 @@ void SessionRecording::event(EventMark mark) {
     writer_->note_event(mark.time_ns, std::move(mark.name), std::move(mark.value));
 }
 
+void SessionRecording::fact_of_end(std::string key, std::string value) {
+    writer_->note_fact(std::move(key), std::move(value));
+}
+
 void SessionRecording::take_ticks() { writer_->take_now(); }
 
 Result<void> SessionRecording::close() {

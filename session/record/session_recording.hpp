@@ -80,6 +80,8 @@ public:
     void trial(const TrialMark& mark);
     // Keeps an event.
     void event(EventMark mark);
+    // Writes a fact when the recording is closed.
+    void fact_of_end(std::string key, std::string value);
     // Returns when all ticks that the ring holds are recorded: at the end, when no tick follows.
     void take_ticks();
     // Brings everything to the disk. Fails with why something is missing.

@@ -101,8 +101,13 @@ TEST_F(PosingCard, FeelsAndRecordsWhatTheProcessorFeelsAndEitherReplaysTheOther)
             const Json counted = Json::parse(at_.read("counts")), &told = reported["traffic"];
             for (const char* count : {"submissions", "bytes_to_device", "bytes_to_host"})
                 EXPECT_EQ(told[count], counted[count]) << count;
+            EXPECT_EQ(told["most_memory_bytes"], counted["most_device_bytes"]);
             EXPECT_LE(counted["blocking_waits"], told["blocking_waits"])
                 << "a device may be done before it is waited for";
+            const std::string session = engine + resolution + ".session";
+            const std::string kept = at_.run(std::string(kBurinCommand) + " session info " + session).output;
+            EXPECT_TRUE(kept.contains("vulkan: " + told["submissions"].dump() + " submissions, ")) << kept;
+            EXPECT_TRUE(kept.contains("at most " + told["most_memory_bytes"].dump() + " bytes of its memory")) << kept;
             const Json made = Json::parse(at_.read(engine + ".json"))["carving"];
             const auto updates = made["updates"].get<std::uint64_t>();
             EXPECT_GT(updates, 50u);
