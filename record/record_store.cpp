@@ -340,7 +340,7 @@ void RecordStore::end(std::uint64_t notes_lost, const std::vector<std::pair<std:
     if (!failure_) {
         ended = write_facts_of_end(notes_lost, facts);
     } else {
-        static_cast<void>(write_facts_of_end(notes_lost));  // where the disk takes it again
+        static_cast<void>(write_facts_of_end(notes_lost, facts));  // where the disk takes it again
         if (database_->in_transaction()) static_cast<void>(database_->run("ROLLBACK"));
     }
     const Result<void> closed = file_->close();

@@ -356,9 +356,11 @@ void LiveSession::take(sculpt::SurfaceUpdate news) {
 }
 
 void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {
+    const std::string refused(wall::title_of(state_.output.mode)), goes_on(wall::title_of(working));
     state_.output.mode = working;
     refused_ = working;
-    notify_of_event(error.line(), MessageKind::warning);
+    notify_of_event("stereo mode " + refused + " is not shown, " + goes_on + " goes on: " + error.line(),
+                    MessageKind::warning);
 }
 
 std::optional<Nanoseconds> LiveSession::changes_ns() const {

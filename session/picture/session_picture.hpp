@@ -38,8 +38,8 @@ public:
 
     // Draws with all triangles, for screenshots: the progress of refine_beside() must not show in them.
     void draw_in_full(bool full) { full_ = full; }
-    // Makes ready for an output of this size and mode, as draw() does. An Error of the device's memory leaves what it was
-    // ready for.
+    // Makes ready for an output of this size and mode, as draw() does. An Error of the device's memory leaves what it
+    // was ready for.
     [[nodiscard]] Result<void> fit(ImageSize output, const wall::OutputSettings& settings);
     // Records the scene for an output of this size and mode; without a scene it is dark. stats().parts says what of the
     // eyes' pictures changed.

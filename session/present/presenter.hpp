@@ -85,6 +85,11 @@ public:
     // stereo mode that the window cannot have is left for the session to refuse.
     [[nodiscard]] Result<bool> draw_still(const StillPicture& still);
     void hide_windows();
+    // Has the session refuse a stereo mode that the output cannot show or the device has no memory for, and go on with
+    // the one shown. draw() does so too; a frame that is not drawn calls it, once has_drawn(), so that the next
+    // picture has the shape of the mode that goes on.
+    [[nodiscard]] Result<void> fit_modes(LiveSession& session);
+    [[nodiscard]] bool has_drawn() const { return drawn_; }
     // Returns whether eyes are shown by turns, which needs a picture at each refresh.
     [[nodiscard]] bool takes_turns(const LiveSession& session) const;
     // Has coarser levels of the surface computed in the background; call between frames. resting: nothing has happened
@@ -134,7 +139,6 @@ private:
     [[nodiscard]] static std::vector<Input> panels_inputs(const ScreenStage& screen, double wait_s);
     [[nodiscard]] Result<bool> paint_still(ScreenStage& screen, const StillPicture& still);
     // ---- presenter_drawing.cpp
-    [[nodiscard]] Result<void> fit_modes(LiveSession& session);
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen in a
     // state it can show.
     [[nodiscard]] Result<void> fit_mode(std::size_t screen, const wall::OutputSettings& wanted);
@@ -165,6 +169,7 @@ private:
     bool draws_less_ = false;
     DetailState detail_;
     std::optional<WholePicture> last_whole_;  // of the frame before, if it drew one
+    bool drawn_ = false;                      // a picture, since it was opened
     int losses_ = 0;                          // device losses since the last picture
 };
 

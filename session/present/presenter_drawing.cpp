@@ -34,6 +34,7 @@ Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
     if (const auto fitted = fit_modes(session); !fitted) return std::unexpected(fitted.error());
     const Result<bool> drawn = draw_screens(session);
     if (!drawn) return drawn;
+    drawn_ = true;
     if (const auto shown = show_screens(frame_ns); !shown) return std::unexpected(shown.error());
     session.times().reached(FrameStage::show);
     if (const auto done = wait_for_device(); !done) return std::unexpected(done.error());
@@ -45,7 +46,6 @@ Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
     return drawn;
 }
 
-// A mode that a screen cannot show is refused, and the screen goes on with the one that works.
 Result<void> Presenter::fit_modes(LiveSession& session) {
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         ScreenStage& screen = screens_[i];

@@ -9,7 +9,7 @@ Result<bool> Presenter::draw_still(const StillPicture& still) {
     if (!screen.output || is_empty(screen.place.size)) return false;
     const std::uint64_t before = presented();
     screen.settings = still.output;
-    if (!fit_mode(wall_->main, still.output.mode)) screen.settings.mode = screen.shown.mode;
+    if (!fit_mode(wall_->main, still.output)) screen.settings.mode = screen.shown.mode;
     const Result<bool> anew = paint_still(screen, still);
     if (!anew) return anew;
     if (*anew)
