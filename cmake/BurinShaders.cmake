@@ -1,6 +1,7 @@
 # burin_shaders(TARGET [EXACT] shader...)
 # Compiles GLSL from shaders/ to SPIR-V and lets TARGET include it as "shaders/<name>.spv.hpp", which defines
-# const uint32_t k_<name with _ for .>[]. EXACT: no float operation may be fused with another (cmake/no-contraction).
+# const uint32_t k_<name with _ for .>[]. EXACT: no float operation may be fused with another (cmake/no-contraction),
+# and quotients and roots of floats are computed in doubles (BURIN_EXACT, shaders/shared/portable.h).
 find_program(BURIN_GLSLANG glslangValidator REQUIRED)
 function(burin_shaders TARGET)
   cmake_parse_arguments(ARG "EXACT" "" "" ${ARGN})
@@ -11,7 +12,7 @@ function(burin_shaders TARGET)
     set(glslang ${BURIN_GLSLANG} --quiet -V --target-env vulkan1.2 -I${CMAKE_SOURCE_DIR})
     set(compile COMMAND ${glslang} --vn k_${symbol} -o ${header} ${CMAKE_SOURCE_DIR}/shaders/${shader})
     if(ARG_EXACT)
-      set(compile COMMAND ${glslang} -o ${header}.spv ${CMAKE_SOURCE_DIR}/shaders/${shader}
+      set(compile COMMAND ${glslang} -DBURIN_EXACT -o ${header}.spv ${CMAKE_SOURCE_DIR}/shaders/${shader}
         COMMAND ${CMAKE_SOURCE_DIR}/cmake/no-contraction ${header}.spv k_${symbol} ${header})
     endif()
     add_custom_command(OUTPUT ${header}

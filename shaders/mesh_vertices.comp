@@ -4,7 +4,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
 // Writes the vertices of each cell, one invocation per cell, by the rules of shaders/shared/feature_point.h and
-// cell_vertex.h: where a device rounds as the host does the result is bit-identical.
+// cell_vertex.h: bit-identical to the host's.
 #include "shaders/mesh_buffers.glsl"
 #include "shaders/mesh_vertex.glsl"
 #include "shaders/shared/feature_planes.h"
@@ -54,7 +54,7 @@ void main() {
             colour[i] = edges[crossing].what.w;
             place_sum += crossing_place(i);
         }
-        precise vec3 mean = place_sum / float(last - first);
+        precise vec3 mean = exact_quotient(place_sum, float(last - first));
         ClosedForm planes = offset_to_planes(first, last, mean);
         vec3 offset = planes.offset;
         if (kListed == 1u && !planes.found) offset = offset_by_eigenvalues(first, last, mean);

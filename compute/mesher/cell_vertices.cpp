@@ -98,7 +98,7 @@ struct CellVertexMaker::Loop {
     const float length2 = dot3(loop.normal_sum, loop.normal_sum);
     if (!loop.one_material || !alike(loop, length2)) return false;
     const auto count = static_cast<float>(loop.count);
-    const Float3 mean = loop.place_sum / count;
+    const Float3 mean = exact_quotient(loop.place_sum, count);
     float offset_sum = 0.0f;
     for (std::size_t i = 0; i < loop.count; ++i) {
         offset_sum += dot3(loop.samples[i]->unit_normal(), loop.places[i] - mean);
@@ -166,7 +166,7 @@ CellVertices CellVertexMaker::make(int z, shared::SurfaceVertex* vertices) const
             continue;
         }
         const auto end = static_cast<std::uint32_t>(loop.count);
-        const Float3 mean = loop.place_sum / static_cast<float>(loop.count);
+        const Float3 mean = exact_quotient(loop.place_sum, static_cast<float>(loop.count));
         shared::HostLoop crossings{loop.samples.data(), loop.places.data()};
         const auto planes = crossings.offset_to_planes(0, end, mean);
         const Float3 offset = planes.found ? planes.offset : crossings.offset_by_eigenvalues(0, end, mean);

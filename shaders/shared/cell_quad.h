@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The polygon around a crossed lattice edge: the vertices of the four cells around it, counter-clockwise seen from the
 // edge's upper end, and between two of them an extra vertex on their common face where a loop passes that face twice
-// (compute/mesher/cell_table.hpp). Bit-identical on the CPU and on every device that rounds as IEEE 754 does.
+// (compute/mesher/cell_table.hpp). Bit-identical on the CPU and on every device (portable.h).
 #ifndef BURIN_SHARED_CELL_QUAD_H
 #define BURIN_SHARED_CELL_QUAD_H
 #include "shaders/shared/cell_row.h"
@@ -81,7 +81,7 @@ BURIN_HOT_FN Float4 facings(Float4 x, Float4 y, Float4 z, float normal_x, float 
     BURIN_PRECISE Float4 nz = ax * by - bx * ay;
     BURIN_PRECISE Float4 along = nx * normal_x + ny * normal_y + nz * normal_z;
     BURIN_PRECISE Float4 length2 = nx * nx + ny * ny + nz * nz;
-    BURIN_PRECISE Float4 cosine2 = along * size_of_each(along) / length2;
+    BURIN_PRECISE Float4 cosine2 = exact_quotient(along * size_of_each(along), length2);
     return if_positive(length2, cosine2, -1.0f);
 }
 // Tells whether the diagonal 1-3 turns its two triangles less away from the outward normal than 0-2 does.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The vertices of one cell: how many smooth pieces of surface meet there, and the vertex of each. Bit-identical on the
-// CPU and on every device that rounds as IEEE 754 does, and in every tile that sees the cell.
+// CPU and on every device (portable.h), and in every tile that sees the cell.
 #ifndef BURIN_SHARED_CELL_VERTEX_H
 #define BURIN_SHARED_CELL_VERTEX_H
 #include "shaders/shared/direction_code.h"
@@ -51,7 +51,7 @@ BURIN_HOT_FN float metres_of(float in_cell, int cell, double spacing_m) {
 // Returns the code of the mean direction of unit normals; `length` is that of their sum. The direction is truncated to
 // whole 2^-20s, from which direction_code makes the same bits everywhere. Normals that cancel give +z.
 BURIN_HOT_FN uint mean_direction_code(Float3 normal_sum, float length) {
-    BURIN_PRECISE Float3 unit = length > 1e-6f ? normal_sum * (1.0f / length) : Float3(0.0f, 0.0f, 1.0f);
+    BURIN_PRECISE Float3 unit = length > 1e-6f ? normal_sum * exact_quotient(1.0f, length) : Float3(0.0f, 0.0f, 1.0f);
     BURIN_PRECISE Float3 scaled = unit * 1048576.0f;
     return direction_code(int(scaled[0]), int(scaled[1]), int(scaled[2]));
 }

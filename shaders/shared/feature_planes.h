@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes a point from the tangent planes of the surface in a cell, for feature_point.h. Lengths in cells.
-// Bit-identical on the CPU and on every device that rounds as IEEE 754 does.
+// Bit-identical on the CPU and on every device (portable.h).
 #ifndef BURIN_SHARED_FEATURE_PLANES_H
 #define BURIN_SHARED_FEATURE_PLANES_H
 #include "shaders/shared/feature_constants.h"
@@ -34,11 +34,11 @@ BURIN_FN Cluster cluster_with(Cluster old, bool opened, bool joined, Float3 norm
 }
 
 BURIN_HOT_FN Float3 mean_normal(Float3 normal_sum, float length) {
-    BURIN_PRECISE Float3 mean = normal_sum / length;
+    BURIN_PRECISE Float3 mean = exact_quotient(normal_sum, length);
     return mean;
 }
 BURIN_HOT_FN float mean_offset(float offset_sum, float count) {
-    BURIN_PRECISE float mean = offset_sum / count;
+    BURIN_PRECISE float mean = exact_quotient(offset_sum, count);
     return mean;
 }
 
@@ -54,14 +54,14 @@ BURIN_FN float squared_sine(float cosine) {
 // Returns the offset to the nearest point of the line in which two planes meet; sine2 is the squared sine of their
 // angle.
 BURIN_FN Float3 offset_to_line(Float3 n0, float d0, Float3 n1, float d1, float cosine, float sine2) {
-    BURIN_PRECISE Float3 way = (n0 * (d0 - cosine * d1) + n1 * (d1 - cosine * d0)) / sine2;
+    BURIN_PRECISE Float3 way = exact_quotient(n0 * (d0 - cosine * d1) + n1 * (d1 - cosine * d0), sine2);
     return way;
 }
 // Returns the offset to the point in which three planes meet; `across` is the cross product of n1 and n2, `volume` the
 // triple product of all three.
 BURIN_FN Float3 offset_to_corner(Float3 n0, float d0, Float3 n1, float d1, Float3 n2, float d2, Float3 across,
                                  float volume) {
-    BURIN_PRECISE Float3 way = (across * d0 + cross3(n2, n0) * d1 + cross3(n0, n1) * d2) / volume;
+    BURIN_PRECISE Float3 way = exact_quotient(across * d0 + cross3(n2, n0) * d1 + cross3(n0, n1) * d2, volume);
     return way;
 }
 

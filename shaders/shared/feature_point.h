@@ -112,9 +112,10 @@ BURIN_FN Float3 offset_by_eigenvalues(uint first, uint end, Float3 mean) {
         int p = turn % 3 == 2 ? 1 : 0;
         int q = turn % 3 == 0 ? 1 : 2;
         if (abs(a[p][q]) < 1e-12f) continue;
-        BURIN_PRECISE float theta = (a[q][q] - a[p][p]) / (2.0f * a[p][q]);
-        BURIN_PRECISE float t = (theta >= 0.0f ? 1.0f : -1.0f) / (abs(theta) + sqrt(theta * theta + 1.0f));
-        BURIN_PRECISE float c = 1.0f / sqrt(t * t + 1.0f);
+        BURIN_PRECISE float theta = exact_quotient(a[q][q] - a[p][p], 2.0f * a[p][q]);
+        BURIN_PRECISE float t =
+            exact_quotient(theta >= 0.0f ? 1.0f : -1.0f, abs(theta) + exact_root(theta * theta + 1.0f));
+        BURIN_PRECISE float c = exact_quotient(1.0f, exact_root(t * t + 1.0f));
         BURIN_PRECISE float s = t * c;
         for (int k = 0; k < 3; ++k) {
             float kp = a[k][p];
@@ -143,7 +144,7 @@ BURIN_FN Float3 offset_by_eigenvalues(uint first, uint end, Float3 mean) {
     BURIN_PRECISE Float3 offset = Float3(0.0f);
     for (int k = 0; k < 3; ++k) {
         float value = a[k][k];
-        if (value > kEigenvalueCutoff * largest) offset += vectors[k] * (dot3(vectors[k], atb) / value);
+        if (value > kEigenvalueCutoff * largest) offset += vectors[k] * exact_quotient(dot3(vectors[k], atb), value);
     }
     return offset;
 }

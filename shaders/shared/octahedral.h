@@ -90,15 +90,15 @@ BURIN_FN uint opposite_normal(uint code) {
 
 // Returns the unit normal of a code.
 BURIN_FN Direction decode_normal(uint code) {
-    float a = float(int(code & uint(0xffff)) - 32767) / 32767.0f;
-    float b = float(int(code >> 16) - 32767) / 32767.0f;
+    float a = exact_quotient(float(int(code & uint(0xffff)) - 32767), 32767.0f);
+    float b = exact_quotient(float(int(code >> 16) - 32767), 32767.0f);
     float c = 1.0f - (a < 0.0f ? -a : a) - (b < 0.0f ? -b : b);
     if (c < 0.0f) {
         float unfolded_a = (1.0f - (b < 0.0f ? -b : b)) * (a < 0.0f ? -1.0f : 1.0f);
         b = (1.0f - (a < 0.0f ? -a : a)) * (b < 0.0f ? -1.0f : 1.0f);
         a = unfolded_a;
     }
-    float inverse_length = 1.0f / sqrt(a * a + b * b + c * c);
+    float inverse_length = exact_quotient(1.0f, exact_root(a * a + b * b + c * c));
     Direction d;
     d.x = a * inverse_length;
     d.y = b * inverse_length;

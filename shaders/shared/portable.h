@@ -6,10 +6,16 @@
 //   BURIN_HOT_FN       one that C++ always inlines, since it stands in an inner loop of the CPU mesher
 //   BURIN_CONSTEXPR_FN one from which C++ makes tables at compile time
 //   BURIN_PRECISE      before a variable: each operation that leads to it rounds once, none are fused. GLSL needs the
-//                      qualifier; the C++ build never fuses (-ffp-contract=off). A value marked so is bit-identical on
-//                      every device that rounds division and square roots as IEEE 754 does. Keep such variables in
-//                      small functions: glslang 12 follows what they depend on, and does not terminate where that is a
-//                      part of a struct which a loop assigns to as a whole.
+//                      qualifier; the C++ build never fuses (-ffp-contract=off). Keep such variables in small
+//                      functions: glslang 12 follows what they depend on, and does not terminate where that is a part
+//                      of a struct which a loop assigns to as a whole.
+//   exact_quotient(a, b), exact_root(a)   of floats, in place of a / b and sqrt(a)
+// Vulkan lets a division of floats err by 2.5 units in the last place, and a root by more. So shaders that are compiled
+// as EXACT (cmake/BurinShaders.cmake, which defines BURIN_EXACT) compute both in doubles and round the result to a
+// float. A quotient of two floats lies at least 2^-49 of itself away from any number half-way between two floats, and a
+// root 2^-51 of itself; doubles that IEEE 754 rounds are within 2^-53, so that the float is the one that IEEE 754 asks
+// for. Vulkan promises neither that nor that sums and products are rounded to nearest, but cards do both. Drawing
+// shaders, which must run on cards without doubles, take the plain operations.
 // Compare before widening: llvmpipe of Mesa 22.3 (Debian 12) gets int64_t(n) < int64_t(0) wrong for an int n below
 // zero.
 #ifndef BURIN_SHARED_PORTABLE_H
@@ -40,6 +46,8 @@ using std::max;
 using std::min;
 using std::pow;
 using std::sqrt;
+BURIN_HOT_FN float exact_quotient(float a, float b) { return a / b; }
+BURIN_HOT_FN float exact_root(float a) { return sqrt(a); }
 }  // namespace burin::shared
 
 #else
@@ -50,6 +58,14 @@ using std::sqrt;
 #define BURIN_HOT_FN
 #define BURIN_CONSTEXPR_FN
 #define BURIN_PRECISE precise
+
+#ifdef BURIN_EXACT
+float exact_quotient(float a, float b) { return float(double(a) / double(b)); }
+float exact_root(float a) { return float(sqrt(double(a))); }
+#else
+float exact_quotient(float a, float b) { return a / b; }
+float exact_root(float a) { return sqrt(a); }
+#endif
 
 #endif
 #endif

@@ -66,7 +66,7 @@ BURIN_HOT_FN EdgeCrossing edge_crossing(uint count, int axis, int lower, bool lo
     } else {
         DexelEnd end = load_end(chosen);
         int offset = depth_of(end) - lower * kUnitsPerCell;
-        crossing.along = float(clamp(offset, 0, kUnitsPerCell)) / float(kUnitsPerCell);
+        crossing.along = exact_quotient(float(clamp(offset, 0, kUnitsPerCell)), float(kUnitsPerCell));
         crossing.normal = end.normal;
         crossing.material = material_of(end);
         crossing.disagrees = offset <= 0 || offset > kUnitsPerCell;

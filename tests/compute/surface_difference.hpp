@@ -47,10 +47,10 @@ inline std::vector<std::array<Corner, 3>> triangles_of(const TileMesh& mesh) {
     return triangles;
 }
 
-// How far the device's surface may be from the CPU's. A software driver divides and takes roots as IEEE says: every bit
-// is the same. A graphics card may round otherwise, which shows in the last bits of places and normals, and, where a
-// choice hangs on such a bit, in a diagonal or in a feature's place. What is made of whole numbers is the same on both:
-// how many vertices and triangles, and which material.
+// How far the device's surface may be from the CPU's. On a software driver every bit is the same. On a graphics card it
+// should be too, since shaders divide and take roots in doubles (shaders/shared/portable.h); but the bounds below are
+// those of a card that was measured before they did, and stay until one has been measured since. What is made of whole
+// numbers is the same on both: how many vertices and triangles, and which material.
 struct Tolerance {
     explicit Tolerance(const gpu::Device& device, double spacing_m) {
         if (device.info().is_software()) return;
