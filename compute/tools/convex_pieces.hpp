@@ -18,6 +18,12 @@ namespace burin::compute {
 
 using ConvexPiece = std::variant<FrustumSweep, BoxSweep>;
 
+// The pieces of a sweep, move after move. Those of one move are stacked along the tool's axis, from its tip on.
+struct ConvexPieces {
+    std::vector<ConvexPiece> pieces;
+    std::size_t a_move = 1;  // pieces of each move
+};
+
 [[nodiscard]] inline SweepSpan span_of(const ConvexPiece& piece, int axis, double ray_u, double ray_v) {
     return std::visit([&](const auto& p) { return p.span(axis, ray_u, ray_v); }, piece);
 }

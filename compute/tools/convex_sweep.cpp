@@ -145,26 +145,32 @@ SweepSpan FrustumSweep::span(int axis, double ray_u, double ray_v) const {
     const Vec3 o = on_ray - tip_;
     Candidate least{}, greatest{};
     if (!Section(shape_, slope_, axis_, o, e, direction_, distance_).extremes(least, greatest)) return {};
-    // Returns the outward normal of the body at a candidate.
-    const auto normal = [&](const Candidate& c) {
+    struct Normals {
+        Vec3 body, slice;
+    };
+    // Returns the outward normals at a candidate: of the body whose slice this is, and of the slice itself.
+    const auto normals_at = [&](const Candidate& c) -> Normals {
         const Vec3 p = o + c.s * e - c.t * direction_;
         const double y = glm::dot(p, axis_);
         const Vec3 outward = p - axis_ * y, cap = y < 0.5 * shape_.length ? -axis_ : axis_;
-        if (c.part == Part::cap) return cap;
-        const bool moving = c.t > kSweepSlack && c.t < distance_ - kSweepSlack;
-        if (shape_.rim_radius >= 0.0 && !(moving && c.part == Part::rim)) {
-            const double out = std::sqrt(glm::dot(outward, outward));
-            const Vec3 from_rim = out > shape_.rim_radius ? outward * (1.0 - shape_.rim_radius / out) : Vec3(0.0);
-            const Vec3 n = from_rim + axis_ * (y - shape_.rim_height);
-            return moving ? n - direction_ * glm::dot(n, direction_) : n;
-        }
+        if (c.part == Part::cap) return {cap, cap};
+        const bool moving = c.t > kSweepSlack && c.t < distance_ - kSweepSlack, at_edge = moving && c.part == Part::rim;
         const Vec3 side = outward - axis_ * (slope_ * (shape_.tip_radius + slope_ * y));
-        if (c.part == Part::side || !moving) return side;
-        // At an edge the motion selects a normal n with n.d = 0 between those of the side and the cap.
-        const Vec3 n = cap * std::abs(glm::dot(side, direction_)) + side * std::abs(glm::dot(cap, direction_));
-        return n == Vec3(0.0) ? cap : n;
+        if (at_edge) {
+            // At an edge the motion selects a normal n with n.d = 0 between those of the side and the cap.
+            const Vec3 n = cap * std::abs(glm::dot(side, direction_)) + side * std::abs(glm::dot(cap, direction_));
+            const Vec3& either = n == Vec3(0.0) ? cap : n;
+            return {either, either};
+        }
+        if (shape_.rim_radius < 0.0) return {side, side};
+        const double out = std::sqrt(glm::dot(outward, outward));
+        const Vec3 from_rim = out > shape_.rim_radius ? outward * (1.0 - shape_.rim_radius / out) : Vec3(0.0);
+        const Vec3 n = from_rim + axis_ * (y - shape_.rim_height);
+        return {moving ? n - direction_ * glm::dot(n, direction_) : n, side};
     };
-    SweepSpan span{on_ray[axis] + least.s, on_ray[axis] + greatest.s, normal(least), normal(greatest)};
+    const Normals at_least = normals_at(least), at_greatest = normals_at(greatest);
+    SweepSpan span{on_ray[axis] + least.s, on_ray[axis] + greatest.s, at_least.body, at_greatest.body,
+                   at_least.slice,         at_greatest.slice};
     if (glm::dot(span.normal_lo, span.normal_lo) == 0.0) span.normal_lo = -e;  // at the tip of a cone
     if (glm::dot(span.normal_hi, span.normal_hi) == 0.0) span.normal_hi = e;
     return span;
@@ -201,7 +207,7 @@ SweepSpan BoxSweep::span(int axis, double ray_u, double ray_v) const {
     // Normals of the six pairs of planes: perpendicular to two sides of the box, or to one side and the motion.
     const std::array<Vec3, 6> normals{Vec3(1, 0, 0),      Vec3(0, 1, 0),      Vec3(0, 0, 1),
                                       Vec3(0, d.z, -d.y), Vec3(-d.z, 0, d.x), Vec3(d.y, -d.x, 0)};
-    SweepSpan span{-kFar, kFar, {}, {}};
+    SweepSpan span{-kFar, kFar, {}, {}, {}, {}};
     for (const Vec3& n : normals) {
         const double reach = std::abs(n.x) * h.x + std::abs(n.y) * h.y + std::abs(n.z) * h.z + std::abs(glm::dot(n, d));
         const double rise = glm::dot(n, e), at = glm::dot(n, o);
@@ -219,8 +225,12 @@ SweepSpan BoxSweep::span(int axis, double ray_u, double ray_v) const {
     span.hi += on_ray[axis];
     span.normal_lo = orientation_ * span.normal_lo;
     span.normal_hi = orientation_ * span.normal_hi;
+    span.plane_lo = span.normal_lo;
+    span.plane_hi = span.normal_hi;
     return span;
 }
+
+Vec3 BoxSweep::side(int side) const { return orientation_ * unit_vector(side); }
 
 Box BoxSweep::bounds() const {
     Vec3 reach = glm::abs(0.5 * along_);

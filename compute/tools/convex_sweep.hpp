@@ -22,6 +22,8 @@ namespace burin::compute {
 struct SweepSpan {
     double lo = 1.0, hi = 0.0;            // depths, not rounded; empty when lo > hi
     Vec3 normal_lo{0.0}, normal_hi{0.0};  // pointing out of the tool, of any length
+    // Normals of planes that touch the swept piece at the ends. Those above may be those of another shape (rim_radius).
+    Vec3 plane_lo{0.0}, plane_hi{0.0};
     [[nodiscard]] bool empty() const { return !(lo <= hi); }
 };
 
@@ -39,6 +41,10 @@ public:
     FrustumSweep(const Frustum& shape, const Vec3& tip, const Vec3& axis, const Vec3& along);
     [[nodiscard]] SweepSpan span(int axis, double ray_u, double ray_v) const;
     [[nodiscard]] Box bounds() const;
+    [[nodiscard]] const Frustum& shape() const { return shape_; }
+    [[nodiscard]] const Vec3& tip() const { return tip_; }
+    [[nodiscard]] const Vec3& axis() const { return axis_; }
+    [[nodiscard]] const Vec3& along() const { return along_; }
 
 private:
     Frustum shape_;
@@ -54,6 +60,11 @@ public:
     BoxSweep(const Vec3& half_size, const Vec3& center, const Quat& orientation, const Vec3& along);
     [[nodiscard]] SweepSpan span(int axis, double ray_u, double ray_v) const;
     [[nodiscard]] Box bounds() const;
+    [[nodiscard]] Vec3 start() const { return middle_ - 0.5 * along_; }  // of the centre
+    [[nodiscard]] const Vec3& along() const { return along_; }
+    [[nodiscard]] const Vec3& half_size() const { return half_size_; }
+    // Returns the direction of a side, in lattice axes.
+    [[nodiscard]] Vec3 side(int side) const;
 
 private:
     Vec3 half_size_, middle_, along_;

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
-#include "compute/rays/normal_code.hpp"
-#include "compute/tools/convex_pieces.hpp"
 #include "compute/tools/mesh_tool.hpp"
+#include "compute/tools/move_bounds.hpp"
+#include "compute/tools/ray_union.hpp"
 #include "compute/tools/sweep_units.hpp"
 
 namespace burin::compute {
@@ -34,44 +35,6 @@ struct RowSpans {
     int axis = 0, v = 0;
     std::vector<std::uint32_t> pieces;
     RayBatch spans;
-};
-
-// Collects the spans of a ray and appends their union as ends.
-class RayUnion {
-public:
-    void clear() { spans_.clear(); }
-    void add(const SweepSpan& span) {
-        if (!span.empty()) spans_.push_back(span);
-    }
-
-    // `deepest` is the depth at which the lattice ends on this axis, in lattice units.
-    void append(int axis, int deepest, std::uint8_t material, std::vector<DexelEnd>& ends) {
-        std::ranges::stable_sort(spans_, {}, &SweepSpan::lo);
-        for (std::size_t i = 0; i < spans_.size();) {
-            SweepSpan whole = spans_[i++];
-            while (i < spans_.size() && std::ceil(spans_[i].lo) <= std::floor(whole.hi) + 1.0) {
-                if (spans_[i].hi > whole.hi) whole.hi = spans_[i].hi, whole.normal_hi = spans_[i].normal_hi;
-                ++i;
-            }
-            append_clipped(whole, axis, deepest, material, ends);
-        }
-    }
-
-private:
-    static void append_clipped(SweepSpan span, int axis, int deepest, std::uint8_t material,
-                               std::vector<DexelEnd>& ends) {
-        Vec3 e(0.0);
-        e[axis] = 1.0;
-        if (span.lo < 0.0) span.lo = 0.0, span.normal_lo = -e;
-        if (span.hi > deepest) span.hi = deepest, span.normal_hi = e;
-        if (!(span.lo < span.hi)) return;
-        const int lo = static_cast<int>(std::ceil(span.lo)), hi = static_cast<int>(std::floor(span.hi));
-        if (lo >= hi) return;
-        ends.push_back(shared::make_end(lo, material, normal_code(span.normal_lo)));
-        ends.push_back(shared::make_end(hi, material, normal_code(span.normal_hi)));
-    }
-
-    std::vector<SweepSpan> spans_;
 };
 
 std::vector<RowSpans> rows_under(const Lattice& lattice, const std::vector<std::vector<Footprint>>& footprints) {
@@ -104,38 +67,50 @@ RayBatch joined(const std::vector<RowSpans>& rows) {
     return batch;
 }
 
-RayBatch spans_of(const Lattice& lattice, const std::vector<ConvexPiece>& pieces, std::uint8_t material,
-                  WorkerPool& pool) {
+// Returns the rays that the moves may meet, as one rectangle for each move and axis.
+std::vector<std::vector<Footprint>> footprints_of(const Lattice& lattice, const ConvexPieces& sweep) {
     std::vector<std::vector<Footprint>> footprints(3);
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const ConvexPiece& piece : pieces) {
-            footprints[static_cast<std::size_t>(axis)].push_back(footprint_of(lattice, bounds_of(piece), axis));
+    for (std::size_t first = 0; first < sweep.pieces.size(); first += sweep.a_move) {
+        Box bounds;
+        for (std::size_t i = first; i < first + sweep.a_move; ++i) {
+            const Box piece = bounds_of(sweep.pieces[i]);
+            bounds.include(piece.lo);
+            bounds.include(piece.hi);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            footprints[static_cast<std::size_t>(axis)].push_back(footprint_of(lattice, bounds, axis));
         }
     }
-    std::vector<RowSpans> rows = rows_under(lattice, footprints);
-    pool.run(rows.size(), [&](std::size_t i) {
-        RowSpans& row = rows[i];
-        const std::vector<Footprint>& of_axis = footprints[static_cast<std::size_t>(row.axis)];
-        const int deepest = lattice.cells[static_cast<std::size_t>(row.axis)] * kUnitsPerCell;
-        int u_lo = lattice.rays_u(row.axis), u_hi = -1;
-        for (const std::uint32_t p : row.pieces) {
-            u_lo = std::min(u_lo, of_axis[p].u_lo);
-            u_hi = std::max(u_hi, of_axis[p].u_hi);
+    return footprints;
+}
+
+// Computes the spans of one row of rays.
+void fill_row(const Lattice& lattice, const MoveBounds& bounds, std::uint8_t material, RayUnion& ray, RowSpans& row) {
+    const double v = row.v * kUnitsPerCell;
+    std::vector<MoveBounds::RowPart> parts;
+    double lo = lattice.rays_u(row.axis) * kUnitsPerCell, hi = -1.0;
+    for (const std::uint32_t move : row.pieces) {
+        parts.push_back(bounds.part_of_row(move, row.axis, v, parts.empty() ? MoveBounds::RowPart{} : parts.back()));
+        lo = std::min(lo, parts.back().lo);
+        hi = std::max(hi, parts.back().hi);
+    }
+    ray.start_row();
+    const int deepest = lattice.cells[static_cast<std::size_t>(row.axis)] * kUnitsPerCell;
+    const auto last = static_cast<double>(lattice.rays_u(row.axis) - 1);
+    std::vector<std::uint32_t> moves;
+    std::vector<DexelEnd> ends;
+    for (double place = std::max(0.0, std::ceil(lo / kUnitsPerCell)); place <= last; place += 1.0) {
+        const double u = place * kUnitsPerCell;
+        if (u > hi) break;
+        moves.clear();
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (u >= parts[i].lo && u <= parts[i].hi) moves.push_back(row.pieces[i]);
         }
-        RayUnion ray;
-        std::vector<DexelEnd> ends;
-        for (int u = u_lo; u <= u_hi; ++u) {
-            ray.clear();
-            for (const std::uint32_t p : row.pieces) {
-                if (of_axis[p].holds(u, row.v))
-                    ray.add(span_of(pieces[p], row.axis, u * kUnitsPerCell, row.v * kUnitsPerCell));
-            }
-            ends.clear();
-            ray.append(row.axis, deepest, material, ends);
-            if (!ends.empty()) row.spans.add(shared::ray_code(row.axis, u, row.v), ends);
-        }
-    });
-    return joined(rows);
+        ray.gather(row.axis, u, v, moves);
+        ends.clear();
+        ray.append(deepest, material, ends);
+        if (!ends.empty()) row.spans.add(shared::ray_code(row.axis, static_cast<int>(place), row.v), ends);
+    }
 }
 
 Result<void> check_material(const Solid& solid, const ToolSweep& sweep) {
@@ -164,15 +139,28 @@ Result<std::vector<StraightMove>> moves_of(const Lattice& lattice, const Tool& t
 }
 
 template <typename Tool>
-Result<RayBatch> spans_of_tool(const Solid& solid, const Tool& tool, const ToolSweep& sweep, WorkerPool& pool) {
-    const Lattice& lattice = solid.lattice;
+Result<ConvexPieces> pieces_of_tool(const Lattice& lattice, const Tool& tool, const ToolSweep& sweep) {
     const auto moves = moves_of(lattice, tool, sweep);
     if (!moves) return std::unexpected(moves.error());
-    std::vector<ConvexPiece> pieces;
+    ConvexPieces all;
     for (const StraightMove& move : *moves) {
-        append_pieces(tool, move, lattice.unit_m(), sweep.tolerance_cells * kUnitsPerCell, pieces);
+        append_pieces(tool, move, lattice.unit_m(), sweep.tolerance_cells * kUnitsPerCell, all.pieces);
     }
-    return spans_of(lattice, pieces, sweep.material, pool);
+    if (!moves->empty()) all.a_move = all.pieces.size() / moves->size();
+    return all;
+}
+Result<ConvexPieces> pieces_of_tool(const Lattice& /*lattice*/, const BallTool& /*tool*/, const ToolSweep& /*sweep*/) {
+    return ConvexPieces{};
+}
+Result<ConvexPieces> pieces_of_tool(const Lattice& /*lattice*/, const MeshTool& /*tool*/, const ToolSweep& /*sweep*/) {
+    return ConvexPieces{};
+}
+
+template <typename Tool>
+Result<RayBatch> spans_of_tool(const Solid& solid, const Tool& tool, const ToolSweep& sweep, WorkerPool& pool) {
+    const Result<ConvexPieces> pieces = pieces_of_tool(solid.lattice, tool, sweep);
+    if (!pieces) return std::unexpected(pieces.error());
+    return convex_spans(solid.lattice, *pieces, sweep.material, pool).batch;
 }
 
 Result<RayBatch> spans_of_tool(const Solid& solid, const MeshTool& tool, const ToolSweep& sweep, WorkerPool& pool) {
@@ -240,6 +228,26 @@ Result<void> check_sweep(const Solid& solid, const ToolSweep& sweep) {
             return {};
         },
         sweep.shape);
+}
+
+Result<ConvexPieces> convex_pieces(const Lattice& lattice, const ToolSweep& sweep) {
+    return std::visit([&](const auto& tool) { return pieces_of_tool(lattice, tool, sweep); }, sweep.shape);
+}
+
+ConvexSpans convex_spans(const Lattice& lattice, const ConvexPieces& sweep, std::uint8_t material, WorkerPool& pool) {
+    if (sweep.pieces.empty()) return {};
+    const MoveBounds bounds(sweep.pieces, sweep.a_move);
+    std::vector<RowSpans> rows = rows_under(lattice, footprints_of(lattice, sweep));
+    // A few rows together, since the pieces at the ends of a row's first ray are found next to those of the row before.
+    constexpr std::size_t kRowsTogether = 8;
+    std::vector<std::uint64_t> sections((rows.size() + kRowsTogether - 1) / kRowsTogether);
+    pool.run(sections.size(), [&](std::size_t i) {
+        RayUnion ray(sweep.pieces, sweep.a_move, bounds);
+        const std::size_t last = std::min(rows.size(), (i + 1) * kRowsTogether);
+        for (std::size_t r = i * kRowsTogether; r < last; ++r) fill_row(lattice, bounds, material, ray, rows[r]);
+        sections[i] = ray.sections();
+    });
+    return {joined(rows), std::accumulate(sections.begin(), sections.end(), std::uint64_t{0})};
 }
 
 Result<RayBatch> tool_spans(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool) {

@@ -15,9 +15,12 @@
 // The batch is ordered by axis, row v and position u, and does not depend on the number of threads.
 #pragma once
 
+#include <cstdint>
+
 #include "base/worker_pool.hpp"
 #include "compute/rays/ray_batch.hpp"
 #include "compute/rays/solid.hpp"
+#include "compute/tools/convex_pieces.hpp"
 #include "compute/tools/tool.hpp"
 
 namespace burin::compute {
@@ -25,6 +28,18 @@ namespace burin::compute {
 // Returns the rays of which the tool covers a part, with the intervals covered, the tool's outward normals and its
 // material. Fails on an invalid tool, pose, tolerance or material (see check_sweep).
 [[nodiscard]] Result<RayBatch> tool_spans(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool);
+
+// Returns the convex pieces that tool_spans takes the sweep for; none for a ball or a mesh. Fails as tool_spans does.
+[[nodiscard]] Result<ConvexPieces> convex_pieces(const Lattice& lattice, const ToolSweep& sweep);
+
+// What convex pieces cover of the rays, and how many sections of a ray with a piece were computed for it: the work,
+// most of which is left out where a tool turns (ray_union.hpp).
+struct ConvexSpans {
+    RayBatch batch;
+    std::uint64_t sections = 0;
+};
+[[nodiscard]] ConvexSpans convex_spans(const Lattice& lattice, const ConvexPieces& sweep, std::uint8_t material,
+                                       WorkerPool& pool);
 
 // Fails as tool_spans does, without computing the spans: on a size that is not above zero or not finite, a corner
 // radius above the radius, a tool that measures more than 4096 cells from its middle, a mesh that is not closed and
