@@ -27,6 +27,8 @@ const char* words_for(DeviceFault fault) {
         case DeviceFault::overheated: return "its motors are warm";
         case DeviceFault::overspeed: return "it was moved too fast";
         case DeviceFault::other: return "it reports a fault";
+        case DeviceFault::motors_off: return "its motors are off";
+        case DeviceFault::force_differs: return "it gives another force than it is told";
     }
     return "";
 }

@@ -32,9 +32,15 @@ const char* text_of(Gesture gesture) {
 }
 
 const char* text_of(devices::DeviceFault fault) {
-    return fault == devices::DeviceFault::disconnected
-               ? "the glove is lost, so there is no force: see to its cable and its power"
-               : "the glove reports a fault, so there is no force: see to its controller";
+    switch (fault) {
+        case devices::DeviceFault::disconnected:
+            return "the glove is lost, so there is no force: see to its cable and its power";
+        case devices::DeviceFault::motors_off:
+            return "the glove's motors are off, so there is no force: switch them on at its controller";
+        case devices::DeviceFault::force_differs:
+            return "the glove's pistons give other forces than they are told, so there is no force: see to its air";
+        default: return "the glove reports a fault, so there is no force: see to its controller";
+    }
 }
 
 std::string name_of(const session::WorldObjects& world, scene::ObjectId id) {
@@ -156,6 +162,7 @@ void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& tic
                         session::ActivityOrders& orders) {
     const auto has_fault = [](const auto* tick) { return tick->sample.fault != devices::DeviceFault::none; };
     const Nanoseconds now_ns = ticks[0]->time_ns;
+    tell_of_pistons(ticks, orders);
     has_fault_ = std::ranges::all_of(ticks, has_fault);
     if (!has_fault_) {
         well_ns_ = now_ns;
@@ -170,6 +177,21 @@ void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& tic
     if (gesture_.grasps()) end_grasp(now_ns, orders);
     gesture_ = {};
     if (hand_ && world != nullptr) point_at(*hand_, *world, orders);
+}
+
+// A piston that gives another force than it is told is lost to the exercise, while the other fingers go on.
+void Grasp::tell_of_pistons(const std::array<const haptics::TickRecord*, kFelt>& ticks,
+                            session::ActivityOrders& orders) {
+    constexpr std::array<const char*, kFelt> kNames{"thumb's", "index finger's", "middle finger's", "ring finger's"};
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        const bool differs = ticks[i]->sample.fault == devices::DeviceFault::force_differs;
+        if (differs && !told_of_pistons_[i])
+            orders.messages.push_back(
+                formatted("the %s piston gives another force than it is told (now %.1f N), so it "
+                          "is told none: see to its air, then switch the glove off and on",
+                          kNames[i], ticks[i]->sample.drive.measured_N));
+        told_of_pistons_[i] = differs;
+    }
 }
 
 // A contact that is sound holds a fingertip, also where the hand has gone away on the thing's other side. Whoever

@@ -57,6 +57,7 @@ private:
     // Says when the glove is lost and when it is back, and lets go of what a hand that is lost for long holds.
     void watch_glove(const std::array<const haptics::TickRecord*, kFelt>& ticks, const session::WorldObjects* world,
                      session::ActivityOrders& orders);
+    void tell_of_pistons(const std::array<const haptics::TickRecord*, kFelt>& ticks, session::ActivityOrders& orders);
     // Sets a fingertip that stays behind a thing to the hand, when that has left and holds nothing.
     void free_fingers(const HandReading& hand, session::ActivityOrders& orders);
     void go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders);
@@ -74,6 +75,7 @@ private:
     std::optional<HandReading> hand_;
     bool has_fault_ = false, told_of_fault_ = false;  // of all parts: the glove's
     Nanoseconds well_ns_ = 0;                         // when it had none for the last time
+    std::array<bool, kFelt> told_of_pistons_{};       // of each that gives another force than it is told
     geometry::GestureState gesture_;
     std::array<bool, geometry::kHandFingers> holding_{};  // the fingers with which the last grasp began
     Vec3 taken_at_m_{0.0};                                // where they were then, on average

@@ -60,6 +60,9 @@ FingersTurn fingers_of(const FingerTicks& ticks, double dt_s) {
     for (std::size_t i = 0; i < kFelt; ++i) {
         turn.forces_N[i] = glm::length(ticks[i]->gate.given.force_device_N);
         std::copy_n(ticks[i]->sample.joints.begin(), turn.joints_rad[i].size(), turn.joints_rad[i].begin());
+        turn.has_fault[i] = ticks[i]->sample.fault != devices::DeviceFault::none;
+        const devices::OneWayDrive& drive = ticks[i]->sample.drive;
+        if ((drive.state & devices::kDriveMeasured) != 0) turn.measured_N[i] = drive.measured_N;
     }
     return turn;
 }
@@ -74,10 +77,12 @@ double closure_of(const HandReading& hand) {
 Json json_of(const FingerMeasures& finger, const char* name) {
     Json ranges = Json::array();
     for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) ranges.push_back(finger.range_rad(joint));
-    const std::optional<double> fractionation = finger.fractionation();
+    const std::optional<double> fractionation = finger.fractionation(), measured = finger.mean_measured_N();
     return {{"finger", name},
             {"peak_force_N", finger.peak_N},
             {"mean_force_N", finger.mean_N()},
+            {"peak_measured_N", measured ? Json(finger.measured_peak_N) : Json()},
+            {"mean_measured_N", measured ? Json(*measured) : Json()},
             {"pushed_s", finger.pushed_s},
             {"range_of_motion_rad", std::move(ranges)},
             {"peak_speed_rad_per_s", finger.peak_rad_per_s},

@@ -61,8 +61,11 @@ public:
         } else if (has_fault_) {
             sample.fault = DeviceFault::other;
             sample.fault_is_of_all = true;
+        } else if (are_motors_off_) {
+            sample.fault = DeviceFault::motors_off;
+            sample.fault_is_of_all = true;
         } else {
-            sample.fault = own_faults_[finger];
+            sample.fault = pistons_[finger].differs ? DeviceFault::force_differs : own_faults_[finger];
         }
         return sample;
     }
@@ -95,9 +98,15 @@ private:
             const GloveHeard& heard = link_->newest();
             is_lost_ = heard.time_ns == 0 || now_ns_ - heard.time_ns > kGloveLost_ns;
             has_fault_ = heard.set.fault;
+            are_motors_off_ = !heard.set.motors_on;
+            if (is_lost_) pistons_ = {};  // whoever switches a glove off and on has seen to it
             joints_ = joints_at(heard);
             hear_of(heard.set);
-            judge(heard);
+            expect(seconds(before_ns > 0 ? now_ns_ - before_ns : 0));
+            if (heard.time_ns != judged_ns_) {
+                compare_forces(heard);
+                judge(heard);
+            }
         }
         for (std::size_t i = 0; i < kGloveFingers; ++i) places_[i] = place_of(shape_[i], joints_[i]);
     }
@@ -115,21 +124,43 @@ private:
         return drive;
     }
 
-    // Takes the simulated fingers on by so long: pistons follow what they are to give as the paper's do, from 10 to 50
-    // Hz.
-    void close(double time_s) noexcept {
+    // Has the pistons follow what they are to give for so long, as the paper's do, from 10 to 50 Hz.
+    void expect(double time_s) noexcept {
         constexpr double kBand_Hz = 25.0;
         const double follows = 1.0 - std::exp(-2.0 * std::numbers::pi * kBand_Hz * time_s);
         for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i] += follows * (forces_N_[i] - given_N_[i]);
+    }
+
+    // Takes the simulated fingers on by so long.
+    void close(double time_s) noexcept {
+        expect(time_s);
         grip_ = stepped(grip_, (buttons_ & 1u) != 0 ? 1.0 : 0.0, given_N_, time_s);
         for (std::size_t i = 0; i < kGloveFingers; ++i) joints_[i] = bent_in(*simulated_, i, grip_.closed[i]);
         state_ = kDriveOn | kDriveMeasured;
         measured_N_ = given_N_;
     }
 
+    // Compares what the pistons give, in a set that is new, with what they were told. One that has given another force
+    // for kDiffers_ns, in each set of that time, gets no force until the glove is opened again: what is wrong with it
+    // does not show while it is told nothing. What the controller renders by itself, the host does not know.
+    void compare_forces(const GloveHeard& heard) noexcept {
+        const bool tells = !is_lost_ && !has_fault_ && !are_motors_off_ && heard.set.forces_N.has_value();
+        const bool follows = heard.before_ns != 0 && heard.time_ns - heard.before_ns <= kGloveLost_ns;
+        for (std::size_t i = 0; i < kGloveFingers; ++i) {
+            Piston& piston = pistons_[i];
+            const double told_N = given_N_[i], off_N = std::abs(measured_N_[i] - told_N);
+            const bool differs = tells && follows && !heard.set.is_local && off_N > kDiffers_N + kDiffersShare * told_N;
+            if (!differs)
+                piston.since_ns = 0;
+            else if (piston.since_ns == 0)
+                piston.since_ns = heard.time_ns;
+            else if (heard.time_ns - piston.since_ns >= kDiffers_ns)
+                piston.differs = true;
+        }
+    }
+
     // Judges the angles of a set that is new.
     void judge(const GloveHeard& heard) noexcept {
-        if (heard.time_ns == judged_ns_) return;
         judged_ns_ = heard.time_ns;
         const Nanoseconds between_ns = heard.time_ns - heard.before_ns;
         const bool follows = heard.before_ns != 0 && between_ns <= kGloveLost_ns;
@@ -169,6 +200,14 @@ private:
         return joints;
     }
 
+    // Of what a piston was told for long, it measures a quarter less or more where it rubs or its air is short.
+    static constexpr double kDiffers_N = 0.5, kDiffersShare = 0.25;
+    static constexpr Nanoseconds kDiffers_ns = 300'000'000;
+    struct Piston {
+        Nanoseconds since_ns = 0;  // arrival of the first set since which it gives another force; 0: it does not
+        bool differs = false;      // for so long that it is a fault
+    };
+
     const GloveHand& shape_ = usual_hand();
     std::unique_ptr<GloveLink> link_;     // null: there is no glove
     std::optional<GripShape> simulated_;  // none: it is no simulated one
@@ -177,9 +216,10 @@ private:
     Nanoseconds start_ns_, now_ns_ = 0;
     Pose palm_;
     std::uint32_t buttons_ = 0;
-    bool is_lost_ = false, has_fault_ = false;
+    bool is_lost_ = false, has_fault_ = false, are_motors_off_ = false;
     std::array<DeviceFault, kGloveFingers> own_faults_{};
-    Nanoseconds judged_ns_ = 0;  // arrival of the set that own_faults_ are of
+    std::array<Piston, kGloveFingers> pistons_{};
+    Nanoseconds judged_ns_ = 0;  // arrival of the set that own_faults_ and pistons_ are of
     std::uint32_t state_ = 0;    // of all pistons: DriveState
     bool is_local_ = false;      // the controller renders some finger by itself
     GloveForces measured_N_{};

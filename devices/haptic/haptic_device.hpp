@@ -61,7 +61,16 @@ struct DeviceWrench {
     Vec3 torque_device_Nm{0.0};
 };
 
-enum class DeviceFault : std::uint8_t { none, disconnected, overheated, overspeed, other };
+enum class DeviceFault : std::uint8_t {
+    none,
+    disconnected,
+    overheated,
+    overspeed,
+    other,
+    motors_off,     // it is there, but its motors are off
+    force_differs,  // it gives, by its own measurement, another force than it is told
+};
+inline constexpr DeviceFault kLastDeviceFault = DeviceFault::force_differs;
 
 // The one direction in which a part drives, where it has but one: a glove's piston, from its foot on the palm to the
 // fingertip. It turns with the pose, so it comes with each sample. It gives a force F at the handle as F . moves_device

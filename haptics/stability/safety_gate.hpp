@@ -48,7 +48,7 @@ enum class GateCause : std::uint8_t {
 [[nodiscard]] const char* text(GateCause cause) noexcept;
 
 struct GateLimits {
-    double max_force_N = 3.3;                // the device's own limits apply too, where lower
+    double max_force_N = 3.3;                // an Omni's; a session takes its device's, which bounds it in any case
     double max_slew_N_per_s = 1000.0;        // 1 N a tick at 1 kHz: about what a 600 N/m wall needs at 1.7 m/s
     double max_torque_slew_Nm_per_s = 80.0;  // the same at the end of a handle of 0.16 m
     double contact_ramp_s = 0.1;             // after a contact that has jumped: an edit, a moved workspace

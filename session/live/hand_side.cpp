@@ -38,7 +38,7 @@ std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state
 void HandSide::publish_parameters(const SessionState& state, const Room& room, const ActivitySide& activity) {
     for (std::size_t part = 0; part < hands_.parts(); ++part) {
         const PartOfHand of = hands_.part_of_hand(part);
-        haptics::TickParameters parameters = parameters_of(state, room, of.hand);
+        haptics::TickParameters parameters = parameters_of(state, room, of.hand, hands_.device(part));
         activity.adjust(of, parameters);
         hands_.publish(part, std::move(parameters));
     }

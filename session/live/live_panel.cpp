@@ -68,8 +68,8 @@ void add_objects(PanelModel& m, const SessionState& state) {
 void add_rendered(PanelModel& m, const PanelContext& context) {
     if (!m.object || !m.object->felt) return;
     for (std::size_t hand = 0; hand < context.hands.hands(); ++hand) {
-        const haptics::TickParameters parameters = parameters_of(context.state, context.room, hand);
         const devices::DeviceDescription& device = context.hands.device(context.hands.first_part(hand));
+        const haptics::TickParameters parameters = parameters_of(context.state, context.room, hand, device);
         const auto with = [&](std::uint32_t points) {
             return scene::rendered_material(m.object->material, device, parameters, points);
         };
@@ -174,6 +174,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.hand = state.hand;
     if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));
     feed_.show_on(m);
+    m.force_N.limit = static_cast<float>(context.hands.device(context.hands.first_part(state.hand)).max_force_N);
     if (!context.tells_late_pictures) m.warnings.clear();
     return m;
 }

@@ -172,8 +172,9 @@ void LiveSession::tell_what_is_not_rendered() {
     std::vector<scene::SceneObject> objects;
     for (const auto& object : state_.world->objects) objects.push_back(*object);
     for (std::size_t hand = 0; hand < hands().hands(); ++hand) {
-        const std::string more = scene::more_than_rendered(objects, hands().device(hands().first_part(hand)),
-                                                           parameters_of(state_, room_, hand));
+        const devices::DeviceDescription& device = hands().device(hands().first_part(hand));
+        const std::string more =
+            scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
         if (!more.empty()) notify(more, MessageKind::info);
     }
 }

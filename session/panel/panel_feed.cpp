@@ -8,8 +8,6 @@
 namespace burin::session {
 namespace {
 
-constexpr float kForceLimit_N = 3.3f;  // of the Omni
-
 // Appends a value. A plot has full length from the start, so that a constant value stands still at once.
 void go_on(PanelPlot& plot, double value) {
     plot.values.resize(PanelFeed::kPlotLength, 0.0f);
@@ -124,7 +122,6 @@ PanelNumbers PanelFeed::new_numbers(const PanelFacts& facts, double since_s) {
 
 void PanelFeed::show_on(PanelModel& model) const {
     model.force_N = force_N_;
-    model.force_N.limit = kForceLimit_N;
     model.tick_us = tick_us_;
     model.frame_ms = frame_ms_;
     model.touch.force_N = force_now_N_;

@@ -154,7 +154,7 @@ std::optional<TickSeen> TickText::read(std::string_view& text) {
     }
     if (fields.takes('b')) tick.sample.buttons = fields.number<std::uint32_t>();
     if (fields.takes('f')) {
-        const auto last = static_cast<std::int64_t>(devices::DeviceFault::other);
+        const auto last = static_cast<std::int64_t>(devices::kLastDeviceFault);
         tick.sample.fault = static_cast<devices::DeviceFault>(fields.change(0, last));
     }
     if (fields.takes('s')) tick.surface_sequence += static_cast<std::uint64_t>(fields.change(1, kMostChange));

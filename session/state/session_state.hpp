@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/haptic/haptic_device.hpp"
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
 #include "sculpt/carved_part.hpp"
@@ -211,6 +212,13 @@ struct SessionStep {
 
 // Returns the parameters that the haptic thread is to use for a hand.
 [[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room, std::size_t hand);
+// Returns them for what the hand holds: a device, whose most force is the gate's limit.
+[[nodiscard]] inline haptics::TickParameters parameters_of(const SessionState& state, const Room& room,
+                                                           std::size_t hand, const devices::DeviceDescription& device) {
+    haptics::TickParameters parameters = parameters_of(state, room, hand);
+    parameters.limits.max_force_N = device.max_force_N;
+    return parameters;
+}
 [[nodiscard]] inline haptics::TickParameters parameters_of(const SessionState& state, const Room& room) {
     return parameters_of(state, room, state.hand);
 }

@@ -3,8 +3,12 @@
 // flexion is none.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "activities/rehab/measures/hand_measures.hpp"
 
@@ -24,6 +28,7 @@ public:
                     0.1 + 0.03 * static_cast<double>(finger) - 0.07 * static_cast<double>(joint);
         turn_.dt_s = 0.001;
         go(1, 0, {});
+        go(kRests_ms, 0, {});
     }
     // Has a finger go so far, evenly over so many milliseconds.
     void go(int turns, std::size_t finger, const JointWays& ways_rad) {
@@ -33,12 +38,30 @@ public:
             measures = with_turn(measures, turn_);
         }
     }
+    // As the device reads a finger by mistake, or loses it: so many milliseconds of such angles.
+    void misread(int turns, std::size_t finger, double off_rad) {
+        turn_.has_fault[finger] = true;
+        for (double& angle_rad : turn_.joints_rad[finger]) angle_rad += off_rad;
+        for (int i = 0; i < turns; ++i) measures = with_turn(measures, turn_);
+        for (double& angle_rad : turn_.joints_rad[finger]) angle_rad -= off_rad;
+        turn_.has_fault[finger] = false;
+    }
+    // Has a finger stand elsewhere after a gap.
+    void jump(double gap_s, std::size_t finger, double off_rad) {
+        for (double& angle_rad : turn_.joints_rad[finger]) angle_rad += off_rad;
+        turn_.dt_s = gap_s;
+        measures = with_turn(measures, turn_);
+        turn_.dt_s = 0.001;
+    }
+    // Has the device measure what a finger's piston gives.
+    void measure(std::size_t finger, std::optional<double> force_N) { turn_.measured_N[finger] = force_N; }
     void push(int turns, std::size_t finger, double force_N) {
         turn_.forces_N[finger] = force_N;
         for (int i = 0; i < turns; ++i) measures = with_turn(measures, turn_);
         turn_.forces_N = {};
     }
     HandMeasures measures;
+    static constexpr int kRests_ms = 100;  // longer than a range's ends are held; two windows
 
 private:
     FingersTurn turn_;
@@ -129,6 +152,71 @@ TEST(EachFinger, ThatIsPushedHasItsOwnForces) {
             EXPECT_NEAR(is.impulse_Ns, 0.75 * own, 1e-9) << finger << other;
             EXPECT_NEAR(is.mean_N(), 2.5 * own, 1e-9) << finger << other;
             EXPECT_EQ(is.moved_rad, 0.0);
+        }
+    }
+}
+
+TEST(EachFinger, ThatIsReadByMistakeOrLostHasNotMoved) {
+    for (std::size_t finger = 0; finger < kMeasuredFingers; ++finger) {
+        MeasuredHand hand;
+        hand.push(200, finger, 2.0);
+        const FingerMeasures before = hand.measures.fingers[finger];
+        for (const double off_rad : {0.8, -1.4, 2.5}) hand.misread(137, finger, off_rad);
+        hand.go(200, finger, {});
+        const FingerMeasures& is = hand.measures.fingers[finger];
+        EXPECT_EQ(is.moved_rad, 0.0) << finger;
+        EXPECT_EQ(is.peak_rad_per_s, 0.0) << finger;
+        EXPECT_EQ(is.impulse_Ns, before.impulse_Ns) << finger;
+        for (std::size_t joint = 0; joint < kJoints; ++joint) EXPECT_EQ(is.range_rad(joint), 0.0) << finger << joint;
+        // Another finger that moves meanwhile does, but whether it led nobody knows.
+        const std::size_t other = (finger + 1) % kMeasuredFingers;
+        MeasuredHand two;
+        for (int i = 0; i < 500; ++i) {
+            two.misread(1, finger, 0.3 * (i % 2));
+            two.go(1, other, {0.0, 0.002});
+        }
+        EXPECT_NEAR(two.measures.fingers[other].moved_rad, 1.0, 0.01);
+        EXPECT_EQ(two.measures.fingers[other].led_rad, 0.0);
+        // After a gap it is elsewhere: that is a range, and no speed.
+        hand.jump(0.3, finger, 0.7);
+        hand.go(200, finger, {});
+        EXPECT_EQ(hand.measures.fingers[finger].peak_rad_per_s, 0.0) << finger;
+        for (std::size_t joint = 0; joint < kJoints; ++joint)
+            EXPECT_NEAR(hand.measures.fingers[finger].range_rad(joint), 0.7, 1e-9) << finger << joint;
+    }
+}
+
+// A reading may be off and yet plausible; a joint's range has ends at which it has stayed.
+TEST(EachFinger, ThatIsElsewhereForAMomentHasNoWiderRange) {
+    for (const auto& [stays_ms, range_rad] : {std::pair{20, 0.0}, {45, 0.0}, {75, 0.4}, {200, 0.4}}) {
+        MeasuredHand hand;
+        for (int times = 0; times < 20; ++times) {
+            hand.go(1, 2, {0.0, 0.4});
+            hand.go(stays_ms - 1, 2, {});
+            hand.go(1, 2, {0.0, -0.4});
+            hand.go(107, 2, {});
+        }
+        EXPECT_NEAR(hand.measures.fingers[2].range_rad(1), range_rad, 1e-9) << stays_ms;
+        EXPECT_EQ(hand.measures.fingers[1].range_rad(1), 0.0);
+    }
+}
+
+TEST(EachFinger, HasBesideTheForceThatItWasToldTheOneThatWasMeasured) {
+    for (std::size_t finger = 0; finger < kMeasuredFingers; ++finger) {
+        MeasuredHand hand;
+        hand.push(100, finger, 3.0);
+        EXPECT_FALSE(hand.measures.fingers[finger].mean_measured_N());
+        hand.measure(finger, 1.0);
+        hand.push(100, finger, 3.0);
+        hand.measure(finger, 2.0);
+        hand.push(300, finger, 4.0);
+        for (std::size_t other = 0; other < kMeasuredFingers; ++other) {
+            const FingerMeasures& is = hand.measures.fingers[other];
+            EXPECT_EQ(is.mean_measured_N().has_value(), other == finger) << finger << other;
+            EXPECT_EQ(is.measured_peak_N, other == finger ? 2.0 : 0.0) << finger << other;
+            if (other != finger) continue;
+            EXPECT_NEAR(*is.mean_measured_N(), 1.75, 1e-9);
+            EXPECT_NEAR(is.mean_N(), 3.6, 1e-9);
         }
     }
 }

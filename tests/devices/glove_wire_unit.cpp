@@ -19,6 +19,7 @@
 #include "devices/gloves/glove_link.hpp"
 #include "tests/devices/bare_glove.hpp"
 #include "tests/devices/hand_written_bytes.hpp"
+#include "tests/devices/opened_glove.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::devices {
@@ -102,50 +103,6 @@ DriveLaw law_of(std::size_t finger) {
 
 // Another for each finger; whole steps.
 constexpr GloveForces kForces_N{0.65, 2.15, 4.8, 7.25};
-
-// Angles within a finger's limits; each of the sixteen is another.
-GloveSet healthy_set(std::uint8_t number) {
-    GloveSet set{.number = number, .motors_on = true, .fault = false, .is_local = false, .joints = {}, .forces_N = {}};
-    for (std::size_t finger = 0; finger < kGloveFingers; ++finger)
-        for (std::size_t joint = 0; joint < kFingerJoints; ++joint)
-            set.joints[finger][joint] =
-                0.06 + 0.045 * static_cast<double>(finger) + 0.13 * static_cast<double>(joint * joint);
-    set.forces_N = GloveForces{1.35, 0.4, 6.2, 3.05};
-    return set;
-}
-
-// A glove that has been opened with a palm that stands turned, and the host's end of it.
-class OpenedGlove {
-public:
-    OpenedGlove() {
-        glove_.say(healthy_set(1));
-        const Pose palm = uneven_pose(0);
-        const auto hand = SimulatedHand::create({{0.0, palm.position_m, palm.orientation, 0}}).value();
-        auto opened = open_glove(glove_.name(), hand, glove_.clock());
-        EXPECT_TRUE(opened) << opened.error().line();
-        if (opened) device_ = std::move(*opened);
-        const auto first = glove_.heard_turn();
-        EXPECT_TRUE(first.back().command.stop) << "nobody has asked for a force yet";
-    }
-    [[nodiscard]] std::vector<DeviceSample> read() {
-        std::vector<DeviceSample> samples;
-        for (const DevicePart& part : device_.parts) samples.push_back(part.device->read());
-        return samples;
-    }
-    // A tick that asks each piston for a force along itself.
-    void tick(const GloveForces& along_N) {
-        const std::vector<DeviceSample> samples = read();
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            device_.parts[i].device->write({along_N[i] * samples[i].drive.along_device, Vec3(0.0)});
-    }
-    void offer(std::size_t finger, const DriveLaw& law) { device_.parts[finger].device->offer(law); }
-    void close() { device_.parts.clear(); }
-    [[nodiscard]] BareGlove& glove() { return glove_; }
-
-private:
-    BareGlove glove_;
-    OpenedDevice device_;
-};
 
 std::unique_ptr<GloveLink> linked(BareGlove& glove) {
     glove.say(healthy_set(1));
@@ -420,29 +377,15 @@ TEST(GloveWire, ATickSeesAMotionAndNoJumpsFromSetToSet) {
 TEST(GloveWire, AFingerWhoseAnglesCannotBeHasAFaultOfItsOwnAndAFaultOfTheControllerIsOfAll) {
     for (std::size_t own = 0; own < kGloveFingers; ++own) {
         OpenedGlove opened;
-        BareGlove& glove = opened.glove();
         GloveSet set = healthy_set(1);
-        // Waits until a set has come, which its first force says.
-        const auto samples_of = [&](double force_N) {
-            (*set.forces_N)[0] = force_N;
-            glove.clock().move_on(GloveLink::kSend_ns);
-            glove.say(set);
-            const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-            auto samples = opened.read();
-            while (std::abs(samples[0].drive.measured_N - force_N) > 1e-9 && std::chrono::steady_clock::now() < until) {
-                std::this_thread::yield();
-                samples = opened.read();
-            }
-            return samples;
-        };
         const FingerAngles sound = set.joints[own];
         // Beyond its limits: of another kind than one that turned too fast, which a sound set after it is.
         set.joints[own][1] = angle_limits(own).highest[1] + 0.1;
-        const auto beyond = samples_of(2.0);
+        const auto beyond = opened.after(set, 2.0);
         set.joints[own] = sound;
-        const auto back = samples_of(2.5), well = samples_of(3.0);
+        const auto back = opened.after(set, 2.5), well = opened.after(set, 3.0);
         set.fault = true;
-        const auto broken = samples_of(3.5);
+        const auto broken = opened.after(set, 3.5);
         for (std::size_t i = 0; i < kGloveFingers; ++i) {
             EXPECT_EQ(beyond[i].fault, i == own ? DeviceFault::other : DeviceFault::none) << own << " " << i;
             EXPECT_FALSE(beyond[i].fault_is_of_all);

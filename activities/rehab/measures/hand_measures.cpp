@@ -8,10 +8,65 @@
 namespace burin::activities {
 namespace {
 
-// Ends a window of `window_s` in which each finger's flexion came from `from_rad` to `to_rad`.
+// Longer between two turns is a gap.
+constexpr double kGap_s = 0.05;
+constexpr double kPart_s = FingerMeasures::kHeld_s / static_cast<double>(FingerMeasures::kHeldParts);
+constexpr double kRounding_s = 1e-9;
+
+// Takes a joint's angles of a turn without a gap before it, and ends a part of kHeld_s where it is over.
+void follow_range(FingerMeasures& finger, const devices::FingerAngles& angles_rad, double dt_s) {
+    FingerMeasures::Part& now = finger.parts.back();
+    if (finger.parts_begun == 0) {
+        finger.parts_begun = 1;
+        finger.part_s = 0.0;
+        now = {angles_rad, angles_rad};
+        return;
+    }
+    for (std::size_t joint = 0; joint < angles_rad.size(); ++joint) {
+        now.least_rad[joint] = std::min(now.least_rad[joint], angles_rad[joint]);
+        now.most_rad[joint] = std::max(now.most_rad[joint], angles_rad[joint]);
+    }
+    finger.part_s += dt_s;
+    if (finger.part_s < kPart_s - kRounding_s) return;
+    if (finger.parts_begun == finger.parts.size())
+        for (std::size_t joint = 0; joint < angles_rad.size(); ++joint) {
+            double stayed_above_rad = HUGE_VAL, stayed_below_rad = -HUGE_VAL;
+            for (const FingerMeasures::Part& part : finger.parts) {
+                stayed_above_rad = std::min(stayed_above_rad, part.least_rad[joint]);
+                stayed_below_rad = std::max(stayed_below_rad, part.most_rad[joint]);
+            }
+            finger.most_rad[joint] = std::max(finger.most_rad[joint], stayed_above_rad);
+            finger.least_rad[joint] = std::min(finger.least_rad[joint], stayed_below_rad);
+        }
+    std::ranges::rotate(finger.parts, finger.parts.begin() + 1);
+    finger.parts.back() = {angles_rad, angles_rad};
+    finger.parts_begun = std::min(finger.parts_begun + 1, finger.parts.size());
+    finger.part_s = 0.0;
+}
+
+void follow_forces(FingerMeasures& finger, double told_N, const std::optional<double>& measured_N, double dt_s) {
+    finger.peak_N = std::max(finger.peak_N, told_N);
+    if (measured_N) finger.measured_peak_N = std::max(finger.measured_peak_N, *measured_N);
+    if (told_N <= FingerMeasures::kPushed_N) return;
+    finger.pushed_s += dt_s;
+    finger.impulse_Ns += dt_s * told_N;
+    if (!measured_N) return;
+    finger.measured_s += dt_s;
+    finger.measured_impulse_Ns += dt_s * *measured_N;
+}
+
+void begin_window(HandMeasures& measures, const FingersTurn& turn, const FingerForces& flexions_rad) {
+    measures.window_s = 0.0;
+    measures.window_from_rad = flexions_rad;
+    for (std::size_t i = 0; i < measures.window_is_sound.size(); ++i) measures.window_is_sound[i] = !turn.has_fault[i];
+}
+
+// Ends a window of `window_s` in which each finger's flexion came from `from_rad` to `to_rad`. Who led is known only
+// where all were read.
 void end_window(HandMeasures& measures, const std::array<double, devices::kGloveFingers>& to_rad) {
     std::array<double, devices::kGloveFingers> ways_rad{};
     for (std::size_t i = 0; i < ways_rad.size(); ++i) {
+        if (!measures.window_is_sound[i]) continue;
         FingerMeasures& finger = measures.fingers[i];
         ways_rad[i] = std::abs(to_rad[i] - measures.window_from_rad[i]);
         finger.peak_rad_per_s = std::max(finger.peak_rad_per_s, ways_rad[i] / measures.window_s);
@@ -19,40 +74,40 @@ void end_window(HandMeasures& measures, const std::array<double, devices::kGlove
         finger.moved_rad += ways_rad[i];
         finger.moved_s += measures.window_s;
     }
+    if (std::ranges::find(measures.window_is_sound, false) != measures.window_is_sound.end()) return;
     const auto farthest = static_cast<std::size_t>(std::ranges::max_element(ways_rad) - ways_rad.begin());
-    if (ways_rad[farthest] > FingerMeasures::kMoved_rad) {
-        const double all_rad = std::accumulate(ways_rad.begin(), ways_rad.end(), 0.0);
-        measures.fingers[farthest].led_rad += ways_rad[farthest];
-        measures.fingers[farthest].followed_rad += (all_rad - ways_rad[farthest]) / (ways_rad.size() - 1.0);
-    }
-    measures.window_s = 0.0;
-    measures.window_from_rad = to_rad;
+    if (ways_rad[farthest] <= FingerMeasures::kMoved_rad) return;
+    const double all_rad = std::accumulate(ways_rad.begin(), ways_rad.end(), 0.0);
+    measures.fingers[farthest].led_rad += ways_rad[farthest];
+    measures.fingers[farthest].followed_rad += (all_rad - ways_rad[farthest]) / (ways_rad.size() - 1.0);
 }
 
 }  // namespace
 
 HandMeasures with_turn(HandMeasures measures, const FingersTurn& turn) {
+    const bool goes_on = measures.begun && turn.dt_s <= kGap_s;
     std::array<double, devices::kGloveFingers> flexions_rad{};
     for (std::size_t i = 0; i < measures.fingers.size(); ++i) {
         FingerMeasures& finger = measures.fingers[i];
-        const double force_N = turn.forces_N[i];
-        finger.peak_N = std::max(finger.peak_N, force_N);
-        if (force_N > FingerMeasures::kPushed_N) {
-            finger.pushed_s += turn.dt_s;
-            finger.impulse_Ns += turn.dt_s * force_N;
+        for (std::size_t joint = 1; joint < devices::kFingerJoints; ++joint)
+            flexions_rad[i] += turn.joints_rad[i][joint];
+        if (!goes_on || turn.has_fault[i]) finger.parts_begun = 0;
+        if (turn.has_fault[i]) {
+            measures.window_is_sound[i] = false;
+            continue;
         }
-        for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) {
-            const double angle_rad = turn.joints_rad[i][joint];
-            double &least = finger.least_rad[joint], &most = finger.most_rad[joint];
-            least = measures.begun ? std::min(least, angle_rad) : angle_rad;
-            most = measures.begun ? std::max(most, angle_rad) : angle_rad;
-            if (joint > 0) flexions_rad[i] += angle_rad;
-        }
+        follow_forces(finger, turn.forces_N[i], turn.measured_N[i], turn.dt_s);
+        follow_range(finger, turn.joints_rad[i], turn.dt_s);
     }
-    if (!measures.begun) measures.window_from_rad = flexions_rad;
-    measures.window_s += measures.begun ? turn.dt_s : 0.0;
     measures.begun = true;
-    if (measures.window_s >= FingerMeasures::kWindow_s) end_window(measures, flexions_rad);
+    if (!goes_on) {
+        begin_window(measures, turn, flexions_rad);
+        return measures;
+    }
+    measures.window_s += turn.dt_s;
+    if (measures.window_s < FingerMeasures::kWindow_s) return measures;
+    end_window(measures, flexions_rad);
+    begin_window(measures, turn, flexions_rad);
     return measures;
 }
 

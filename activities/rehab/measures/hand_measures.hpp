@@ -2,6 +2,9 @@
 // Measures a hand's fingers while an exercise runs: their forces, how far and how fast they went, and how still the
 // others stayed while one moved. Pure; any thread.
 //
+// Only sound readings count: not those of a finger whose device reports a fault, nor any way across a gap or a fault. A
+// joint's least and most are angles beyond which it stayed for kHeld_s: a reading that is off for a moment is no range
+// of motion.
 // Speed and stillness come from the way that a finger's flexion (the sum of its three joints that bend) makes in each
 // kWindow_s, from end to end: a glove's readings come in steps, and their differences from tick to tick are noise.
 // Fractionation of a finger, over the windows in which it went farthest of all and more than kMoved_rad: 1 less the
@@ -11,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -23,23 +27,42 @@ inline constexpr std::array<const char*, devices::kGloveFingers> kFingerNames{"t
 
 // A turn of the haptic loop, as an exercise sees it.
 struct FingersTurn {
-    double dt_s = 0.0;  // since the turn before
-    FingerForces forces_N{};
+    double dt_s = 0.0;        // since the turn before
+    FingerForces forces_N{};  // that the device was told to give
     devices::GloveJoints joints_rad{};
+    std::array<bool, devices::kGloveFingers> has_fault{};                    // by its device
+    std::array<std::optional<double>, devices::kGloveFingers> measured_N{};  // that it gives, where it measures that
 };
 
-// A mean force is over the time in which the finger was pushed at all: more than kPushed_N. A mean speed is over the
-// windows in which it moved at all: more than kMoved_rad.
+// A mean force is over the time in which the finger was told to be pushed at all: by more than kPushed_N; the measured
+// one over as much of that as was measured. A mean speed is over the windows in which it moved at all: more than
+// kMoved_rad.
 struct FingerMeasures {
-    static constexpr double kPushed_N = 0.05, kWindow_s = 0.05, kMoved_rad = 0.01, kLed_rad = 0.5;
+    static constexpr double kPushed_N = 0.05, kWindow_s = 0.05, kMoved_rad = 0.01, kLed_rad = 0.5, kHeld_s = 0.05;
+    static constexpr std::size_t kHeldParts = 5;
+    using Joints = std::array<double, devices::kFingerJoints>;
+    struct Part {  // of kHeld_s: the least and the most angle of each joint in it
+        Joints least_rad{}, most_rad{};
+        bool operator==(const Part&) const = default;
+    };
 
     double peak_N = 0.0, pushed_s = 0.0, impulse_Ns = 0.0;
-    std::array<double, devices::kFingerJoints> least_rad{}, most_rad{};
+    double measured_peak_N = 0.0, measured_s = 0.0, measured_impulse_Ns = 0.0;
+    Joints least_rad{HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}, most_rad{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    std::array<Part, kHeldParts> parts{};  // the newest, without a gap; the last is under way
+    std::size_t parts_begun = 0;           // of these; 0: the next reading begins one
+    double part_s = 0.0;                   // of the one under way
     double peak_rad_per_s = 0.0, moved_rad = 0.0, moved_s = 0.0;
     double led_rad = 0.0, followed_rad = 0.0;  // while it led: its own way, and the mean of the others'
 
     [[nodiscard]] double mean_N() const { return pushed_s > 0.0 ? impulse_Ns / pushed_s : 0.0; }
-    [[nodiscard]] double range_rad(std::size_t joint) const { return most_rad[joint] - least_rad[joint]; }
+    // Returns nothing where nothing was measured.
+    [[nodiscard]] std::optional<double> mean_measured_N() const {
+        return measured_s > 0.0 ? std::optional(measured_impulse_Ns / measured_s) : std::nullopt;
+    }
+    [[nodiscard]] double range_rad(std::size_t joint) const {
+        return most_rad[joint] > least_rad[joint] ? most_rad[joint] - least_rad[joint] : 0.0;
+    }
     [[nodiscard]] double mean_rad_per_s() const { return moved_s > 0.0 ? moved_rad / moved_s : 0.0; }
     // Returns nothing where the finger led by less than kLed_rad in all: that it led at all may be chance.
     [[nodiscard]] std::optional<double> fractionation() const {
@@ -53,6 +76,7 @@ struct HandMeasures {
     std::array<FingerMeasures, devices::kGloveFingers> fingers{};
     double window_s = 0.0;                                         // since the window under way began
     std::array<double, devices::kGloveFingers> window_from_rad{};  // each finger's flexion then
+    std::array<bool, devices::kGloveFingers> window_is_sound{};    // each finger's readings since then
     bool operator==(const HandMeasures&) const = default;
 };
 
