@@ -31,6 +31,7 @@ Result<HilApi> load_hil_api(const std::string& library) {
     loaded.find("hil_write_analog", api.write_analog);
     loaded.find("hil_write_digital", api.write_digital);
     loaded.find("hil_watchdog_set_analog_expiration_state", api.watchdog_analog);
+    loaded.find("hil_watchdog_set_digital_expiration_state", api.watchdog_digital);
     loaded.find("hil_watchdog_start", api.watchdog_start);
     loaded.find("hil_watchdog_reload", api.watchdog_reload);
     loaded.find("hil_watchdog_clear", api.watchdog_clear);

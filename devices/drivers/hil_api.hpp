@@ -4,6 +4,10 @@
 //
 // Signatures are those of hil.h, quanser_version.h and quanser_messages.h (public copies beside QuanserBindings.jl and
 // in Mahi's DAQ library). Errors are negative. A boolean is a char. Volts; counts of encoders.
+// What hil.h says of the watchdog: a card of the Q8 series takes its analog outputs to 0 V when it expires only where
+// its digital outputs are told to go tristate, and the other way round; with neither, all outputs stay as they are.
+// Both are told before it is started. One that has expired refuses all access until it is cleared, which brings back
+// what was before; neither stopping it nor opening the card anew clears it.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +20,9 @@ namespace burin::devices {
 
 using HilCard = void*;
 using HilError = int;
+using HilDigitalState = int;  // an enumeration of C
+
+inline constexpr HilDigitalState kHilTristate = 2;
 
 struct HilVersion {
     std::uint32_t size = sizeof(HilVersion);
@@ -34,6 +41,7 @@ struct HilApi {
     HilError (*write_analog)(HilCard, const std::uint32_t*, std::uint32_t, const double*) = nullptr;
     HilError (*write_digital)(HilCard, const std::uint32_t*, std::uint32_t, const char*) = nullptr;
     HilError (*watchdog_analog)(HilCard, const std::uint32_t*, std::uint32_t, const double*) = nullptr;
+    HilError (*watchdog_digital)(HilCard, const std::uint32_t*, std::uint32_t, const HilDigitalState*) = nullptr;
     HilError (*watchdog_start)(HilCard, double timeout_s) = nullptr;
     HilError (*watchdog_reload)(HilCard) = nullptr;  // 0: it had expired
     HilError (*watchdog_clear)(HilCard) = nullptr;

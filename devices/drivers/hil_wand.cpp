@@ -14,6 +14,8 @@ constexpr std::uint32_t kChannels = kWandJoints;
 constexpr std::array<std::uint32_t, kWandJoints> kChannel{0, 1, 2, 3, 4, 5};  // of encoders and analog outputs
 constexpr WandJoints kZeroVolts{};
 constexpr std::array<char, kWandJoints> kOff{}, kOn{1, 1, 1, 1, 1, 1};
+constexpr std::array<HilDigitalState, kWandJoints> kTristate{kHilTristate, kHilTristate, kHilTristate,
+                                                             kHilTristate, kHilTristate, kHilTristate};
 // A card whose counters have lived on reads joints near to where they were. One that was without power reads the jig,
 // wherever the handle is: where that is near as well, the two cannot be told apart.
 constexpr double kMostMoved_rad = 0.15, kFarFromJig_rad = 0.3;
@@ -77,7 +79,9 @@ HilError HilWand::open_card() noexcept {
         card_ = nullptr;
         return error;
     }
-    error = api_.set_digital_directions(card_, nullptr, 0, lines.data(), kChannels);
+    // A program that died has left its watchdog expired, and the card shut.
+    error = api_.watchdog_clear(card_);
+    if (error >= 0) error = api_.set_digital_directions(card_, nullptr, 0, lines.data(), kChannels);
     if (error >= 0) error = api_.write_digital(card_, lines.data(), kChannels, kOff.data());
     if (error >= 0) error = api_.write_analog(card_, kChannel.data(), kChannels, kZeroVolts.data());
     if (error < 0) {
@@ -86,6 +90,7 @@ HilError HilWand::open_card() noexcept {
     }
     is_on_ = false;
     has_watchdog_ = api_.watchdog_analog(card_, kChannel.data(), kChannels, kZeroVolts.data()) >= 0 &&
+                    api_.watchdog_digital(card_, lines.data(), kChannels, kTristate.data()) >= 0 &&
                     api_.watchdog_start(card_, kWatchdog_s) >= 0;
     if (!has_watchdog_) tell(Notice::no_watchdog);
     return 0;
@@ -126,10 +131,11 @@ void HilWand::turn(Nanoseconds now_ns) noexcept {
     ServedState& state = exchange_.draft();
     state.time_ns = now_ns;
     std::array<std::int32_t, kWandJoints> counts{};
-    HilError error = api_.read_encoder(card_, kChannel.data(), kChannels, counts.data());
-    if (error >= 0) error = mind_watchdog(now_ns);
+    // Before all else: a card whose watchdog has expired gives no access.
+    HilError error = mind_watchdog(now_ns);
+    if (error >= 0) error = api_.read_encoder(card_, kChannel.data(), kChannels, counts.data());
     if (error >= 0) error = mind_amplifiers(now_ns);
-    if (error < 0) return fail_with(error, now_ns);
+    if (error < 0) return refused(error, now_ns);
     joints_ = joints_of_counts(wand_.mechanism, counts);
     const bool is_sound = read_pose(state, now_ns);
     const bool is_well =
@@ -138,7 +144,7 @@ void HilWand::turn(Nanoseconds now_ns) noexcept {
     exchange_.publish();
     const WandJoints volts = is_well ? volts_for(exchange_.wanted(now_ns), now_ns) : kZeroVolts;
     error = api_.write_analog(card_, kChannel.data(), kChannels, volts.data());
-    if (error < 0) fail_with(error, now_ns);
+    if (error < 0) refused(error, now_ns);
 }
 
 // The pose of the newest joints; false where they are none of a wand, and it stays what it was.
@@ -179,13 +185,18 @@ WandJoints HilWand::volts_for(const DeviceWrench& wrench, Nanoseconds now_ns) no
     return volts.volts;
 }
 
-// Reloads the card's watchdog; where it has expired the outputs are zero and the card is shut, and it is opened again.
+// Reloads the card's watchdog. Where it has expired the outputs are zero and the card is shut: it is opened again, and
+// what was written before, which that may bring back, is written over at once.
 HilError HilWand::mind_watchdog(Nanoseconds now_ns) noexcept {
     if (!has_watchdog_) return 0;
     const HilError answer = api_.watchdog_reload(card_);
-    if (answer != 0) return answer;
+    return answer != 0 ? answer : open_after_watchdog(now_ns);
+}
+
+HilError HilWand::open_after_watchdog(Nanoseconds now_ns) noexcept {
     error_ns_ = now_ns;
-    const HilError error = api_.watchdog_clear(card_);
+    HilError error = api_.watchdog_clear(card_);
+    if (error >= 0) error = api_.write_analog(card_, kChannel.data(), kChannels, kZeroVolts.data());
     if (error < 0) return error;
     is_on_ = false;  // its lines may have been reset
     return api_.watchdog_start(card_, kWatchdog_s);
@@ -203,6 +214,12 @@ HilError HilWand::mind_amplifiers(Nanoseconds now_ns) noexcept {
     error_ns_ = now_ns;  // the force begins from zero, and a sample says that they were off
     const auto& lines = wand_.mechanism.enable_lines;
     return api_.write_digital(card_, lines.data(), kChannels, wants_on ? kOn.data() : kOff.data());
+}
+
+// A watchdog that expires between two calls of a turn is no failure of the card.
+void HilWand::refused(HilError error, Nanoseconds now_ns) noexcept {
+    const bool has_expired = has_watchdog_ && api_.watchdog_reload(card_) == 0;
+    if (!has_expired || open_after_watchdog(now_ns) < 0) fail_with(error, now_ns);
 }
 
 void HilWand::fail_with(HilError error, Nanoseconds now_ns) noexcept {

@@ -4,7 +4,7 @@
 // Data flow: encoders -> joints -> both tips -> pose of the newest turn -> the haptic thread; newest wrench of that ->
 // motors' torques -> volts -> card. A turn writes zero unless the haptic thread has given a wrench within the last
 // kServedSilent_ns, the amplifiers are on, the pose is sound, and nothing has failed within kServedErrorHolds_ns. The
-// card's own watchdog takes the volts off where this program dies.
+// card's own watchdog takes the volts off, and leaves the amplifiers' lines undriven, where this program dies.
 // Limits: each axis is kept within the description's, each motor within its current; ticks at either are counted.
 // A card that fails is left with zero volts and its amplifiers off, and opened anew once in kAgain_ns. Counters that
 // have lived on go on to count; others need the jig: the wand stays without force until its amplifiers are switched on
@@ -81,10 +81,12 @@ private:
     [[nodiscard]] HilError set_to_zero() noexcept;
     void serve();
     void turn(Nanoseconds now_ns) noexcept;
+    void refused(HilError error, Nanoseconds now_ns) noexcept;
     void fail_with(HilError error, Nanoseconds now_ns) noexcept;
     void find_again(Nanoseconds now_ns) noexcept;
     [[nodiscard]] HilError mind_amplifiers(Nanoseconds now_ns) noexcept;
     [[nodiscard]] HilError mind_watchdog(Nanoseconds now_ns) noexcept;
+    [[nodiscard]] HilError open_after_watchdog(Nanoseconds now_ns) noexcept;
     [[nodiscard]] bool read_pose(ServedState& state, Nanoseconds now_ns) noexcept;
     [[nodiscard]] WandJoints volts_for(const DeviceWrench& wrench, Nanoseconds now_ns) noexcept;
     void tell(Notice what, HilError error = 0) noexcept { told_.push({what, error}); }

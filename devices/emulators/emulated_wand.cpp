@@ -56,24 +56,26 @@ void EmulatedWand::lose_counts() {
     if (const auto counts = memory_->encoder_counts.read()) memory_->zero_counts.write(*counts);
 }
 
-WandJoints EmulatedWand::volts() const { return memory_->volts.read().value_or(WandJoints{}); }
+WandJoints EmulatedWand::volts() const {
+    const bool are_off = memory_->takes_off != 0 && memory_->has_expired(MonotonicClock().now_ns());
+    return are_off ? WandJoints{} : memory_->volts.read().value_or(WandJoints{});
+}
 
 DeviceWrench EmulatedWand::acting() const {
     const auto w = drill_->acting.read().value_or(std::array<double, 6>{});
     return {Vec3(w[0], w[1], w[2]), Vec3(w[3], w[4], w[5])};
 }
 
-DeviceWrench EmulatedWand::wrench_of_volts(const Pose& device_from_handle, Nanoseconds now_ns) const {
-    const Nanoseconds written_ns = memory_->written_ns.load(std::memory_order_relaxed);
-    const Nanoseconds expires_ns = memory_->watchdog_ns.load(std::memory_order_relaxed);
-    const bool is_heard = written_ns > 0 && now_ns - written_ns < kSharedForce_ns;
-    if (!is_heard || !are_amplifiers_on() || (expires_ns != 0 && now_ns > expires_ns)) return {};
+// A card holds what was written to it for ever, as long as its watchdog does not take it off.
+DeviceWrench EmulatedWand::wrench_of_volts(const Pose& device_from_handle) const {
+    const WandJoints at_motors = volts();
+    if (at_motors == WandJoints{} || !are_amplifiers_on()) return {};
     const WandAxis axis = axis_in_mechanism(wand_, device_from_handle);
     const auto joints = wand_joints(wand_.mechanism.arm, axis);
     const auto jacobian = joints ? wand_jacobian(wand_.mechanism.arm, *joints) : std::nullopt;
-    const auto force = jacobian
-                           ? force_of(wand_.mechanism.arm, axis, *jacobian, torques_of_volts(wand_.mechanism, volts()))
-                           : std::nullopt;
+    const auto force =
+        jacobian ? force_of(wand_.mechanism.arm, axis, *jacobian, torques_of_volts(wand_.mechanism, at_motors))
+                 : std::nullopt;
     if (!force) return {};
     const Quat turn = device_from_maker(wand_).orientation;
     return {turn * force->force_N, turn * force->torque_Nm};
@@ -114,7 +116,7 @@ void EmulatedWand::run(const std::function<bool()>& ends) {
             wand.emplace(*hand, wand_);
         }
         const Pose pose = wand->true_pose_device();
-        const DeviceWrench wrench = wrench_of_volts(pose, now_ns);
+        const DeviceWrench wrench = wrench_of_volts(pose);
         wand->write(wrench);
         drill_->has_tripped = wand->trips() > 0;
         drill_->acting.write({wrench.force_device_N.x, wrench.force_device_N.y, wrench.force_device_N.z,

@@ -3,7 +3,7 @@
 // description has them, offered through shared memory to the emulated library of its maker
 // (devices/emulators/hil_library/), which a session loads in place of the maker's. Between two sessions the handle
 // rests in its jig; when one has opened it, the hand goes out to the workspace's middle, circles there and nods.
-// Volts are none where no library has renewed them for kSharedForce_ns, where the watchdog has expired, and while the
+// A card holds its volts until others are written, or until its watchdog takes them off. They do nothing while the
 // amplifiers are off. One thread runs it; the drills may be set by any.
 #pragma once
 
@@ -43,7 +43,8 @@ public:
     void miscount(double counts) { drill_->miscount = counts; }  // of the first encoder
     // Sets the counters back, as a card does that has lost its power.
     void lose_counts();
-    [[nodiscard]] WandJoints volts() const;  // that were last written
+    // Returns the volts at its outputs: those that were last written, or none where the watchdog has taken them off.
+    [[nodiscard]] WandJoints volts() const;
     [[nodiscard]] bool are_amplifiers_on() const { return memory_->enabled.load(std::memory_order_relaxed) == 0x3f; }
     // What acts at the handle, by the motors' torques; device frame. The newest step's.
     [[nodiscard]] DeviceWrench acting() const;
@@ -58,7 +59,7 @@ private:
     };
     EmulatedWand(HilSharedMemory memory, EmulatedWandOptions options)
         : memory_(std::move(memory)), options_(std::move(options)) {}
-    [[nodiscard]] DeviceWrench wrench_of_volts(const Pose& device_from_handle, Nanoseconds now_ns) const;
+    [[nodiscard]] DeviceWrench wrench_of_volts(const Pose& device_from_handle) const;
     void publish(const Pose& device_from_handle, Nanoseconds now_ns);
 
     HilSharedMemory memory_;

@@ -3,16 +3,21 @@
 // (devices/drivers/hil_api.hpp), around an emulated wand that runs in a process of its own
 // (devices/emulators/emulated_wand.hpp). A session loads it in place of libhil.so, so that the driver at work is the
 // real one. A card that is not there, another's, or gone returns an error, as does each of its functions then.
+// The watchdog is that of a Q8 card as the comments of hil.h describe it, and in doubt the stricter way: volts go to
+// zero only if all lines that are outputs are told to go tristate as well, either alone is refused when it is started,
+// once it has expired nothing is read or written until it is cleared, and clearing it brings the volts back.
 //
 // State is static, as the interface is of C. What a test changes is told when it is compiled: BURIN_EMULATED_HIL_MAJOR,
 // and BURIN_EMULATED_HIL_LACKS, which leaves a function out.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "devices/drivers/hil_api.hpp"
@@ -26,13 +31,15 @@ namespace burin::devices {
 namespace {
 
 // Numbers of this library's own; the maker's are not needed.
-constexpr HilError kNoCard = -1001, kInUse = -1002, kGone = -1003, kBadChannel = -1004, kExpired = -1005;
+constexpr HilError kNoCard = -1001, kInUse = -1002, kGone = -1003, kBadChannel = -1004, kExpired = -1005,
+                   kOneAlone = -1006, kNoSuchState = -1007;
 constexpr std::size_t kMostCards = 4;
 constexpr std::array<std::uint32_t, 6> kEnableLines{0, 1, 2, 3, 16, 17};
 
 struct Card {
     HilSharedMemory memory;
     double watchdog_s = 0.0;
+    std::set<std::uint32_t> outputs{}, go_tristate{}, go_to_zero{};  // digital lines; the last, analog channels
 };
 
 struct Library {
@@ -58,9 +65,12 @@ HilError with_card(HilCard handle, Does does) {
     return does(card);
 }
 
-bool is_expired(const Card& card) {
-    const Nanoseconds at_ns = card.memory->watchdog_ns;
-    return at_ns != 0 && library().clock.now_ns() > at_ns;
+bool is_expired(const Card& card) { return card.memory->has_expired(library().clock.now_ns()); }
+
+// Calls what is to be done with a card that gives access to its hardware.
+template <typename Does>
+HilError with_open_card(HilCard handle, Does does) {
+    return with_card(handle, [&](Card& card) { return is_expired(card) ? kExpired : does(card); });
 }
 
 void start_watchdog(Card& card) { card.memory->watchdog_ns = library().clock.now_ns() + nanoseconds(card.watchdog_s); }
@@ -86,7 +96,6 @@ HilError hil_open(const char* /*type*/, const char* identifier, HilCard* card) {
         if (library().cards[i]) continue;
         // It is another's as long as that process lives.
         if (!take_ownership((*memory)->owner)) return kInUse;
-        (*memory)->watchdog_ns = 0;
         (*memory)->opener = static_cast<std::uint32_t>(::getpid());
         library().cards[i].emplace(Card{std::move(*memory)});
         *card = reinterpret_cast<HilCard>(i + 1);
@@ -106,7 +115,7 @@ HilError hil_close(HilCard handle) {
 
 HilError hil_set_encoder_counts(HilCard handle, const std::uint32_t* channels, std::uint32_t count,
                                 const std::int32_t* to) {
-    return with_card(handle, [&](Card& card) {
+    return with_open_card(handle, [&](Card& card) {
         const auto raw = card.memory->encoder_counts.read();
         auto zero = card.memory->zero_counts.read();
         if (!raw || !zero) return kGone;
@@ -120,13 +129,17 @@ HilError hil_set_encoder_counts(HilCard handle, const std::uint32_t* channels, s
     });
 }
 
-HilError hil_set_digital_directions(HilCard handle, const std::uint32_t*, std::uint32_t, const std::uint32_t*,
-                                    std::uint32_t) {
-    return with_card(handle, [](Card&) { return HilError{0}; });
+HilError hil_set_digital_directions(HilCard handle, const std::uint32_t* inputs, std::uint32_t input_count,
+                                    const std::uint32_t* outputs, std::uint32_t count) {
+    return with_open_card(handle, [&](Card& card) {
+        for (std::uint32_t i = 0; i < input_count; ++i) card.outputs.erase(inputs[i]);
+        card.outputs.insert(outputs, outputs + count);
+        return HilError{0};
+    });
 }
 
 HilError hil_read_encoder(HilCard handle, const std::uint32_t* channels, std::uint32_t count, std::int32_t* to) {
-    return with_card(handle, [&](Card& card) {
+    return with_open_card(handle, [&](Card& card) {
         const auto raw = card.memory->encoder_counts.read();
         const auto zero = card.memory->zero_counts.read();
         if (!raw || !zero) return kGone;
@@ -151,7 +164,6 @@ HilError hil_write_analog(HilCard handle, const std::uint32_t* channels, std::ui
         all[channels[i]] = volts[i];
     }
     card.memory->volts.write(all);
-    card.memory->written_ns = library().clock.now_ns();
     if (!card.memory->is_alive(library().clock.now_ns())) return kGone;
     return card.memory->error;
 }
@@ -161,6 +173,7 @@ HilError hil_write_digital(HilCard handle, const std::uint32_t* channels, std::u
     const auto at = reinterpret_cast<std::uintptr_t>(handle) - 1;
     if (at >= kMostCards || !library().cards[at]) return kNoCard;
     Card& card = *library().cards[at];
+    if (is_expired(card)) return kExpired;
     std::uint32_t enabled = card.memory->enabled;
     for (std::uint32_t i = 0; i < count; ++i)
         for (std::uint32_t motor = 0; motor < kEnableLines.size(); ++motor)
@@ -170,12 +183,33 @@ HilError hil_write_digital(HilCard handle, const std::uint32_t* channels, std::u
     return card.memory->is_alive(library().clock.now_ns()) ? HilError{0} : kGone;
 }
 
-HilError hil_watchdog_set_analog_expiration_state(HilCard handle, const std::uint32_t*, std::uint32_t, const double*) {
-    return with_card(handle, [](Card&) { return HilError{0}; });
+// A Q8 card has no other states than 0 V and tristate.
+HilError hil_watchdog_set_analog_expiration_state(HilCard handle, const std::uint32_t* channels, std::uint32_t count,
+                                                  const double* volts) {
+    return with_card(handle, [&](Card& card) {
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (volts[i] != 0.0) return kNoSuchState;
+        card.go_to_zero.insert(channels, channels + count);
+        return HilError{0};
+    });
+}
+
+HilError hil_watchdog_set_digital_expiration_state(HilCard handle, const std::uint32_t* lines, std::uint32_t count,
+                                                   const HilDigitalState* states) {
+    return with_card(handle, [&](Card& card) {
+        constexpr HilDigitalState kGoesTristate = 2;  // t_digital_state: low, high, tristate, no change
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (states[i] != kGoesTristate) return kNoSuchState;
+        card.go_tristate.insert(lines, lines + count);
+        return HilError{0};
+    });
 }
 
 HilError hil_watchdog_start(HilCard handle, double timeout_s) {
     return with_card(handle, [&](Card& card) {
+        if (is_expired(card)) return kExpired;
+        if (card.go_to_zero.empty() != card.go_tristate.empty()) return kOneAlone;
+        card.memory->takes_off = !card.go_to_zero.empty() && std::ranges::includes(card.go_tristate, card.outputs);
         card.watchdog_s = timeout_s;
         start_watchdog(card);
         return HilError{0};
@@ -200,7 +234,7 @@ HilError hil_watchdog_clear(HilCard handle) {
 #ifndef BURIN_EMULATED_HIL_LACKS
 HilError hil_watchdog_stop(HilCard handle) {
     return with_card(handle, [](Card& card) {
-        card.memory->watchdog_ns = 0;
+        if (!is_expired(card)) card.memory->watchdog_ns = 0;
         return HilError{0};
     });
 }
@@ -212,6 +246,8 @@ HilError msg_get_error_messageA(const char* /*locale*/, HilError error, char* to
     if (error == kInUse) text = "the card is in use";
     if (error == kGone) text = "the card does not answer";
     if (error == kExpired) text = "the watchdog has expired";
+    if (error == kOneAlone) text = "analog and digital expiration states go together";
+    if (error == kNoSuchState) text = "the card has no such expiration state";
     std::snprintf(to, size, "%s", text);
     return 0;
 }
