@@ -25,6 +25,7 @@ Result<DhdApi> dhd_functions(LoadedLibrary& loaded, const std::string& library) 
     loaded.find("dhdSetForceAndTorqueAndGripperForce", api.write_force);
     loaded.find("dhdErrorGetLast", api.last_error);
     loaded.find("dhdErrorGetStr", api.error_text);
+    loaded.find_if_there("dhdEnableExpertMode", api.enable_expert_mode);
     loaded.find_if_there("dhdSetWatchdog", api.set_watchdog);
     if (!loaded.missing().empty())
         return fail(kDhdWhere, "the library " + library + " has no function " + loaded.missing(),

@@ -20,7 +20,8 @@ inline constexpr int kDhdTimeGuard = 1;  // asked for again too soon: the values
 inline constexpr int kDhdSaturated = 2;  // a motor gives less than it is asked for
 
 // Errors.
-inline constexpr int kDhdCommunication = 2, kDhdBusy = 3, kDhdNoDevice = 5, kDhdTimeOut = 7, kDhdInUse = 20;
+inline constexpr int kDhdCommunication = 2, kDhdBusy = 3, kDhdNoDevice = 5, kDhdTimeOut = 7, kDhdNotExpert = 9,
+                     kDhdInUse = 20;
 // Kinds of device.
 inline constexpr int kDhdOmega3 = 33, kDhdFalcon = 60;
 // Places in the status.
@@ -46,7 +47,9 @@ struct DhdApi {
     int (*write_force)(double, double, double, double, double, double, double, char device) = nullptr;
     int (*last_error)() = nullptr;
     const char* (*error_text)(int error) = nullptr;
-    // Null: the library has none. In steps of 125 us, after which a device without commands takes its force off.
+    // Of the header's expert section, whose functions fail with kDhdNotExpert until the first of these is called. Null:
+    // the library has none. In steps of 125 us, after which a device without commands takes its force off.
+    int (*enable_expert_mode)() = nullptr;
     int (*set_watchdog)(unsigned char steps, char device) = nullptr;
 };
 

@@ -10,7 +10,15 @@
 namespace burin::devices {
 namespace {
 
-enum DhdNotice : std::uint32_t { kDhdGone = 1, kDhdBack, kDhdUnsound, kDhdWantsReset, kDhdForceOff, kDhdWell };
+enum DhdNotice : std::uint32_t {
+    kDhdGone = 1,
+    kDhdBack,
+    kDhdUnsound,
+    kDhdWantsReset,
+    kDhdForceOff,
+    kDhdWell,
+    kDhdNoWatchdog
+};
 
 // The library has one list of devices for the process.
 std::mutex& dhd_list() {
@@ -57,10 +65,7 @@ Result<void> DhdLine::open() {
             "see that it is plugged in and switched on and may be opened by this user; if it is in use, end the "
             "other program");
     const auto id = static_cast<char>(device_);
-    if (api_.set_watchdog != nullptr) {
-        constexpr double kStep_s = 125e-6;
-        static_cast<void>(api_.set_watchdog(static_cast<unsigned char>(kDhdWatchdog_s / kStep_s), id));
-    }
+    owes_watchdog_ = !arm_watchdog() && !std::exchange(told_watchdog_, true);
     static_cast<void>(api_.write_force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id));
     static_cast<void>(api_.enable_force(1, id));
     // CHAI3D lists 8 N for a Falcon; all others give at least the 12 N of the description.
@@ -69,6 +74,13 @@ Result<void> DhdLine::open() {
     status_ = DeviceFault::none;
     if (std::exchange(is_gone_, false)) tell(kDhdBack);
     return {};
+}
+
+bool DhdLine::arm_watchdog() const noexcept {
+    constexpr double kStep_s = 125e-6;
+    if (api_.set_watchdog == nullptr || api_.enable_expert_mode == nullptr) return false;
+    return api_.enable_expert_mode() >= 0 &&
+           api_.set_watchdog(static_cast<unsigned char>(kDhdWatchdog_s / kStep_s), static_cast<char>(device_)) >= 0;
 }
 
 void DhdLine::close() noexcept {
@@ -125,6 +137,7 @@ DeviceFault DhdLine::status_fault() noexcept {
 }
 
 LineNotice DhdLine::notice() noexcept {
+    if (std::exchange(owes_watchdog_, false)) return {kDhdNoWatchdog};
     const LineNotice notice = std::exchange(notice_, {});
     // A state that lasts is told when it begins, and no more.
     if (notice == told_) return {};
@@ -144,6 +157,9 @@ std::string DhdLine::words_for(const LineNotice& notice) const {
         case kDhdUnsound: return who + " reads a pose that is none: switch it off and on";
         case kDhdWantsReset: return who + " does not know where its handle is: calibrate it as its manual says";
         case kDhdWell: return who + " gives force again";
+        case kDhdNoWatchdog:
+            return who +
+                   " has not taken a watchdog: if this program dies, switch its force off by the button on its base";
         case kDhdForceOff: break;
         default: return {};
     }

@@ -4,7 +4,7 @@
 //
 // A pose is sound where its place is finite and its turn is one. The force is off where the device says so: by its
 // button, since it was too fast, by its watchdog, its dead man's switch. Where the library can, the device itself takes
-// its force off when it has had no command for kDhdWatchdog_s.
+// its force off when it has had no command for kDhdWatchdog_s; where that is refused a message says so.
 // Frame: device; +x to the right is the library's y, +y up its z, +z to the user its x. Thread: the servo's.
 #pragma once
 
@@ -41,6 +41,8 @@ private:
     // Returns the fault that the device's status is; it is asked for at first and then a hundred times a second.
     [[nodiscard]] DeviceFault status_fault() noexcept;
     [[nodiscard]] std::string last_error() const;
+    // Returns whether the device has taken its watchdog.
+    [[nodiscard]] bool arm_watchdog() const noexcept;
     void tell(std::uint32_t what, std::int32_t number = 0) noexcept { notice_ = {what, number}; }
 
     std::string name_;
@@ -49,6 +51,7 @@ private:
     int device_ = -1;
     double most_N_ = 0.0;
     bool is_gone_ = false;
+    bool owes_watchdog_ = false, told_watchdog_ = false;  // that it has none has to be said, and has been
     unsigned int turns_ = 0;
     DeviceFault status_ = DeviceFault::none;
     LineNotice told_, notice_;

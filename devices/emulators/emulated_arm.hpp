@@ -19,6 +19,8 @@ struct EmulatedArmSteps {
     std::function<bool(double time_s)> is_silent;  // since it runs: its cable is pulled, and it does not step
     std::function<Vec3()> written_N;               // device frame; not finite: it could not be read, and stays
     std::function<void(Nanoseconds now_ns)> publish;
+    // How long a force is held that the library does not renew; empty: for kSharedForce_ns.
+    std::function<Nanoseconds()> holds_ns = {};
 };
 
 // Shared is a SharedLife with the time of the library's newest frame, frame_ns. Before a library has had one the hand's
@@ -39,7 +41,8 @@ void run_emulated_arm(Shared& shared, SimulatedOmni& arm, const EmulatedArmSteps
             continue;
         }
         const Nanoseconds frame_ns = shared.frame_ns.load(std::memory_order_relaxed);
-        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < kSharedForce_ns;
+        const Nanoseconds holds_ns = steps.holds_ns ? steps.holds_ns() : kSharedForce_ns;
+        const bool is_heard = frame_ns > 0 && now_ns - frame_ns < holds_ns;
         const Vec3 force_N = is_heard ? steps.written_N() : Vec3(0.0);
         if (finite(force_N)) arm.write({force_N, Vec3(0.0)});
         if (frame_ns > 0) arm.advance(kPeriod_ns);

@@ -50,7 +50,12 @@ void EmulatedDhd::run(const std::function<bool()>& ends) {
         {.ends = ends,
          .is_silent = [&](double time_s) { return drill_->is_silent || options_.silence.is_silent(time_s); },
          .written_N = [&] { return written_N(); },
-         .publish = [&](Nanoseconds now_ns) { publish(arm, now_ns); }});
+         .publish = [&](Nanoseconds now_ns) { publish(arm, now_ns); },
+         .holds_ns =
+             [&] {
+                 constexpr Nanoseconds kStep_ns = 125'000;
+                 return watchdog() > 0 ? watchdog() * kStep_ns : std::numeric_limits<Nanoseconds>::max();
+             }});
 }
 
 }  // namespace burin::devices

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A Force Dimension omega.3 that is not there: a simulated arm in a scripted hand, offered through shared memory to the
 // emulated library of its maker (devices/emulators/dhd_library/), which a session loads in place of the maker's. The
-// script begins when a session has opened it. A force that no library has renewed for kSharedForce_ns is none.
+// script begins when a session has opened it. It holds a force that is not renewed until its watchdog ends, and without
+// a watchdog for ever. Unlike a real one it does not wait for its button then: a busy machine would press it in vain.
 // One thread runs it; the drills may be set by any.
 #pragma once
 

@@ -37,7 +37,8 @@ struct NotedDhd {
     std::array<Device, 2> devices;
     int type = 33;
     int strangers = 0;  // calls of handles that it has not given
-    std::mutex lock;    // of all that is written down, whatever a driver calls of which thread
+    bool is_expert = false, has_watchdog = true;
+    std::mutex lock;  // of all that is written down, whatever a driver calls of which thread
 
     [[nodiscard]] Device& at(int handle) {
         const auto found = std::ranges::find(kDhdHandles, handle);
@@ -97,8 +98,13 @@ DhdApi noting_dhd() {
     };
     api.last_error = [] { return 0; };
     api.error_text = [](int) { return "none"; };
+    api.enable_expert_mode = [] {
+        dhd_noted->is_expert = true;
+        return 0;
+    };
     api.set_watchdog = [](unsigned char steps, char device) {
-        return note_dhd("watchdog of " + std::to_string(steps), device);
+        const int noted = note_dhd("watchdog of " + std::to_string(steps), device);
+        return dhd_noted->is_expert && dhd_noted->has_watchdog ? noted : -1;
     };
     return api;
 }
@@ -138,10 +144,41 @@ TEST(DhdCalls, OpenWithAWatchdogAndZeroForceBeforeTheForceIsSwitchedOn) {
         ASSERT_EQ(device.calls,
                   (std::vector<std::string>{"open " + std::to_string(index), "watchdog of 160 " + handle,
                                             "force " + handle + ": 0.00 0.00 0.00", "force on " + handle}));
+        EXPECT_TRUE(noted.is_expert) << "which dhdSetWatchdog needs by its header";
+        EXPECT_EQ(line.notice(), LineNotice{}) << "the watchdog is armed, and nothing is said of it";
         line.close();
         EXPECT_EQ(device.calls.back(), "close " + handle);
         EXPECT_TRUE(noted.devices[static_cast<std::size_t>(1 - index)].calls.empty());
     }
+}
+
+TEST(DhdCalls, AWatchdogThatIsNotArmedIsToldOnceWhyeverItIsNot) {
+    const auto is_told = [](const DhdApi& api) {
+        DhdLine line("dhd", api, {});
+        EXPECT_TRUE(line.open());
+        const LineNotice notice = line.notice();
+        const std::string said = line.words_for(notice);
+        EXPECT_EQ(line.notice(), LineNotice{}) << "once";
+        line.close();
+        EXPECT_TRUE(line.open());
+        EXPECT_EQ(line.notice(), LineNotice{}) << "nor when it is found again";
+        line.close();
+        return notice.what != 0 && said.contains("the dhd has not taken a watchdog") && said.contains("button");
+    };
+    NotedDhd noted;
+    dhd_noted = &noted;
+    DhdApi api = noting_dhd();
+    noted.has_watchdog = false;
+    EXPECT_TRUE(is_told(api)) << "the device refuses it";
+    noted.has_watchdog = true;
+    api.enable_expert_mode = [] { return -1; };
+    noted.is_expert = false;
+    EXPECT_TRUE(is_told(api)) << "the expert section stays shut";
+    api.enable_expert_mode = nullptr;
+    EXPECT_TRUE(is_told(api)) << "the library has none";
+    api = noting_dhd();
+    api.set_watchdog = nullptr;
+    EXPECT_TRUE(is_told(api)) << "the library has none";
 }
 
 TEST(DhdCalls, HaveAxesOfTheLibrarysForPlaceTurnAndForceAndTheDevicesOwnMost) {

@@ -95,6 +95,22 @@ TEST(Dhd, TakesTheLibrarysAxesAsItsManualHasThem) {
     EXPECT_EQ(api->close(static_cast<char>(device)), 0);
 }
 
+TEST(Dhd, TheEmulatedLibrarysExpertSectionIsShutAsTheHeaderHasIt) {
+    RunningDhd running(own_dhd());
+    const auto api = load_dhd_api(library_beside("libburin_emulated_dhd_shut.so"));
+    ASSERT_TRUE(api) << api.error().line();
+    const int device = tried([&] { return api->open_by_serial(emulated_serial(own_dhd())) + 1; }) - 1;
+    ASSERT_GE(device, 0);
+    const auto id = static_cast<char>(device);
+    EXPECT_EQ(api->set_watchdog(160, id), -1);
+    EXPECT_EQ(api->last_error(), 9) << "DHD_ERROR_EXPERT_MODE_DISABLED";
+    EXPECT_EQ(running->watchdog(), 0u);
+    EXPECT_EQ(api->enable_expert_mode(), 0);
+    EXPECT_EQ(api->set_watchdog(160, id), 0);
+    EXPECT_EQ(running->watchdog(), 160u);
+    EXPECT_EQ(api->close(id), 0);
+}
+
 TEST(Dhd, GivesItsForceAndSeesTheHandGiveWay) {
     RunningDhd running(own_dhd());
     TickedArm dhd("dhd:" + own_dhd());

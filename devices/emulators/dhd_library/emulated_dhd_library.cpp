@@ -2,7 +2,8 @@
 // The emulated library of Force Dimension: the functions of DHD that Burin calls (devices/drivers/dhd_api.hpp), around
 // emulated devices that run in processes of their own (devices/emulators/emulated_dhd.hpp). A session loads it in place
 // of libdhd.so.3, so that the driver at work is the real one. It behaves as the driver has to expect of the maker's:
-// one list of devices for the process, -1 and a last error where something fails, forces that act as they are written.
+// one list of devices for the process, -1 and a last error where something fails, forces that act as they are written,
+// an expert section that is shut until it is opened.
 //
 // State is static, as the interface is of C. What a test changes is told when it is compiled:
 // BURIN_EMULATED_DHD_MAJOR, and BURIN_EMULATED_DHD_LACKS, which leaves a function out.
@@ -36,6 +37,7 @@ struct DhdLibrary {
     std::mutex mutex;
     std::array<std::optional<OpenedDhd>, kMostDhds> opened;
     int error = 0;
+    bool is_expert = false;
     MonotonicClock clock;
 
     // Fails as the maker's does where there is none, or where it does not answer any more.
@@ -185,13 +187,25 @@ const char* dhdErrorGetStr(int error) {
         case 0: return "no error";
         case kDhdCommunication: return "communication error";
         case kDhdNoDevice: return "no device found";
+        case kDhdNotExpert: return "expert mode disabled";
         case kDhdInUse: return "device is in use";
         default: return "an error";
     }
 }
 
+int dhdEnableExpertMode() {
+    const std::lock_guard lock(dhd().mutex);
+    dhd().is_expert = true;
+    return 0;
+}
+
+// Stands in the header's expert section.
 int dhdSetWatchdog(unsigned char steps, char id) {
     const std::lock_guard lock(dhd().mutex);
+    if (!dhd().is_expert) {
+        dhd().error = burin::devices::kDhdNotExpert;
+        return -1;
+    }
     auto* const device = dhd().device(id);
     if (device == nullptr) return -1;
     device->memory->watchdog = steps;
