@@ -92,6 +92,8 @@ public:
         const FalconAngles torques = falcon_torques_of(motors_);
         arm_.write({falcon_force(pose_, torques), Vec3(0.0)});
         if (has_packet_) arm_.advance(1'000'000);
+        if (loader_ == Loader::greeted && baud_ == kFtdiUpload && ++steps_at_upload_ >= kClearAfter)
+            says_status_ = true;
         const DeviceSample sample = arm_.read();
         buttons_ = sample.buttons;
         const auto angles = falcon_inverse(kFalconMiddle_m + sample.position_device_m);
@@ -111,8 +113,10 @@ public:
     // Returns the next piece for the host; nothing: there is none.
     [[nodiscard]] std::optional<std::vector<std::byte>> piece() {
         if (owner_.drill_->is_silent) said_.clear();
-        if (said_.empty()) return std::nullopt;
-        std::vector<std::byte> piece{std::byte{0x01}, std::byte{0x60}};  // the chip's: ready, and the line is free
+        if (said_.empty() && !says_status_) return std::nullopt;
+        says_status_ = false;
+        constexpr std::byte kReady{0x01}, kClearToSend{0x10};  // the chip's own, and that its line is free
+        std::vector<std::byte> piece{steps_at_upload_ >= kClearAfter ? kReady | kClearToSend : kReady, std::byte{0x60}};
         // Some have nothing but that, and some end in the middle of a packet.
         ++pieces_;
         std::size_t count = std::min(said_.size(), kFtdiPiece - kFtdiOwn);
@@ -130,16 +134,20 @@ public:
         has_firmware_ = owner_.options_.has_firmware;
         owner_.drill_->is_homed = owner_.options_.is_homed;
         loader_ = Loader::sleeps;
+        steps_at_upload_ = bad_loads_ = 0;
         waiting_.clear();
     }
 
 private:
     enum class Loader { sleeps, listens, greeted, loads };
+    // Steps from the change of speed until it is clear to send; what is written before that is not heard.
+    static constexpr int kClearAfter = 5;
 
     void set(FtdiRequest what, std::uint16_t value) {
         if (what == FtdiRequest::baud) {
             if (loader_ == Loader::loads && value == kFtdiRun) end_load();
             baud_ = value;
+            steps_at_upload_ = 0;
         }
         // The boot loader begins to listen when the line's signal rises, and takes firmware when it has fallen again.
         if (what == FtdiRequest::modem && value == kFtdiDtrHigh && !has_firmware_) loader_ = Loader::listens;
@@ -148,7 +156,7 @@ private:
     }
 
     void end_load() {
-        has_firmware_ = loaded_ == kNovintFirmware || loaded_ == kNventFirmware;
+        has_firmware_ = !is_bad_ && (loaded_ == kNovintFirmware || loaded_ == kNventFirmware);
         owner_.drill_->loads += has_firmware_ ? 1 : 0;
         loader_ = Loader::sleeps;
     }
@@ -163,11 +171,16 @@ private:
             return;
         }
         if (loader_ == Loader::loads && baud_ == kFtdiUpload) {
+            const std::size_t before = loaded_;
             loaded_ += bytes.size();
             said_.insert(said_.end(), bytes.begin(), bytes.end());
-        } else if (loader_ == Loader::greeted && baud_ == kFtdiUpload && std::ranges::equal(bytes, bytes_in("A"))) {
+            constexpr std::size_t kWrongAt = 2000;
+            if (is_bad_ && before <= kWrongAt && loaded_ > kWrongAt) said_.back() ^= std::byte{0x40};
+        } else if (loader_ == Loader::greeted && baud_ == kFtdiUpload && steps_at_upload_ >= kClearAfter &&
+                   std::ranges::equal(bytes, bytes_in("A"))) {
             loader_ = Loader::loads;
             loaded_ = 0;
+            is_bad_ = bad_loads_++ < owner_.options_.bad_loads;
             said_ = bytes_in("A");
         } else if (loader_ != Loader::sleeps && baud_ == kFtdiBoot &&
                    std::ranges::equal(bytes, bytes_in("\x0a\x43\x0d"))) {
@@ -200,6 +213,8 @@ private:
     std::uint16_t baud_ = 0;
     Loader loader_ = Loader::sleeps;
     std::size_t loaded_ = 0;
+    int steps_at_upload_ = 0, bad_loads_ = 0;
+    bool is_bad_ = false, says_status_ = false;
     std::string waiting_;  // the bytes of a packet that is not whole yet
     std::vector<std::byte> said_;
     unsigned int pieces_ = 0;
@@ -272,6 +287,8 @@ void EmulatedFalcon::run(const std::function<bool()>& ends) {
                 static_cast<void>(::send(host.get(), piece->data(), piece->size(), MSG_NOSIGNAL));
         }
         device.step();
+        while (const auto piece = device.piece())
+            static_cast<void>(::send(host.get(), piece->data(), piece->size(), MSG_NOSIGNAL));
     }
 }
 

@@ -10,7 +10,14 @@
 namespace burin::devices {
 namespace {
 
-enum FalconNotice : std::uint32_t { kFalconWantsHoming = 1, kFalconHomed, kFalconNowhere, kFalconGone, kFalconBack };
+enum FalconNotice : std::uint32_t {
+    kFalconWantsHoming = 1,
+    kFalconHomed,
+    kFalconNowhere,
+    kFalconGone,
+    kFalconBack,
+    kFalconLoaded
+};
 
 std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
@@ -50,13 +57,9 @@ Result<void> FalconLine::open() {
             return fail(where, "has no firmware yet, as after it is switched on",
                         "name a firmware file: " + name_ + (name_ == "falcon" ? ":" : "@") + "FILE (docs/devices.md)");
         }
-        if (auto loaded = load_firmware(); !loaded) {
+        if (auto runs = give_firmware(); !runs) {
             close();
-            return loaded;
-        }
-        if (settings_for_run() != Cable::well || !answers()) {
-            close();
-            return fail(where, "has taken its firmware and is silent", "switch it off and on, and try again");
+            return runs;
         }
     }
     has_pose_ = is_homed_ = told_unhomed_ = false;
@@ -138,7 +141,10 @@ bool FalconLine::turn(const Vec3& force_N, ServedState& state) noexcept {
     return true;
 }
 
-LineNotice FalconLine::notice() noexcept { return std::exchange(notice_, {}); }
+LineNotice FalconLine::notice() noexcept {
+    if (std::exchange(told_loads_, loads_) != loads_ && loads_ > 1) return {kFalconLoaded, loads_};
+    return std::exchange(notice_, {});
+}
 
 std::string FalconLine::words_for(const LineNotice& notice) const {
     switch (notice.what) {
@@ -149,6 +155,9 @@ std::string FalconLine::words_for(const LineNotice& notice) const {
             return "the " + name_ + " reads angles that its legs cannot have: switch it off and on, and home it again";
         case kFalconGone: return "the " + name_ + " is gone: see that its cable and its power are plugged in";
         case kFalconBack: return "the " + name_ + " is there again";
+        case kFalconLoaded:
+            return "the " + name_ + " runs its firmware, which it was given " + std::to_string(notice.number) +
+                   " times: a load fails now and then";
     }
     return {};
 }
@@ -195,16 +204,50 @@ Result<void> FalconLine::greet_boot_loader() {
             return fail(where, "was unplugged", "plug it in again");
         is_there = std::ranges::search(heard, answer).size() == answer.size();
     }
+    is_boot_loader_silent_ = !is_there;
     if (!is_there)
         return fail(where, "runs no firmware, and its boot loader does not answer",
                     "see that its power supply is plugged in, switch it off and on, and try again");
     const auto upload = bytes_of("A");
-    const bool is_ready = port_->request(modem, kFtdiDtrLow) == Cable::well &&
-                          port_->request(baud, kFtdiUpload) == Cable::well &&
-                          port_->write(upload, kPatient_ns) == Cable::well &&
-                          hear(heard, 1, kPatient_ns) == Cable::well && heard.front() == upload.front();
+    bool is_ready =
+        port_->request(modem, kFtdiDtrLow) == Cable::well && port_->request(baud, kFtdiUpload) == Cable::well;
+    if (is_ready) wait_until_clear_to_send();
+    is_ready = is_ready && port_->write(upload, kPatient_ns) == Cable::well &&
+               hear(heard, 1, kPatient_ns) == Cable::well && heard.front() == upload.front();
     if (!is_ready) return fail(where, "its boot loader takes no firmware", remedy);
     return {};
+}
+
+void FalconLine::wait_until_clear_to_send() {
+    constexpr Nanoseconds kMost_ns = 250'000'000, kPiece_ns = 20'000'000;
+    const Nanoseconds until_ns = clock_.now_ns() + kMost_ns;
+    for (Nanoseconds left_ns = kMost_ns; left_ns > 0; left_ns = until_ns - clock_.now_ns()) {
+        std::array<std::byte, kFtdiPiece> piece;
+        std::size_t count = 0;
+        const Cable cable = port_->read(piece, count, std::min(left_ns, kPiece_ns));
+        if (cable == Cable::pulled) return;
+        if (cable == Cable::well && count > 0 && (piece[0] & kFtdiClearToSend) != std::byte{0}) return;
+    }
+}
+
+Result<void> FalconLine::give_firmware() {
+    const std::string where = "haptic device " + name_;
+    Error last;
+    for (int load = 1; load <= kMostLoads; ++load) {
+        const bool was_silent = is_boot_loader_silent_;
+        const auto loaded = load_firmware();
+        if (loaded && settings_for_run() == Cable::well && answers()) {
+            loads_ = load;
+            return {};
+        }
+        last = loaded ? Error{where, "has taken its firmware and is silent", "switch it off and on, and try again"}
+                      : loaded.error();
+        if (port_->request(FtdiRequest::reset, kFtdiPurgeIn) == Cable::pulled)
+            return fail(where, "was unplugged", "plug it in again");
+        // One that never says anything has no power; one that has spoken before may come round.
+        if (is_boot_loader_silent_ && (load == 1 || was_silent)) return std::unexpected(last);
+    }
+    return fail(where, last.what + ", " + std::to_string(kMostLoads) + " times in a row", last.remedy);
 }
 
 Result<void> FalconLine::load_firmware() {

@@ -2,9 +2,10 @@
 // The driver of a Novint Falcon: from a cable to a force at the grip, and to where the grip is.
 //
 // Opening it asks for a packet. A Falcon that gives none has just been switched on, and is given its firmware: the boot
-// loader is greeted at 9,600 a second, and takes the bytes at 140,000, each piece said back and compared. Then each
-// turn is a packet either way (falcon_packet.hpp). Until all three encoders are homed the device has a fault, its lamp
-// is red, and it gets no force; homed it is blue, and without force green.
+// loader is greeted at 9,600 a second, and takes the bytes at 140,000 once it is clear to send, each piece said back and
+// compared. That fails now and then (libnifalcon, issues 9, 24, 32, 33, 45), and is begun anew up to kMostLoads times.
+// Then each turn is a packet either way (falcon_packet.hpp). Until all three encoders are homed the device has a fault,
+// its lamp is red, and it gets no force; homed it is blue, and without force green.
 // Frame: device: the Falcon's own (falcon_kinematics.hpp), about the middle of its workspace. Thread: the servo's; but
 // words_for() any.
 #pragma once
@@ -41,13 +42,18 @@ public:
     [[nodiscard]] std::string words_for(const LineNotice& notice) const override;
 
     static constexpr Nanoseconds kAnswer_ns = 20'000'000;  // the longest that a turn waits for its packet
+    static constexpr int kMostLoads = 10;
 
 private:
     [[nodiscard]] Cable settings_for_run() noexcept;
     [[nodiscard]] Cable exchange(const FalconCommand& command, FalconReport& report) noexcept;
     [[nodiscard]] bool answers() noexcept;
+    // Loads it until it runs.
+    [[nodiscard]] Result<void> give_firmware();
     [[nodiscard]] Result<void> load_firmware();
     [[nodiscard]] Result<void> greet_boot_loader();
+    // Waits until the boot loader is clear to be sent to; a chip that never says so is sent to nevertheless.
+    void wait_until_clear_to_send();
     // Reads until so many bytes have come; what came is in `heard`.
     [[nodiscard]] Cable hear(std::vector<std::byte>& heard, std::size_t count, Nanoseconds within_ns);
     void tell(std::uint32_t what, std::int32_t number = 0) noexcept { notice_ = {what, number}; }
@@ -60,6 +66,8 @@ private:
     FalconPose pose_;  // of the newest packet
     bool has_pose_ = false, is_homed_ = false, is_gone_ = false;
     bool told_unhomed_ = false;
+    bool is_boot_loader_silent_ = false;
+    int told_loads_ = 0, loads_ = 0;  // that it took to have it run
     LineNotice notice_;
     MonotonicClock clock_;
 };

@@ -28,6 +28,8 @@ inline constexpr std::uint16_t kFtdi8N1 = 0x0008;                               
 inline constexpr std::size_t kFtdiPiece =
     64;  // the longest that comes in at once, two bytes of the chip's own included
 inline constexpr std::size_t kFtdiOwn = 2;
+// Of the first of them: the device behind the chip is clear to be sent to.
+inline constexpr std::byte kFtdiClearToSend{0x10};
 
 enum class Cable : std::uint8_t {
     well,

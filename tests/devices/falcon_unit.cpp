@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "devices/emulators/emulated_falcon.hpp"
@@ -294,6 +295,28 @@ TEST(Falcon, IsGivenItsFirmwareFromTheFileThatTheUserNames) {
     EXPECT_TRUE(falcon.ticks_until(Vec3(0.0), [&](const DeviceSample&) { return running->firmware_loads() == 2; }));
     running->home(true);
     EXPECT_TRUE(falcon.is_well());
+}
+
+TEST(Falcon, IsFoundAtTheTenthLoadOfItsFirmwareAndNotAtTheEleventh) {
+    const FirmwareFile firmware(kNventFirmware);
+    for (const int bad : {0, 1, 2, 9, 10}) {
+        const std::string name = own_falcon("-bad-" + std::to_string(bad));
+        RunningFalcon running(name, {.script = falcon_stands_at(Vec3(0.0)),
+                                     .silence = {},
+                                     .has_firmware = false,
+                                     .is_homed = true,
+                                     .bad_loads = bad});
+        FalconLine line(
+            "falcon", [&] { return open_emulated_falcon(name); }, read_falcon_firmware(firmware.path()).value());
+        const auto opened = line.open();
+        EXPECT_EQ(opened.has_value(), bad < 10) << bad << (opened ? "" : opened.error().line());
+        EXPECT_EQ(running->firmware_loads(), bad < 10 ? 1 : 0) << bad;
+        const std::string said = line.words_for(line.notice());
+        EXPECT_EQ(said.contains("which it was given " + std::to_string(bad + 1) + " times"), bad > 0 && bad < 10)
+            << bad << said;
+        EXPECT_TRUE(opened || opened.error().line().contains("10 times in a row"));
+        line.close();
+    }
 }
 
 TEST(Falcon, RefusesAFirmwareFileThatIsNone) {
