@@ -189,7 +189,7 @@ void TrackerTranslator::pose(std::string_view name, std::int32_t number, const P
     note_seen(name, number, time_ns);
     if (!is_known(name, number)) return;
     if (stamp_ns) {
-        if (is_repeated(name, number, *stamp_ns)) return;
+        if (is_repeated(name, number, *stamp_ns)) return note_repeat(name, number);
         const Nanoseconds late_ns = delay_.note(*stamp_ns, time_ns);
         if (late_ns > kStale_ns) {
             refuse(formatted("sends poses of %.*s/%d that are %.1f s late: they are lost until they are newer",
@@ -211,6 +211,7 @@ void TrackerTranslator::pose(std::string_view name, std::int32_t number, const P
     const auto tell = [&](Body& body, const TrackedMount& mount, std::optional<std::uint32_t> wand) {
         body.heard_ns = time_ns;
         body.stamp_ns = stamp_ns;
+        body.repeats = 0;
         report(body, mount, body_tracker, wand, time_ns);
     };
     if (bodies_.head == said) tell(head_, bodies_.head_mount, std::nullopt);
@@ -224,12 +225,26 @@ bool TrackerTranslator::lose_stopped(Nanoseconds time_ns) {
         if (!source || !body.is_tracked || time_ns - body.heard_ns <= kStopped_ns) return;
         any = true;
         report(body, {}, {}, wand, time_ns);
-        to_.say("tracker " + where_ + ": no new pose of " + source->name +
-                formatted("/%d has come for %.0f s: it is lost where it was", source->number, seconds(kStopped_ns)));
+        const std::string which = source->name + formatted("/%d", source->number);
+        to_.say("tracker " + where_ + ": " +
+                (body.repeats > 0
+                     ? "poses of " + which +
+                           " come with a time stamp that never changes, as of a clock that "
+                           "stands still: it is lost where it was"
+                     : "no new pose of " + which +
+                           formatted(" has come for %.0f s: it is lost where it was", seconds(kStopped_ns))));
     };
     look(head_, bodies_.head, std::nullopt);
     for (std::uint32_t wand = 0; wand < kTrackedWands; ++wand) look(wands_[wand], bodies_.wands[wand], wand);
     return any;
+}
+
+void TrackerTranslator::note_repeat(std::string_view name, std::int32_t number) {
+    const auto count = [&](Body& body, const std::optional<TrackedSource>& source) {
+        if (source && source->name == name && source->number == number) ++body.repeats;
+    };
+    count(head_, bodies_.head);
+    for (std::uint32_t wand = 0; wand < kTrackedWands; ++wand) count(wands_[wand], bodies_.wands[wand]);
 }
 
 void TrackerTranslator::note_seen(std::string_view name, std::int32_t number, Nanoseconds time_ns) {

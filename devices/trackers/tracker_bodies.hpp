@@ -91,7 +91,8 @@ struct TrackerBodies {
 //
 // Age. Where a server stamps its poses, one that comes later than kStale_ns (server_delay.hpp) is of no account: its
 // body is lost, and that is told. One with the stamp of the pose before says nothing new. A body of which nothing new
-// has come for kStopped_ns is lost where it was, with a message, although the server itself may go on.
+// has come for kStopped_ns is lost where it was, with a message, although the server itself may go on; the message says
+// so where poses came whose stamp never changed.
 class TrackerTranslator {
 public:
     static constexpr Nanoseconds kPatience_ns = 5'000'000'000;
@@ -125,6 +126,7 @@ private:
         bool is_tracked = false;
         Nanoseconds heard_ns = 0;             // when the last new pose came
         std::optional<Nanoseconds> stamp_ns;  // of that pose
+        std::uint64_t repeats = 0;            // of that stamp
     };
     [[nodiscard]] bool is_known(std::string_view name, std::int32_t number) const;
     [[nodiscard]] std::optional<Pose> in_tracker(const Pose& pose_system) const;
@@ -132,6 +134,7 @@ private:
     void report(Body& body, const TrackedMount& mount, const std::optional<TimedPose>& body_tracker,
                 std::optional<std::uint32_t> wand, Nanoseconds time_ns);
     [[nodiscard]] bool is_repeated(std::string_view name, std::int32_t number, Nanoseconds stamp_ns) const;
+    void note_repeat(std::string_view name, std::int32_t number);
     void note_seen(std::string_view name, std::int32_t number, Nanoseconds time_ns);
     void tell_of_missing();
     void click(std::size_t wand, std::uint32_t button, bool pressed, Nanoseconds time_ns);

@@ -26,6 +26,35 @@ const TrackerBodies& usual_bodies() {
     return bodies;
 }
 
+constexpr std::string_view kControl = "VRPN Control";
+
+// Returns which devices are asked for, and for what. Of the usual ones only the head's is missed where it is not there.
+std::vector<std::pair<std::string, std::string>> devices_of(const TrackerBodies& bodies) {
+    std::vector<std::pair<std::string, std::string>> wanted;
+    const auto add = [&](const std::string& part, const std::optional<TrackedSource>& source) {
+        if (source && (bodies.are_named || wanted.empty())) wanted.emplace_back(part, source->name);
+    };
+    add("head", bodies.head);
+    for (std::size_t i = 0; i < kTrackedWands; ++i) {
+        add(formatted("wand%zu", i), bodies.wands[i]);
+        add(formatted("buttons%zu", i), bodies.buttons[i]);
+        add(formatted("stick%zu", i), bodies.sticks[i]);
+    }
+    return wanted;
+}
+
+bool is_named(const VrpnNames& names, const std::string& device) {
+    return std::ranges::find(names.senders(), device) != names.senders().end();
+}
+
+// Returns the devices that a server has named, for people.
+std::string devices_named(const VrpnNames& names) {
+    std::string devices;
+    for (const std::string& sender : names.senders())
+        if (!sender.empty() && sender != kControl) devices += (devices.empty() ? "" : ", ") + sender;
+    return devices;
+}
+
 bool send_all(int socket, const std::vector<std::byte>& bytes) {
     // What a server does not take now is lost with the connection: it takes a few hundred bytes in all.
     return ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
@@ -97,9 +126,7 @@ std::vector<DevicePresence> look_for_vrpn_at(const NetworkAddress& here) {
                 newest_us = std::max(newest_us, message->time_us);
     } while (clock.now_ns() < until_ns &&
              stop.wait_for(connection->socket.get(), kNames_ms) == StopSign::Woken::by_file && read_some(*connection));
-    std::string devices;
-    for (const std::string& sender : connection->names.senders())
-        if (!sender.empty() && sender != "VRPN Control") devices += (devices.empty() ? "" : ", ") + sender;
+    const std::string devices = devices_named(connection->names);
     return {{Presence::there,
              name,
              "a VRPN server, version " + connection->reader->version() +
@@ -132,9 +159,7 @@ Result<std::unique_ptr<Tracker>> VrpnTracker::open(const std::string& where, Tra
 VrpnTracker::VrpnTracker(const std::string& where, NetworkAddress server, TrackerBodies bodies, TrackerHost host)
     : host_(std::move(host)),
       server_(std::move(server)),
-      pinged_(bodies.head       ? bodies.head->name
-              : bodies.wands[0] ? bodies.wands[0]->name
-                                : "Tracker0"),
+      wanted_(devices_of(bodies)),
       translator_(where, std::move(bodies), inbox_) {}
 
 VrpnTracker::~VrpnTracker() {
@@ -158,11 +183,13 @@ void VrpnTracker::run(VrpnConnection connection) {
 
 // Takes what the server sends until the connection is of no use; returns why, empty when told to end.
 std::string VrpnTracker::follow(VrpnConnection& connection) {
-    // What is pinged has to be named first, and so has the ping.
     VrpnBytes names;
-    names.name(kVrpnSender, 0, pinged_).name(kVrpnType, 0, kVrpnPing).name(kVrpnType, 1, kVrpnPong);
+    names.name(kVrpnType, 0, kVrpnPing).name(kVrpnType, 1, kVrpnPong);
     if (!send_all(connection.socket.get(), names.bytes())) return "takes no bytes";
+    described_.clear();
     Nanoseconds heard_ns = host_.clock.now_ns(), pinged_ns = heard_ns;
+    std::optional<Nanoseconds> named_ns;
+    bool told_of_missing = false;
     while (true) {
         bool has_message = false;
         while (const auto message = connection.reader->next()) {
@@ -174,6 +201,9 @@ std::string VrpnTracker::follow(VrpnConnection& connection) {
         const auto woken = stop_.wait_for(connection.socket.get(), 200);
         if (woken == StopSign::Woken::by_sign) return {};
         const Nanoseconds now_ns = host_.clock.now_ns();
+        if (!named_ns && !devices_named(connection.names).empty()) named_ns = now_ns;
+        if (named_ns && now_ns - *named_ns > kMissing_ns && !std::exchange(told_of_missing, true))
+            tell_of_missing(connection.names);
         if (translator_.lose_stopped(now_ns) && host_.on_sample) host_.on_sample();
         if (woken == StopSign::Woken::by_file) {
             if (!read_some(connection)) return "has closed the connection";
@@ -187,8 +217,32 @@ std::string VrpnTracker::follow(VrpnConnection& connection) {
     }
 }
 
-void VrpnTracker::ping(const VrpnConnection& connection) const {
-    static_cast<void>(send_all(connection.socket.get(), VrpnBytes().message(0, 0).bytes()));
+// Pings a device that the server has: one that is asked for, or else whichever it has named.
+void VrpnTracker::ping(const VrpnConnection& connection) {
+    std::string device;
+    for (const std::string& sender : connection.names.senders())
+        if (device.empty() && sender != kControl) device = sender;
+    for (const auto& [part, wanted] : wanted_)
+        if (is_named(connection.names, wanted)) device = wanted;
+    if (device.empty()) return;
+    // It has to be told by which number it is meant.
+    VrpnBytes said;
+    auto known = std::ranges::find(described_, device);
+    const auto number = static_cast<std::int32_t>(known - described_.begin());
+    if (known == described_.end()) {
+        described_.push_back(device);
+        said.name(kVrpnSender, number, device);
+    }
+    static_cast<void>(send_all(connection.socket.get(), said.message(number, 0).bytes()));
+}
+
+void VrpnTracker::tell_of_missing(const VrpnNames& names) {
+    std::string missing;
+    for (const auto& [part, device] : wanted_)
+        if (!is_named(names, device)) missing += (missing.empty() ? "" : ", ") + part + " = " + device;
+    if (missing.empty()) return;
+    inbox_.say("the VRPN server at " + server_.text() + " has no device for " + missing + "; it names " +
+               devices_named(names));
 }
 
 std::optional<VrpnConnection> VrpnTracker::find_again() {

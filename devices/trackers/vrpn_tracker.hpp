@@ -3,7 +3,9 @@
 //
 // Data flow: TCP connection -> VrpnReader -> names of the server's numbers -> TrackerTranslator -> inbox. Everything
 // stays on the one TCP connection, since the server is told of no UDP port. A server that has sent nothing for a second
-// is sent pings, which it answers; one that is silent for kSilent_ns, that closes the connection or sends what is no
+// is sent pings. It answers those of a device that it has, and "VRPN Control" is none: so what is pinged is a device
+// that it has named itself. A device that was asked for and is not among its names is told of kMissing_ns after these
+// have come. A server that is silent for kSilent_ns, that closes the connection or sends what is no
 // VRPN is left, its bodies are lost and its buttons released, and it is looked for again once a second.
 // A pose that comes late by the server's own time stamps is stale, and a body that stops is lost, as TrackerTranslator
 // has it.
@@ -12,7 +14,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "devices/trackers/network.hpp"
 #include "devices/trackers/tracker_bodies.hpp"
@@ -37,7 +42,7 @@ inline constexpr Nanoseconds kVrpnAnswer_ns = 2'000'000'000;
 
 class VrpnTracker final : public Tracker {
 public:
-    static constexpr Nanoseconds kQuiet_ns = 1'000'000'000, kSilent_ns = 3'000'000'000;
+    static constexpr Nanoseconds kQuiet_ns = 1'000'000'000, kSilent_ns = 3'000'000'000, kMissing_ns = 1'000'000'000;
 
     [[nodiscard]] static Result<std::unique_ptr<Tracker>> open(const std::string& where, TrackerHost host);
     ~VrpnTracker() override;
@@ -54,11 +59,14 @@ private:
     [[nodiscard]] std::string follow(VrpnConnection& connection);
     [[nodiscard]] std::optional<VrpnConnection> find_again();
     void take_message(VrpnConnection& connection, const VrpnMessage& message);
-    void ping(const VrpnConnection& connection) const;
+    void ping(const VrpnConnection& connection);
+    void tell_of_missing(const VrpnNames& names);
 
     TrackerHost host_;
     NetworkAddress server_;
-    std::string pinged_;  // the device that pings are for
+    // The devices that heads, wands, buttons and sticks are asked of, as (part, device).
+    std::vector<std::pair<std::string, std::string>> wanted_;
+    std::vector<std::string> described_;  // the devices that this connection has been told of, by the numbers for them
     TrackerInbox inbox_;
     TrackerTranslator translator_;
     StopSign stop_;
