@@ -15,6 +15,9 @@
 namespace burin::devices {
 namespace {
 
+// Of the PHANTOMs, Premium 3.0 has the most: 22 N (data sheet). What a library says beyond this is no force of a device's.
+constexpr double kMostOfAny_N = 100.0;
+
 unsigned int turn_of(void* servo) {
     static_cast<HdServo*>(servo)->turn();
     return kHdCallAgain;
@@ -56,6 +59,15 @@ std::optional<Pose> pose_of(const std::array<double, 16>& transform) {
     return pose;
 }
 
+const char* way_to_calibrate(int style) {
+    switch (static_cast<unsigned int>(style)) {
+        case kHdByEncoderReset:
+            return "hold it in its reset position, all links at right angles to one another, and press a button of it";
+        case kHdByInkwell: return "put the stylus into the inkwell";
+        default: return "calibrate it as its manual says";
+    }
+}
+
 }  // namespace
 
 HdDevice::~HdDevice() { servo_->close(*this); }
@@ -68,7 +80,9 @@ std::vector<std::string> HdDevice::take_messages() {
         last = notice;
         const std::string who = name_.empty() ? "the omni" : "the omni " + name_;
         if (notice.code == kHdCalibrationNeedsHand) {
-            messages.push_back(who + " does not know where its stylus is: put the stylus into the inkwell");
+            messages.push_back(who + " does not know where its stylus is: " + way_to_calibrate(notice.internal_code));
+        } else if (notice.code == kHdMostForce) {
+            messages.push_back(who + " gives no force: its library says of no greatest force that it is one");
         } else if (notice.code == kHdCalibrated) {
             messages.push_back(who + " is calibrated");
         } else {
@@ -159,6 +173,10 @@ Result<std::unique_ptr<HdDevice>> HdServo::open(const std::string& name) {
     device->middle_m_ = 0.0005 * Vec3(box[0] + box[3], box[1] + box[4], box[2] + box[5]);
     if (!finite(device->middle_m_)) device->middle_m_ = Vec3(0.0);
     api_.read_doubles(kHdMostForce, &device->most_N_);
+    if (!(device->most_N_ > 0.0 && device->most_N_ <= kMostOfAny_N)) {
+        device->most_N_ = 0.0;
+        device->notices_.push({kHdMostForce, 0, 0});
+    }
     int styles = 0;
     api_.read_integers(kHdCalibrationStyles, &styles);
     for (const unsigned int style : {kHdByItself, kHdByInkwell, kHdByEncoderReset})
@@ -222,7 +240,7 @@ void HdServo::serve(HdDevice& device, Nanoseconds now_ns) noexcept {
     api_.read_doubles(kHdTransform, transform.data());
     int buttons = 0;
     api_.read_integers(kHdButtons, &buttons);
-    calibrate(device);
+    calibrate(device, buttons != 0);
     const std::optional<Pose> pose = pose_of(transform);
     HdCondition condition = HdCondition::well;
     if (device.calibration_ != kHdCalibrated) condition = HdCondition::uncalibrated;
@@ -238,17 +256,27 @@ void HdServo::serve(HdDevice& device, Nanoseconds now_ns) noexcept {
     const bool may = !pauses_.load(std::memory_order_relaxed) && condition == HdCondition::well;
     Vec3 force_N = may ? device.exchange_.wanted_N(now_ns) : Vec3(0.0);
     const double size_N = glm::length(force_N);
-    if (device.most_N_ > 0.0 && size_N > device.most_N_) force_N *= device.most_N_ / size_N;
+    if (size_N > device.most_N_) force_N *= device.most_N_ / size_N;
     const std::array<double, 3> given{force_N.x, force_N.y, force_N.z};
     api_.write_doubles(kHdForce, given.data());
     api_.end_frame(handle);
 }
 
 // Looks a few times a second; does what the device can do by itself, and says what a person has to do.
-void HdServo::calibrate(HdDevice& device) noexcept {
+void HdServo::calibrate(HdDevice& device, bool is_pressed) noexcept {
     constexpr unsigned int kTurns = 100;
+    const bool is_by_reset = device.calibrates_by_ == kHdByEncoderReset;
+    const bool presses = !std::exchange(device.was_pressed_, is_pressed) && is_pressed;
+    // Encoders that were never reset need it, whichever of the two the library says.
+    const bool waits =
+        device.calibration_ == kHdCalibrationNeedsHand || device.calibration_ == kHdCalibrationNeedsUpdate;
+    if (is_by_reset && waits && presses) {
+        api_.update_calibration(kHdByEncoderReset);
+        device.turns_ = 0;
+    }
     if (device.turns_++ % kTurns != 0) return;
     device.calibration_ = api_.check_calibration();
+    if (is_by_reset && device.calibration_ == kHdCalibrationNeedsUpdate) device.calibration_ = kHdCalibrationNeedsHand;
     if (device.calibration_ == kHdCalibrationNeedsUpdate) {
         api_.update_calibration(device.calibrates_by_);
         device.calibration_ = api_.check_calibration();
@@ -257,7 +285,7 @@ void HdServo::calibrate(HdDevice& device) noexcept {
                        (device.calibration_ == kHdCalibrated && device.told_calibration_ != 0);
     if (!tells || device.told_calibration_ == device.calibration_) return;
     device.told_calibration_ = device.calibration_;
-    device.notices_.push({device.calibration_, 0, 0});
+    device.notices_.push({device.calibration_, static_cast<int>(device.calibrates_by_), 0});
 }
 
 void HdServo::take_errors(Nanoseconds now_ns) noexcept {

@@ -7,7 +7,9 @@
 // Errors of the library are a stack, newest first: each turn takes all of them, says which device they are of, and
 // leaves the gravest of each device for whoever shows it.
 // A device that says it is gone (no communication, a fault) is opened anew from a thread of its own, once in
-// kAgain_ns, when no other device of the library is well: opening stops the library's thread for all. Before that
+// kAgain_ns, when no other device of the library is well: opening stops the library's thread for all. A device that is
+// calibrated by a reset of its encoders has no inkwell: whoever holds it in its reset position presses a button of it.
+// Before that
 // thread is stopped, for whatever reason, it has written zero to every device. Threads: open() and close on one;
 // take_messages() on the frame's. HDAPI is one for a process, so its servo is too.
 #pragma once
@@ -56,13 +58,16 @@ private:
     double most_N_ = 0.0;
     unsigned int calibrates_by_ = 0;
     ServedExchange exchange_;
-    Ring<HdError> notices_;  // the servo's thread -> the frame's; kHdCalibrationNeedsHand: it waits for a hand
+    // The servo's thread -> the frame's; kHdCalibrationNeedsHand: it waits for a hand, in the way that stands as the
+    // number of the device's own.
+    Ring<HdError> notices_;
     std::atomic<bool> is_gone_ = false;
     // Of the servo's thread:
     Nanoseconds error_ns_ = 0;
     HdCondition error_ = HdCondition::well;
     Pose pose_device_;  // the last that was one
     unsigned int calibration_ = 0, told_calibration_ = 0, turns_ = 0;
+    bool was_pressed_ = false;  // any of its buttons, in the turn before
 };
 
 class HdServo : public std::enable_shared_from_this<HdServo> {
@@ -94,7 +99,7 @@ private:
     void close(HdDevice& device);
     void serve(HdDevice& device, Nanoseconds now_ns) noexcept;
     void take_errors(Nanoseconds now_ns) noexcept;
-    void calibrate(HdDevice& device) noexcept;
+    void calibrate(HdDevice& device, bool is_pressed) noexcept;
     void watch();
     void open_again();
 

@@ -15,6 +15,8 @@ Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniO
                     "end that one, or choose another name: --at emulated-2");
     if (options.script.empty()) options.script = circling_hand();
     (*memory)->calibration.store(kHdCalibrated, std::memory_order_relaxed);
+    (*memory)->styles.store(kHdByInkwell, std::memory_order_relaxed);
+    (*memory)->most_N.store(OmniModel{}.max_force_N, std::memory_order_relaxed);
     return EmulatedOmni(std::move(*memory), std::move(options));
 }
 

@@ -40,6 +40,12 @@ public:
     void lose_its_pose(bool is_nan) { drill_->is_nan = is_nan; }
     // Has the library report this error in every frame; 0: none.
     void raise(std::uint32_t error) { memory_->error.store(error, std::memory_order_relaxed); }
+    // Is calibrated in another way than by its inkwell; by a reset of its encoders it needs a hand after it is switched
+    // on, and a library that updates it while it stands in its reset position.
+    void calibrate_by(std::uint32_t style) { memory_->styles.store(style, std::memory_order_relaxed); }
+    void stand_at_reset(bool does) { memory_->is_at_reset.store(does ? 1 : 0, std::memory_order_relaxed); }
+    // Has its library say this of its greatest force.
+    void say_most(double force_N) { memory_->most_N.store(force_N, std::memory_order_relaxed); }
     // Has to be calibrated as HDAPI says it (devices/drivers/hd_api.hpp); a library that updates it makes it well.
     void need_calibration(std::uint32_t what) { memory_->calibration.store(what, std::memory_order_relaxed); }
     [[nodiscard]] std::uint32_t calibrations() const { return memory_->calibrations.load(std::memory_order_relaxed); }

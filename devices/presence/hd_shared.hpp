@@ -8,14 +8,17 @@
 namespace burin::devices {
 
 struct HdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4433;  // "burinHD3": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4434;  // "burinHD4": of this layout
     static constexpr const char* kPrefix = "burin-hd-";
 
     // ---- The emulator's
     SharedNumbers<16> transform;  // column by column
     std::atomic<std::uint32_t> buttons = 0;
     std::atomic<std::uint32_t> calibration = 0;  // as HDAPI says it
-    std::atomic<std::uint32_t> error = 0;        // raised by the library in every frame; 0: none
+    std::atomic<std::uint32_t> styles = 0;       // of calibration, likewise
+    std::atomic<std::uint32_t> is_at_reset = 0;  // its links stand where its encoders may be reset
+    std::atomic<double> most_N = 0.0;
+    std::atomic<std::uint32_t> error = 0;  // raised by the library in every frame; 0: none
     // ---- The library's
     std::atomic<Nanoseconds> frame_ns = 0;  // of its newest frame
     SharedNumbers<3> force_N;

@@ -11,9 +11,14 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include "devices/drivers/hd_api.hpp"
 #include "devices/drivers/hd_servo.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -225,6 +230,54 @@ TEST(Omni, WaitsForItsCalibrationWithoutForceAndSaysWhatToDo) {
     EXPECT_EQ(running->calibrations(), 1u);
     EXPECT_TRUE(omni.ticks_until(presses, [&](const DeviceSample&) { return running->written_N() == presses; }));
     EXPECT_TRUE(omni.messages().contains("is calibrated"));
+}
+
+// A PHANTOM Desktop or Premium has no inkwell.
+TEST(Omni, IsCalibratedByAResetWhenSomebodyHoldsItThereAndPressesItsButton) {
+    for (const unsigned int says : {kHdCalibrationNeedsHand, kHdCalibrationNeedsUpdate}) {
+        // Presses twice, for a while each.
+        std::vector<HandPose> script;
+        for (const auto& [time_s, buttons] : {std::pair{0.0, 0u}, {0.5, 1u}, {0.6, 0u}, {1.4, 1u}, {1.5, 0u}})
+            script.push_back({time_s, Vec3(0.0), {1.0, 0.0, 0.0, 0.0}, buttons});
+        RunningOmni running(own_name(), script);
+        running->calibrate_by(kHdByEncoderReset);
+        running->need_calibration(says);
+        TickedArm omni("omni:" + own_name());
+        const Vec3 presses(0.0, 1.0, 0.0);
+        std::uint32_t was = 0;
+        int clicks = 0;
+        EXPECT_TRUE(omni.ticks_until(presses, [&](const DeviceSample& s) {
+            EXPECT_NE(s.fault, DeviceFault::none) << "it was not held in its reset position";
+            clicks += s.buttons != 0 && std::exchange(was, s.buttons) == 0 ? 1 : 0;
+            was = s.buttons;
+            return clicks == 1 && s.buttons == 0;
+        }));
+        EXPECT_EQ(running->written_N(), Vec3(0.0));
+        EXPECT_EQ(running->calibrations(), 0u);
+        const std::string said = omni.messages();
+        EXPECT_TRUE(said.contains("hold it in its reset position")) << said;
+        EXPECT_FALSE(said.contains("inkwell")) << said;
+        running->stand_at_reset(true);
+        ASSERT_TRUE(omni.is_well()) << "by the second press";
+        EXPECT_EQ(running->calibrations(), 1u);
+        EXPECT_TRUE(omni.ticks_until(presses, [&](const DeviceSample&) { return running->written_N() == presses; }));
+        EXPECT_TRUE(omni.messages().contains("is calibrated"));
+    }
+}
+
+TEST(Omni, AGreatestForceThatIsNoneIsNoForceAndIsTold) {
+    for (const double says :
+         {0.0, -3.3, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e9}) {
+        RunningOmni running(own_name());
+        running->say_most(says);
+        TickedArm omni("omni:" + own_name());
+        ASSERT_TRUE(omni.is_well());
+        for (int i = 0; i < 100; ++i) {
+            static_cast<void>(omni.tick(Vec3(0.0, 1.0, 0.0)));
+            EXPECT_EQ(running->written_N(), Vec3(0.0)) << says;
+        }
+        EXPECT_TRUE(omni.messages().contains("gives no force")) << says;
+    }
 }
 
 TEST(Omni, TwoOfThemEachHaveTheirOwnForceAndFault) {

@@ -176,7 +176,7 @@ void hdGetIntegerv(unsigned int what, int* to) {
     auto* const device = library().device(library().current);
     if (device == nullptr) return library().raise(0x0104, library().current);
     if (what == kHdButtons) *to = static_cast<int>(device->memory->buttons.load());
-    if (what == kHdCalibrationStyles) *to = static_cast<int>(kHdByInkwell);
+    if (what == kHdCalibrationStyles) *to = static_cast<int>(device->memory->styles.load());
 }
 
 void hdGetDoublev(unsigned int what, double* to) {
@@ -185,7 +185,7 @@ void hdGetDoublev(unsigned int what, double* to) {
     auto* const device = library().device(library().current);
     if (device == nullptr) return library().raise(0x0104, library().current);
     if (what == kHdTransform) std::copy(device->transform.begin(), device->transform.end(), to);
-    if (what == kHdMostForce) *to = 3.3;
+    if (what == kHdMostForce) *to = device->memory->most_N;
     // As EmulatedOmni::kMiddle_hd_m and the Omni's workspace have it, in millimetres.
     constexpr std::array<double, 6> kBox_mm{-81.3, -20.95, -55.55, 81.3, 100.95, 15.55};
     if (what == kHdUsableWorkspace) std::copy(kBox_mm.begin(), kBox_mm.end(), to);
@@ -211,7 +211,13 @@ void hdUpdateCalibration(unsigned int how) {
     using namespace burin::devices;
     const std::lock_guard lock(library().mutex);
     auto* const device = library().device(library().current);
-    if (device == nullptr || how != kHdByInkwell || device->memory->calibration != kHdCalibrationNeedsUpdate) return;
+    if (device == nullptr) return library().raise(0x0104, library().current);
+    constexpr unsigned int kInvalidValue = 0x0101;
+    if ((how & device->memory->styles) == 0) return library().raise(kInvalidValue, library().current);
+    // Encoders are reset wherever the arm stands; it is calibrated if that is its reset position.
+    const bool is_done = how == kHdByEncoderReset ? device->memory->is_at_reset != 0
+                                                  : device->memory->calibration == kHdCalibrationNeedsUpdate;
+    if (!is_done) return;
     device->memory->calibration = kHdCalibrated;
     ++device->memory->calibrations;
 }
