@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -67,8 +68,14 @@ Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand
 
 OpenedDevice dhd_that_rests(Clock& clock) { return arm_that_rests(dhd_description(), clock); }
 
-std::vector<DevicePresence> look_for_dhds() {
+std::vector<DevicePresence> look_for_dhds() { return look_for_dhds(KernelPlaces{}); }
+
+std::vector<DevicePresence> look_for_dhds(const KernelPlaces& places) {
     std::vector<DevicePresence> found;
+    constexpr std::uint16_t kForceDimension = 0x1451;
+    if (const std::string files = forbidden_among(shown_devices_of(kForceDimension, places)); !files.empty())
+        found.push_back({Presence::forbidden, kDhd,
+                         "a Force Dimension device at " + files + " may not be opened by this user", udev_remedy()});
     if (auto api = load_usual_dhd_api(); !api)
         found.push_back({api.error().what.contains("cannot be loaded") ? Presence::absent : Presence::unusable, kDhd,
                          api.error().what, api.error().remedy});
@@ -80,7 +87,7 @@ std::vector<DevicePresence> look_for_dhds() {
                              {}});
     else
         found.push_back({Presence::absent, kDhd, "the Force Dimension SDK is installed and sees no device",
-                         "plug one in and switch it on; where it may not be opened by this user, " + udev_remedy()});
+                         "plug one in and switch it on"});
     for (const std::string& name : emulated_dhds())
         found.push_back({Presence::there, std::string(kDhd) + ":" + name, "an emulated one", {}});
     return found;

@@ -15,6 +15,7 @@
 #include "devices/haptic/opened_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/device_presence.hpp"
+#include "devices/presence/usb_presence.hpp"
 
 namespace burin::devices {
 
@@ -28,7 +29,9 @@ inline constexpr const char* kEmulatedDhdLibrary = "libburin_emulated_dhd.so";
 [[nodiscard]] Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, for a recording that is done again.
 [[nodiscard]] OpenedDevice dhd_that_rests(Clock& clock);
-// Looks for the maker's library and the devices that it counts, and for emulated ones. Opens none.
+// Looks for the maker's library and the devices that it counts, for those that this user may not open, and for emulated
+// ones. Opens none.
 [[nodiscard]] std::vector<DevicePresence> look_for_dhds();
+[[nodiscard]] std::vector<DevicePresence> look_for_dhds(const KernelPlaces& places);
 
 }  // namespace burin::devices

@@ -2,6 +2,7 @@
 #include "devices/drivers/omni_device.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "devices/drivers/library_beside.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/presence/hd_shared.hpp"
+#include "devices/presence/udev_rules.hpp"
 
 namespace burin::devices {
 namespace {
@@ -41,8 +43,14 @@ Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand,
 
 OpenedDevice omni_that_rests(Clock& clock) { return arm_that_rests(omni_description(), clock); }
 
-std::vector<DevicePresence> look_for_omnis() {
+std::vector<DevicePresence> look_for_omnis() { return look_for_omnis(KernelPlaces{}); }
+
+std::vector<DevicePresence> look_for_omnis(const KernelPlaces& places) {
     std::vector<DevicePresence> found;
+    constexpr std::uint16_t k3dSystems = 0x2988;
+    if (const std::string files = forbidden_among(shown_devices_of(k3dSystems, places)); !files.empty())
+        found.push_back(
+            {Presence::forbidden, kOmni, "a Touch at " + files + " may not be opened by this user", udev_remedy()});
     if (auto api = load_hd_api(kHdLibrary); api)
         found.push_back({Presence::perhaps,
                          kOmni,

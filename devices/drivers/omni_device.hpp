@@ -17,6 +17,7 @@
 #include "devices/hand/any_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "devices/presence/device_presence.hpp"
+#include "devices/presence/usb_presence.hpp"
 
 namespace burin::devices {
 
@@ -27,7 +28,9 @@ inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
 [[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, for a recording that is done again.
 [[nodiscard]] OpenedDevice omni_that_rests(Clock& clock);
-// Looks for the maker's library, and for emulated devices. Opens none: that would take it from who uses it.
+// Looks for the maker's library, for devices of the maker's that this user may not open, and for emulated ones. Opens
+// none: that would take it from who uses it.
 [[nodiscard]] std::vector<DevicePresence> look_for_omnis();
+[[nodiscard]] std::vector<DevicePresence> look_for_omnis(const KernelPlaces& places);
 
 }  // namespace burin::devices

@@ -6,6 +6,7 @@
 
 #include "base/places.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/presence/udev_rules.hpp"
 
 namespace burin::devices {
 
@@ -23,7 +24,8 @@ std::vector<DevicePresence> look_for_gloves() {
         else
             found.push_back(
                 {Presence::forbidden, name, "the serial line may not be opened by this user",
-                 "join the group that owns serial ports: sudo usermod -aG dialout $USER, and log in again"});
+                 "join the group that owns serial ports: sudo usermod -aG dialout $USER, and log in again; or " +
+                     udev_remedy()});
     }
     std::ranges::sort(found, {}, &DevicePresence::name);
     if (found.empty())
