@@ -48,6 +48,13 @@ std::string written_body(const DTrackBody& body) {
            written_turn(pose.turn) + " ";
 }
 
+// A state in place of a quality: 3 by cameras and inertial sensor; then how far the sensor has drifted, in degrees.
+std::string written_hybrid(const DTrackBody& body) {
+    const ControllerPose pose = controller_pose(body);
+    return formatted("[%d %d %.3f][", body.number, body.is_tracked ? 3 : 0, body.is_tracked ? 0.2 : 0.0) +
+           written_place(pose.place_mm) + "]" + written_turn(pose.turn) + " ";
+}
+
 std::string written_flystick(const DTrackFlystick& stick) {
     const ControllerPose pose = controller_pose(stick.body);
     std::string states = stick.button_count > 0 ? std::to_string(stick.buttons) : "";
@@ -67,6 +74,11 @@ std::string controller_datagram(const DTrackFrame& frame) {
     text += formatted("6df2 %zu %zu ", frame.flysticks.size(), frame.flysticks.size());
     for (const DTrackFlystick& stick : frame.flysticks) text += written_flystick(stick);
     text += kEndOfLine;
+    if (!frame.hybrids.empty()) {
+        text += formatted("6di %zu ", frame.hybrids.size());
+        for (const DTrackBody& body : frame.hybrids) text += written_hybrid(body);
+        text += kEndOfLine;
+    }
     text += formatted("6d %zu ", frame.bodies.size());
     for (const DTrackBody& body : frame.bodies) text += written_body(body);
     return text + kEndOfLine;

@@ -88,6 +88,21 @@ bool read_bodies(DTrackLine line, DTrackFrame& frame) {
     return line.is_sound();
 }
 
+// Bodies with an inertial sensor, which have numbers of their own.
+bool read_hybrids(DTrackLine line, DTrackFrame& frame) {
+    std::vector<DTrackBody> bodies;
+    const std::size_t count = line.count(kMostDTrackBodies);
+    for (std::size_t i = 0; i < count && line.is_sound(); ++i) {
+        const auto who = line.block(3), place = line.block(3), rotation = line.block(9);
+        if (!line.is_sound()) break;
+        DTrackBody body = body_of(who, place, rotation);
+        body.is_tracked = who[1] > 0.0;  // its state, in place of a quality
+        bodies.push_back(body);
+    }
+    if (line.is_sound()) frame.hybrids = std::move(bodies);
+    return line.is_sound();
+}
+
 // The older form: eight buttons, of which the upper four are the stick's directions.
 bool read_older_flysticks(DTrackLine line, std::vector<DTrackFlystick>& to) {
     const std::size_t count = line.count(kMostDTrackBodies);
@@ -143,6 +158,8 @@ DTrackFrame dtrack_frame(std::string_view datagram) {
             if ((is_read = line.is_sound())) frame.number = static_cast<std::uint32_t>(number);
         } else if (word == "6d") {
             is_read = read_bodies(line, frame);
+        } else if (word == "6di") {
+            is_read = read_hybrids(line, frame);
         } else if (word == "6df") {
             is_read = read_older_flysticks(line, older);
         } else if (word == "6df2") {

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMostDatagram = 65'536;  // the most that UDP carries
 constexpr const char* kDTrackRemedy =
-    "write dtrack:PORT, or dtrack:ADDRESS:PORT with an address of this machine, such as dtrack:0.0.0.0:5000, and after "
-    "a comma which of its bodies they are: head=body/0,wand0=flystick/0,axes=+x+z-y";
+    "write dtrack:PORT, or dtrack:ADDRESS:PORT with an address of this machine, such as dtrack:0.0.0.0:5000, or of a "
+    "multicast group, and after a comma which of its bodies they are: head=body/0,wand0=flystick/0,axes=+x+z-y";
 // A measurement that is older than the newest by more than this is of a system that has begun anew.
 constexpr std::uint32_t kOvertaken = 100;
 
@@ -104,7 +104,8 @@ void DTrackTracker::receive(std::string_view datagram, std::uint32_t sender, Nan
     const DTrackFrame frame = dtrack_frame(datagram);
     if (!frame.fault.empty())
         translator_.refuse("cannot read a line of measurements that begins with " + frame.fault, now_ns);
-    const bool is_measurement = frame.number || !frame.bodies.empty() || !frame.flysticks.empty();
+    const bool is_measurement =
+        frame.number || !frame.bodies.empty() || !frame.hybrids.empty() || !frame.flysticks.empty();
     if (!is_measurement) {
         if (frame.fault.empty()) translator_.refuse("gets what is no measurement of DTrack", now_ns);
         return;
@@ -123,6 +124,8 @@ void DTrackTracker::receive(std::string_view datagram, std::uint32_t sender, Nan
     if (frame.number) number_ = frame.number;
     for (const DTrackBody& body : frame.bodies)
         translator_.pose("body", body.number, body.pose, body.is_tracked, now_ns);
+    for (const DTrackBody& body : frame.hybrids)
+        translator_.pose("hybrid", body.number, body.pose, body.is_tracked, now_ns);
     for (const DTrackFlystick& stick : frame.flysticks) {
         translator_.pose("flystick", stick.body.number, stick.body.pose, stick.body.is_tracked, now_ns);
         const std::string name = flystick_named(stick.body.number);

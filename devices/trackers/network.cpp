@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <net/if.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -67,6 +68,19 @@ std::expected<sockaddr_in, std::string> resolved_within(const NetworkAddress& ad
     return std::move(*search->found);
 }
 
+bool is_multicast(const sockaddr_in& address) { return IN_MULTICAST(ntohl(address.sin_addr.s_addr)); }
+
+// Joins a group on each network that this machine is in; false where on none.
+bool joins(int socket, const in_addr& group) {
+    std::unique_ptr<struct if_nameindex, decltype(&::if_freenameindex)> networks(::if_nameindex(), &::if_freenameindex);
+    bool joined = false;
+    for (const struct if_nameindex* at = networks.get(); at != nullptr && at->if_index != 0; ++at) {
+        const ip_mreqn membership{group, {htonl(INADDR_ANY)}, static_cast<int>(at->if_index)};
+        joined |= ::setsockopt(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof(membership)) == 0;
+    }
+    return joined;
+}
+
 std::expected<BoundSocket, std::string> bound_at(const NetworkAddress& at, int kind) {
     const auto address = resolved(at);
     if (!address) return std::unexpected(address.error());
@@ -74,9 +88,13 @@ std::expected<BoundSocket, std::string> bound_at(const NetworkAddress& at, int k
     made.bound = at;
     made.socket = OwnedFile(::socket(AF_INET, kind | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const int yes = 1;
-    if (kind == SOCK_STREAM) ::setsockopt(made.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    if (kind == SOCK_STREAM || is_multicast(*address))
+        ::setsockopt(made.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
     if (!made.socket || ::bind(made.socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) != 0)
         return because(errno);
+    if (kind == SOCK_DGRAM && is_multicast(*address) && !joins(made.socket.get(), address->sin_addr))
+        return std::unexpected("no network of this machine takes part in the multicast group: " +
+                               std::string(std::strerror(errno)));
     sockaddr_in bound{};
     socklen_t size = sizeof(bound);
     if (::getsockname(made.socket.get(), reinterpret_cast<sockaddr*>(&bound), &size) == 0)

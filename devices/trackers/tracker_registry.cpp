@@ -14,7 +14,7 @@ namespace burin::devices {
 namespace {
 
 constexpr std::array<std::string_view, 4> kLineNames{"head", "wand", "wand0", "wand1"};
-constexpr std::array<std::string_view, 4> kDTrackNames{"body", "flystick", "flystick0", "flystick1"};
+constexpr std::array<std::string_view, 5> kDTrackNames{"body", "hybrid", "flystick", "flystick0", "flystick1"};
 
 constexpr std::array kTrackerKinds{
     TrackerKind{"udp", "udp:PORT, or udp:ADDRESS:PORT for other machines", open_udp_tracker, nullptr, kLineNames},
@@ -24,7 +24,8 @@ constexpr std::array kTrackerKinds{
         "wands: vrpn:localhost,head=Tracker0/0,wand0=Tracker0/1,buttons0=Button0,stick0=Analog0,axes=+x+y+z",
         VrpnTracker::open, look_for_vrpn},
     TrackerKind{"dtrack",
-                "dtrack:PORT, or dtrack:ADDRESS:PORT for other machines: ART's DTrack, and after a comma which of its "
+                "dtrack:PORT, or dtrack:ADDRESS:PORT for other machines or a multicast group: ART's DTrack, and after "
+                "a comma which of its "
                 "bodies are the head and the wands: dtrack:5000,head=body/0,wand0=flystick/0,axes=+x+z-y",
                 open_dtrack, nullptr, kDTrackNames, true},
     TrackerKind{

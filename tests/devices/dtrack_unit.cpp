@@ -9,7 +9,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "devices/emulators/dtrack_wire.hpp"
 #include "devices/emulators/emulated_dtrack.hpp"
@@ -143,7 +147,8 @@ TEST(DTrackProtocol, LeavesOutALineThatIsCutAndNamesIt) {
     EXPECT_EQ(dtrack_frame("6df2 1 1 [0 1.0 9999 2][1 2 3][1 0 0 0 1 0 0 0 1][0 0 0]").fault, "6df2");
     EXPECT_EQ(dtrack_frame("6df2 1 1 [0 1.0 -5 nan][1 2 3][1 0 0 0 1 0 0 0 1][]").fault, "");
     EXPECT_EQ(dtrack_frame("fr x").fault, "fr");
-    EXPECT_EQ(dtrack_frame("6dj 1 whatever [[\n6di 1\ngl 0\n").fault, "") << "lines of other kinds are no fault";
+    EXPECT_EQ(dtrack_frame("6di 1").fault, "6di");
+    EXPECT_EQ(dtrack_frame("6dj 1 whatever [[\n6dmt 1\ngl 0\n").fault, "") << "lines of other kinds are no fault";
 }
 
 TEST(DTrackTracker, P2HearsHeadAndFlystickOfTheEmulatedOne) {
@@ -269,6 +274,55 @@ TEST(DTrackTracker, LeavesOutWhatIsOvertakenAndWhatIsNoMeasurement) {
     EXPECT_FALSE(std::get<HeadInput>(lost[0].input).tracked);
     EXPECT_LT(glm::distance(std::get<HeadInput>(lost[0].input).pose_world.position_m, Vec3(0.1, 0.3, -0.2)), 1e-12)
         << "where it was last";
+}
+
+// As DTrackSDK's parser reads the line (DTrackParser.cpp, parseLine_6di): "iid", "ddd", nine.
+TEST(DTrackTracker, HearsAHybridBodyByItsStateAndLosesOneThatIsNotSeen) {
+    HeardDTrack dtrack(",head=hybrid/1,wand0=hybrid/0");
+    dtrack.send(
+        "fr 1\r\n6di 2 [0 1 0.250][100 1650 2000][0 1 0 -1 0 0 0 0 1] [1 3 0.100][-300 1700 900][1 0 0 0 1 0 0 0 "
+        "1]\r\n");
+    const auto heard = dtrack.heard(2);
+    ASSERT_EQ(heard.size(), 2u);
+    const auto& wand = std::get<WandInput>(heard[0].input);
+    EXPECT_LT(glm::distance(wand.pose_world.position_m, Vec3(0.1, 1.65, 2.0)), 1e-12);
+    EXPECT_LT(glm::distance(wand.pose_world.orientation * Vec3(1, 0, 0), Vec3(0, 1, 0)), 1e-12) << "column by column";
+    const auto& head = std::get<HeadInput>(heard[1].input);
+    EXPECT_TRUE(head.tracked && wand.tracked) << "by the inertial sensor alone, and by both";
+    EXPECT_LT(glm::distance(head.pose_world.position_m, Vec3(-0.3, 1.7, 0.9)), 1e-12);
+    dtrack.send("fr 2\r\n6di 2 [0 0 0.0][0 0 0][0 0 0 0 0 0 0 0 0] [1 2 0.1][-300 1700 901][1 0 0 0 1 0 0 0 1]\r\n");
+    const auto lost = dtrack.heard(2);
+    ASSERT_EQ(lost.size(), 2u);
+    EXPECT_FALSE(std::get<WandInput>(lost[0].input).tracked);
+    EXPECT_TRUE(std::get<HeadInput>(lost[1].input).tracked) << "by the cameras";
+    dtrack.send("fr 3\r\n6di 1 [0 2]\r\n");
+    EXPECT_EQ(dtrack.refused(1), 1u);
+    EXPECT_TRUE(dtrack.messages().contains("cannot read a line of measurements that begins with 6di"));
+}
+
+TEST(DTrackTracker, HearsAMulticastGroup) {
+    MonotonicClock clock;
+    constexpr const char* kGroup = "239.255.43.21";
+    const auto tracker = DTrackTracker::open(std::string("dtrack:") + kGroup + ":0", {clock, {}, {}});
+    ASSERT_TRUE(tracker) << tracker.error().line();
+    // A controller on this machine's own network, so that nothing leaves it.
+    const auto sender = receive_at({"127.0.0.1", 0}).value();
+    in_addr loopback{};
+    loopback.s_addr = htonl(INADDR_LOOPBACK);
+    ASSERT_EQ(::setsockopt(sender.socket.get(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof(loopback)), 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons((*tracker)->port());
+    ASSERT_EQ(::inet_pton(AF_INET, kGroup, &to.sin_addr), 1);
+    std::vector<TrackerSample> heard;
+    for (int i = 0; i < 10'000 && heard.empty(); ++i) {
+        static_cast<void>(::sendto(sender.socket.get(), kHead.data(), kHead.size(), 0,
+                                   reinterpret_cast<const sockaddr*>(&to), sizeof(to)));
+        std::this_thread::sleep_for(milliseconds(1));
+        heard = (*tracker)->take();
+    }
+    ASSERT_FALSE(heard.empty());
+    EXPECT_TRUE(std::get<HeadInput>(heard[0].input).tracked);
 }
 
 TEST(DTrackTracker, ListensToOneMachineUntilThatIsSilent) {
