@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "devices/drivers/dhd_line.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace burin::devices {
 namespace {
@@ -24,6 +27,18 @@ enum DhdNotice : std::uint32_t {
 std::mutex& dhd_list() {
     static std::mutex mutex;
     return mutex;
+}
+
+// A device that a line of this process has open. The library gives whoever opens it again the same ID, so that two lines
+// would write their forces to one device.
+struct OpenDhd {
+    int (*close)(char) = nullptr;  // of its library
+    int id = 0;
+    std::weak_ptr<const int> line;
+};
+std::vector<OpenDhd>& open_dhds() {
+    static std::vector<OpenDhd> all;
+    return all;
 }
 
 // The library's axes are the device frame's in another order: x to the user, y to the right, z up.
@@ -64,6 +79,15 @@ Result<void> DhdLine::open() {
                 (count == 1 ? " device" : " devices"),
             "see that it is plugged in and switched on and may be opened by this user; if it is in use, end the "
             "other program");
+    std::erase_if(open_dhds(), [](const OpenDhd& one) { return one.line.expired(); });
+    const auto is_it = [&](const OpenDhd& one) { return one.close == api_.close && one.id == device_; };
+    if (std::ranges::any_of(open_dhds(), is_it)) {
+        device_ = -1;
+        return fail("haptic device " + name_, "is the device that another hand of this session has opened already",
+                    "give each hand a device of its own: burin devices lists those that there are");
+    }
+    opened_ = std::make_shared<const int>(device_);
+    open_dhds().push_back({api_.close, device_, opened_});
     const auto id = static_cast<char>(device_);
     owes_watchdog_ = !arm_watchdog() && !std::exchange(told_watchdog_, true);
     static_cast<void>(api_.write_force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id));
@@ -87,6 +111,7 @@ void DhdLine::close() noexcept {
     const std::lock_guard lock(dhd_list());
     if (device_ >= 0) static_cast<void>(api_.close(static_cast<char>(device_)));
     device_ = -1;
+    opened_.reset();
 }
 
 bool DhdLine::turn(const Vec3& force_N, ServedState& state) noexcept {
@@ -96,7 +121,8 @@ bool DhdLine::turn(const Vec3& force_N, ServedState& state) noexcept {
     // A library that writes nothing is found out.
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     Vec3 place(kNan);
-    std::array<std::array<double, 3>, 3> rows{};
+    // A device without a wrist leaves the turn as it is.
+    std::array<std::array<double, 3>, 3> rows{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     const bool is_read =
         api_.read_pose(&place.x, &place.y, &place.z, reinterpret_cast<double(*)[3]>(rows.data()), id) >= 0;
     const bool is_given = api_.write_force(given.x, given.y, given.z, 0.0, 0.0, 0.0, 0.0, id) >= 0;

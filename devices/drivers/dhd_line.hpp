@@ -4,11 +4,13 @@
 //
 // A pose is sound where its place is finite and its turn is one. The force is off where the device says so: by its
 // button, since it was too fast, by its watchdog, its dead man's switch. Where the library can, the device itself takes
-// its force off when it has had no command for kDhdWatchdog_s; where that is refused a message says so.
+// its force off when it has had no command for kDhdWatchdog_s; where that is refused a message says so. A handle without
+// a wrist has the identity for its turn. A device that another line of the process has open is refused.
 // Frame: device; +x to the right is the library's y, +y up its z, +z to the user its x. Thread: the servo's.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -49,6 +51,7 @@ private:
     DhdApi api_;
     DhdChoice choice_;
     int device_ = -1;
+    std::shared_ptr<const int> opened_;  // lives while the device is this line's
     double most_N_ = 0.0;
     bool is_gone_ = false;
     bool owes_watchdog_ = false, told_watchdog_ = false;  // that it has none has to be said, and has been

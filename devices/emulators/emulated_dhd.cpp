@@ -17,6 +17,7 @@ Result<EmulatedDhd> EmulatedDhd::create(const std::string& name, EmulatedDhdOpti
         return fail("emulated dhd " + name, "cannot be made: another one may be running by this name",
                     "end that one, or choose another name: --at emulated-2");
     if (options.script.empty()) options.script = circling_hand();
+    (*memory)->type.store(options.type, std::memory_order_relaxed);
     return EmulatedDhd(std::move(*memory), std::move(options));
 }
 

@@ -24,6 +24,7 @@ namespace burin::devices {
 struct EmulatedDhdOptions {
     std::vector<HandPose> script;  // of the hand, device frame; empty: circling_hand()
     SilenceDrill silence;          // it stops stepping then, as a device whose cable is pulled
+    int type = 33;                 // as dhdGetSystemType says it: an omega.3, whose handle does not turn
 };
 
 class EmulatedDhd {

@@ -8,12 +8,13 @@
 namespace burin::devices {
 
 struct DhdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4833;  // "buriddH3": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4834;  // "buriddH4": of this layout
     static constexpr const char* kPrefix = "burin-dhd-";
 
     // ---- The emulator's
     SharedNumbers<12> pose;  // place, then the rows of its turn
     std::atomic<std::uint32_t> buttons = 0;
+    std::atomic<std::int32_t> type = 0;                        // as DHD numbers its devices
     std::atomic<std::int32_t> needs_reset = 0, force_off = 0;  // as DHD says why
     // ---- The library's
     std::atomic<Nanoseconds> frame_ns = 0;  // of its newest force
@@ -23,6 +24,13 @@ struct DhdShared : SharedLife {
 
     [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }
 };
+
+// Returns whether a device of this type has a wrist: a handle that turns. By dhdc.h the omega.3, the delta.3 and a Falcon
+// have none; the omega.6 and .7, the delta.6 and the sigmas have one.
+[[nodiscard]] constexpr bool dhd_has_wrist(int type) noexcept {
+    return type == 34 || type == 35 || type == 36 || type == 37 || type == 61 || type == 62 || type == 64 ||
+           type >= 102;
+}
 
 using DhdSharedMemory = SharedMemory<DhdShared>;
 

@@ -82,7 +82,7 @@ void SpaceMouseLine::read_reports(Nanoseconds now_ns) {
 }
 
 void SpaceMouseLine::take(std::span<const std::byte> bytes, Nanoseconds now_ns) {
-    const auto report = spacemouse_report(bytes, port_->product.keys);
+    const auto report = spacemouse_report(bytes, port_->product.keys, port_->product.axes);
     if (!report) {
         refused_.fetch_add(1, std::memory_order_relaxed);
         if (complained_ns_ && now_ns - *complained_ns_ < kSpaceMouseAgain_ns) return;

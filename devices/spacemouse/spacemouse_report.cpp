@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::uint16_t kLogitech = 0x046d, kConnexion = 0x256f;
 constexpr std::array kProducts{
-    SpaceMouseProduct{kLogitech, 0xc603, "SpaceMouse Plus XT"},
+    SpaceMouseProduct{kLogitech, 0xc603, "SpaceMouse Plus XT", SpaceMouseKeys::plain, false, SpaceMouseAxes::y_up},
     SpaceMouseProduct{kLogitech, 0xc605, "CADMan"},
-    SpaceMouseProduct{kLogitech, 0xc606, "SpaceMouse Classic"},
+    SpaceMouseProduct{kLogitech, 0xc606, "SpaceMouse Classic", SpaceMouseKeys::plain, false, SpaceMouseAxes::y_up},
     SpaceMouseProduct{kLogitech, 0xc621, "SpaceBall 5000"},
     SpaceMouseProduct{kLogitech, 0xc623, "SpaceTraveler"},
     SpaceMouseProduct{kLogitech, 0xc625, "SpacePilot"},
@@ -29,7 +29,6 @@ constexpr std::array kProducts{
     SpaceMouseProduct{kConnexion, 0xc636, "SpaceMouse Module"},
     SpaceMouseProduct{kConnexion, 0xc638, "SpaceMouse Pro Wireless BT", SpaceMouseKeys::pro, true},
     SpaceMouseProduct{kConnexion, 0xc63a, "SpaceMouse Wireless BT", SpaceMouseKeys::plain, true},
-    SpaceMouseProduct{kConnexion, 0xc641, "SpaceMouse Module USB"},
     SpaceMouseProduct{kConnexion, 0xc652, "Universal Receiver", SpaceMouseKeys::receiver, true},
 };
 
@@ -59,8 +58,8 @@ std::uint32_t buttons_in(std::span<const std::byte> mask, SpaceMouseKeys keys) {
     return buttons;
 }
 
-// Three numbers of 16 bits in HID's axes, as a share of full deflection in the device frame.
-Vec3 triple_at(std::span<const std::byte> bytes) {
+// Three numbers of 16 bits in the axes of a report, as a share of full deflection in the device frame.
+Vec3 triple_at(std::span<const std::byte> bytes, SpaceMouseAxes axes) {
     Vec3 hid(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         const auto low = static_cast<std::uint16_t>(bytes[static_cast<std::size_t>(2 * axis)]);
@@ -68,7 +67,7 @@ Vec3 triple_at(std::span<const std::byte> bytes) {
         const auto number = static_cast<std::int16_t>(static_cast<std::uint16_t>(low | high << 8));
         hid[axis] = std::clamp(number / kSpaceMouseFull, -1.0, 1.0);
     }
-    return {hid.x, -hid.z, hid.y};
+    return axes == SpaceMouseAxes::y_up ? Vec3(hid.x, hid.y, -hid.z) : Vec3(hid.x, -hid.z, hid.y);
 }
 
 }  // namespace
@@ -78,22 +77,24 @@ std::span<const SpaceMouseProduct> spacemouse_products() { return kProducts; }
 std::optional<SpaceMouseProduct> spacemouse_product(std::uint16_t vendor, std::uint16_t product) {
     const auto is_it = [&](const SpaceMouseProduct& p) { return p.vendor == vendor && p.product == product; };
     if (const auto known = std::ranges::find_if(kProducts, is_it); known != kProducts.end()) return *known;
-    if (vendor == kConnexion) return SpaceMouseProduct{vendor, product, "3Dconnexion device"};
+    constexpr std::uint16_t kNone = 0xc641;
+    if (vendor == kConnexion && product != kNone) return SpaceMouseProduct{vendor, product, "3Dconnexion device"};
     return std::nullopt;
 }
 
-std::optional<SpaceMouseReport> spacemouse_report(std::span<const std::byte> bytes, SpaceMouseKeys keys) {
+std::optional<SpaceMouseReport> spacemouse_report(std::span<const std::byte> bytes, SpaceMouseKeys keys,
+                                                  SpaceMouseAxes axes) {
     if (bytes.empty()) return std::nullopt;
     SpaceMouseReport report;
     switch (std::to_integer<int>(bytes[0])) {
         case 1:
             if (bytes.size() != kOneTriple && bytes.size() != kTwoTriples) return std::nullopt;
-            report.push = triple_at(bytes.subspan(1));
-            if (bytes.size() == kTwoTriples) report.turn = triple_at(bytes.subspan(kOneTriple));
+            report.push = triple_at(bytes.subspan(1), axes);
+            if (bytes.size() == kTwoTriples) report.turn = triple_at(bytes.subspan(kOneTriple), axes);
             break;
         case 2:
             if (bytes.size() != kOneTriple) return std::nullopt;
-            report.turn = triple_at(bytes.subspan(1));
+            report.turn = triple_at(bytes.subspan(1), axes);
             break;
         case 3:
             if (bytes.size() < 2 || bytes.size() > kMostHidReport) return std::nullopt;

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <numbers>
 #include <string>
@@ -45,6 +47,25 @@ TEST(SpaceMouseReport, OlderDevicesSayPushAndTurnApart) {
     ASSERT_TRUE(turned && turned->turn);
     EXPECT_EQ(*turned->turn, Vec3(-1.0, 0.0, 0.0));
     EXPECT_FALSE(turned->push || turned->buttons);
+}
+
+// As spacenavd's table of devices has it: it swaps and turns y and z of all but these.
+TEST(SpaceMouseReport, TheTwoEarlyDevicesWithYUpAreReadSo) {
+    for (const std::uint16_t product : std::to_array<std::uint16_t>({0xc603, 0xc606})) {
+        const auto early = spacemouse_product(0x046d, product);
+        ASSERT_TRUE(early);
+        // 350 to the right; 175 up; 70 away from the user.
+        const HidBytes pushes = hid({1, 0x5e, 0x01, 0xaf, 0x00, 0x46, 0x00});
+        const auto pushed = spacemouse_report(pushes, early->keys, early->axes);
+        ASSERT_TRUE(pushed && pushed->push);
+        EXPECT_EQ(*pushed->push, Vec3(1.0, 0.5, -0.2));
+        const HidBytes turns = hid({2, 0x5e, 0x01, 0xaf, 0x00, 0x46, 0x00});
+        const auto turned = spacemouse_report(turns, early->keys, early->axes);
+        ASSERT_TRUE(turned && turned->turn);
+        EXPECT_EQ(*turned->turn, Vec3(1.0, 0.5, -0.2)) << "about the same axes";
+    }
+    for (const std::uint16_t product : std::to_array<std::uint16_t>({0xc605, 0xc621, 0xc626, 0xc62b}))
+        EXPECT_EQ(spacemouse_product(0x046d, product)->axes, SpaceMouseAxes::z_down) << product;
 }
 
 TEST(SpaceMouseReport, NewerDevicesSayBothTogether) {
@@ -129,6 +150,7 @@ TEST(SpaceMouseProduct, IsFoundByItsNumbers) {
     EXPECT_TRUE(spacemouse_product(0x256f, 0xc62e)->joined);
     EXPECT_EQ(spacemouse_product(0x256f, 0xc633)->keys, SpaceMouseKeys::pro);
     EXPECT_TRUE(spacemouse_product(0x256f, 0xcfff)) << "one that came later";
+    EXPECT_FALSE(spacemouse_product(0x256f, 0xc641)) << "which spacenavd lists as none";
     EXPECT_FALSE(spacemouse_product(0x046d, 0xc077)) << "a plain mouse of Logitech's";
 }
 

@@ -28,6 +28,7 @@ namespace {
 constexpr std::size_t kMostDhds = 8;
 
 struct OpenedDhd {
+    std::string name;
     DhdSharedMemory memory;
     std::array<double, 12> pose{};
     bool gives_force = false;
@@ -53,7 +54,10 @@ struct DhdLibrary {
         }
         return &*opened[at];
     }
+    // What is open already has the ID that it has.
     int open(const std::string& name) {
+        const auto open = std::ranges::find_if(opened, [&](const auto& one) { return one && one->name == name; });
+        if (open != opened.end()) return static_cast<int>(open - opened.begin());
         auto memory = DhdSharedMemory::open(name);
         if (!memory || !(*memory)->is_alive(clock.now_ns())) {
             error = kDhdNoDevice;
@@ -65,7 +69,7 @@ struct DhdLibrary {
             error = kDhdInUse;
             return -1;
         }
-        free->emplace(OpenedDhd{std::move(*memory)});
+        free->emplace(OpenedDhd{name, std::move(*memory)});
         return static_cast<int>(free - opened.begin());
     }
 };
@@ -125,8 +129,12 @@ int dhdEnableForce(unsigned char on, char id) {
     return 0;
 }
 
-int dhdGetSystemType(char) { return burin::devices::kDhdOmega3; }
-const char* dhdGetSystemName(char) { return "omega.3, emulated"; }
+int dhdGetSystemType(char id) {
+    const std::lock_guard lock(dhd().mutex);
+    auto* const device = dhd().device(id);
+    return device != nullptr ? device->memory->type.load() : -1;
+}
+const char* dhdGetSystemName(char) { return "emulated"; }
 
 int dhdGetStatus(int* status, char id) {
     using namespace burin::devices;
@@ -158,6 +166,7 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double (*
     *x = device->pose[0];
     *y = device->pose[1];
     *z = device->pose[2];
+    if (!burin::devices::dhd_has_wrist(device->memory->type)) return 0;  // the turn is left alone
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t column = 0; column < 3; ++column) turn[row][column] = device->pose[3 + 3 * row + column];
     return 0;
