@@ -6,8 +6,8 @@
 //   6df 1 [0 1.000 9][...][...]                 flysticks of the older form: a third number has buttons and stick
 //   6df2 2 1 [0 1.000 8 2][x y z][...][3 0.5 -0.2]   flysticks: how many there could be and are; how many buttons and
 //                                               joysticks; their states, 32 buttons a number, sticks from -1 to 1
-//   6di 1 [0 2 0.5][x y z][nine numbers]        hybrid bodies: number, state (0: not seen, 1: by its inertial sensor, 2: by
-//                                               the cameras, 3: by both), drift in degrees; place; rotation
+//   6di 1 [0 2 0.5][x y z][nine numbers]        hybrid bodies: number, state (0: not seen, 1: by its inertial sensor,
+//                                               2: by the cameras, 3: by both), drift in degrees; place; rotation
 // Millimetres; a rotation is column by column. Lines that begin with another word are left out, and so are numbers at
 // a block's end that are not known here. Source: the parser of DTrackSDK (github.com/ar-tracking/DTrackSDK, 110f7e5).
 // The controller's end is in devices/emulators/dtrack_wire.hpp and has no code in common with this. Pure; any thread.

@@ -3,8 +3,8 @@
 // (tracker_bodies.hpp). A standard body is body/NUMBER, a hybrid one with an inertial sensor hybrid/NUMBER, a flystick
 // is flystick/NUMBER with its buttons and stick.
 //
-// The port is this machine's own unless an address is named; one of a multicast group is joined on all of this machine's
-// networks. The first machine that sends a measurement is the one that
+// The port is this machine's own unless an address is named; one of a multicast group is joined on all networks of the
+// machine. The first machine that sends a measurement is the one that
 // is listened to, until it has been silent for kSilent_ns; what others send is counted and told. A measurement that was
 // overtaken on its way by a newer one is left out.
 // Failures: a port that is taken and an address that is not this machine's are errors of open(); later ones are

@@ -33,7 +33,7 @@ struct NetworkAddress {
 [[nodiscard]] std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanoseconds within_ns,
                                                                const StopSign* stop = nullptr);
 // Listens for TCP connections, or binds for datagrams; of the port 0 the system's choice is in `bound`. Datagrams of a
-// multicast group (224.0.0.0 to 239.255.255.255) are those of the group on all of this machine's networks, and others may
+// multicast group (224.0.0.0 to 239.255.255.255) are those of the group on all networks of this machine, and others may
 // hear them too.
 struct BoundSocket {
     OwnedFile socket;
