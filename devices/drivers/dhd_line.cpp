@@ -29,8 +29,8 @@ std::mutex& dhd_list() {
     return mutex;
 }
 
-// A device that a line of this process has open. The library gives whoever opens it again the same ID, so that two lines
-// would write their forces to one device.
+// A device that a line of this process has open. The library gives whoever opens it again the same ID, so that two
+// lines would write their forces to one device.
 struct OpenDhd {
     int (*close)(char) = nullptr;  // of its library
     int id = 0;

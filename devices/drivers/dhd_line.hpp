@@ -4,8 +4,8 @@
 //
 // A pose is sound where its place is finite and its turn is one. The force is off where the device says so: by its
 // button, since it was too fast, by its watchdog, its dead man's switch. Where the library can, the device itself takes
-// its force off when it has had no command for kDhdWatchdog_s; where that is refused a message says so. A handle without
-// a wrist has the identity for its turn. A device that another line of the process has open is refused.
+// its force off when it has had no command for kDhdWatchdog_s; where that is refused a message says so. A handle
+// without a wrist has the identity for its turn. A device that another line of the process has open is refused.
 // Frame: device; +x to the right is the library's y, +y up its z, +z to the user its x. Thread: the servo's.
 #pragma once
 

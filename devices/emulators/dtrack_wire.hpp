@@ -12,8 +12,8 @@
 
 namespace burin::devices {
 
-// Writes the lines fr, 6df2, 6di and 6d: the number where there is one, flysticks in the newer form, hybrid bodies where
-// there are any, and bodies.
+// Writes the lines fr, 6df2, 6di and 6d: the number where there is one, flysticks in the newer form, hybrid bodies
+// where there are any, and bodies.
 [[nodiscard]] std::string controller_datagram(const DTrackFrame& frame);
 
 }  // namespace burin::devices

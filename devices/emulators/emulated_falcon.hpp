@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A Novint Falcon that is not there: its USB chip, its boot loader, its firmware and its legs, around a simulated arm
 // in a scripted hand, at the far end of a socket (devices/falcon/falcon_socket.hpp). The driver speaks with it byte for
-// byte as with a real one: it takes firmware at the speeds and by the greetings of the boot loader alone and once it has
-// said that it is clear to send, says a byte of the first load back wrongly, as users of libnifalcon report, answers each
-// packet with one, in one piece or two, after pieces with nothing in them, and has encoders of whole steps. The force
-// on the arm is what its legs make of the motors' commands.
+// byte as with a real one: it takes firmware at the speeds and by the greetings of the boot loader alone and once it
+// has said that it is clear to send, says a byte of the first load back wrongly, as users of libnifalcon report,
+// answers each packet with one, in one piece or two, after pieces with nothing in them, and has encoders of whole
+// steps. The force on the arm is what its legs make of the motors' commands.
 // The script begins when a host has sent its first packet. One thread runs it; drills and the written command are any
 // thread's.
 #pragma once

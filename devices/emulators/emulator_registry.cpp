@@ -9,6 +9,7 @@
 #include "devices/emulators/emulated_dtrack.hpp"
 #include "devices/emulators/emulated_falcon.hpp"
 #include "devices/emulators/emulated_glove.hpp"
+#include "devices/emulators/emulated_inverse3.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/emulators/emulated_spacemouse.hpp"
 #include "devices/emulators/emulated_vrpn.hpp"
@@ -66,6 +67,15 @@ Result<void> run_dhd(const EmulatorOptions& options) {
     return {};
 }
 
+Result<void> run_inverse3(const EmulatorOptions& options) {
+    const std::string name = options.at.empty() ? "emulated" : options.at;
+    auto inverse3 = EmulatedInverse3::create(name, {.script = {}, .silence = options.silence});
+    if (!inverse3) return std::unexpected(inverse3.error());
+    options.is_there("--device inverse3:" + name);
+    inverse3->run(options.ends);
+    return {};
+}
+
 Result<void> run_wand(const EmulatorOptions& options) {
     const std::string name = options.at.empty() ? "emulated" : options.at;
     auto wand = EmulatedWand::create(name, {.script = {}, .silence = options.silence});
@@ -102,6 +112,7 @@ constexpr std::array kEmulators{
     EmulatorKind{"falcon", "a Novint Falcon in the same hand, at the far end of its USB cable; --at as for the omni",
                  run_falcon},
     EmulatorKind{"dhd", "a Force Dimension omega.3 in the same hand; --at as for the omni", run_dhd},
+    EmulatorKind{"inverse3", "Haply's service with an Inverse3 in the same hand; --at as for the omni", run_inverse3},
     EmulatorKind{"wand", "a Quanser wand that a hand takes out of its jig and circles; --at as for the omni", run_wand},
     EmulatorKind{
         "spacemouse",

@@ -2,10 +2,10 @@
 // The driver of a Novint Falcon: from a cable to a force at the grip, and to where the grip is.
 //
 // Opening it asks for a packet. A Falcon that gives none has just been switched on, and is given its firmware: the boot
-// loader is greeted at 9,600 a second, and takes the bytes at 140,000 once it is clear to send, each piece said back and
-// compared. That fails now and then (libnifalcon, issues 9, 24, 32, 33, 45), and is begun anew up to kMostLoads times.
-// Then each turn is a packet either way (falcon_packet.hpp). Until all three encoders are homed the device has a fault,
-// its lamp is red, and it gets no force; homed it is blue, and without force green.
+// loader is greeted at 9,600 a second, and takes the bytes at 140,000 once it is clear to send, each piece said back
+// and compared. That fails now and then (libnifalcon, issues 9, 24, 32, 33, 45), and is begun anew up to kMostLoads
+// times. Then each turn is a packet either way (falcon_packet.hpp). Until all three encoders are homed the device has a
+// fault, its lamp is red, and it gets no force; homed it is blue, and without force green.
 // Frame: device: the Falcon's own (falcon_kinematics.hpp), about the middle of its workspace. Thread: the servo's; but
 // words_for() any.
 #pragma once

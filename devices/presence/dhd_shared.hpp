@@ -25,8 +25,8 @@ struct DhdShared : SharedLife {
     [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }
 };
 
-// Returns whether a device of this type has a wrist: a handle that turns. By dhdc.h the omega.3, the delta.3 and a Falcon
-// have none; the omega.6 and .7, the delta.6 and the sigmas have one.
+// Returns whether a device of this type has a wrist: a handle that turns. By dhdc.h the omega.3, the delta.3 and a
+// Falcon have none; the omega.6 and .7, the delta.6 and the sigmas have one.
 [[nodiscard]] constexpr bool dhd_has_wrist(int type) noexcept {
     return type == 34 || type == 35 || type == 36 || type == 37 || type == 61 || type == 62 || type == 64 ||
            type >= 102;

@@ -17,6 +17,8 @@ public:
         return *this;
     }
     [[nodiscard]] int get() const { return file_; }
+    // Gives the file away: who takes it closes it.
+    [[nodiscard]] int release() { return std::exchange(file_, -1); }
     [[nodiscard]] explicit operator bool() const { return file_ >= 0; }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which USB and HID devices of a maker the kernel shows, and whether this user may open their files, without opening any:
-// a maker's library does not say why it finds none.
+// Which USB and HID devices of a maker the kernel shows, and whether this user may open their files, without opening
+// any: a maker's library does not say why it finds none.
 // Any thread; files are read.
 #pragma once
 

@@ -13,6 +13,7 @@
 #include "devices/drivers/wand_device.hpp"
 #include "devices/falcon/falcon_device.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/haply/inverse3_device.hpp"
 #include "devices/haptic/mouse_arm.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
@@ -102,6 +103,12 @@ Result<OpenedDevice> open_dhd_by(HapticHost host, const std::string& choice) {
     if (host.stands_in) return dhd_that_rests(host.clock);
     if (auto may = in_real_time(host.clock, kDhd); !may) return std::unexpected(may.error());
     return open_dhd(choice, std::move(host.hand), host.clock);
+}
+
+Result<OpenedDevice> open_inverse3_by(HapticHost host, const std::string& choice) {
+    if (host.stands_in) return inverse3_that_rests(host.clock);
+    if (auto may = in_real_time(host.clock, kInverse3); !may) return std::unexpected(may.error());
+    return open_inverse3(choice, std::move(host.hand), host.clock);
 }
 
 Result<OpenedDevice> open_wand_by(HapticHost host, const std::string& text) {
@@ -256,6 +263,18 @@ constexpr std::array kHapticKinds{
                .handle = nullptr,
                .open = open_dhd_by,
                .look = look_for_dhds},
+    HapticKind{.name = kInverse3,
+               .usage = "a Haply Inverse3 by its maker's service; inverse3:ID as burin devices lists it, "
+                        "inverse3:HOST:PORT or inverse3:ID@HOST:PORT for a service elsewhere, inverse3:emulated by "
+                        "burin devices emulate",
+               .parts = 1,
+               .is_upright = false,
+               .is_worn = false,
+               .felt_by_person = true,
+               .has_amplifiers = false,
+               .handle = nullptr,
+               .open = open_inverse3_by,
+               .look = look_for_inverse3s},
     HapticKind{.name = kSpaceMouse,
                .usage =
                    "a simulated stylus whose hand a 3Dconnexion SpaceMouse leads; spacemouse:PLACE as burin devices "

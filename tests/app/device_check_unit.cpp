@@ -234,14 +234,14 @@ TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {
     const std::string burin = kBurinCommand;
     // Side by side, as each takes half a minute; once more where a busy machine kept one from its steps for too long.
     const auto tested =
-        at.run("for k in omni falcon dhd; do (" + burin +
+        at.run("for k in omni falcon dhd inverse3; do (" + burin +
                " devices emulate $k --seconds 120 --at emulated-check-$$ > $k.txt &) ; while ! test -s "
                "$k.txt; do sleep 0.05; done; (" +
                burin + " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said || " + burin +
                " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said; echo $? > $k.status) & "
                "done; wait");
     EXPECT_EQ(tested.status, 0) << tested.output;
-    for (const std::string kind : {"omni", "falcon", "dhd"}) {
+    for (const std::string kind : {"omni", "falcon", "dhd", "inverse3"}) {
         const std::string said = at.read(kind + ".said");
         EXPECT_EQ(at.read(kind + ".status"), "0\n") << said;
         const Json found = Json::parse(at.read(kind + ".json"));

@@ -114,6 +114,27 @@ TEST(EmulatedArms, TwoOfTwoMakersAreTwoHandsOfOneScene) {
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
+TEST(EmulatedArms, AnInverse3CarvesIsRecordedAndDoneAgainToTheBitWithoutItsService) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", "burin-input 1 inverse3\n0.1 mouse 160 90\n6 close\n");
+    Workplace::Outcome recorded, ticks;
+    const auto late = kept_from_real_time(at, "o.session", [&] {
+        recorded = at.run(emulators(burin, "a", "inverse3") + burin +
+                          " sculpt --workpiece ball:0.08 --resolution 64 --device inverse3:emulated-$$-a "
+                          "--input s.txt --offscreen --width 320 --height 180 --record o.session");
+        ticks = at.run(burin + " convert o.session --to csv --columns 'buttons,commanded_force_device_z_N' -");
+        return working_in(ticks.output).carves();
+    });
+    if (late) GTEST_SKIP() << *late;
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(working_in(ticks.output).carves()) << "it feels what it cuts";
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
 TEST(EmulatedArms, ASpaceMouseLeadsAStylusThatCarvesAndIsDoneAgainWithoutIt) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace at;

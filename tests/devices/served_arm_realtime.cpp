@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ticks of an Omni by its maker's library, here the emulated one, of a Force Dimension device, of a Falcon and of a
-// SpaceMouse: the driver's work on the haptic thread allocates, locks, throws and opens nothing, also while the device
-// comes and goes.
+// Ticks of an Omni by its maker's library, here the emulated one, of a Force Dimension device, of a Falcon, of an
+// Inverse3 and of a SpaceMouse: the driver's work on the haptic thread allocates, locks, throws and opens nothing, also
+// while the device comes and goes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,6 +13,7 @@
 
 #include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_falcon.hpp"
+#include "devices/emulators/emulated_inverse3.hpp"
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/emulators/emulated_spacemouse.hpp"
 #include "devices/emulators/emulated_wand.hpp"
@@ -85,6 +86,10 @@ TEST(Wand, AllocatesLocksThrowsAndOpensNothingInATick) {
 
 TEST(Falcon, AllocatesLocksThrowsAndOpensNothingInATick) {
     ticks_without_cost(EmulatedFalcon::create(realtime_name()).value(), "falcon:" + realtime_name());
+}
+
+TEST(Inverse3, AllocatesLocksThrowsAndOpensNothingInATick) {
+    ticks_without_cost(EmulatedInverse3::create(realtime_name()).value(), "inverse3:" + realtime_name());
 }
 
 TEST(SpaceMouse, AllocatesLocksThrowsAndOpensNothingInATick) {
