@@ -15,7 +15,7 @@ namespace burin::haptics {
 namespace {
 
 // Of the work left: what a look at the way may take.
-constexpr double kOfWorkForWay = 0.5;
+constexpr double kOfWorkForWay = 0.85;
 // Edges up to this share of the tool's width are passed by their vertices.
 constexpr double kFineForWay = 0.1;
 // Cosine of normals between which a tool lies.
