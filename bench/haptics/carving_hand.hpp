@@ -2,8 +2,8 @@
 // A hand that carves a block with a tool through the haptic loop, and goes where it is put: what tests and the bench
 // share that ask what a tool feels in the groove that it cuts.
 //
-// A session's own settings in simulated time: a tick a millisecond, an update of the solid each ten. The device does not
-// yield to force. Frame: object, metres; the block's face is y = top_m(), the tool stands upright on it (+Y).
+// A session's own settings in simulated time: a tick a millisecond, an update of the solid each ten. The device does
+// not yield to force. Frame: object, metres; the block's face is y = top_m(), the tool stands upright on it (+Y).
 #pragma once
 
 #include <memory>

@@ -76,7 +76,7 @@ bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& su
     for (double reach_m = radius_m;; reach_m *= 2.0) {
         const Seen seen = look_around(hand, reach_m, Vec3(0.0), surface, work);
         if (seen.distance_m <= radius_m) return false;
-        // Where the looks did not suffice a hand that does not cut counts as free, so that no unproved contact holds it.
+        // Where looks did not suffice a hand that does not cut counts as free, so that no unproved contact holds it.
         if (!seen.complete) return if_unknown;
         if (reach_m > everything) return seen.height_m >= 0.0;
         if (seen.distance_m <= reach_m) return seen.height_m >= 0.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The way of a tool that its hand leads away: whether anything is between the two.
 //
-// The tool is convex, so where it is beyond a triangle's plane at both ends of a straight way it is all along; most of a
-// groove's walls are settled by that, whole groups of them at once, and nothing has to be gathered. In its own bed a
+// The tool is convex, so where it is beyond a triangle's plane at both ends of a straight way it is all along; most of
+// a groove's walls are settled by that, whole groups of them at once, and nothing has to be gathered. In its own bed a
 // tool lies between facets that may stand out by more than the clearance. These are not in its way: it has been there.
 #include <algorithm>
 #include <cmath>
