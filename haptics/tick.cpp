@@ -68,7 +68,7 @@ void end_contact(ProbeState& state) {
     state.cutting.engaged = false;
 }
 
-// Where a tick puts its results, nine kilobytes that full_tick() would otherwise copy.
+// Where a tick puts its results, six kilobytes that full_tick() would otherwise copy.
 struct TickResult {
     TickState& next;  // holds the state before
     TickRecord& record;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/contact/half_spaces.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace burin::haptics {
@@ -22,27 +21,16 @@ struct Projection {
     std::array<double, 3> weights{};
 };
 
-// The planes, each as far out as it is relaxed.
-struct Planes {
-    std::span<const HalfSpace> spaces;
-    Relaxed relaxed;
-
-    [[nodiscard]] HalfSpace operator[](std::size_t i) const {
-        const double offset = spaces[i].offset - relaxed.by;
-        return {spaces[i].normal, relaxed.to_origin ? std::min(offset, 0.0) : offset};
-    }
-};
-
 // The point on the planes' intersection that is nearest to the goal. Not valid for nearly parallel planes.
-Projection project(const Planes& spaces, const Bearing& set, const Vec3& goal) {
+Projection project(std::span<const HalfSpace> spaces, const Bearing& set, const Vec3& goal) {
     Projection result;
-    const auto plane = [&](std::size_t i) { return spaces[set.planes[i]]; };
+    const auto plane = [&](std::size_t i) -> const HalfSpace& { return spaces[set.planes[i]]; };
     const auto lack = [&](std::size_t i) { return plane(i).offset - glm::dot(plane(i).normal, goal); };
-    const Vec3 n0 = plane(0).normal;
+    const Vec3& n0 = plane(0).normal;
     if (set.count == 1) {
         result.weights[0] = lack(0);
     } else if (set.count == 2) {
-        const Vec3 n1 = plane(1).normal;
+        const Vec3& n1 = plane(1).normal;
         const Vec3 line = glm::cross(n0, n1);
         const double sine2 = glm::dot(line, line);
         if (sine2 < 1e-14) return result;
@@ -50,7 +38,7 @@ Projection project(const Planes& spaces, const Bearing& set, const Vec3& goal) {
         result.weights[0] = (lack(0) - cosine * lack(1)) / sine2;
         result.weights[1] = (lack(1) - cosine * lack(0)) / sine2;
     } else {
-        const Vec3 n1 = plane(1).normal, n2 = plane(2).normal;
+        const Vec3 &n1 = plane(1).normal, &n2 = plane(2).normal;
         const Vec3 c12 = glm::cross(n1, n2), c20 = glm::cross(n2, n0), c01 = glm::cross(n0, n1);
         const double volume = glm::dot(n0, c12);
         if (std::abs(volume) < 1e-9) return result;
@@ -71,8 +59,8 @@ double lack_at(const HalfSpace& space, const Vec3& x) { return space.offset - gl
 // Finds the optimum over the old bearing planes and the added one. The added plane certainly bears, since the old
 // optimum violates it; so the subsets are: the added plane alone, with each old one, with each pair. A point that
 // satisfies all planes with no negative weight is the unique optimum, so the first found is returned.
-NearestInside exchange(const Planes& spaces, const NearestInside& old, std::uint32_t added, const Vec3& goal,
-                       double tolerance) {
+NearestInside exchange(std::span<const HalfSpace> spaces, const NearestInside& old, std::uint32_t added,
+                       const Vec3& goal, double tolerance) {
     constexpr std::array<std::array<std::uint32_t, 2>, 7> kSubsets{
         {{9, 9}, {0, 9}, {1, 9}, {2, 9}, {0, 1}, {0, 2}, {1, 2}}};  // 9: none
     NearestInside result;
@@ -119,17 +107,15 @@ NearestInside on_one(const HalfSpace& space, const Vec3& goal, double tolerance)
 
 }  // namespace
 
-NearestInside nearest_inside(std::span<const HalfSpace> all, const Vec3& goal, double tolerance,
-                             const Relaxed& relaxed) noexcept {
-    const Planes spaces{all, relaxed};
+NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal, double tolerance) noexcept {
     NearestInside best;
     best.found = true;
     best.point = goal;
-    if (all.size() == 1) return on_one(spaces[0], goal, tolerance);
+    if (spaces.size() == 1) return on_one(spaces[0], goal, tolerance);
     for (std::uint32_t exchanges = 0; exchanges <= kMostExchanges; ++exchanges) {
         std::uint32_t worst = 0;
         double worst_lack = tolerance;
-        for (std::uint32_t i = 0; i < all.size(); ++i) {
+        for (std::uint32_t i = 0; i < spaces.size(); ++i) {
             const double lack = lack_at(spaces[i], best.point);
             if (lack > worst_lack) worst_lack = lack, worst = i;
         }
@@ -140,15 +126,6 @@ NearestInside nearest_inside(std::span<const HalfSpace> all, const Vec3& goal, d
     }
     best.found = false;
     return best;
-}
-
-double sway(std::span<const HalfSpace> spaces, const NearestInside& nearest) noexcept {
-    if (nearest.bearing_count < 2) return nearest.bearing_count;
-    const Vec3 &n0 = spaces[nearest.bearing[0]].normal, &n1 = spaces[nearest.bearing[1]].normal;
-    if (nearest.bearing_count == 2) return std::sqrt(2.0 / std::max(1.0 + glm::dot(n0, n1), 1e-12));
-    const Vec3& n2 = spaces[nearest.bearing[2]].normal;
-    const Vec3 c12 = glm::cross(n1, n2), all = c12 + glm::cross(n2, n0) + glm::cross(n0, n1);
-    return glm::length(all) / std::max(std::abs(glm::dot(n0, c12)), 1e-12);
 }
 
 double share_to_first(std::span<const HalfSpace> spaces, const Vec3& way) noexcept {

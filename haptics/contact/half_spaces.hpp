@@ -29,19 +29,9 @@ struct NearestInside {
     std::uint32_t exchanges = 0;
 };
 
-// How much less the planes hold off: each by so much, and none so much that the origin is behind it.
-struct Relaxed {
-    double by = 0.0;
-    bool to_origin = false;
-};
-
 // tolerance: how far outside a half-space still counts as inside (metres, or whatever the offsets are in).
-[[nodiscard]] NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal, double tolerance,
-                                           const Relaxed& relaxed = {}) noexcept;
-
-// By how much the point moves when all planes move out by one: 1 on one plane, the more the nearer two of those that
-// bear it are to being opposite.
-[[nodiscard]] double sway(std::span<const HalfSpace> spaces, const NearestInside& nearest) noexcept;
+[[nodiscard]] NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal,
+                                           double tolerance) noexcept;
 
 // The share of a way from the origin up to the first plane that it would cross; at most 1, at least 0.
 [[nodiscard]] double share_to_first(std::span<const HalfSpace> spaces, const Vec3& way) noexcept;

@@ -25,13 +25,7 @@ constexpr double kWorthGoing = 0.25, kFarther = 1.5;
 // A turn that brings the tool deeper into something than this part of its width is halved, so often, before it is put
 // off to the next tick.
 constexpr int kTurnHalvings = 4;
-// Parts of a way that is free, each as long as a step.
-constexpr int kMostWays = 4;
 constexpr double kTurnedInto = 0.1;
-// Planes that press on a tool from opposite sides leave it hardly any room, and a tool has none at all in a bed whose
-// facets stand out by more than the clearance: what is found sways by more than so many times what the planes do. Then
-// the tool may be deeper in them by so much, of a mean edge and of its width at most, and else need not come out.
-constexpr double kMostSway = 6.0, kSqueezedOfEdge = 0.15, kSqueezedOfSize = 0.05;
 // So deep, of the tool's width, a surface that is meshed anew may come into its hulls.
 constexpr double kMeshedAnew = 0.25;
 // A tool that was set somewhere fits where nothing is deeper in its rounding than this.
@@ -71,7 +65,6 @@ public:
     ShapeResult move() {
         if (unfit_ticks_ >= kMostUnfitTicks) return wait_outside();
         if (!begin()) return limited();
-        if (is_free_) return result_;
         began_sunk_m_ = search_.sunk_m();
         if (is_buried()) return unfit();
         ShapeResult result = go_on();
@@ -108,12 +101,6 @@ private:
         const bool turns = state_.placed && motion_.before != motion_.wanted;
         turn(turns ? motion_.before : motion_.wanted);
         const double way = turns ? angle_of_turn() * shape_.reach_m : 0.0;
-        if (!turns && lets_go()) return true;
-        if (turns) {
-            turn(motion_.wanted);
-            if (lets_go()) return true;
-            turn(motion_.before);
-        }
         if (!search_.gather(at_, slack_of(std::min(way, shape_.size_m)))) return false;
         if (!turns) return touch_as_held();
         // A turn beyond what was gathered is finished in the next ticks.
@@ -133,39 +120,13 @@ private:
         return true;
     }
 
-    // A hand that lifts its tool: where nothing is between the two any more nothing is touched, and the tool goes with
-    // the hand.
-    bool lets_go() {
-        if (!state_.placed || was_set_) return false;
-        // One that is held is not tried, unless it has been left behind for want of work.
-        if (holds_back() && (!state_.left_behind || search_.is_stopped(at_, hip() - at_))) return false;
-        for (int parts = 0; parts < kMostWays; ++parts) {
-            const Vec3 pull = hip() - at_, step = bounded(pull);
-            if (!search_.is_way_free(at_, step, squeezed_m())) return false;
-            at_ += step;
-            at_object_ = search_.from_tool(at_);
-            is_free_ = step == pull;
-            if (is_free_) return true;
-        }
-        return false;
-    }
-    [[nodiscard]] double squeezed_m() const {
-        return std::min(kSqueezedOfEdge * surface_.mean_edge_m(), kSqueezedOfSize * shape_.size_m);
-    }
-
     bool touch_as_held() { return search_.touch(at_) && (!search_.overlaps() || pushed()); }
 
     // How far from here the tool may come in this tick; turned_m: by turning alone.
     [[nodiscard]] double slack_of(double turned_m) const {
         const double expected =
-            holds_back() ? kOfMotion * glm::length(state_.motion_object_m) : 1.01 * glm::length(hip() - at_);
+            state_.touching ? kOfMotion * glm::length(state_.motion_object_m) : 1.01 * glm::length(hip() - at_);
         return std::min(expected, kLongestStep * shape_.size_m) + kOfSize * shape_.size_m + turned_m;
-    }
-
-    // Whether the tool was held off the hand in the last tick, and the hand does not lead it away from there.
-    [[nodiscard]] bool holds_back() const {
-        return state_.touching && glm::dot(motion_.hip_object_m - state_.position_object_m,
-                                           state_.hip_object_m - state_.position_object_m) > 0.0;
     }
 
     bool turn_a_little() {
@@ -209,7 +170,7 @@ private:
             return true;
         }
         ++result_.proxy.work.plane_solves;
-        const NearestInside goal = nearest(pull);
+        NearestInside goal = nearest_inside(search_.planes(), pull, kOffset * shape_.rounding_m);
         if (!goal.found) return creep(pull);
         bearing_ = goal;
         in_contact_ = goal.bearing_count > 0;
@@ -228,19 +189,6 @@ private:
                                        result_.proxy.work.steps > 2 ? kAtRestAngle * std::max(depth, 0.0) : 0.0);
         rests_ = glm::length(step_) <= enough;
         return true;
-    }
-
-    // The place beyond all planes that is nearest to the hand, or nearly beyond them where the tool is squeezed.
-    [[nodiscard]] NearestInside nearest(const Vec3& pull) {
-        const double tolerance = kOffset * shape_.rounding_m;
-        NearestInside goal;
-        for (const Relaxed& relaxed : {Relaxed{}, Relaxed{squeezed_m(), false}, Relaxed{squeezed_m(), true}}) {
-            relaxed_ = relaxed;
-            goal = nearest_inside(search_.planes(), pull, tolerance, relaxed);
-            if (goal.found && sway(search_.planes(), goal) <= kMostSway) break;
-            ++result_.proxy.work.plane_solves;
-        }
-        return goal;
     }
 
     // Among nearly parallel planes there may be no goal to be found although there is room.
@@ -267,7 +215,7 @@ private:
     // Friction: the tool stays where it is, but for what it must give way, or slides up to the cone.
     void hold(const Vec3& pull) {
         ++result_.proxy.work.plane_solves;
-        const NearestInside stays = nearest_inside(search_.planes(), Vec3(0.0), kOffset * shape_.rounding_m, relaxed_);
+        const NearestInside stays = nearest_inside(search_.planes(), Vec3(0.0), kOffset * shape_.rounding_m);
         if (!stays.found) return;
         const Vec3 way = step_ - stays.point;
         const Vec3 along = way - glm::dot(way, normal_) * normal_;
@@ -335,7 +283,7 @@ private:
     }
 
     ShapeResult limited() {
-        result_.proxy.work_limited = result_.proxy.next.left_behind = true;
+        result_.proxy.work_limited = true;
         at_object_ = search_.from_tool(at_);
         if (was_set_ && !fits()) return unfit();
         if (search_.overlaps()) {
@@ -408,7 +356,6 @@ private:
     ShapeSearch search_;
     Vec3 at_object_, at_{0.0}, step_{0.0}, normal_{0.0}, touched_{0.0};
     NearestInside bearing_;
-    Relaxed relaxed_;
     std::uint32_t bearing_constraints_ = 0, heaviest_ = 0;
     bool slips_, rests_ = false, in_contact_ = false, is_free_ = false;
     bool slid_ = false, slid_before_ = false;  // in this step, and in this tick

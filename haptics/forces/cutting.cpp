@@ -35,9 +35,7 @@ struct Element {
     Vec3 arm_m{0.0};       // from the tool's origin
     double held = 0.0;     // stress against motion along the surface
 };
-// A sample partly within the material counts as so many elements, one behind the other.
-constexpr int kElementsOfSample = 4;
-using Elements = StaticVector<Element, kElementsOfSample * Engagement::kMost>;
+using Elements = StaticVector<Element, 4 * Engagement::kMost>;
 
 // A symmetric matrix of three rows, and the solution of a linear system with it.
 struct Symmetric {
@@ -126,19 +124,16 @@ private:
     double pull_, yield_, hardness_, creep_m_;
 };
 
-// Newton's steps from u, each halved until it brings the function down, up to so many terms in all. With fewer the tool
-// goes less far, and nowhere with none: what it finds is never worse than staying.
-Vec3 least(const Resistance& resistance, Vec3 u, std::uint32_t most_terms, std::uint32_t& terms) {
-    const auto affords = [&](std::uint32_t times) { return times * resistance.elements() <= most_terms - terms; };
-    if (terms > most_terms || !affords(2)) return Vec3(0.0);
+// Newton's steps from u, each halved until it brings the function down.
+Vec3 least(const Resistance& resistance, Vec3 u, std::uint32_t& terms) {
     double now = resistance.at(u);
     if (const double at_rest = resistance.at(Vec3(0.0)); at_rest < now) u = Vec3(0.0), now = at_rest;
     terms += 2 * resistance.elements();
-    for (int i = 0; i < kMostIterations && affords(2); ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
         Vec3 onward = resistance.newton(u);
         double then = resistance.at(u + onward);
         terms += 2 * resistance.elements();
-        for (int k = 0; k < kMostHalvings && !(then < now) && affords(1); ++k) {
+        for (int k = 0; k < kMostHalvings && !(then < now); ++k) {
             onward *= 0.5;
             then = resistance.at(u + onward);
             terms += resistance.elements();
@@ -190,8 +185,8 @@ double share_within(const Vec3& from, const Vec3& step, double most_m) {
     return (std::sqrt(b * b - a * c) - b) / a;
 }
 
-// What the tool may meet on a way of most_m. The area grows evenly as the tool sinks; what lies within already is one
-// element.
+// What the tool may meet on a way of most_m. A sample partly within the material counts as four elements, one behind
+// the other, so that the area grows evenly as the tool sinks.
 std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool, const Vec3& place,
                           double most_m, Elements& elements) {
     std::uint32_t count = 0;
@@ -213,17 +208,13 @@ std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, con
         const double turn_m =
             state.engaged ? glm::dot(normal, arm - state.orientation_object * Vec3(on_tool.position_m)) : 0.0;
         if (free_m > spread_m + most_m + std::abs(turn_m)) continue;
-        const double part_m2 = static_cast<double>(s.area_m2) / kElementsOfSample;
-        double within_m2 = 0.0;
-        for (int k = 0; k < kElementsOfSample; ++k) {
-            const double part_m = free_m + spread_m * ((k + 0.5) * (2.0 / kElementsOfSample) - 1.0);
-            const double ahead_m = turn_m - part_m / std::max(approach, kLeastApproach);
-            if (part_m <= 0.0)
-                within_m2 += part_m2;
-            else if (ahead_m > -most_m)
-                elements[count++] = {normal, part_m2, ahead_m, arm};
+        const bool all = free_m <= -spread_m;
+        const int parts = all ? 1 : 4;
+        for (int k = 0; k < parts; ++k) {
+            const double part_m = all ? 0.0 : free_m + spread_m * (0.5 * k - 0.75);
+            const double gap_m = std::max(0.0, part_m) / std::max(approach, kLeastApproach);
+            elements[count++] = {normal, static_cast<double>(s.area_m2) / parts, turn_m - gap_m, arm};
         }
-        if (within_m2 > 0.0) elements[count++] = {normal, within_m2, turn_m, arm};
     }
     return count;
 }
@@ -259,10 +250,8 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
     hold_below_the_yield(state, std::max(kHeldInMaterial, material.static_friction), yield, kCreep * tool.size_m, count,
                          elements);
     Vec3 u = state.engaged ? state.step_object_m : Vec3(0.0);
-    for (const double creep : {kFirstCreep, kCreep}) {
-        const std::uint32_t most = creep == kCreep ? in.most_terms : in.most_terms / 2;
-        u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, most, step.terms);
-    }
+    for (const double creep : {kFirstCreep, kCreep})
+        u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, step.terms);
     u *= share_within(before - in.proxy_object_m, u, tool.reach_m);
     const Vec3 point = before + u;
     step.next.point_object_m = step.bearing_object_m = point;
@@ -283,10 +272,6 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
     step.cut_speed_m_per_s = glm::length(u) / (g * in.dt_s);
     step.drag_device_N = -material.cutting_drag_Ns_per_m3 * step.engaged_area_m2 * in.velocity_device_m_per_s;
     return step;
-}
-
-bool is_look_due(const CuttingState& state, const geometry::LocalSurface& surface) noexcept {
-    return state.known.surface_sequence != surface.sequence || state.known.for_bearing || state.known.missed > 0;
 }
 
 LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool,

@@ -67,7 +67,6 @@ struct CuttingInput {
     bool in_contact = false;         // the balls touch
     double stiffness_N_per_m = 0.0;  // at the device, after the limiter
     double dt_s = 0.0;
-    std::uint32_t most_terms = 0xffffffffu;  // of the work; with less the tool goes less far in this tick
 };
 
 struct CuttingStep {
@@ -90,8 +89,6 @@ struct LookedAt {
     Engagement known;
     EngagementWork work;
 };
-// Tells whether look_at() will look anew because of the surface, or because it could not in the last tick.
-[[nodiscard]] bool is_look_due(const CuttingState& state, const geometry::LocalSurface& surface) noexcept;
 [[nodiscard]] LookedAt look_at(const CuttingState& state, const CuttingInput& input, const ToolSurface& tool,
                                const geometry::LocalSurface& surface, const EngagementWork& most) noexcept;
 

@@ -36,7 +36,7 @@ struct EngagedSample {
 
 // What lies around the tool.
 struct Engagement {
-    static constexpr std::uint32_t kMost = ToolSurface::kMost;  // in a deep bed each sees something
+    static constexpr std::uint32_t kMost = 160;
     std::uint32_t count = 0;
     std::array<EngagedSample, kMost> samples{};
     Vec3 place_object_m{0.0};  // where the tool was when it was looked at
