@@ -82,7 +82,8 @@ std::optional<FrameInput> ScriptedFrames::next_input() {
 void ScriptedFrames::stepped() {
     if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the script decides
     // Fails where the device is lost, which the next picture meets.
-    if (!wants_picture() && presenter_.has_drawn()) static_cast<void>(presenter_.fit_modes(session_));
+    const bool is_drawn = presenter_.shows() || session_.files().wants_pictures();
+    if (!is_drawn && presenter_.has_drawn()) static_cast<void>(presenter_.fit_modes(session_));
 }
 
 Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputSource input) {

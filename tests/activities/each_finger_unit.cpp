@@ -167,7 +167,8 @@ TEST(EachFinger, ThatIsReadByMistakeOrLostHasNotMoved) {
         EXPECT_EQ(is.moved_rad, 0.0) << finger;
         EXPECT_EQ(is.peak_rad_per_s, 0.0) << finger;
         EXPECT_EQ(is.impulse_Ns, before.impulse_Ns) << finger;
-        for (std::size_t joint = 0; joint < kJoints; ++joint) EXPECT_EQ(is.range_rad(joint), 0.0) << finger << joint;
+        for (std::size_t joint = 0; joint < kJoints; ++joint)
+            EXPECT_NEAR(is.range_rad(joint), 0.0, 1e-12) << finger << joint;
         // Another finger that moves meanwhile does, but whether it led nobody knows.
         const std::size_t other = (finger + 1) % kMeasuredFingers;
         MeasuredHand two;
