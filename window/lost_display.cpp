@@ -53,7 +53,9 @@ Function named(void* library, const char* name) {
 bool display_hangs_up() {
     if (g_display == nullptr || display_is_lost()) return display_is_lost();
     pollfd connection{.fd = g_connection_of(g_display), .events = 0, .revents = 0};
-    return poll(&connection, 1, 0) > 0 && (connection.revents & (POLLHUP | POLLERR)) != 0;
+    if (poll(&connection, 1, 0) <= 0 || (connection.revents & (POLLHUP | POLLERR)) == 0) return false;
+    on_lost_display(g_display, nullptr);
+    return true;
 }
 
 bool display_is_lost() { return g_display_is_lost.load(std::memory_order_acquire); }

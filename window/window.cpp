@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "window/key_names.hpp"
+#include "window/lost_display.hpp"
 #include "window/window_system.hpp"
 
 namespace burin::window {
@@ -208,12 +209,12 @@ Result<gpu::SurfaceHandle> Window::create_surface(gpu::Device& device) {
 
 // GLFW takes what a display that is gone does not answer for an answer: it is asked nothing more.
 std::vector<WindowEvent> Window::poll() {
-    if (!display_is_lost()) glfwPollEvents();
+    if (!display_hangs_up()) glfwPollEvents();
     return implementation_->take();
 }
 
 std::vector<WindowEvent> Window::wait(double timeout_s) {
-    if (display_is_lost()) {
+    if (display_hangs_up()) {
         std::this_thread::sleep_for(std::chrono::duration<double>(timeout_s));
     } else if (timeout_s > 0.0) {
         glfwWaitEventsTimeout(timeout_s);
@@ -225,7 +226,7 @@ std::vector<WindowEvent> Window::wait(double timeout_s) {
 
 Window::Size Window::framebuffer() const {
     Size size;
-    if (display_is_lost()) return size;
+    if (display_hangs_up()) return size;
     glfwGetFramebufferSize(implementation_->handle(), &size.width, &size.height);
     return size;
 }
@@ -233,7 +234,7 @@ Window::Size Window::framebuffer() const {
 Monitor Window::monitor() const {
     Position at;
     Size size;
-    if (display_is_lost()) return {};
+    if (display_hangs_up()) return {};
     glfwGetWindowPos(implementation_->handle(), &at.x, &at.y);
     glfwGetWindowSize(implementation_->handle(), &size.width, &size.height);
     const int x = at.x + size.width / 2, y = at.y + size.height / 2;
@@ -245,20 +246,21 @@ Monitor Window::monitor() const {
 Window::Position Window::on_monitor() const {
     const Monitor under = monitor();
     Position at;
-    if (display_is_lost()) return at;
+    if (display_hangs_up()) return at;
     glfwGetWindowPos(implementation_->handle(), &at.x, &at.y);
     return {at.x - under.x, at.y - under.y};
 }
 
 double Window::content_scale() const {
     Size size;
-    if (display_is_lost()) return 1.0;
+    if (display_hangs_up()) return 1.0;
     glfwGetWindowSize(implementation_->handle(), &size.width, &size.height);
     return size.width > 0 ? static_cast<double>(framebuffer().width) / size.width : 1.0;
 }
 
 double Window::display_scale() const {
     float x = 1.0f, y = 1.0f;
+    if (display_hangs_up()) return 1.0;
     glfwGetWindowContentScale(implementation_->handle(), &x, &y);
     return x > 0.0f ? static_cast<double>(x) : 1.0;
 }
@@ -267,17 +269,27 @@ bool Window::full_screen() const { return glfwGetWindowMonitor(implementation_->
 bool Window::minimised() const { return glfwGetWindowAttrib(implementation_->handle(), GLFW_ICONIFIED) == GLFW_TRUE; }
 bool Window::asked_to_close() const { return glfwWindowShouldClose(implementation_->handle()) == GLFW_TRUE; }
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(implementation_->handle(), title.c_str()); }
-void Window::set_size(int width, int height) {
-    if (width > 0 && height > 0) glfwSetWindowSize(implementation_->handle(), width, height);
+void Window::set_title(const std::string& title) {
+    if (!display_hangs_up()) glfwSetWindowTitle(implementation_->handle(), title.c_str());
 }
-void Window::set_position(int x, int y) { glfwSetWindowPos(implementation_->handle(), x, y); }
+void Window::set_size(int width, int height) {
+    if (width > 0 && height > 0 && !display_hangs_up()) glfwSetWindowSize(implementation_->handle(), width, height);
+}
+void Window::set_position(int x, int y) {
+    if (!display_hangs_up()) glfwSetWindowPos(implementation_->handle(), x, y);
+}
 void Window::set_visible(bool visible) {
+    if (display_hangs_up()) return;
     visible ? glfwShowWindow(implementation_->handle()) : glfwHideWindow(implementation_->handle());
 }
-void Window::minimise() { glfwIconifyWindow(implementation_->handle()); }
-void Window::restore() { glfwRestoreWindow(implementation_->handle()); }
+void Window::minimise() {
+    if (!display_hangs_up()) glfwIconifyWindow(implementation_->handle());
+}
+void Window::restore() {
+    if (!display_hangs_up()) glfwRestoreWindow(implementation_->handle());
+}
 void Window::show_pointer(bool shown) {
+    if (display_hangs_up()) return;
     glfwSetInputMode(implementation_->handle(), GLFW_CURSOR, shown ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
 }
 
