@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "devices/drivers/arm_models.hpp"
-
 namespace burin::devices {
 namespace {
 
@@ -94,10 +92,8 @@ Result<void> DhdLine::open() {
     owes_watchdog_ = !arm_watchdog() && !std::exchange(told_watchdog_, true);
     static_cast<void>(api_.write_force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id));
     static_cast<void>(api_.enable_force(1, id));
-    const int type = api_.system_type(id);
-    type_->store(type, std::memory_order_relaxed);
-    if (dhd_has_gripper(type) && api_.emulate_button != nullptr) static_cast<void>(api_.emulate_button(1, id));
-    most_N_ = dhd_model(type).figures.max_force_N;
+    // CHAI3D lists 8 N for a Falcon; all others give at least the 12 N of the description.
+    most_N_ = api_.system_type(id) == kDhdFalcon ? 8.0 : 12.0;
     turns_ = 0;
     status_ = DeviceFault::none;
     if (std::exchange(is_gone_, false)) tell(kDhdBack);

@@ -44,8 +44,6 @@ public:
 
     [[nodiscard]] ServedExchange& exchange() noexcept override { return exchange_; }
     [[nodiscard]] const std::string& model() const { return model_; }
-    // Returns the greatest force that its library says; 0: it is none.
-    [[nodiscard]] double most_N() const { return most_N_; }
     [[nodiscard]] std::vector<std::string> take_messages() override;
 
 private:

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "devices/drivers/arm_models.hpp"
 #include "devices/drivers/hd_servo.hpp"
 #include "devices/drivers/library_beside.hpp"
 #include "devices/haptic/simulated_omni.hpp"
@@ -16,17 +15,13 @@
 namespace burin::devices {
 namespace {
 
-DeviceDescription omni_description(const ArmModel& model) {
-    return describe_served_arm(model.name, model.figures, seconds(SimulatedOmni::kDelay_ns));
+DeviceDescription omni_description() {
+    return describe_served_arm("PHANTOM Omni", OmniModel{}, seconds(SimulatedOmni::kDelay_ns));
 }
 
 }  // namespace
 
-Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand, Clock& clock) {
-    const auto [name_at_library, named_model] = without_model(name_with_model);
-    if (!named_model.empty() && hd_model_called(named_model).key != named_model)
-        return fail("haptic device omni " + name_at_library, "has no model " + named_model,
-                    "write one of " + hd_model_keys());
+Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock) {
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
     const auto library = library_chosen("haptic device omni " + name, at != std::string::npos,
@@ -43,17 +38,10 @@ Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand,
                     "no emulator runs by this name: start it in another terminal, burin devices emulate omni" +
                         (name == "emulated" ? std::string() : " --at " + name));
     }
-    const ArmModel& model =
-        named_model.empty() ? hd_model((*device)->model(), (*device)->most_N()) : hd_model_called(named_model);
-    OpenedDevice opened = served_arm(std::move(*device), omni_description(model), std::move(hand), clock);
-    if (&model != &hd_model_called("omni"))
-        opened.settled = std::string(kOmni) + ":" + with_model(name_at_library, model.key);
-    return opened;
+    return served_arm(std::move(*device), omni_description(), std::move(hand), clock);
 }
 
-OpenedDevice omni_that_rests(Clock& clock, const std::string& name_at_library) {
-    return arm_that_rests(omni_description(hd_model_called(without_model(name_at_library).model)), clock);
-}
+OpenedDevice omni_that_rests(Clock& clock) { return arm_that_rests(omni_description(), clock); }
 
 std::vector<DevicePresence> look_for_omnis() { return look_for_omnis(KernelPlaces{}); }
 

@@ -228,9 +228,6 @@ SculptOptions LiveSession::settled(SculptOptions options) const {
     options.workpiece.close_holes = options.workpiece.close_holes || holes_closed_;
     options.tool = tool_options_;
     if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
-    options.live.device = hands().settled_device(0);
-    for (std::size_t hand = 0; hand < options.live.hands.size(); ++hand)
-        options.live.hands[hand].device = hands().settled_device(hand);
     return options;
 }
 
