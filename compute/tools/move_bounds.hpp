@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far the moves of a convex tool reach in a direction: bounds that are far cheaper than the section of a ray with a
-// swept piece (convex_sweep.hpp), and that tell which sections need not be computed.
+// Bounds how far the moves of a convex tool reach in a direction. A bound costs far less than the section of a ray with
+// a swept piece (convex_sweep.hpp), and tells which sections need not be computed.
 //
 // The pieces of one move are slices of one round tool, stacked along its axis, or a single box. What a move sweeps is
 // convex, and lies in n.x <= reach(n) for every direction n. So does what the sections say of it, but for rounding and
@@ -48,7 +48,7 @@ public:
     // Returns the same direction of the tool in another move; of a round tool, at the same place about its axis. A
     // plane along the side of a long tool has to turn with it, or the next move's tool reaches beyond it at one end.
     [[nodiscard]] Vec3 in_move(std::size_t move, const ToolDirection& direction) const;
-    // Returns how far what the move sweeps stays from the plane through a point, `n` being in_move of the direction.
+    // Returns how far what the move sweeps stays from the plane through a point; the direction is `n` in this move.
     [[nodiscard]] double room(std::size_t move, const ToolDirection& direction, const Vec3& n,
                               const Vec3& point) const {
         return swept_room(moves_[move], n, point) - direction.reach;
@@ -67,7 +67,7 @@ public:
         double across = 0.0, rise = 0.0, room = -1.0;
     };
     [[nodiscard]] ProfileSpace profile_space(std::size_t move, const Vec3& n, const Vec3& point) const;
-    // The same for a direction of the tool, `n` being in_move of it.
+    // Returns that half-space for a plane along a direction of the tool, which in this move is `n` (in_move).
     [[nodiscard]] ProfileSpace profile_space(std::size_t move, const ToolDirection& direction, const Vec3& n,
                                              const Vec3& point) const {
         return {direction.across, direction.rise, swept_room(moves_[move], n, point)};

@@ -10,7 +10,7 @@
 namespace burin::compute {
 namespace {
 
-// How far a plane is tilted, as a slope. A slice a thousandth of the tool away along its axis then falls clear of it by
+// Slope by which a plane is tilted. A slice a thousandth of the tool away along its axis then falls clear of it by
 // many times the margin, and a circle that is turned into it rises by far less.
 constexpr double kTilt = 0.02;
 

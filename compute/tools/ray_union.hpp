@@ -9,7 +9,7 @@
 //
 // A tool that does not turn is a single move; of few pieces all sections are computed.
 //
-// What comes out is the union of all sections, to the bit. Lattice units; one object for some rows of rays, in order.
+// Gives the union of all sections, equal to the bit. Lattice units; one object for some rows of rays, in order.
 #pragma once
 
 #include <cstdint>
@@ -75,7 +75,7 @@ private:
         MoveBounds::ProfileSpace straight, tilted[2];
         bool is_tilted[2] = {false, false};
     };
-    // How far behind both planes of a part a move stays, and its slice to look at first if that is not above zero.
+    // Says how far a move stays behind both planes of a part; not above zero: its `slice` is looked at first.
     struct Room {
         double width = -1.0;
         std::size_t slice = 0;

@@ -32,8 +32,8 @@ namespace burin::compute {
 // Returns the convex pieces that tool_spans takes the sweep for; none for a ball or a mesh. Fails as tool_spans does.
 [[nodiscard]] Result<ConvexPieces> convex_pieces(const Lattice& lattice, const ToolSweep& sweep);
 
-// What convex pieces cover of the rays, and how many sections of a ray with a piece were computed for it: the work,
-// most of which is left out where a tool turns (ray_union.hpp).
+// Holds what convex pieces cover of the rays, and counts the sections of a ray with a piece that were computed for it.
+// These are the work, most of which is left out where a tool turns (ray_union.hpp).
 struct ConvexSpans {
     RayBatch batch;
     std::uint64_t sections = 0;

@@ -47,8 +47,8 @@ struct DhdApi {
     int (*write_force)(double, double, double, double, double, double, double, char device) = nullptr;
     int (*last_error)() = nullptr;
     const char* (*error_text)(int error) = nullptr;
-    // Of the header's expert section, whose functions fail with kDhdNotExpert until the first of these is called. Null:
-    // the library has none. In steps of 125 us, after which a device without commands takes its force off.
+    // Stand in the header's expert section: its functions fail with kDhdNotExpert until enable_expert_mode. Null: the
+    // library has none. The watchdog takes the force off a device that gets no command for so many steps of 125 us.
     int (*enable_expert_mode)() = nullptr;
     int (*set_watchdog)(unsigned char steps, char device) = nullptr;
 };

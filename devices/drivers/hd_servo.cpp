@@ -15,8 +15,8 @@
 namespace burin::devices {
 namespace {
 
-// Of the PHANTOMs, Premium 3.0 has the most: 22 N (data sheet). What a library says beyond this is no force of a
-// device's.
+// Bounds what a library may say of a device's greatest force; more is taken for nonsense. The strongest PHANTOM, the
+// Premium 3.0, has 22 N (data sheet).
 constexpr double kMostOfAny_N = 100.0;
 
 unsigned int turn_of(void* servo) {

@@ -4,7 +4,7 @@
 //
 // Signatures are those of hil.h, quanser_version.h and quanser_messages.h (public copies beside QuanserBindings.jl and
 // in Mahi's DAQ library). Errors are negative. A boolean is a char. Volts; counts of encoders.
-// What hil.h says of the watchdog: a card of the Q8 series takes its analog outputs to 0 V when it expires only where
+// The watchdog, as hil.h has it: when it expires, a card of the Q8 series takes its analog outputs to 0 V only where
 // its digital outputs are told to go tristate, and the other way round; with neither, all outputs stay as they are.
 // Both are told before it is started. One that has expired refuses all access until it is cleared, which brings back
 // what was before; neither stopping it nor opening the card anew clears it.

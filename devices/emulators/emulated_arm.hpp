@@ -19,7 +19,7 @@ struct EmulatedArmSteps {
     std::function<bool(double time_s)> is_silent;  // since it runs: its cable is pulled, and it does not step
     std::function<Vec3()> written_N;               // device frame; not finite: it could not be read, and stays
     std::function<void(Nanoseconds now_ns)> publish;
-    // How long a force is held that the library does not renew; empty: for kSharedForce_ns.
+    // Returns for how long a force is held that the library does not renew; empty: kSharedForce_ns.
     std::function<Nanoseconds()> holds_ns = {};
 };
 

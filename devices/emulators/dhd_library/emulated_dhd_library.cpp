@@ -54,7 +54,7 @@ struct DhdLibrary {
         }
         return &*opened[at];
     }
-    // What is open already has the ID that it has.
+    // Returns the device's ID; one that is open already keeps its own.
     int open(const std::string& name) {
         const auto open = std::ranges::find_if(opened, [&](const auto& one) { return one && one->name == name; });
         if (open != opened.end()) return static_cast<int>(open - opened.begin());
