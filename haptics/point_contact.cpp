@@ -361,6 +361,14 @@ ProxyResult PointContact::as_caught(const ProxyState& state) const {
     return result;
 }
 
+void PointContact::stay_in_bed(const Vec3& cut_object_m) {
+    state_.position_object_m = record_.proxy_object_m = cut_object_m;
+    state_.hip_object_m = record_.hip_object_m;
+    state_.placed = true;
+    state_.touching = false;
+    state_.unfit_ticks = state_.places_tried = 0;
+}
+
 void PointContact::bear_on_cut(const Vec3& cut_object_m) {
     const Vec3 spring = cut_object_m - record_.hip_object_m;
     const double depth = glm::length(spring);
@@ -377,13 +385,19 @@ void PointContact::let_go() {
     stay_with_hand();
 }
 
+// Tells whether the tool was cutting in the last tick and still does.
+bool PointContact::cuts() const {
+    const bool pressed = (input_.sample.buttons & 1u) != 0 && input_.parameters.action == ToolAction::cut;
+    return pressed && &point_ == &input_.parameters.probe.points[0] && step_.next.cutting.engaged;
+}
+
 // Has the watch look at the contact of the last tick, taken along with the body that it is with.
 void PointContact::watch(const ProxyState& contact, double most_ns, ContactWork& work) {
     const Vec3& origin = input_.surface.origin_object;
     const double felt = felt_radius_m(radius_m(), bodies_.surface().mean_edge_m());
     ContactWatch::look(watch_,
                        {contact.position_object_m - origin, contact.hip_object_m - origin, felt, shape_,
-                        step_.next.tool_orientation_object, input_.motion.orientation_object},
+                        step_.next.tool_orientation_object, input_.motion.orientation_object, cuts()},
                        bodies_.surface(), work, most_ns);
     if (watch_.doubtful_looks > 0 || watch_.faded_ticks > 0) step_.flags |= kTickDoubted;
 }

@@ -40,6 +40,9 @@ public:
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
     // In free space, and not for want of a place where it fits.
     [[nodiscard]] bool is_free() const { return state_.placed && state_.unfit_ticks == 0 && !has_let_go_; }
+    [[nodiscard]] bool has_let_go() const { return has_let_go_; }
+    // The shape of a tool that cuts finds no place: it stays where the tool has cut to, and looks for one from there.
+    void stay_in_bed(const Vec3& cut_object_m);
     // A tool that cuts is larger than what touches, by the clearance: it is borne by material that this does not reach.
     void bear_on_cut(const Vec3& cut_object_m);
     // The material touched in the last tick until this one has touched: at a border friction changes a tick late.
@@ -80,6 +83,7 @@ private:
     bool bears(std::uint32_t constraints, const Vec3& normal_object);
     [[nodiscard]] ProxyResult as_caught(const ProxyState& state) const;
     void let_go();
+    [[nodiscard]] bool cuts() const;
     void watch(const ProxyState& contact, double most_ns, ContactWork& work);
     void count_work(const ContactWork& work, bool limited);
     [[nodiscard]] double scale() const { return input_.motion.object_from_device.scale; }

@@ -19,6 +19,9 @@ constexpr double kLongestFollowed_s = 0.5;
 // the tool's own bed lie a little deeper than the tool did: else the tool would sink by that with each new surface.
 constexpr double kSlack = 1.25;
 
+// Of what a look may cost: its looks; the rest is for the pieces.
+constexpr double kOfLooks = 0.4;
+
 // The points that touch at once.
 struct Touching {
     double shares = 0.0;           // of the points: how many they are where each renders all of its surface
@@ -73,13 +76,19 @@ CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& 
     input.scale = in.motion.object_from_device.scale;
     input.slack_m = kSlack * in.parameters.clearance_ratio * tool.size_m;
     input.in_contact = point.in_contact();
-    input.cutting = cutting && (input.in_contact || point.is_free());
+    // What touches may find no place in the tool's own bed. The tool stays where it has cut to: it is never set into
+    // material that it has not cut.
+    const bool stays = cutting && state.engaged && !input.in_contact && !point.is_free() && !point.has_let_go();
+    if (stays) input.proxy_object_m = state.point_object_m;
+    input.cutting = cutting && (stays || input.in_contact || point.is_free());
     input.stiffness_N_per_m = wall.stiffness_N_per_m;
     input.dt_s = in.dt_s;
     if (input.cutting || (point.has_shape() && input.in_contact)) {
-        const double left_ns = std::max(budget_of(in) - cost_ns(work), 0.0);
-        const EngagementWork most{static_cast<std::uint32_t>(0.25 * left_ns / WorkCost::kLook_ns),
-                                  static_cast<std::uint32_t>(0.25 * left_ns / WorkCost::kPiece_ns)};
+        const double kept_ns =
+            input.cutting ? reserve_for(state, in.surface, budget_of(in), point.has_shape()).step_ns : 0.0;
+        const double left_ns = std::max(budget_of(in) - cost_ns(work) - kept_ns, 0.0);
+        const EngagementWork most{static_cast<std::uint32_t>(kOfLooks * left_ns / WorkCost::kLook_ns),
+                                  static_cast<std::uint32_t>((1.0 - kOfLooks) * left_ns / WorkCost::kPiece_ns)};
         const LookedAt looked = look_at(state, input, tool, in.surface, most);
         state.known = looked.known;
         work.triangles_seen += looked.work.looks;
@@ -88,18 +97,25 @@ CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& 
             if (const auto middle = middle_of_bearing(state.known, input, tool))
                 point.bear_at(*middle, input.proxy_object_m);
     }
+    const double left_ns = std::max(budget_of(in) - cost_ns(work), 0.0);
+    input.most_terms = static_cast<std::uint32_t>(std::min(left_ns / WorkCost::kTerm_ns, 1e9));
     CuttingStep step = cut(state, input, tool, point.material());
     work.cutting_terms += step.terms;
     state = step.next;
+    if (stays) point.stay_in_bed(step.bearing_object_m);
     return step;
 }
 
 using PointContacts = std::array<std::optional<PointContact>, kMostProbePoints>;
 
 // Moves the proxies of all points, as far as the tick's work goes.
-void touch_points(PointContacts& points, const ProbeStep& step, const ProbeInput& input) {
+void touch_points(PointContacts& points, const ProbeStep& step, const ProbeInput& input, bool cutting) {
     const std::uint32_t count = step.contact.point_count;
-    const double budget = budget_of(input);
+    double budget = budget_of(input);
+    if (cutting) {
+        const CuttingReserve kept = reserve_for(step.next.cutting, input.surface, budget, points[0]->has_shape());
+        budget -= kept.look_ns + kept.step_ns;
+    }
     const auto left_ns = [&] { return std::max(budget - cost_ns(step.contact.work), 0.0); };
     if (count == 1) {
         points[0]->touch({.max_cost_ns = left_ns()});
@@ -292,7 +308,7 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     if (held_over)
         wait(step.next.turns);
     else
-        touch_points(points, step, input);
+        touch_points(points, step, input, cutting);
     Touching touching;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         if (!points[i]->in_contact()) continue;

@@ -22,6 +22,7 @@ HapticsOptions quick_haptics() {
     quick.shape_ticks = 100;
     quick.wand_ticks = 1'000;
     quick.solid_resolutions = {48};
+    quick.carved_resolutions = {};
     quick.ask_for_realtime = false;
     return quick;
 }
@@ -50,6 +51,7 @@ Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
     if (auto done = measure_accuracy(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_parts(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_shapes(all, notify); !done) return std::unexpected(done.error());
+    if (auto done = measure_carved(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_wand(all, notify); !done) return std::unexpected(done.error());
     if (options.ask_for_realtime) {
         const haptics::RealtimeNotice notice = haptics::ask_for_realtime();

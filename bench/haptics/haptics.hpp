@@ -35,7 +35,8 @@ struct HapticsOptions {
     std::uint64_t shape_ticks = 6'000;             // of each scene and shape, in simulated time
     std::uint64_t wand_ticks = 10'000;             // through the tube, with each choice of ends; in simulated time
     std::vector<int> solid_resolutions{256, 512};  // cells along the side of a ball of 100 mm that is carved
-    bool ask_for_realtime = true;                  // real-time priority and locked memory, where the system grants them
+    std::vector<int> carved_resolutions{128, 256, 512};  // of the block in which a tool lies in its own groove
+    bool ask_for_realtime = true;  // real-time priority and locked memory, where the system grants them
 };
 
 // Returns options with small sizes and few ticks, to check within seconds that everything works.
@@ -118,6 +119,15 @@ struct ShapeTicks {
     std::vector<double> cost_us;  // of each, as counted
 };
 
+// What a tool feels in the groove that it cuts, and what is right: the most force once it is lifted clear, how fast it
+// sinks under one and a half times its yield, the mean force of a hand 0.7 mm below the groove.
+struct CarvedFeel {
+    std::string row, tool, unit;
+    int resolution = 0;  // cells along a block of 40 mm; 30 mm for the one that is pressed
+    double right = 0.0, found = 0.0;
+    std::uint64_t ticks = 0, limited = 0, let_go = 0;
+};
+
 // A wand in a tube: the work of a tick as counted, with both ends, or with one alone.
 struct WandWork {
     std::string points;  // "both", "top", "bottom"
@@ -161,6 +171,7 @@ struct Haptics {
     std::vector<ForceJumps> jumps;
     std::vector<PartsShare> parts;
     std::vector<ShapeTicks> shapes;
+    std::vector<CarvedFeel> carved;
     std::vector<WandWork> wand;  // both ends first, then each; empty where the tube is not here
 };
 
@@ -180,6 +191,7 @@ using Tell = std::function<void(const std::string&)>;
 [[nodiscard]] Result<void> measure_accuracy(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_parts(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_shapes(Haptics& all, const Tell& notify);
+[[nodiscard]] Result<void> measure_carved(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_wand(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_edits(Haptics& all, const Tell& notify);
 

@@ -85,6 +85,25 @@ std::string shapes_table(const std::vector<ShapeTicks>& shapes) {
     return text + "\n";
 }
 
+Json carved_of(const CarvedFeel& c) {
+    return {{"row", c.row},     {"tool", c.tool},       {"resolution", c.resolution},
+            {"unit", c.unit},   {"right", c.right},     {"found", c.found},
+            {"ticks", c.ticks}, {"limited", c.limited}, {"let_go", c.let_go}};
+}
+
+std::string carved_table(const std::vector<CarvedFeel>& carved) {
+    if (carved.empty()) return "";
+    std::string text = formatted("a tool in the groove that it cuts\n%-24s %-10s %5s %9s %9s %-5s %8s %7s\n", "",
+                                 "tool", "cells", "right", "found", "", "limited", "let go");
+    for (const CarvedFeel& c : carved)
+        text +=
+            formatted("%-24s %-10s %5d %9.3f %9.3f %-5s %7.2f%% %7llu\n", c.row.c_str(), c.tool.c_str(), c.resolution,
+                      c.right, c.found, c.unit.c_str(),
+                      100.0 * static_cast<double>(c.limited) / static_cast<double>(std::max<std::uint64_t>(c.ticks, 1)),
+                      static_cast<unsigned long long>(c.let_go));
+    return text + "\n";
+}
+
 // Returns how many times the work of one end, the mean of both alone, both together take.
 double ends_ratio(const std::vector<WandWork>& wand, double share) {
     if (wand.size() != 3) return 0.0;
@@ -144,6 +163,7 @@ std::string haptics_table(const Haptics& all) {
     text += "\n" + peers_table(all.peers);
     text += parts_table(all.parts);
     text += shapes_table(all.shapes);
+    text += carved_table(all.carved);
     text += wand_table(all.wand);
     const ProxyErrors& e = all.errors;
     text += formatted("proxy on %zu triangles at 100 mm/s (mesh within %.4f mm of the surface), mm: median, p99, max\n",
@@ -186,6 +206,8 @@ Json haptics_json(const Haptics& all) {
     for (const PartsShare& p : all.parts) report["parts"].push_back(parts_of(p));
     report["shapes"] = Json::array();
     for (const ShapeTicks& s : all.shapes) report["shapes"].push_back(shape_of(s));
+    report["carved"] = Json::array();
+    for (const CarvedFeel& c : all.carved) report["carved"].push_back(carved_of(c));
     report["wand"] = wand_of(all.wand);
     report["proxy_error"] = errors_of(all.errors);
     report["contact"] = Json::array();

@@ -69,23 +69,25 @@ Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geo
 }
 
 // Outside of all material, with the ball clear of it. Looked for in balls that double, as far as the looks suffice.
-bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& surface, const LookWork& work) {
+bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& surface, const LookWork& work,
+             bool if_unknown) {
     const Box all = geometry::bounds(surface);
     const double everything = glm::length(glm::max(glm::abs(hand - all.lo), glm::abs(hand - all.hi)));
     for (double reach_m = radius_m;; reach_m *= 2.0) {
         const Seen seen = look_around(hand, reach_m, Vec3(0.0), surface, work);
         if (seen.distance_m <= radius_m) return false;
-        // Where the looks did not suffice the hand counts as free, so that no unproved contact holds it.
-        if (!seen.complete) return true;
+        // Where looks did not suffice a hand that does not cut counts as free, so that no unproved contact holds it.
+        if (!seen.complete) return if_unknown;
         if (reach_m > everything) return seen.height_m >= 0.0;
         if (seen.distance_m <= reach_m) return seen.height_m >= 0.0;
     }
 }
 
 // Where the tests do not suffice the tool counts as clear, as a ball does.
-bool is_free(const PosedShape& tool, const geometry::PosedSurface& surface, const LookWork& work) {
-    return touches_something(tool, surface, work.done) != Held::yes &&
-           is_free(tool.inside(), 0.1 * tool.shape.size_m, surface, work);
+bool is_free(const PosedShape& tool, const geometry::PosedSurface& surface, const LookWork& work, bool if_unknown) {
+    const Held touches = touches_something(tool, surface, work.done);
+    return (touches == Held::no || (touches == Held::unknown && if_unknown)) &&
+           is_free(tool.inside(), 0.1 * tool.shape.size_m, surface, work, if_unknown);
 }
 
 // Whether a tool's contact is found wanting while the hand is clear.
@@ -93,7 +95,7 @@ bool is_doubtful(const ContactWatch::Contact& contact, const Vec3& way, bool fal
                  const geometry::PosedSurface& surface, const LookWork& work) {
     const Held held = is_held({*contact.shape, contact.proxy_m, contact.proxy_orientation}, way, surface, work.done);
     return (falls_behind || held == Held::no) &&
-           is_free({*contact.shape, contact.hand_m, contact.hand_orientation}, surface, work);
+           is_free({*contact.shape, contact.hand_m, contact.hand_orientation}, surface, work, !contact.cuts);
 }
 
 // Whether a ball's contact is seen not to be one.
@@ -127,7 +129,7 @@ void ContactWatch::look(WatchState& state, const Contact& contact, const geometr
         return;
     }
     const bool doubtful = falls_behind || is_unsound(contact, (step_m / pull_m) * pull, surface, work);
-    if (doubtful && is_free(contact.hand_m, radius_m, surface, work))
+    if (doubtful && is_free(contact.hand_m, radius_m, surface, work, !contact.cuts))
         state.doubtful_looks = std::min(state.doubtful_looks + 1, kLooks);
     else
         state.doubtful_looks = 0;

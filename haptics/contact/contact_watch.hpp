@@ -53,6 +53,8 @@ public:
         // A tool that is no ball, and how it stands at the proxy and in the hand (shape_watch.hpp); null: a ball.
         const ToolShape* shape = nullptr;
         Quat proxy_orientation{1.0, 0.0, 0.0, 0.0}, hand_orientation{1.0, 0.0, 0.0, 0.0};
+        // The tool cuts: its hand is in material that it presses on, and is free only where that is proved.
+        bool cuts = false;
     };
 
     // Looks, where a look is due, and adds its work, which costs at most most_ns. Call it once a tick in contact,

@@ -27,7 +27,8 @@ constexpr double kLeastSlack = 0.05;
 
 }  // namespace
 
-void ShapeSearch::add(const geometry::Triangle& object, const Vec3& normal, std::uint32_t id, bool is_vertex) noexcept {
+ShapeSearch::Candidate ShapeSearch::candidate_of(const geometry::Triangle& object, const Vec3& normal, std::uint32_t id,
+                                                 bool is_vertex) const noexcept {
     Candidate c;
     c.triangle = {object.a * turn_, object.b * turn_, object.c * turn_};
     c.face = normal * turn_;
@@ -37,10 +38,14 @@ void ShapeSearch::add(const geometry::Triangle& object, const Vec3& normal, std:
     const Vec3 middle = (c.triangle.a + c.triangle.b + c.triangle.c) / 3.0;
     c.guess = gathered_at_ + shape_.inside_m - middle;
     c.clear_until_m = -HUGE_VAL;
+    return c;
+}
+
+void ShapeSearch::add(const geometry::Triangle& object, const Vec3& normal, std::uint32_t id, bool is_vertex) noexcept {
     in_object_.put(count_, object);
     faces_in_object_.put(count_, normal);
     ids_[count_] = id;
-    candidates_.put(count_++, c);
+    candidates_.put(count_++, candidate_of(object, normal, id, is_vertex));
 }
 
 bool ShapeSearch::is_behind_held(const geometry::Triangle& t) noexcept {
@@ -105,22 +110,31 @@ bool ShapeSearch::is_left_out(const Box& box, const geometry::TriangleSlab& slab
     return is_beside(middle - half, middle + half, slack) || is_above(slab, gathered_at_, rounding_ + slack);
 }
 
+// What is within the slack of the tool: around the segment along its longest side.
+geometry::Near ShapeSearch::near_tool(const Vec3& at, double slack) const noexcept {
+    const Vec3 extent = shape_.bounds.extent(), middle = at + shape_.bounds.center();
+    const int longest = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
+    Vec3 half(0.0), across = 0.5 * extent;
+    half[longest] = across[longest];
+    across[longest] = 0.0;
+    const Vec3 from = from_tool(middle - half), to = from_tool(middle + half);
+    return {.lo = glm::min(from, to),
+            .hi = glm::max(from, to),
+            .reach_m = glm::length(across) + rounding_ + slack,
+            .by_way = true,
+            .from = from,
+            .to = to};
+}
+
 bool ShapeSearch::look(const Vec3& at, double& slack) noexcept {
     count_ = plane_count_ = held_count_ = cover_count_ = looked_at_ = tried_count_ = 0;
     const bool is_fine = surface_.mean_edge_m() <= fineness_.longest_edge_m;
     hold_at_ = is_fine ? kHoldAtIfFine : kHoldAt;
     slab_normal_ = Vec3(0.0);
     gathered_at_ = at;
-    const Vec3 extent = shape_.bounds.extent(), middle = at + shape_.bounds.center();
-    const int longest = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    Vec3 half(0.0), across = 0.5 * extent;
-    half[longest] = across[longest];
-    across[longest] = 0.0;
-    const double around = glm::length(across) + rounding_;
-    const Vec3 from = from_tool(middle - half), to = from_tool(middle + half);
-    geometry::Near near{
-        glm::min(from, to), glm::max(from, to), around + slack, affords(0.5, WorkCost::kLook_ns), true, from, to};
-    const std::uint32_t most_looks = near.looks_left;
+    geometry::Near near = near_tool(at, slack);
+    const double around = near.reach_m - slack;
+    const std::uint32_t most_looks = near.looks_left = affords(0.5, WorkCost::kLook_ns);
     const std::uint32_t most = std::min(kMost, affords(0.5, WorkCost::kGathered_ns + 4.0 * WorkCost::kSupport_ns));
     // What a coarser look needs is kept back.
     const double reserve_ns = 0.5 * left_ns();

@@ -25,7 +25,12 @@ constexpr double kWorthGoing = 0.25, kFarther = 1.5;
 // A turn that brings the tool deeper into something than this part of its width is halved, so often, before it is put
 // off to the next tick.
 constexpr int kTurnHalvings = 4;
+// Parts of a way that is free, each as long as a step.
+constexpr int kMostWays = 4;
 constexpr double kTurnedInto = 0.1;
+// A tool that its hand lifts may be so deep in facets that it lies between, as in its own bed: of a mean edge and of
+// its width at most.
+constexpr double kSqueezedOfEdge = 0.15, kSqueezedOfSize = 0.05;
 // So deep, of the tool's width, a surface that is meshed anew may come into its hulls.
 constexpr double kMeshedAnew = 0.25;
 // A tool that was set somewhere fits where nothing is deeper in its rounding than this.
@@ -65,6 +70,7 @@ public:
     ShapeResult move() {
         if (unfit_ticks_ >= kMostUnfitTicks) return wait_outside();
         if (!begin()) return limited();
+        if (is_free_) return result_;
         began_sunk_m_ = search_.sunk_m();
         if (is_buried()) return unfit();
         ShapeResult result = go_on();
@@ -101,6 +107,12 @@ private:
         const bool turns = state_.placed && motion_.before != motion_.wanted;
         turn(turns ? motion_.before : motion_.wanted);
         const double way = turns ? angle_of_turn() * shape_.reach_m : 0.0;
+        if (!turns && lets_go()) return true;
+        if (turns) {
+            turn(motion_.wanted);
+            if (lets_go()) return true;
+            turn(motion_.before);
+        }
         if (!search_.gather(at_, slack_of(std::min(way, shape_.size_m)))) return false;
         if (!turns) return touch_as_held();
         // A turn beyond what was gathered is finished in the next ticks.
@@ -120,13 +132,39 @@ private:
         return true;
     }
 
+    // A hand that lifts its tool: where nothing is between the two any more nothing is touched, and the tool goes with
+    // the hand.
+    bool lets_go() {
+        if (!state_.placed || was_set_) return false;
+        // One that is held is not tried, unless it has been left behind for want of work.
+        if (holds_back() && (!state_.left_behind || search_.is_stopped(at_, hip() - at_))) return false;
+        for (int parts = 0; parts < kMostWays; ++parts) {
+            const Vec3 pull = hip() - at_, step = bounded(pull);
+            if (!search_.is_way_free(at_, step, squeezed_m())) return false;
+            at_ += step;
+            at_object_ = search_.from_tool(at_);
+            is_free_ = step == pull;
+            if (is_free_) return true;
+        }
+        return false;
+    }
+    [[nodiscard]] double squeezed_m() const {
+        return std::min(kSqueezedOfEdge * surface_.mean_edge_m(), kSqueezedOfSize * shape_.size_m);
+    }
+
     bool touch_as_held() { return search_.touch(at_) && (!search_.overlaps() || pushed()); }
 
     // How far from here the tool may come in this tick; turned_m: by turning alone.
     [[nodiscard]] double slack_of(double turned_m) const {
         const double expected =
-            state_.touching ? kOfMotion * glm::length(state_.motion_object_m) : 1.01 * glm::length(hip() - at_);
+            holds_back() ? kOfMotion * glm::length(state_.motion_object_m) : 1.01 * glm::length(hip() - at_);
         return std::min(expected, kLongestStep * shape_.size_m) + kOfSize * shape_.size_m + turned_m;
+    }
+
+    // Whether the tool was held off the hand in the last tick, and the hand does not lead it away from there.
+    [[nodiscard]] bool holds_back() const {
+        return state_.touching && glm::dot(motion_.hip_object_m - state_.position_object_m,
+                                           state_.hip_object_m - state_.position_object_m) > 0.0;
     }
 
     bool turn_a_little() {
@@ -170,7 +208,7 @@ private:
             return true;
         }
         ++result_.proxy.work.plane_solves;
-        NearestInside goal = nearest_inside(search_.planes(), pull, kOffset * shape_.rounding_m);
+        const NearestInside goal = nearest_inside(search_.planes(), pull, kOffset * shape_.rounding_m);
         if (!goal.found) return creep(pull);
         bearing_ = goal;
         in_contact_ = goal.bearing_count > 0;
@@ -283,7 +321,7 @@ private:
     }
 
     ShapeResult limited() {
-        result_.proxy.work_limited = true;
+        result_.proxy.work_limited = result_.proxy.next.left_behind = true;
         at_object_ = search_.from_tool(at_);
         if (was_set_ && !fits()) return unfit();
         if (search_.overlaps()) {

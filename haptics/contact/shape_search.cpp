@@ -22,6 +22,8 @@ constexpr double kSamePlace = 1e-4;
 // A triangle rises before a direction where one of its sides has this sine towards it.
 constexpr double kRises = 0.02;
 constexpr int kMostApproaches = 12;
+// Cosines between a step and a face: a face, or a smooth surface's vertex, that it leads away from.
+constexpr double kGrazes = 1e-3, kLeavesVertex = 0.5;
 // Up to these parts of the way what is so near is looked at, before what is farther.
 constexpr std::array kSweptShares{0.0, 0.02, 0.1, 0.25, 0.5, 1.0};
 
@@ -246,6 +248,14 @@ void ShapeSearch::touch_features(const Vec3& at) noexcept {
     }
 }
 
+// Whether a step leads away from this triangle's front. What a tool meets first of a closed surface has a face before
+// it that does not: where all faces around a place lead away, so does each direction that is held off there.
+bool ShapeSearch::leaves(const Candidate& c, const Vec3& step) noexcept {
+    if (c.two_sided) return false;
+    const double along = glm::dot(c.face, step), length = glm::length(step);
+    return along >= (c.is_vertex ? kLeavesVertex : -kGrazes) * length;
+}
+
 // The share of the step after which this triangle is touched; beyond 1: it is not.
 double ShapeSearch::until(Candidate& c, const Vec3& at, const Vec3& step) noexcept {
     const double stop = rounding_ * (1.0 - 2.0 * kEdge);
@@ -279,7 +289,8 @@ ShapeSearch::Sweep ShapeSearch::sweep(const Vec3& at, const Vec3& step) noexcept
             if (touches_[i]) continue;
             Candidate& c = candidates_[i];
             const double clear_m = c.clear_until_m - travel_;
-            if (clear_m <= from || clear_m > to || clear_m > result.fraction * length || is_covered(c)) continue;
+            if (clear_m <= from || clear_m > to || clear_m > result.fraction * length || leaves(c, step)) continue;
+            if (is_covered(c)) continue;
             if (left_ns() <= 0.0) {
                 result.complete = false;
             } else {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 
+#include "geometry/contact/local_surface_search.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/half_spaces.hpp"
 #include "haptics/contact/separation.hpp"
@@ -66,6 +67,12 @@ public:
     // How far the tool may go before it meets what touch() did not find. Both ends must be covered.
     [[nodiscard]] Sweep sweep(const Vec3& at, const Vec3& step) noexcept;
 
+    // Whether nothing is in the way of a step, nor touches the tool after it; false as well where the work does not
+    // suffice to tell. squeezed_m: how deep facets may be in the tool that it lies between, as in its own bed. What was
+    // gathered before is gone.
+    [[nodiscard]] bool is_stopped(const Vec3& at, const Vec3& pull) noexcept;
+    [[nodiscard]] bool is_way_free(const Vec3& at, const Vec3& step, double squeezed_m) noexcept;
+
 private:
     static constexpr std::uint32_t kMostCovers = 8, kMostHeld = 6, kMostTried = 3;
 
@@ -105,12 +112,18 @@ private:
     void cover(const geometry::Triangle& t, const Vec3& normal) noexcept;
     [[nodiscard]] bool touch_face(std::uint32_t candidate, const Separation& s, const Vec3& at) noexcept;
     void touch_features(const Vec3& at) noexcept;
+    struct WaySeen;
+    [[nodiscard]] Candidate candidate_of(const geometry::Triangle& object, const Vec3& normal, std::uint32_t id,
+                                         bool is_vertex) const noexcept;
+    [[nodiscard]] bool passes(Candidate c, const Vec3& at, WaySeen& seen) noexcept;
+    [[nodiscard]] static bool leaves(const Candidate& c, const Vec3& step) noexcept;
     [[nodiscard]] double until(Candidate& c, const Vec3& at, const Vec3& step) noexcept;
     [[nodiscard]] double nearest_beyond(double from) const noexcept;
     [[nodiscard]] bool is_beside(const Vec3& low, const Vec3& high, double slack) const noexcept;
     [[nodiscard]] bool is_left_out(const Box& box, const geometry::TriangleSlab& slab, double slack) noexcept;
     [[nodiscard]] bool is_around(const Vec3& low, const Vec3& high, double reach) const noexcept;
     [[nodiscard]] bool is_above(const geometry::TriangleSlab& slab, const Vec3& at, double reach) noexcept;
+    [[nodiscard]] geometry::Near near_tool(const Vec3& at, double slack) const noexcept;
     [[nodiscard]] bool look(const Vec3& at, double& slack) noexcept;
     [[nodiscard]] bool is_behind_held(const geometry::Triangle& object) noexcept;
     [[nodiscard]] bool make_room(const Vec3& at, double& slack, std::uint32_t most) noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/contact/contact_work.hpp"
 #include "haptics/contact/static_vector.hpp"
 
 namespace burin::haptics {
@@ -24,6 +25,8 @@ constexpr double kSettled = 1e-9;
 constexpr int kMostIterations = 15, kMostHalvings = 8;
 // Of the tool's size: nearer to the hand than this it is there.
 constexpr double kAtHand = 1e-6;
+// Of a tick's budget: what is kept at most for a look and for a step; and how much more than the last one took.
+constexpr double kMostForLook = 0.4, kMostForStep = 0.15, kMoreThanLast = 1.25;
 // Of the pressure: by so much at least material below its yield holds the tool along its surface.
 constexpr double kHeldInMaterial = 0.25;
 
@@ -35,7 +38,9 @@ struct Element {
     Vec3 arm_m{0.0};       // from the tool's origin
     double held = 0.0;     // stress against motion along the surface
 };
-using Elements = StaticVector<Element, 4 * Engagement::kMost>;
+// A sample partly within the material counts as so many elements, one behind the other.
+constexpr int kElementsOfSample = 4;
+using Elements = StaticVector<Element, kElementsOfSample * Engagement::kMost>;
 
 // A symmetric matrix of three rows, and the solution of a linear system with it.
 struct Symmetric {
@@ -124,16 +129,19 @@ private:
     double pull_, yield_, hardness_, creep_m_;
 };
 
-// Newton's steps from u, each halved until it brings the function down.
-Vec3 least(const Resistance& resistance, Vec3 u, std::uint32_t& terms) {
+// Newton's steps from u, each halved until it brings the function down, up to so many terms in all. With fewer the tool
+// goes less far, and nowhere with none: what it finds is never worse than staying.
+Vec3 least(const Resistance& resistance, Vec3 u, std::uint32_t most_terms, std::uint32_t& terms) {
+    const auto affords = [&](std::uint32_t times) { return times * resistance.elements() <= most_terms - terms; };
+    if (terms > most_terms || !affords(2)) return Vec3(0.0);
     double now = resistance.at(u);
     if (const double at_rest = resistance.at(Vec3(0.0)); at_rest < now) u = Vec3(0.0), now = at_rest;
     terms += 2 * resistance.elements();
-    for (int i = 0; i < kMostIterations; ++i) {
+    for (int i = 0; i < kMostIterations && affords(2); ++i) {
         Vec3 onward = resistance.newton(u);
         double then = resistance.at(u + onward);
         terms += 2 * resistance.elements();
-        for (int k = 0; k < kMostHalvings && !(then < now); ++k) {
+        for (int k = 0; k < kMostHalvings && !(then < now) && affords(1); ++k) {
             onward *= 0.5;
             then = resistance.at(u + onward);
             terms += resistance.elements();
@@ -185,8 +193,8 @@ double share_within(const Vec3& from, const Vec3& step, double most_m) {
     return (std::sqrt(b * b - a * c) - b) / a;
 }
 
-// What the tool may meet on a way of most_m. A sample partly within the material counts as four elements, one behind
-// the other, so that the area grows evenly as the tool sinks.
+// What the tool may meet on a way of most_m. The area grows evenly as the tool sinks; what lies within already is one
+// element.
 std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool, const Vec3& place,
                           double most_m, Elements& elements) {
     std::uint32_t count = 0;
@@ -208,13 +216,17 @@ std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, con
         const double turn_m =
             state.engaged ? glm::dot(normal, arm - state.orientation_object * Vec3(on_tool.position_m)) : 0.0;
         if (free_m > spread_m + most_m + std::abs(turn_m)) continue;
-        const bool all = free_m <= -spread_m;
-        const int parts = all ? 1 : 4;
-        for (int k = 0; k < parts; ++k) {
-            const double part_m = all ? 0.0 : free_m + spread_m * (0.5 * k - 0.75);
-            const double gap_m = std::max(0.0, part_m) / std::max(approach, kLeastApproach);
-            elements[count++] = {normal, static_cast<double>(s.area_m2) / parts, turn_m - gap_m, arm};
+        const double part_m2 = static_cast<double>(s.area_m2) / kElementsOfSample;
+        double within_m2 = 0.0;
+        for (int k = 0; k < kElementsOfSample; ++k) {
+            const double part_m = free_m + spread_m * ((k + 0.5) * (2.0 / kElementsOfSample) - 1.0);
+            const double ahead_m = turn_m - part_m / std::max(approach, kLeastApproach);
+            if (part_m <= 0.0)
+                within_m2 += part_m2;
+            else if (ahead_m > -most_m)
+                elements[count++] = {normal, part_m2, ahead_m, arm};
         }
+        if (within_m2 > 0.0) elements[count++] = {normal, within_m2, turn_m, arm};
     }
     return count;
 }
@@ -250,12 +262,15 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
     hold_below_the_yield(state, std::max(kHeldInMaterial, material.static_friction), yield, kCreep * tool.size_m, count,
                          elements);
     Vec3 u = state.engaged ? state.step_object_m : Vec3(0.0);
-    for (const double creep : {kFirstCreep, kCreep})
-        u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, step.terms);
+    for (const double creep : {kFirstCreep, kCreep}) {
+        const std::uint32_t most = creep == kCreep ? in.most_terms : in.most_terms / 2;
+        u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, most, step.terms);
+    }
     u *= share_within(before - in.proxy_object_m, u, tool.reach_m);
     const Vec3 point = before + u;
     step.next.point_object_m = step.bearing_object_m = point;
     step.next.step_object_m = u;
+    step.next.terms = step.terms;
     const Resistance resistance(elements, count, way_m, pull, yield, hardness, kCreep * tool.size_m);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Element& e = elements[i];
@@ -272,6 +287,19 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSur
     step.cut_speed_m_per_s = glm::length(u) / (g * in.dt_s);
     step.drag_device_N = -material.cutting_drag_Ns_per_m3 * step.engaged_area_m2 * in.velocity_device_m_per_s;
     return step;
+}
+
+CuttingReserve reserve_for(const CuttingState& state, const geometry::LocalSurface& surface, double budget_ns,
+                           bool has_shape) noexcept {
+    const Engagement& known = state.known;
+    CuttingReserve reserve{kMostForLook * budget_ns, kMostForStep * budget_ns};
+    const bool is_known = known.next_look_ns > 0.0f && known.missed == 0 && !known.for_bearing;
+    if (is_known && !has_shape)
+        reserve.look_ns = std::min(reserve.look_ns, kMoreThanLast * static_cast<double>(known.next_look_ns));
+    if (is_known && known.surface_sequence == surface.sequence) reserve.look_ns = 0.0;
+    if (state.engaged && state.terms > 0 && !has_shape)
+        reserve.step_ns = std::min(reserve.step_ns, kMoreThanLast * WorkCost::kTerm_ns * state.terms);
+    return reserve;
 }
 
 LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool,
@@ -304,7 +332,10 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
     // From some stride on it is the looks that were too few (look_around), and a finer one would run out of them again.
     const bool has_looks = known.stride <= kStrideOfPieces || 3 * look.work.looks < most.looks;
     const bool has_room = 3 * look.work.pieces < most.pieces && has_looks;
-    if (known.stride > 1 && has_room) look.engagement.stride = known.stride / 2;
+    const bool finer = known.stride > 1 && has_room;
+    if (finer) look.engagement.stride = known.stride / 2;
+    const double cost_ns = WorkCost::kLook_ns * look.work.looks + WorkCost::kPiece_ns * look.work.pieces;
+    look.engagement.next_look_ns = static_cast<float>(finer ? 2.0 * cost_ns : cost_ns);
     return {look.engagement, look.work};
 }
 

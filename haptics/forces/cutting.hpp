@@ -53,6 +53,7 @@ struct CuttingState {
     bool engaged = false;                         // false: c is the proxy
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};  // of the last tick
     Vec3 step_object_m{0.0};                      // of the last tick, where the search begins
+    std::uint32_t terms = 0;                      // of the last tick
     Engagement known;
 };
 
@@ -67,6 +68,7 @@ struct CuttingInput {
     bool in_contact = false;         // the balls touch
     double stiffness_N_per_m = 0.0;  // at the device, after the limiter
     double dt_s = 0.0;
+    std::uint32_t most_terms = 0xffffffffu;  // of the work; with less the tool goes less far in this tick
 };
 
 struct CuttingStep {
@@ -89,6 +91,14 @@ struct LookedAt {
     Engagement known;
     EngagementWork work;
 };
+// What contact leaves to a tool that cuts: for its look, where the surface is another or there was no work for one in
+// the last tick, and for its step. As much as they took last; for a tool with a shape, whose contact in its bed uses all
+// that it is given, as much as lets a coarse look become finer.
+struct CuttingReserve {
+    double look_ns = 0.0, step_ns = 0.0;
+};
+[[nodiscard]] CuttingReserve reserve_for(const CuttingState& state, const geometry::LocalSurface& surface,
+                                         double budget_ns, bool has_shape) noexcept;
 [[nodiscard]] LookedAt look_at(const CuttingState& state, const CuttingInput& input, const ToolSurface& tool,
                                const geometry::LocalSurface& surface, const EngagementWork& most) noexcept;
 

@@ -22,6 +22,9 @@ constexpr float kBeside = 2.0f;
 // many of those beside it: on a plane, where a ball's alone turn, to none; at the rim of a bed to half of them.
 constexpr float kNotOpposite = 0.9f, kOpposite = 0.98f;
 constexpr float kNoneAlike = 0.15f, kEnoughAlike = 0.4f;
+// Between samples whose normals have this cosine at least what they have too much is shared, in so many rounds.
+constexpr float kAlikeSamples = 0.7f, kLeastCovered = 0.6f, kLeastIfCoarse = 0.25f;
+constexpr int kSurplusRounds = 3;
 // From this stride on a look goes less far, down to this share of its reach: what is far off is most of what is looked
 // at, and the next look comes long before the tool is there.
 constexpr double kFarStride = 64.0, kLeastReach = 0.25;
@@ -98,6 +101,12 @@ public:
         if (!(vertices > 0.0f)) return;
         for (std::uint32_t i = 0; i < tool_.count; ++i) sums_[i].covered_m2 += vertices_of(i) * own_m2 / vertices;
     }
+    // Pieces are given whole to one sample, and the coarser the look the fewer they are: what one sample has too much
+    // another beside it lacks. Without this their areas, each at most its own, add up to less than the tool's.
+    void share_surplus() {
+        for (int round = 0; round < kSurplusRounds; ++round)
+            for (std::uint32_t i = 0; i < tool_.count; ++i) share_surplus_of(i);
+    }
     [[nodiscard]] std::uint32_t used() const { return most_ - left_; }
 
     // The samples that something faces, relative to the tool's place, in the object's axes.
@@ -146,6 +155,27 @@ private:
         return std::clamp(opposite, 0.0f, 1.0f) * std::clamp(enough, 0.0f, 1.0f);
     }
 
+    void share_surplus_of(std::uint32_t i) {
+        const float surplus = sums_[i].covered_m2 - tool_.samples[i].area_m2;
+        if (!(surplus > 0.0f)) return;
+        // What lacks more lies at the rim of what is engaged.
+        const float least = weight_ > 1.0f ? kLeastIfCoarse : kLeastCovered;
+        const auto lack_of = [&](std::uint8_t k) {
+            const bool alike = glm::dot(tool_.samples[k].normal, tool_.samples[i].normal) > kAlikeSamples;
+            return alike && sums_[k].covered_m2 > least * tool_.samples[k].area_m2
+                       ? std::max(tool_.samples[k].area_m2 - sums_[k].covered_m2, 0.0f)
+                       : 0.0f;
+        };
+        float lacking = 0.0f;
+        for (const std::uint8_t k : tool_.samples[i].beside) lacking += lack_of(k);
+        if (!(lacking > 0.0f)) return;
+        const float share = std::min(1.0f, surplus / lacking);
+        for (const std::uint8_t k : tool_.samples[i].beside) {
+            const float given = share * lack_of(k);
+            sums_[k].covered_m2 += given;
+            sums_[i].covered_m2 -= given;
+        }
+    }
     [[nodiscard]] float vertices_of(std::uint32_t i) const { return static_cast<float>(sums_[i].vertices); }
     // The sample that a piece of surface belongs to; kNone: none.
     [[nodiscard]] std::uint8_t owner_of(const Vec3f& place_m, const Vec3f& out_of_material) const {
@@ -254,6 +284,7 @@ EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurf
         pieces.spread_vertices();
     } else {
         look.complete = geometry::for_each_triangle_near(surface, near, add_triangle);
+        pieces.share_surplus();
     }
     look.work = {most.looks - near.looks_left, pieces.used()};
     pieces.collect(orientation_object, look.engagement);

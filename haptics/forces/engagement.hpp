@@ -36,15 +36,16 @@ struct EngagedSample {
 
 // What lies around the tool.
 struct Engagement {
-    static constexpr std::uint32_t kMost = 160;
+    static constexpr std::uint32_t kMost = ToolSurface::kMost;  // in a deep bed each sees something
     std::uint32_t count = 0;
     std::array<EngagedSample, kMost> samples{};
     Vec3 place_object_m{0.0};  // where the tool was when it was looked at
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     std::uint64_t surface_sequence = 0;
-    std::uint32_t stride = 1;  // how coarsely it was looked at: with about one piece in so many
-    bool for_bearing = false;  // it says where the tool bears, not what it would cut
-    std::uint32_t missed = 0;  // ticks since, in which there was too little work left to look
+    std::uint32_t stride = 1;   // how coarsely it was looked at: with about one piece in so many
+    bool for_bearing = false;   // it says where the tool bears, not what it would cut
+    std::uint32_t missed = 0;   // ticks since, in which there was too little work left to look
+    float next_look_ns = 0.0f;  // what another look will cost, by what this one did; 0: not known
 };
 
 struct EngagementWork {

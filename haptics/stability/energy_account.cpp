@@ -144,10 +144,13 @@ double longest_hold_s(const PromiseLimits& promise, const DeviceDescription& dev
     return device.watchdog_s > 0.0 ? std::min(hold_s, device.watchdog_s) : hold_s;
 }
 
-// Whether a sample was taken at the time of the last or a little before. A clock that was set back is none of these.
+// Whether a sample is stamped no later than the last one. A device that repeats its samples may do so for long; a stamp
+// of long ago is a fault of one sample or a few, and with more in a row of a clock that was set back.
 bool is_overtaken(const EnergyAccount& account, Nanoseconds time_ns) {
-    constexpr Nanoseconds kLongest_ns = 100'000'000;
-    return time_ns <= account.time_ns && account.time_ns - time_ns < kLongest_ns;
+    constexpr Nanoseconds kLittle_ns = 100'000'000;
+    constexpr std::uint32_t kMostOfLongAgo = 8;
+    if (time_ns > account.time_ns) return false;
+    return account.time_ns - time_ns < kLittle_ns || account.overtaken < kMostOfLongAgo;
 }
 
 bool wrenches_are_gone(const EnergyAccount& account, const PromiseLimits& promise, const DeviceDescription& device) {
@@ -169,7 +172,11 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
     EnergyAccount& next = step.next;
     // A sample that is no newer than the last says nothing of the way since: as if it had not come. The next one that
     // is counts the whole way, with all commands that have acted on it.
-    if (in.known && account.counting && is_overtaken(account, in.time_ns)) return step;
+    if (in.known && account.counting && is_overtaken(account, in.time_ns)) {
+        ++next.overtaken;
+        return step;
+    }
+    next.overtaken = 0;
     next.time_ns = in.time_ns;
     next.orientation_device = in.orientation_device;
     const Nanoseconds gap_ns = in.time_ns - account.time_ns;

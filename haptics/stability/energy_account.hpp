@@ -64,8 +64,9 @@ struct EnergyAccount {
     Nanoseconds time_ns = 0;  // of the last sample
     Path moved, turned;
     Quat orientation_device{1.0, 0.0, 0.0, 0.0};
-    double budget_J = 0.0;  // A, at least
-    bool counting = false;  // in contact, or its forces are not yet gone
+    double budget_J = 0.0;        // A, at least
+    bool counting = false;        // in contact, or its forces are not yet gone
+    std::uint32_t overtaken = 0;  // samples in a row that were no newer, and not counted
 };
 
 struct AccountInput {

@@ -17,7 +17,8 @@ TEST(OddStamp, TakesNoForceFromAHandThatRests) {
     parameters.sequence = 1;
     parameters.probe = ball_probe(0.002);
     parameters.max_surface_age_s = 0.0;
-    for (const Nanoseconds odd_ns : {-18'000'000, -2'000'000, -1'000'000, 500'000, 2'000'000, 4'000'000}) {
+    for (const Nanoseconds odd_ns :
+         {-1'200'000'000, -150'000'000, -18'000'000, -2'000'000, -1'000'000, 500'000, 2'000'000, 4'000'000}) {
         FullTickState state;
         double before_N = 0.0, after_N = 0.0, most_N = 0.0;
         for (int i = 0; i < 600; ++i) {
