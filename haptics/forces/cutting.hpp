@@ -91,9 +91,9 @@ struct LookedAt {
     Engagement known;
     EngagementWork work;
 };
-// What contact leaves to a tool that cuts: for its look, where the surface is another or there was no work for one in
-// the last tick, and for its step. As much as they took last; for a tool with a shape, whose contact in its bed uses all
-// that it is given, as much as lets a coarse look become finer.
+// What contact leaves to a tool that cuts: for its look, where the surface is another or there was no work for one
+// in the last tick, and for its step. As much as they took last; for a tool with a shape, whose contact in its bed uses
+// all that it is given, as much as lets a coarse look become finer.
 struct CuttingReserve {
     double look_ns = 0.0, step_ns = 0.0;
 };
