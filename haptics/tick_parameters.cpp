@@ -40,6 +40,9 @@ bool sensible(const ToolShape& shape) {
     }
     for (std::uint32_t i = 0; i < corners; ++i)
         if (!finite(shape.corners[i])) return false;
+    if (shape.side_count > ToolShape::kMostSides || (shape.side_count > 0 && shape.piece_count != 1)) return false;
+    for (std::uint32_t i = 0; i < shape.side_count; ++i)
+        if (!finite(shape.sides[i].normal) || !std::isfinite(shape.sides[i].offset_m)) return false;
     return true;
 }
 

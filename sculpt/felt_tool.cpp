@@ -24,6 +24,8 @@ constexpr std::array kRoundings{0.02, 0.01, 0.005};
 constexpr double kDiffersLittle = 0.045;
 // Of its corners, so many are measured at.
 constexpr std::size_t kMeasuredAt = 2000;
+// Cosine between two sides of a tool that count as one.
+constexpr double kSameSide = 1.0 - 1e-6;
 // Directions by which the hull of a mesh is known, besides those of its faces.
 constexpr int kDirections = 600;
 
@@ -112,6 +114,37 @@ bool put_piece(ToolShape& shape, const std::vector<Vec3>& corners, bool turned) 
     return true;
 }
 
+// Puts a side, as far out as the piece's corners reach. One that is there already, or is one too many, is left out.
+void put_side(ToolShape& shape, const Vec3& normal) {
+    if (shape.side_count == ToolShape::kMostSides) return;
+    for (std::uint32_t i = 0; i < shape.side_count; ++i)
+        if (glm::dot(shape.sides[i].normal, normal) > kSameSide) return;
+    double offset_m = -HUGE_VAL;
+    for (const Vec3& corner : shape.corners_of(shape.pieces[0]))
+        offset_m = std::max(offset_m, glm::dot(corner, normal));
+    shape.sides[shape.side_count++] = {normal, offset_m};
+}
+
+// The sides of a turned piece: those of its outline, whose corners go from below upwards or the other way.
+void put_turned_sides(ToolShape& shape) {
+    const std::span<const Vec3> corners = shape.corners_of(shape.pieces[0]);
+    put_side(shape, Vec3(0.0, 1.0, 0.0));
+    put_side(shape, Vec3(0.0, -1.0, 0.0));
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        const Vec3 along = corners[i] - corners[i - 1];
+        const Vec3 across(std::abs(along.y), along.y > 0.0 ? -along.x : along.x, 0.0);
+        if (glm::length(across) > 0.0) put_side(shape, glm::normalize(across));
+    }
+}
+
+void put_sides_of(ToolShape& shape, const geometry::TriangleMesh& mesh) {
+    for (const auto& t : mesh.triangles) {
+        const Vec3 area = glm::cross(mesh.positions_m[t[1]] - mesh.positions_m[t[0]],
+                                     mesh.positions_m[t[2]] - mesh.positions_m[t[0]]);
+        if (glm::length(area) > 0.0) put_side(shape, glm::normalize(area));
+    }
+}
+
 ToolShape shape_of(const compute::ToolShape& tool, double rounding_m, double inset_m) {
     ToolShape shape;
     shape.rounding_m = rounding_m;
@@ -123,10 +156,16 @@ ToolShape shape_of(const compute::ToolShape& tool, double rounding_m, double ins
             corners.emplace_back((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
                                  (i & 4) != 0 ? half.z : -half.z);
         put_piece(shape, corners, false);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double side : {-1.0, 1.0}) {
+                Vec3 normal(0.0);
+                normal[axis] = side;
+                put_side(shape, normal);
+            }
     } else if (const auto* mesh = std::get_if<compute::MeshTool>(&tool)) {
-        put_piece(shape, inset_corners(*mesh->mesh, inset_m), false);
+        if (put_piece(shape, inset_corners(*mesh->mesh, inset_m), false)) put_sides_of(shape, *mesh->mesh);
     } else {
-        put_piece(shape, inset_circles(outline_of(tool), inset_m), true);
+        if (put_piece(shape, inset_circles(outline_of(tool), inset_m), true)) put_turned_sides(shape);
     }
     Vec3 sum(0.0);
     double count = 0.0;

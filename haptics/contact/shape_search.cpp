@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/contact/local_surface_search.hpp"
+#include "haptics/contact/tool_sides.hpp"
 #include "haptics/contact/triangle_contact.hpp"
 
 namespace burin::haptics {
@@ -113,6 +114,12 @@ double ShapeSearch::surely_clear_m(Candidate& c, const Vec3& at, double reach) n
     const Vec3 off = glm::max(glm::max(low - shape_.bounds.hi, shape_.bounds.lo - high), Vec3(0.0));
     const double beside2 = glm::dot(off, off), beyond = reach - rounding_;  // the bounds are those of the rounded hulls
     if (beside2 > beyond * beyond) return std::sqrt(beside2) - beyond;
+    if (shape_.side_count > 0) {
+        work_.triangles_seen += kLooksOfSides;
+        const SideGap side = side_gap(shape_, t, at);
+        if (side.plane_gap_m > 0.0 && !c.guessed) c.guess = -side.normal;
+        if (side.gap_m > reach) return side.gap_m - reach;
+    }
     if (c.is_vertex || c.two_sided) return 0.0;
     const double height = above(c, at);
     if (height > 0.0 && !c.guessed) c.guess = c.face;
@@ -256,9 +263,18 @@ bool ShapeSearch::leaves(const Candidate& c, const Vec3& step) noexcept {
     return along >= (c.is_vertex ? kLeavesVertex : -kGrazes) * length;
 }
 
+// Whether one side of the tool tells it from this triangle on all of a straight way.
+bool ShapeSearch::passes_a_side(const Candidate& c, const Vec3& at, const Vec3& step, double stop) noexcept {
+    if (shape_.side_count == 0) return false;
+    work_.triangles_seen += kLooksOfSides;
+    const SideGap side = side_gap(shape_, c.triangle, at);
+    return std::min(side.plane_gap_m, side.plane_gap_m - glm::dot(side.normal, step)) >= stop;
+}
+
 // The share of the step after which this triangle is touched; beyond 1: it is not.
 double ShapeSearch::until(Candidate& c, const Vec3& at, const Vec3& step) noexcept {
     const double stop = rounding_ * (1.0 - 2.0 * kEdge);
+    if (passes_a_side(c, at, step, stop)) return kNoTouch;
     if (!c.is_vertex && !c.two_sided) {
         const double height = above(c, at);
         if (height >= stop && height + glm::dot(c.face, step) >= stop) return kNoTouch;

@@ -117,6 +117,7 @@ private:
                                          bool is_vertex) const noexcept;
     [[nodiscard]] bool passes(Candidate c, const Vec3& at, WaySeen& seen) noexcept;
     [[nodiscard]] static bool leaves(const Candidate& c, const Vec3& step) noexcept;
+    [[nodiscard]] bool passes_a_side(const Candidate& c, const Vec3& at, const Vec3& step, double stop) noexcept;
     [[nodiscard]] double until(Candidate& c, const Vec3& at, const Vec3& step) noexcept;
     [[nodiscard]] double nearest_beyond(double from) const noexcept;
     [[nodiscard]] bool is_beside(const Vec3& low, const Vec3& high, double slack) const noexcept;

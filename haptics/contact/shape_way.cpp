@@ -80,6 +80,7 @@ bool ShapeSearch::passes(Candidate c, const Vec3& at, WaySeen& seen) noexcept {
     const double stop = rounding_ * (1.0 - 2.0 * kEdge);
     const Vec3 to = at + seen.step;
     const bool is_left = leaves(c, seen.step);
+    if (passes_a_side(c, at, seen.step, stop)) return true;
     if (!c.two_sided && c.face != Vec3(0.0)) {
         const Vec3 deepest = to + lowest_along(c.face);
         const double after = glm::dot(c.face, deepest) - c.height, before = after - glm::dot(c.face, seen.step);

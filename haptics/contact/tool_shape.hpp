@@ -22,8 +22,15 @@ struct ConvexPiece {
     bool turned = false;
 };
 
+// One side of a shape of one piece: nothing of its hull is farther along the normal than offset_m. Of a turned piece
+// the normal is (across the axis, along it, 0), and the side goes all around.
+struct ToolSide {
+    Vec3 normal{0.0, 1.0, 0.0};
+    double offset_m = 0.0;
+};
+
 struct ToolShape {
-    static constexpr std::uint32_t kMostPieces = 16, kMostCorners = 384;
+    static constexpr std::uint32_t kMostPieces = 16, kMostCorners = 384, kMostSides = 16;
 
     std::uint32_t piece_count = 0;  // 0: there is no shape, and the probe's balls touch
     double rounding_m = 0.0;
@@ -33,6 +40,9 @@ struct ToolShape {
     Vec3 inside_m{0.0};    // a place inside it, far from its surface
     std::array<ConvexPiece, kMostPieces> pieces{};
     std::array<Vec3, kMostCorners> corners{};
+    // Most of what is near is told apart by one of these, without a search. They may be left out.
+    std::uint32_t side_count = 0;
+    std::array<ToolSide, kMostSides> sides{};
 
     [[nodiscard]] bool touches() const noexcept { return piece_count > 0; }
     [[nodiscard]] std::span<const Vec3> corners_of(const ConvexPiece& piece) const noexcept {

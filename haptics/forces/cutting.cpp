@@ -296,7 +296,7 @@ CuttingReserve reserve_for(const CuttingState& state, const geometry::LocalSurfa
     const bool is_known = known.next_look_ns > 0.0f && known.missed == 0 && !known.for_bearing;
     if (is_known && !has_shape)
         reserve.look_ns = std::min(reserve.look_ns, kMoreThanLast * static_cast<double>(known.next_look_ns));
-    if (is_known && known.surface_sequence == surface.sequence) reserve.look_ns = 0.0;
+    if (is_known && (has_shape || known.surface_sequence == surface.sequence)) reserve.look_ns = 0.0;
     if (state.engaged && state.terms > 0 && !has_shape)
         reserve.step_ns = std::min(reserve.step_ns, kMoreThanLast * WorkCost::kTerm_ns * state.terms);
     return reserve;

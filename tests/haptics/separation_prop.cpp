@@ -7,7 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
+#include "haptics/contact/tool_sides.hpp"
+#include "sculpt/felt_tool.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/turned_tools.hpp"
 
@@ -70,6 +74,42 @@ TEST(Separation, IsTheDistanceOfACylinderFromATriangle) {
     }
     EXPECT_GT(apart, compute::test::repeated(20'000) / 4);
     EXPECT_GT(together, compute::test::repeated(20'000) / 50);
+}
+
+// No side tells more than there is, neither where the tool is nor after a straight way.
+TEST(Separation, IsNeverLessThanWhatASideOfTheToolTells) {
+    Random random(3);
+    int told = 0, exact = 0, apart = 0;
+    const std::vector<compute::ToolShape> tools{compute::CylinderTool{0.3, 0.9}, compute::ConeTool{0.1, 0.5, 1.2},
+                                                compute::ConeTool{0.4, 0.1, 0.5}, compute::BullNoseTool{0.5, 0.2, 1.0},
+                                                compute::BoxTool{{0.2, 0.3, 0.5}}};
+    std::vector<ToolShape> shapes;
+    for (const compute::ToolShape& tool : tools) shapes.push_back(sculpt::felt_tool(tool).shape);
+    for (int i = 0; i < compute::test::repeated(40'000); ++i) {
+        const ToolShape& shape = shapes[static_cast<std::size_t>(i) % shapes.size()];
+        ASSERT_GT(shape.side_count, 0u);
+        const double size = std::pow(10.0, random.between(-2.0, 0.5));
+        const Vec3 middle = any_place(random, 1.5), at = any_place(random, 0.2);
+        // Each third is one place, as a vertex of a fine surface is.
+        const auto corner = [&] { return i % 3 == 0 ? middle : middle + any_place(random, size); };
+        const geometry::Triangle t{corner(), corner(), corner()};
+        const SideGap side = side_gap(shape, t, at);
+        ASSERT_GE(side.gap_m, side.plane_gap_m - 1e-12);
+        const Vec3 step = any_place(random, 0.3);
+        for (const Vec3& way : {Vec3(0.0), step}) {
+            const Separation found =
+                separation(shape, shape.pieces[0], t, {at + way, at + way - middle, HUGE_VAL, 1e-6});
+            const double gap = found.overlaps ? 0.0 : found.gap_m;
+            const double bound = way == Vec3(0.0) ? side.gap_m : side.plane_gap_m - glm::dot(side.normal, way);
+            ASSERT_LE(bound, gap + 2e-6) << i;
+            if (way != Vec3(0.0) || !(gap > 0.0)) continue;
+            ++apart;
+            told += bound > 0.0 ? 1 : 0;
+            exact += bound > gap - 1e-5 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(told, apart * 9 / 10);
+    EXPECT_GT(exact, apart / 5);
 }
 
 }  // namespace burin::haptics
