@@ -173,8 +173,7 @@ void LiveSession::tell_what_is_not_rendered() {
     for (const auto& object : state_.world->objects) objects.push_back(*object);
     for (std::size_t hand = 0; hand < hands().hands(); ++hand) {
         const devices::DeviceDescription& device = hands().device(hands().first_part(hand));
-        const std::string more =
-            scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
+        const std::string more = scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
         if (!more.empty()) notify(more, MessageKind::info);
     }
 }
@@ -228,6 +227,9 @@ SculptOptions LiveSession::settled(SculptOptions options) const {
     options.workpiece.close_holes = options.workpiece.close_holes || holes_closed_;
     options.tool = tool_options_;
     if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
+    options.live.device = hands().settled_device(0);
+    for (std::size_t hand = 0; hand < options.live.hands.size(); ++hand)
+        options.live.hands[hand].device = hands().settled_device(hand);
     return options;
 }
 
