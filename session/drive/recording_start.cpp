@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "session/drive/thread_recorder.hpp"
 #include "session/state/session_settings.hpp"
@@ -21,7 +22,8 @@ std::vector<std::pair<std::int64_t, std::string>> touchable_in(const LiveSession
 
 }  // namespace
 
-Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session) {
+Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session,
+                                        record::OnRecord also) {
     const SculptOptions settled = session.settled(options);
     const std::string settings = settings_line(settled);
     SessionHands& hands = session.hands();
@@ -42,6 +44,7 @@ Result<InputLogWriter> create_recording(const SculptOptions& options, const Sess
     if (options.activity) std::ranges::move(options.activity->facts(), std::back_inserter(of.facts));
     of.facts.emplace_back(kDeviceFact, settled.live.device);
     of.objects = touchable_in(session);
+    of.also = std::move(also);
     Result<std::shared_ptr<SessionRecording>> recording = SessionRecording::create(options.live.record, std::move(of));
     if (!recording) return std::unexpected(recording.error());
     return InputLogWriter::into(std::move(*recording));

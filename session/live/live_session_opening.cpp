@@ -25,16 +25,16 @@ constexpr std::size_t kTicksToLog = 8192;
 // The ball that explores a world where no tool is given: its radius as a share of the world's longest side.
 constexpr double kExploringBall = 0.015;
 
-std::size_t ring_for(const std::string& recording) {
-    if (recording.empty()) return haptics::HapticChannels::kRecords;
-    return is_session_file(recording) ? record::kRingTicks : kTicksToLog;
+std::size_t ring_for(const LiveOptions& live) {
+    if (live.record.empty()) return live.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
+    return is_session_file(live.record) ? record::kRingTicks : kTicksToLog;
 }
 
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
-      hands_(ring_for(options.live.record), pace),
+      hands_(ring_for(options.live), pace),
       activity_(options.activity),
       files_(options, log_),
       options_(options) {}
