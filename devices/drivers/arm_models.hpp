@@ -3,10 +3,10 @@
 // what --device takes: NAME,model=KEY@LIBRARY. A driver finds the model by asking the library, and says it in the
 // settled text, so that a recording is done again with the same figures and without the device.
 //
-// Forces and stiffness are CHAI3D's for the same arms (src/devices/CDeltaDevices.cpp and CPhantomDevices.cpp, version
-// 3.2); no edge of a box is longer than the diameter that it has for them. Mass, damping and friction are assumed low.
-// An arm that is not known has the lowest figures of those that are. Torques of handles that are driven are not
-// described: they get none. Pure.
+// Forces and stiffness are those that CHAI3D 3.2 has for the same arms, in its cDeltaDevice and cPhantomDevice; no edge
+// of a box is longer than the diameter that it has for them. Mass, damping and friction are assumed low. An arm that is
+// not known has the lowest figures of those that are. Torques of handles that are driven are not described: they get
+// none. Pure.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 
 namespace burin::devices {
 
-// Handles, as lsl/types.h names what they point to.
+// Handles, by the header's names of what they point to.
 using LslInfo = struct lsl_streaminfo_struct_*;
 using LslOutlet = struct lsl_outlet_struct_*;
 using LslInlet = struct lsl_inlet_struct_*;

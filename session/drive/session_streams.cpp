@@ -78,7 +78,11 @@ void SessionStreams::read_rings() {
 
 StreamFigures SessionStreams::finish() {
     if (pump_) pump_->stop();
-    return lsl_->close();
+    StreamFigures figures = lsl_->close();
+    // What a full ring has refused never came this far.
+    for (haptics::HapticChannels* const channels : session_.channels_of_parts())
+        if (gives_) figures.dropped_ticks += channels->records.refused();
+    return figures;
 }
 
 }  // namespace burin::session

@@ -7,6 +7,7 @@
 #include "record/examination.hpp"
 #include "record/touched_columns.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 namespace {

@@ -190,7 +190,7 @@ Result<std::unique_ptr<LslStreams>> LslStreams::open(const devices::LslApi& api,
         if (!inlets) return std::unexpected(inlets.error());
         work->inlets.emplace(std::move(*inlets));
     }
-    work->tell(formatted("streams: by liblsl %s, whose clock is %.9f s ahead of the session's, to within %.1f us",
+    work->tell(formatted("streams: by liblsl %s, whose clock is %.9f s ahead of the session's, to within %.3f us",
                          api.version().c_str(), work->clock.offset_s, work->clock.within_s * 1e6));
     std::unique_ptr<LslStreams> streams(new LslStreams(work));
     streams->clock_ = &clock;
