@@ -298,9 +298,10 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     if (options.live.first_steps) remember_first_time();
     const auto streams = SessionStreams::open(options.live, session, clock);
     if (!streams) return std::unexpected(streams.error());
-    if (const auto begun = begin_recording(input, options, run.facts, session, streams->get()); !begun)
+    InputSource source = std::move(input);  // its recording reads the session's rings: it goes before them
+    if (const auto begun = begin_recording(source, options, run.facts, session, streams->get()); !begun)
         return std::unexpected(begun.error());
-    const std::shared_ptr<SessionRecording> recording = input.recording();
+    const std::shared_ptr<SessionRecording> recording = source.recording();
     if (run.keep_frames) session.times().keep_frames();
     const Result<SessionTracker> heard = session_tracker(options.live, wall.setup);
     if (!heard) return std::unexpected(heard.error());
@@ -312,9 +313,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     }
 
     if (options.live.detail == DetailChoice::automatic) presenter->draw_less_in_motion();
-    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get(), heard->where);
+    LiveFrames frames(session, *presenter, std::move(source), clock, tracker.get(), heard->where);
     if (*streams) frames.stream_to(&(*streams)->lsl());
-    const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), session.has_activity());
+    // A stream of a thousand samples a second has them also while nothing moves.
+    const bool needs_all_ticks = session.has_activity() || options.live.lsl;
+    const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), needs_all_ticks);
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
                                  if (session.collect(ended) || ended.failed) wake();

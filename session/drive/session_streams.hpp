@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The streams that the options of a session ask for (session/stream/lsl_streams.hpp), between its hands, its recording
-// and its frames. Frame's thread; record() is called on the recording's.
+// and its frames. Frame's thread; what taker() returns is called on the recording's.
 #pragma once
 
 #include <memory>

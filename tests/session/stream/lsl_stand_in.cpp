@@ -33,21 +33,26 @@ struct Outlet {
     bool is_busy = false;
 };
 
+// These live until the process ends, whatever thread still waits in here then.
 LslStandIn& stand_in() {
-    static LslStandIn one;
-    return one;
+    static LslStandIn* const one = [] {
+        auto* const made = new LslStandIn;
+        made->blocks_pushes = std::getenv("BURIN_LSL_STAND_IN_BLOCKS") != nullptr;
+        return made;
+    }();
+    return *one;
 }
 std::vector<LslStream*>& infos() {
-    static std::vector<LslStream*> all;
-    return all;
+    static auto* const all = new std::vector<LslStream*>;
+    return *all;
 }
 std::vector<Outlet*>& outlets() {
-    static std::vector<Outlet*> all;
-    return all;
+    static auto* const all = new std::vector<Outlet*>;
+    return *all;
 }
 std::vector<std::shared_ptr<LslStream>*>& inlets() {
-    static std::vector<std::shared_ptr<LslStream>*> all;
-    return all;
+    static auto* const all = new std::vector<std::shared_ptr<LslStream>*>;
+    return *all;
 }
 
 template <typename Handle>

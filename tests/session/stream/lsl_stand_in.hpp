@@ -7,7 +7,7 @@
 //
 // For a program that a test starts: BURIN_LSL_STAND_IN_XDF names a file that it writes as XDF when the last outlet is
 // destroyed (github.com/sccn/xdf/wiki/Specifications), and BURIN_LSL_STAND_IN_MARKER is the text of a marker of a
-// stream "Keyboard", which comes when an inlet asks.
+// stream "Keyboard", which comes when an inlet asks. With BURIN_LSL_STAND_IN_BLOCKS no push returns.
 // Each copy of the library has a state of its own. Its mutex guards all of it.
 #pragma once
 

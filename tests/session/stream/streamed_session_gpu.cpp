@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <sstream>
 #include <string>
 
 #include "devices/drivers/library_beside.hpp"
@@ -70,6 +72,32 @@ TEST(StreamedSession, ThatIsNotRecordedIsPlayedInRealTimeForBothHands) {
         EXPECT_TRUE(xdf.contains(name)) << name;
 }
 
+// A loop whose hand nobody feels rests once the hand has been still for a second, at 14 ms a tick. A stream of a
+// thousand samples a second has no use for that. A tick that rested comes long after the one before, and yet is not late.
+TEST(StreamedSession, TicksOnWhereTheLoopOfAStillHandWouldRest) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("s.txt", "burin-input 1 still\n0.1 mouse 160 90\n4 close\n");
+    const auto rests = [&](const std::string& file, const std::string& option) {
+        const std::string burin = kBurinCommand;
+        const auto recorded = at.run(with_stand_in() + burin + " sculpt" + kBall +
+                                     "--device simulated --input s.txt --record " + file + option);
+        EXPECT_EQ(recorded.status, 0) << recorded.output;
+        std::istringstream rows(
+            at.run(burin + " convert " + file + " --to csv --columns 'time_ns,lateness_ns' -").output);
+        std::size_t count = 0;
+        long long before_ns = 0, time_ns = 0, lateness_ns = 0;
+        for (std::string row; std::getline(rows, row); before_ns = time_ns) {
+            if (std::sscanf(row.c_str(), "%lld,%lld", &time_ns, &lateness_ns) != 2) continue;
+            count += before_ns > 0 && time_ns - before_ns > 10'000'000 && lateness_ns < 1'000'000 ? 1 : 0;
+        }
+        EXPECT_GT(time_ns, 0) << "there are ticks";
+        return count;
+    };
+    EXPECT_EQ(rests("streamed.session", " --lsl"), 0u);
+    EXPECT_GT(rests("resting.session", ""), 0u);
+}
+
 // pyxdf (github.com/xdf-modules/pyxdf) as the judge, where Python has it: meta-data, order of the stamps, and
 // how many ticks there are.
 TEST(StreamedSession, IsReadFromXdfByAReaderThatIsNotOurs) {
@@ -97,6 +125,22 @@ TEST(StreamedSession, IsReadFromXdfByAReaderThatIsNotOurs) {
         EXPECT_TRUE(judged.output.contains(std::string("Burin ticks ") + hand + " Haptics True True True"))
             << judged.output;
     EXPECT_EQ(number_before(judged.output, " ticks in all"), number_before(run.output, " ticks and ")) << judged.output;
+}
+
+TEST(StreamedSession, EndsByItselfAndIsRecordedWhereTheLibraryNeverReturns) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    at.write("s.txt", kShort);
+    const auto recorded = at.run("BURIN_LSL_STAND_IN_BLOCKS=1 " + with_stand_in() + burin + " sculpt" + kBall +
+                                 "--device simulated --input s.txt --record o.session --lsl");
+    EXPECT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("streams: 0 ticks and 0 events streamed")) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains("the library does not return, and is left behind")) << recorded.output;
+    EXPECT_GT(number_before(recorded.output, " ticks recorded"), 0u) << recorded.output;
+    EXPECT_TRUE(recorded.output.contains(", 0 lost")) << recorded.output;
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
 }
 
 TEST(StreamedSession, WithoutTheLibraryDoesNotBeginAndSaysWhereItCanBeHad) {
