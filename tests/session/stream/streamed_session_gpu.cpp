@@ -72,8 +72,18 @@ TEST(StreamedSession, ThatIsNotRecordedIsPlayedInRealTimeForBothHands) {
         EXPECT_TRUE(xdf.contains(name)) << name;
 }
 
+TEST(StreamedSession, OfASearchHasItsTrialsAmongTheEvents) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("s.txt", "burin-input 1 seek\n0.1 mouse 640 360\n0.5 command do start\n4 close\n");
+    const auto run = at.run("BURIN_LSL_STAND_IN_XDF=o.xdf " + with_stand_in() + kBurinCommand +
+                            " seek garden --targets 1 --input s.txt --offscreen --width 320 --height 180 --lsl");
+    EXPECT_TRUE(run.output.contains(" ticks and 0 events lost")) << run.output;
+    EXPECT_TRUE(at.read("o.xdf").contains("trial begins: ")) << run.output;
+}
+
 // A loop whose hand nobody feels rests once the hand has been still for a second, at 14 ms a tick. A stream of a
-// thousand samples a second has no use for that. A tick that rested comes long after the one before, and yet is not late.
+// thousand samples a second has no use for that. A tick that rested comes long after the one before, and is not late.
 TEST(StreamedSession, TicksOnWhereTheLoopOfAStillHandWouldRest) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace at;
