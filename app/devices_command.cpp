@@ -38,8 +38,8 @@ Json described(const std::vector<devices::LookedForKind>& all) {
 void print(const std::vector<devices::LookedForKind>& all) {
     for (const devices::LookedForKind& kind : all)
         for (const devices::DevicePresence& one : kind.found) {
-            std::printf("%-9s  %s %s: %s\n", devices::name_of(one.presence), std::string(kind.option).c_str(),
-                        one.name.c_str(), one.cause.c_str());
+            std::printf("%-9s  %s%s%s: %s\n", devices::name_of(one.presence), std::string(kind.option).c_str(),
+                        one.name.empty() ? "" : " ", one.name.c_str(), one.cause.c_str());
             if (!one.remedy.empty()) std::printf("           -> %s\n", one.remedy.c_str());
         }
 }

@@ -68,6 +68,16 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
                    "A new file for all that the session depends on; with --input that log is played in real time. "
                    "FILE.session keeps every tick as well (burin session info FILE), any other name is a log as text. "
                    "With a --stroke that a simulated hand feels: a session file, whatever its name");
+    command.flag("--lsl", options.lsl,
+                 "Stream ticks, events and trials by Lab Streaming Layer, in real time; liblsl has to be installed");
+    command.option(
+        "--lsl-markers",
+        [&options](const std::vector<std::string>& given) -> Result<void> {
+            if (!given.empty()) options.lsl_markers = given.back();
+            return {};
+        },
+        "With --record FILE.session: hear streams of type Markers by this name, or predicate as XPath has them, and "
+        "keep what they say among the recording's events; \"\" for all");
     command.option("--journal", options.journal,
                    "A folder in which strokes are kept until they are saved, none for no such folder; else the usual "
                    "one, and none with --input");

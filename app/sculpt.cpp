@@ -188,8 +188,8 @@ Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenToo
 
 bool records_a_felt_stroke(const session::SculptOptions& options) {
     const session::LiveOptions& live = options.live;
-    const bool is_live =
-        live.live || live.offscreen || !live.wall.empty() || !live.input.empty() || !live.outputs.empty();
+    const bool is_live = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() ||
+                         !live.outputs.empty() || session::wants_streams(live);
     return !live.record.empty() && !is_live && !options.stroke.empty() &&
            options.hand == session::HandChoice::simulated;
 }

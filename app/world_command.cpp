@@ -147,6 +147,8 @@ std::string WorldCommand::misuse() const {
         return "--units belongs to a session: along a --stroke [world] unit in the settings beside the world says it";
     if (along_a_stroke && !options_->session.world_reading.root.empty())
         return "--root belongs to a session: for a --stroke, copy what the world inlines into its folder";
+    if (along_a_stroke && session::wants_streams(live))
+        return "--lsl and --lsl-markers belong to a session in real time, and a --stroke is felt in simulated time";
     if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
     if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";

@@ -27,6 +27,7 @@ Result<DhdApi> dhd_functions(LoadedLibrary& loaded, const std::string& library) 
     loaded.find("dhdErrorGetStr", api.error_text);
     loaded.find_if_there("dhdEnableExpertMode", api.enable_expert_mode);
     loaded.find_if_there("dhdSetWatchdog", api.set_watchdog);
+    loaded.find_if_there("dhdEmulateButton", api.emulate_button);
     if (!loaded.missing().empty())
         return fail(kDhdWhere, "the library " + library + " has no function " + loaded.missing(),
                     "it is not Force Dimension's, or too old: install its SDK 3.3 or newer");

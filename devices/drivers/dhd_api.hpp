@@ -51,6 +51,8 @@ struct DhdApi {
     // library has none. The watchdog takes the force off a device that gets no command for so many steps of 125 us.
     int (*enable_expert_mode)() = nullptr;
     int (*set_watchdog)(unsigned char steps, char device) = nullptr;
+    // Has a gripper press the first button. Null: the library is of before there was one.
+    int (*emulate_button)(unsigned char on, char device) = nullptr;
 };
 
 // Loads the library; of several names the first that the system's loader finds. It stays loaded. An Error says that

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "devices/drivers/arm_models.hpp"
 #include "devices/drivers/dhd_line.hpp"
 #include "devices/drivers/library_beside.hpp"
 #include "devices/presence/dhd_shared.hpp"
@@ -15,8 +16,8 @@
 namespace burin::devices {
 namespace {
 
-DeviceDescription dhd_description() {
-    return describe_served_arm("Force Dimension", omega_model(), seconds(SimulatedOmni::kDelay_ns));
+DeviceDescription dhd_description(const ArmModel& model) {
+    return describe_served_arm(model.name, model.figures, seconds(SimulatedOmni::kDelay_ns));
 }
 
 std::optional<DhdChoice> dhd_chosen(const std::string& text) {
@@ -30,26 +31,20 @@ std::optional<DhdChoice> dhd_chosen(const std::string& text) {
 
 }  // namespace
 
-OmniModel omega_model() {
-    return {.workspace_m = Vec3(0.15, 0.15, 0.11),
-            .resolution_m = 0.00001,
-            .apparent_mass_kg = 0.2,
-            .friction_N = 0.2,
-            .damping_Ns_per_m = 0.2,
-            .max_force_N = 12.0,
-            .max_stiffness_N_per_m = 5000.0,
-            .watchdog_s = 0.0};
-}
+OmniModel omega_model() { return dhd_model_called("omega").figures; }
 
-Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand, Clock& clock) {
+Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand, Clock& clock) {
+    const auto [choice_at_library, named_model] = without_model(choice_with_model);
     const std::size_t at = choice_at_library.find('@');
     const std::string first = choice_at_library.substr(0, at);
     const std::string name = kDhd + (first.empty() ? std::string() : ":" + first);
-    const auto choice = dhd_chosen(first);
+    auto choice = dhd_chosen(first);
     if (!choice)
         return fail(
             "haptic device " + name, "names no device",
             "write a place in the library's list, from dhd:0, or a serial number, and @FILE for a library elsewhere");
+    if (!named_model.empty() && dhd_model_called(named_model).key != named_model)
+        return fail("haptic device " + name, "has no model " + named_model, "write one of " + dhd_model_keys());
     const bool is_emulated = first.starts_with("emulated");
     if (is_emulated && std::ranges::count(emulated_dhds(), first) == 0)
         return fail("haptic device " + name, "no emulator runs by this name",
@@ -61,12 +56,21 @@ Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand
     if (!library) return std::unexpected(library.error());
     auto api = library->empty() ? load_usual_dhd_api() : load_dhd_api(*library);
     if (!api) return std::unexpected(api.error());
-    auto servo = LineServo::open(std::make_unique<DhdLine>(name, *api, *choice));
+    if (!named_model.empty()) choice->most_N = dhd_model_called(named_model).figures.max_force_N;
+    auto line = std::make_unique<DhdLine>(name, *api, *choice);
+    const DhdLine* const opened_line = line.get();  // the servo's, and so the device's, from now on
+    auto servo = LineServo::open(std::move(line));
     if (!servo) return std::unexpected(servo.error());
-    return served_arm(std::move(*servo), dhd_description(), std::move(hand), clock);
+    const ArmModel& model = named_model.empty() ? dhd_model(opened_line->type()) : dhd_model_called(named_model);
+    OpenedDevice opened = served_arm(std::move(*servo), dhd_description(model), std::move(hand), clock);
+    if (&model != &dhd_model_called("omega"))
+        opened.settled = std::string(kDhd) + ":" + with_model(choice_at_library, model.key);
+    return opened;
 }
 
-OpenedDevice dhd_that_rests(Clock& clock) { return arm_that_rests(dhd_description(), clock); }
+OpenedDevice dhd_that_rests(Clock& clock, const std::string& choice_at_library) {
+    return arm_that_rests(dhd_description(dhd_model_called(without_model(choice_at_library).model)), clock);
+}
 
 std::vector<DevicePresence> look_for_dhds() { return look_for_dhds(KernelPlaces{}); }
 

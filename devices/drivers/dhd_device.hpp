@@ -3,9 +3,9 @@
 // as the library lists them), dhd:SERIAL, and any of these with @LIBRARY. Names that begin with "emulated" are those of
 // `burin devices emulate dhd`, whose library stands beside the program.
 //
-// The description is that of an omega.3 whatever the device is, so that a recording is done again without it: 12 N and
-// 5,000 N/m as CHAI3D lists it, in a box within its 0.075 m; low mass, damping and friction are assumed. A device that
-// gives less is not asked for more, and torques and grippers are left at zero. Threads: as haptic_device.hpp.
+// The description is of the model that the library says the device is (arm_models.hpp), or that dhd:INDEX,model=KEY
+// names, which a recording keeps, so that it is done again without the device. A device that gives less than what was
+// named is not asked for more. Torques and grippers get no force. Threads: as haptic_device.hpp.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ inline constexpr const char* kEmulatedDhdLibrary = "libburin_emulated_dhd.so";
 
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand, Clock& clock);
-// One that is nowhere and rests, for a recording that is done again.
-[[nodiscard]] OpenedDevice dhd_that_rests(Clock& clock);
+// One that is nowhere and rests, of the model that the text names, for a recording that is done again.
+[[nodiscard]] OpenedDevice dhd_that_rests(Clock& clock, const std::string& choice_at_library = {});
 // Looks for the maker's library and the devices that it counts, for those that this user may not open, and for emulated
 // ones. Opens none.
 [[nodiscard]] std::vector<DevicePresence> look_for_dhds();

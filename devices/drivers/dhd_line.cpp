@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "devices/drivers/arm_models.hpp"
+
 namespace burin::devices {
 namespace {
 
@@ -20,7 +22,8 @@ enum DhdNotice : std::uint32_t {
     kDhdWantsReset,
     kDhdForceOff,
     kDhdWell,
-    kDhdNoWatchdog
+    kDhdNoWatchdog,
+    kDhdUnknownType
 };
 
 // The library has one list of devices for the process.
@@ -92,8 +95,12 @@ Result<void> DhdLine::open() {
     owes_watchdog_ = !arm_watchdog() && !std::exchange(told_watchdog_, true);
     static_cast<void>(api_.write_force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id));
     static_cast<void>(api_.enable_force(1, id));
-    // CHAI3D lists 8 N for a Falcon; all others give at least the 12 N of the description.
-    most_N_ = api_.system_type(id) == kDhdFalcon ? 8.0 : 12.0;
+    const int type = api_.system_type(id);
+    type_->store(type, std::memory_order_relaxed);
+    if (dhd_has_gripper(type) && api_.emulate_button != nullptr) static_cast<void>(api_.emulate_button(1, id));
+    const bool is_by_hand = !dhd_knows(type) && choice_.most_N > 0.0;
+    most_N_ = is_by_hand ? choice_.most_N : dhd_model(type).figures.max_force_N;
+    owes_type_ = !dhd_knows(type) && !is_by_hand && !std::exchange(told_type_, true);
     turns_ = 0;
     status_ = DeviceFault::none;
     if (std::exchange(is_gone_, false)) tell(kDhdBack);
@@ -164,6 +171,7 @@ DeviceFault DhdLine::status_fault() noexcept {
 
 LineNotice DhdLine::notice() noexcept {
     if (std::exchange(owes_watchdog_, false)) return {kDhdNoWatchdog};
+    if (std::exchange(owes_type_, false)) return {kDhdUnknownType, type()};
     const LineNotice notice = std::exchange(notice_, {});
     // A state that lasts is told when it begins, and no more.
     if (notice == told_) return {};
@@ -186,6 +194,10 @@ std::string DhdLine::words_for(const LineNotice& notice) const {
         case kDhdNoWatchdog:
             return who +
                    " has not taken a watchdog: if this program dies, switch its force off by the button on its base";
+        case kDhdUnknownType:
+            return who + " is of a type that is not known here (" + std::to_string(notice.number) +
+                   "), and gives the least force of those that are: name what it is, as in dhd:0,model=delta (" +
+                   dhd_model_keys() + ")";
         case kDhdForceOff: break;
         default: return {};
     }

@@ -75,6 +75,7 @@ HdDevice::~HdDevice() { servo_->close(*this); }
 
 std::vector<std::string> HdDevice::take_messages() {
     std::vector<std::string> messages;
+    if (!first_.empty()) messages.push_back(std::exchange(first_, {}));
     HdError last{};
     for (HdError notice{}; notices_.pop(notice);) {
         if (notice.code == last.code && notice.internal_code == last.internal_code) continue;

@@ -44,6 +44,10 @@ public:
 
     [[nodiscard]] ServedExchange& exchange() noexcept override { return exchange_; }
     [[nodiscard]] const std::string& model() const { return model_; }
+    // Returns the greatest force that its library says; 0: it is none.
+    [[nodiscard]] double most_N() const { return most_N_; }
+    // Has the next take_messages() begin with it.
+    void tell_first(std::string message) { first_ = std::move(message); }
     [[nodiscard]] std::vector<std::string> take_messages() override;
 
 private:
@@ -53,6 +57,7 @@ private:
 
     std::shared_ptr<HdServo> servo_;
     std::string name_, model_;
+    std::string first_;  // the frame's thread's: what is told before all else; empty: nothing more
     std::atomic<HdHandle> handle_ = kHdNoDevice;
     Vec3 middle_m_{0.0};  // of the workspace, about HDAPI's origin
     double most_N_ = 0.0;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
+#include "base/text.hpp"
+#include "devices/drivers/arm_models.hpp"
 #include "devices/drivers/hd_servo.hpp"
 #include "devices/drivers/library_beside.hpp"
 #include "devices/haptic/simulated_omni.hpp"
@@ -15,13 +18,30 @@
 namespace burin::devices {
 namespace {
 
-DeviceDescription omni_description() {
-    return describe_served_arm("PHANTOM Omni", OmniModel{}, seconds(SimulatedOmni::kDelay_ns));
+DeviceDescription omni_description(const ArmModel& model) {
+    return describe_served_arm(model.name, model.figures, seconds(SimulatedOmni::kDelay_ns));
+}
+
+// Tells of a model that its library does not name, or names and gives less force than that has.
+void tell_if_unsure(HdDevice& device, const ArmModel& described) {
+    std::string why;
+    if (!hd_knows(device.model()))
+        why = "its library calls it \"" + device.model() + "\", which is not known here";
+    else if (device.most_N() > 0.0 &&
+             device.most_N() < hd_model(device.model(), std::numeric_limits<double>::infinity()).figures.max_force_N)
+        why = formatted("its library says that it gives %.1f N, less than a ", device.most_N()) + device.model();
+    if (why.empty()) return;
+    device.tell_first("the omni is described as a " + std::string(described.name) + ": " + why +
+                      "; name its model if it is another, as in omni:NAME,model=touch-x (" + hd_model_keys() + ")");
 }
 
 }  // namespace
 
-Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock) {
+Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand, Clock& clock) {
+    const auto [name_at_library, named_model] = without_model(name_with_model);
+    if (!named_model.empty() && hd_model_called(named_model).key != named_model)
+        return fail("haptic device omni " + name_at_library, "has no model " + named_model,
+                    "write one of " + hd_model_keys());
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
     const auto library = library_chosen("haptic device omni " + name, at != std::string::npos,
@@ -38,10 +58,18 @@ Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand,
                     "no emulator runs by this name: start it in another terminal, burin devices emulate omni" +
                         (name == "emulated" ? std::string() : " --at " + name));
     }
-    return served_arm(std::move(*device), omni_description(), std::move(hand), clock);
+    const ArmModel& model =
+        named_model.empty() ? hd_model((*device)->model(), (*device)->most_N()) : hd_model_called(named_model);
+    if (named_model.empty()) tell_if_unsure(**device, model);
+    OpenedDevice opened = served_arm(std::move(*device), omni_description(model), std::move(hand), clock);
+    if (&model != &hd_model_called("omni"))
+        opened.settled = std::string(kOmni) + ":" + with_model(name_at_library, model.key);
+    return opened;
 }
 
-OpenedDevice omni_that_rests(Clock& clock) { return arm_that_rests(omni_description(), clock); }
+OpenedDevice omni_that_rests(Clock& clock, const std::string& name_at_library) {
+    return arm_that_rests(omni_description(hd_model_called(without_model(name_at_library).model)), clock);
+}
 
 std::vector<DevicePresence> look_for_omnis() { return look_for_omnis(KernelPlaces{}); }
 

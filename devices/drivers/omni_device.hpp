@@ -4,8 +4,9 @@
 // `burin devices emulate omni`, whose library stands beside the program.
 //
 // Frames: HDAPI's axes are the device frame's; its origin is not, and is moved to the middle of the workspace that the
-// library calls usable. The description is that of an Omni as the PowerWall paper and the data sheet give it, whatever
-// the device is, so that a recording is done again without it; a device that gives less force is not asked for more.
+// library calls usable. The description is of the model that the library says the device is (arm_models.hpp), or that
+// omni:NAME,model=KEY names, which a recording keeps, so that it is done again without the device: an Omni as the
+// PowerWall paper and the data sheet give it, or another arm. A device that gives less force is not asked for more.
 // Faults: a device that is gone or silent for kServedLost_ns, that is not calibrated, whose pose is no pose, that
 // is warm or was too fast. Threads: as haptic_device.hpp.
 #pragma once
@@ -26,8 +27,8 @@ inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
 
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);
-// One that is nowhere and rests, for a recording that is done again.
-[[nodiscard]] OpenedDevice omni_that_rests(Clock& clock);
+// One that is nowhere and rests, of the model that the text names, for a recording that is done again.
+[[nodiscard]] OpenedDevice omni_that_rests(Clock& clock, const std::string& name_at_library = {});
 // Looks for the maker's library, for devices of the maker's that this user may not open, and for emulated ones. Opens
 // none: that would take it from who uses it.
 [[nodiscard]] std::vector<DevicePresence> look_for_omnis();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/emulators/emulated_omni.hpp"
 
+#include <algorithm>
+
 #include "devices/drivers/hd_api.hpp"
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/emulators/emulated_arm.hpp"
@@ -16,7 +18,9 @@ Result<EmulatedOmni> EmulatedOmni::create(const std::string& name, EmulatedOmniO
     if (options.script.empty()) options.script = circling_hand();
     (*memory)->calibration.store(kHdCalibrated, std::memory_order_relaxed);
     (*memory)->styles.store(kHdByInkwell, std::memory_order_relaxed);
-    (*memory)->most_N.store(OmniModel{}.max_force_N, std::memory_order_relaxed);
+    (*memory)->most_N.store(options.most_N, std::memory_order_relaxed);
+    std::copy_n(options.model.begin(), std::min(options.model.size(), (*memory)->model.size() - 1),
+                (*memory)->model.begin());
     return EmulatedOmni(std::move(*memory), std::move(options));
 }
 

@@ -23,6 +23,9 @@ struct EmulatedOmniOptions {
     // Of the hand, in the device frame, from when a session has opened it; empty: circling_hand().
     std::vector<HandPose> script;
     SilenceDrill silence;  // it stops stepping then, as a device whose cable is pulled
+    // What its library says of it.
+    std::string model = "PHANTOM Omni, emulated";
+    double most_N = OmniModel{}.max_force_N;
 };
 
 class EmulatedOmni {

@@ -39,6 +39,9 @@ struct OpenedDevice {
     std::vector<DevicePart> parts;       // at least one; all of one rate
     DeviceMessages* messages = nullptr;  // of a part; null: it says nothing
     Amplifiers* amplifiers = nullptr;    // of all parts; null: none that can be switched from here
+    // As --device names it with what was found when it was opened, so that what stands in for it has the same
+    // description; empty: as it was named.
+    std::string settled;
 };
 
 // Returns the opened device of the only part that a device has.

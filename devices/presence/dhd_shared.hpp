@@ -8,7 +8,7 @@
 namespace burin::devices {
 
 struct DhdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4834;  // "buriddH4": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4835;  // "buriddH5": of this layout
     static constexpr const char* kPrefix = "burin-dhd-";
 
     // ---- The emulator's
@@ -21,6 +21,7 @@ struct DhdShared : SharedLife {
     SharedNumbers<3> force_N;
     std::atomic<std::uint32_t> owner = 0;  // the process that has opened it; 0: none
     std::atomic<std::uint32_t> watchdog = 0;
+    std::atomic<std::uint32_t> emulates_button = 0;
 
     [[nodiscard]] bool is_alive(Nanoseconds now_ns) const noexcept { return SharedLife::is_alive(now_ns, kMagic); }
 };
@@ -30,6 +31,13 @@ struct DhdShared : SharedLife {
 [[nodiscard]] constexpr bool dhd_has_wrist(int type) noexcept {
     return type == 34 || type == 35 || type == 36 || type == 37 || type == 61 || type == 62 || type == 64 ||
            type >= 102;
+}
+
+// Returns whether it has a gripper, by dhdc.h: the third hand's digit of its names, omega33x, sigma33x and lambda33x.
+[[nodiscard]] constexpr bool dhd_type_grips(int type) noexcept {
+    constexpr int kOmega331 = 35, kOmega331Left = 37, kSigma331 = 104, kSigma331Left = 105, kLambda331 = 108;
+    return type == kOmega331 || type == kOmega331Left || type == kSigma331 || type == kSigma331Left ||
+           type == kLambda331 || type == kLambda331 + 1;
 }
 
 using DhdSharedMemory = SharedMemory<DhdShared>;

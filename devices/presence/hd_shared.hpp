@@ -3,12 +3,14 @@
 // devices/emulators/hd_library/). Lengths in millimetres, as HDAPI's.
 #pragma once
 
+#include <array>
+
 #include "devices/presence/shared_memory.hpp"
 
 namespace burin::devices {
 
 struct HdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4434;  // "burinHD4": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4435;  // "burinHD5": of this layout
     static constexpr const char* kPrefix = "burin-hd-";
 
     // ---- The emulator's
@@ -18,6 +20,7 @@ struct HdShared : SharedLife {
     std::atomic<std::uint32_t> styles = 0;       // of calibration, likewise
     std::atomic<std::uint32_t> is_at_reset = 0;  // its links stand where its encoders may be reset
     std::atomic<double> most_N = 0.0;
+    std::array<char, 48> model{};          // written before its first beat; ends with a zero
     std::atomic<std::uint32_t> error = 0;  // raised by the library in every frame; 0: none
     // ---- The library's
     std::atomic<Nanoseconds> frame_ns = 0;  // of its newest frame

@@ -88,7 +88,7 @@ Result<void> in_real_time(Clock& clock, const char* name) {
 }
 
 Result<OpenedDevice> open_omni_by(HapticHost host, const std::string& name) {
-    if (host.stands_in) return omni_that_rests(host.clock);
+    if (host.stands_in) return omni_that_rests(host.clock, name);
     if (auto may = in_real_time(host.clock, kOmni); !may) return std::unexpected(may.error());
     return open_omni(name, std::move(host.hand), host.clock);
 }
@@ -100,7 +100,7 @@ Result<OpenedDevice> open_falcon_by(HapticHost host, const std::string& choice) 
 }
 
 Result<OpenedDevice> open_dhd_by(HapticHost host, const std::string& choice) {
-    if (host.stands_in) return dhd_that_rests(host.clock);
+    if (host.stands_in) return dhd_that_rests(host.clock, choice);
     if (auto may = in_real_time(host.clock, kDhd); !may) return std::unexpected(may.error());
     return open_dhd(choice, std::move(host.hand), host.clock);
 }
@@ -216,17 +216,20 @@ constexpr std::array kHapticKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = open_simulated_glove},
-    HapticKind{.name = kOmni,
-               .usage = "a PHANTOM Omni or Touch by its maker's library (OpenHaptics); omni:NAME as the maker's setup "
-                        "calls it, omni:NAME@LIBRARY for a library elsewhere, omni:emulated by burin devices emulate",
-               .parts = 1,
-               .is_upright = false,
-               .is_worn = false,
-               .felt_by_person = true,
-               .has_amplifiers = false,
-               .handle = nullptr,
-               .open = open_omni_by,
-               .look = look_for_omnis},
+    HapticKind{
+        .name = kOmni,
+        .usage =
+            "a PHANTOM Omni or Touch by its maker's library (OpenHaptics); omni:NAME as the maker's setup "
+            "calls it, omni:NAME@LIBRARY for a library elsewhere, omni:NAME,model=touch-x for a model that it does "
+            "not say, omni:emulated by burin devices emulate",
+        .parts = 1,
+        .is_upright = false,
+        .is_worn = false,
+        .felt_by_person = true,
+        .has_amplifiers = false,
+        .handle = nullptr,
+        .open = open_omni_by,
+        .look = look_for_omnis},
     HapticKind{.name = kHilWand,
                .usage = "a Quanser 5-DOF wand by its maker's library (HIL); wand:IDENTIFIER of its card, "
                         "wand:FILE.toml as FILE describes it, wand:IDENTIFIER,FILE.toml, each with @LIBRARY for a "

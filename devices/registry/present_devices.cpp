@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "devices/lsl/lsl_api.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
 
@@ -29,6 +30,7 @@ std::vector<LookedForKind> look_for_devices() {
                              {}}};
         all.push_back(std::move(looked));
     }
+    all.push_back({"--lsl", "streams by Lab Streaming Layer", {look_for_lsl()}});
     return all;
 }
 

@@ -11,7 +11,7 @@
 namespace burin::devices {
 
 struct LookedForKind {
-    std::string_view option;  // which option takes it: --device or --tracker
+    std::string_view option;  // which option takes it: --device, --tracker or --lsl
     std::string_view usage;
     std::vector<DevicePresence> found;  // at least one: what is there, or why nothing is
 };

@@ -9,6 +9,7 @@
 #include "session/drive/recording_start.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
+#include "session/drive/session_streams.hpp"
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
 #include "session/live/first_time.hpp"
@@ -167,6 +168,8 @@ std::vector<InputEvent> LiveFrames::take_tracker_input() {
 void LiveFrames::stepped() {
     if (presenter_.shows() && session_.wants_full_screen_exchanged()) presenter_.exchange_full_screen();
     for (const std::string& message : presenter_.take_messages()) session_.notify_of_event(message);
+    if (streams_ != nullptr)
+        for (const std::string& message : streams_->take_messages()) session_.notify_of_event(message);
     if (const auto& told = session_.state().asked.told) {
         std::string name = short_name(*told) + " \u2014 " + state_text(*told);
         if (std::exchange(named_, name) != name) presenter_.name_windows(name);
@@ -220,9 +223,14 @@ void add_threads(SessionRecord& record, LiveSession& session) {
 
 // Begins the recording that the options ask for.
 Result<void> begin_recording(InputSource& input, const SculptOptions& options, const SessionFacts& facts,
-                             LiveSession& session) {
-    if (options.live.record.empty() || input.records()) return {};
-    Result<InputLogWriter> writer = create_recording(options, facts, session);
+                             LiveSession& session, SessionStreams* streams) {
+    if (input.records()) return {};
+    if (options.live.record.empty()) {
+        if (streams != nullptr) streams->read_rings();
+        return {};
+    }
+    Result<InputLogWriter> writer =
+        create_recording(options, facts, session, streams != nullptr ? streams->taker() : record::OnRecord());
     if (!writer) return std::unexpected(writer.error());
     input.record_to(std::move(*writer));
     return {};
@@ -288,9 +296,12 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     LiveSession& session = **opened;
     presenter->name_windows(session.document_name());
     if (options.live.first_steps) remember_first_time();
-    if (const auto begun = begin_recording(input, options, run.facts, session); !begun)
+    const auto streams = SessionStreams::open(options.live, session, clock);
+    if (!streams) return std::unexpected(streams.error());
+    InputSource source = std::move(input);  // its recording reads the session's rings: it goes before them
+    if (const auto begun = begin_recording(source, options, run.facts, session, streams->get()); !begun)
         return std::unexpected(begun.error());
-    const std::shared_ptr<SessionRecording> recording = input.recording();
+    const std::shared_ptr<SessionRecording> recording = source.recording();
     if (run.keep_frames) session.times().keep_frames();
     const Result<SessionTracker> heard = session_tracker(options.live, wall.setup);
     if (!heard) return std::unexpected(heard.error());
@@ -302,8 +313,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     }
 
     if (options.live.detail == DetailChoice::automatic) presenter->draw_less_in_motion();
-    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get(), heard->where);
-    const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), session.has_activity());
+    LiveFrames frames(session, *presenter, std::move(source), clock, tracker.get(), heard->where);
+    if (*streams) frames.stream_to(&(*streams)->lsl());
+    // A stream of a thousand samples a second has them also while nothing moves.
+    const bool needs_all_ticks = session.has_activity() || options.live.lsl;
+    const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), needs_all_ticks);
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
                                  if (session.collect(ended) || ended.failed) wake();
@@ -317,6 +331,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     const Result<void> driven = drive(threads, frames);
     const Result<void> ended = frames.finish(threads);  // also after an error: it completes the recording
     if (recording) tell_of(*recording);
+    if (*streams) std::printf("streams: %s\n", (*streams)->finish().text().c_str());
     if (presenter->has_lost_display())
         return fail("the display", "is gone, and so is the session's window", "what was done up to then is kept");
     if (!driven) return std::unexpected(driven.error());

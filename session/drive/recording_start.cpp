@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "session/drive/thread_recorder.hpp"
 #include "session/state/session_settings.hpp"
@@ -21,8 +22,10 @@ std::vector<std::pair<std::int64_t, std::string>> touchable_in(const LiveSession
 
 }  // namespace
 
-Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session) {
-    const std::string settings = settings_line(session.settled(options));
+Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session,
+                                        record::OnRecord also) {
+    const SculptOptions settled = session.settled(options);
+    const std::string settings = settings_line(settled);
     SessionHands& hands = session.hands();
     if (!is_session_file(options.live.record)) {
         if (hands.parts() == 1) return InputLogWriter::create(options.live.record, settings);
@@ -39,8 +42,9 @@ Result<InputLogWriter> create_recording(const SculptOptions& options, const Sess
     of.settings = settings;
     of.facts = facts;
     if (options.activity) std::ranges::move(options.activity->facts(), std::back_inserter(of.facts));
-    of.facts.emplace_back(kDeviceFact, options.live.device);
+    of.facts.emplace_back(kDeviceFact, settled.live.device);
     of.objects = touchable_in(session);
+    of.also = std::move(also);
     Result<std::shared_ptr<SessionRecording>> recording = SessionRecording::create(options.live.record, std::move(of));
     if (!recording) return std::unexpected(recording.error());
     return InputLogWriter::into(std::move(*recording));

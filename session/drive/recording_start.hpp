@@ -15,8 +15,9 @@ namespace burin::session {
 using SessionFacts = std::vector<std::pair<std::string, std::string>>;
 
 // Makes the file that options.live.record names, of a session whose threads have not started. Fails where there is one.
-// A session file reads the session's ring of tick records from now on; the session must outlive it.
+// A session file reads the session's ring of tick records from now on; the session must outlive it. also: takes every
+// tick that a session file takes.
 [[nodiscard]] Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts,
-                                                      LiveSession& session);
+                                                      LiveSession& session, record::OnRecord also = {});
 
 }  // namespace burin::session

@@ -9,6 +9,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/crumbs.hpp"
 #include "session/document/journal_folder.hpp"
+#include "session/drive/session_streams.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/live/first_time.hpp"
 #include "session/live/opened_room.hpp"
@@ -130,7 +131,7 @@ Result<void> run_compared(const SculptOptions& options, InputLog log) {
 bool wants_session(const SculptOptions& options) {
     const LiveOptions& live = options.live;
     const bool named = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() ||
-                       !live.record.empty() || !live.outputs.empty();
+                       !live.record.empty() || !live.outputs.empty() || wants_streams(live);
     return named ||
            (options.stroke.empty() && options.exports.empty() && options.pictures.empty() && options.report.empty());
 }
@@ -150,6 +151,9 @@ Result<void> run_as_recorded(const SculptOptions& given, InputLog log, const Rep
 Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) {
     SculptOptions options = given;
     if (const auto ok = check_for_a_session(options); !ok) return ok;
+    if (const auto ok = check_streams(options.live); !ok) return ok;
+    // What is recorded or streamed is played in real time.
+    const bool in_real_time = !options.live.record.empty() || wants_streams(options.live);
     if (options.live.offscreen && options.live.input.empty()) {
         return fail("--offscreen", "needs an --input: without a window nobody can do anything",
                     "give a log or a script, or leave --offscreen out");
@@ -167,8 +171,8 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
         if (!read) return std::unexpected(read.error());
         const SessionOutputs outputs(options.live, inputs_of(options).list());
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
-        if (options.live.record.empty()) tell_of_unheard_tracker(options.live);
-        if (read->threads && options.live.record.empty()) {
+        if (!in_real_time) tell_of_unheard_tracker(options.live);
+        if (read->threads && !in_real_time) {
             return is_database(options.live.input) ? run_compared(options, std::move(*read))
                                                    : run_as_recorded(options, std::move(*read), {});
         }
@@ -189,8 +193,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     if (!wall) return std::unexpected(wall.error());
     if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
     options.live.first_steps = !log && wall->desk && options.live.mouse == MouseMode::surface && is_first_time();
-    if (log && options.live.record.empty())
-        return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
+    if (log && !in_real_time) return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
     const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
                                       {.facts = facts, .opens_before_eyes = !log});
     return run ? Result<void>{} : std::unexpected(run.error());

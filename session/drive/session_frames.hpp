@@ -34,6 +34,11 @@ public:
     [[nodiscard]] Result<void> finish(Executor& executor);
     // Returns whether a signal has ended the session before its log.
     [[nodiscard]] bool cut_short() const { return cut_short_; }
+    // Streams what happens, and tells what there is to tell of it; null: nothing. They must outlive it.
+    void stream_to(LslStreams* streams) {
+        streams_ = streams;
+        recorder_.stream_to(streams);
+    }
 
 protected:
     // Returns the next frame's input; nothing at the end. Waits for it in real time, and has the presenter know where
@@ -52,6 +57,7 @@ protected:
     Presenter& presenter_;
     InputSource input_;
     ThreadRecorder recorder_;
+    LslStreams* streams_ = nullptr;
     EndSignals end_;
 
 private:

@@ -110,17 +110,22 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
 // A text log has no tables of them.
 void ThreadRecorder::write_notes() {
     for (EventMark& mark : session_.take_events()) {
+        if (streams_ != nullptr) streams_->event(mark);
         if (file_)
             file_->event(std::move(mark));
         else if (keeps_events_)
             events_.push_back(std::move(mark));
     }
     for (TrialMark& mark : session_.take_trials()) {
+        if (streams_ != nullptr) streams_->trial(mark);
         if (file_)
             file_->trial(mark);
         else
             trials_.push_back(std::move(mark));
     }
+    if (streams_ == nullptr) return;
+    for (EventMark& mark : streams_->take_markers())
+        if (file_) file_->event(std::move(mark));
 }
 
 void ThreadRecorder::write_ticks() {

@@ -18,6 +18,7 @@
 #include "session/record/input_source.hpp"
 #include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 
@@ -45,6 +46,8 @@ public:
     [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
     [[nodiscard]] std::vector<EventMark> take_events() { return std::exchange(events_, {}); }
     void keep_events() { keeps_events_ = true; }
+    // Streams trials and events from now on, and keeps the markers that are heard.
+    void stream_to(LslStreams* streams) { streams_ = streams; }
 
 private:
     void write_notes();
@@ -67,6 +70,7 @@ private:
     SessionCheck check_;
     std::shared_ptr<SessionRecording> file_;  // null: a text file, or nothing
     bool recording_;
+    LslStreams* streams_ = nullptr;  // null: there are none
 };
 
 }  // namespace burin::session

@@ -7,6 +7,7 @@
 #include "record/examination.hpp"
 #include "record/touched_columns.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 namespace {
@@ -139,7 +140,10 @@ Result<void> compare_events(record::RecordReader& reader, std::span<const EventM
     if (!reader.facts().contains(kEventsFact)) return {};
     Result<std::vector<record::EventRecord>> recorded = reader.events();
     if (!recorded) return std::unexpected(recorded.error());
-    std::erase_if(*recorded, [](const record::EventRecord& event) { return event.name == kLogEndedEvent; });
+    // Markers came from outside: what is done again hears none.
+    std::erase_if(*recorded, [](const record::EventRecord& event) {
+        return event.name == kLogEndedEvent || event.name == kMarkerEvent;
+    });
     const auto text = [](const auto& event) {
         return "'" + event.name + (event.value.empty() ? "" : " " + event.value) + "' at " +
                std::to_string(event.time_ns) + " ns";

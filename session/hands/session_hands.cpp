@@ -48,10 +48,16 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
         devices::open_haptic_device(wanted.device, {clock, std::move(*steered), stands_in, &session_recordings()});
     if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
     hand->device = std::move(*opened);
+    hand->given = wanted.device;
     for (std::size_t i = 0; i < hand->device.parts.size(); ++i)
         parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_));
     hands_.push_back(std::move(hand));
     return {};
+}
+
+const std::string& SessionHands::settled_device(std::size_t hand) const {
+    const std::string& settled = hands_[hand]->device.settled;
+    return settled.empty() ? hands_[hand]->given : settled;
 }
 
 std::string SessionHands::name_of(std::size_t part) const {

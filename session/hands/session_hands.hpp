@@ -60,6 +60,8 @@ public:
         return of.hand < hands() && of.part < parts_of(of.hand) ? std::optional(first_part(of.hand) + of.part)
                                                                 : std::nullopt;
     }
+    // Returns a hand's device as --device names it, with what was found when it was opened (devices::OpenedDevice).
+    [[nodiscard]] const std::string& settled_device(std::size_t hand) const;
     // Names a part for people: "right", "left index"; the device's name for the only part of the only hand.
     [[nodiscard]] std::string name_of(std::size_t part) const;
 
@@ -102,6 +104,7 @@ private:
         std::string name;
         devices::HandSteering steering;
         devices::OpenedDevice device;
+        std::string given;            // what it was opened by
         devices::SteeredTarget told;  // the last target published
         std::size_t first_part = 0;
     };

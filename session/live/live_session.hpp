@@ -97,7 +97,7 @@ public:
     [[nodiscard]] AskedFiles& files() { return files_; }
 
     // Returns the options with what the session found out in place of what they leave open: the unit of the workpiece's
-    // file and the tool.
+    // file, the tool, and the models of devices.
     [[nodiscard]] SculptOptions settled(SculptOptions options) const;
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }

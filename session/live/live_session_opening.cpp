@@ -25,16 +25,16 @@ constexpr std::size_t kTicksToLog = 8192;
 // The ball that explores a world where no tool is given: its radius as a share of the world's longest side.
 constexpr double kExploringBall = 0.015;
 
-std::size_t ring_for(const std::string& recording) {
-    if (recording.empty()) return haptics::HapticChannels::kRecords;
-    return is_session_file(recording) ? record::kRingTicks : kTicksToLog;
+std::size_t ring_for(const LiveOptions& live) {
+    if (live.record.empty()) return live.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
+    return is_session_file(live.record) ? record::kRingTicks : kTicksToLog;
 }
 
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
-      hands_(ring_for(options.live.record), pace),
+      hands_(ring_for(options.live), pace),
       activity_(options.activity),
       files_(options, log_),
       options_(options) {}
@@ -173,8 +173,7 @@ void LiveSession::tell_what_is_not_rendered() {
     for (const auto& object : state_.world->objects) objects.push_back(*object);
     for (std::size_t hand = 0; hand < hands().hands(); ++hand) {
         const devices::DeviceDescription& device = hands().device(hands().first_part(hand));
-        const std::string more =
-            scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
+        const std::string more = scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
         if (!more.empty()) notify(more, MessageKind::info);
     }
 }
@@ -228,6 +227,9 @@ SculptOptions LiveSession::settled(SculptOptions options) const {
     options.workpiece.close_holes = options.workpiece.close_holes || holes_closed_;
     options.tool = tool_options_;
     if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
+    options.live.device = hands().settled_device(0);
+    for (std::size_t hand = 0; hand < options.live.hands.size(); ++hand)
+        options.live.hands[hand].device = hands().settled_device(hand);
     return options;
 }
 

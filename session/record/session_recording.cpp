@@ -122,6 +122,7 @@ SessionRecording::Progress SessionRecording::progress() const {
 // ---- The writer's thread
 
 void SessionRecording::take(std::size_t part, const haptics::TickRecord& tick) {
+    if (session_.also) session_.also(part, tick);
     const std::lock_guard lock(mutex_);
     ++recorded_;
     if (log_ended_) return;

@@ -62,7 +62,8 @@ struct RecordingOf {
     std::string settings;  // of the session (settings_line())
     std::vector<std::pair<std::string, std::string>> facts = {};
     std::vector<std::pair<std::int64_t, std::string>> objects = {};
-    std::string vfs = {};  // WriterOptions::vfs
+    std::string vfs = {};        // WriterOptions::vfs
+    record::OnRecord also = {};  // takes every tick as well, on the writer's thread; null: nobody
 };
 
 class SessionRecording {

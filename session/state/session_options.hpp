@@ -45,6 +45,9 @@ struct LiveOptions {
     std::string input;  // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
     std::vector<sculpt::ToolSpec> tools_of_input;  // that the input takes up; no option of the command line
     std::string record;                            // path of the input recording; empty: none
+    bool lsl = false;                              // ticks and events are streamed by Lab Streaming Layer
+    // Streams of markers that it hears, by a name, a predicate or "" for all; none: it hears none.
+    std::optional<std::string> lsl_markers = std::nullopt;
     // Folder for a journal of what is not saved; empty: the usual one of a person, none with an input; "none".
     std::string journal;
     bool offscreen = false;  // no window; needs an input
@@ -82,6 +85,9 @@ struct LiveOptions {
     bool refuses_exports = false;
     bool stands_in = false;  // a recording is done again: no device is looked for
 };
+
+// Returns whether these options ask for streams, out or in.
+[[nodiscard]] inline bool wants_streams(const LiveOptions& live) { return live.lsl || live.lsl_markers.has_value(); }
 
 // Reads "free" or "surface".
 [[nodiscard]] Result<MouseMode> parse_mouse_mode(const std::string& text, const std::string& where);

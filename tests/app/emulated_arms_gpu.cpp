@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_spacemouse.hpp"
 #include "gpu/device.hpp"
 #include "tests/app/real_time.hpp"
@@ -130,6 +131,29 @@ TEST(EmulatedArms, AnInverse3CarvesIsRecordedAndDoneAgainToTheBitWithoutItsServi
     if (late) GTEST_SKIP() << *late;
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     EXPECT_TRUE(working_in(ticks.output).carves()) << "it feels what it cuts";
+    const auto replayed = at.run(burin + " replay o.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+}
+
+TEST(EmulatedArms, AModelThatWasFoundIsKeptByTheRecordingAndDoneAgainWithoutTheDevice) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    const std::string name = "emulated-delta-" + std::to_string(::getpid());
+    constexpr int kDelta3 = 63;
+    auto delta = devices::EmulatedDhd::create(name, {.script = {}, .silence = {}, .type = kDelta3});
+    ASSERT_TRUE(delta) << delta.error().line();
+    std::atomic<bool> ends = false;
+    std::thread runs([&] { delta->run([&] { return ends.load(); }); });
+    at.write("s.txt", "burin-input 1 delta\n0.1 mouse 160 90\n3 close\n");
+    const auto recorded = at.run(burin + " sculpt --workpiece ball:0.08 --resolution 64 --device dhd:" + name +
+                                 " --input s.txt --offscreen --width 320 --height 180 --record o.session");
+    ends = true;
+    runs.join();
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const auto info = at.run(burin + " session info o.session");
+    EXPECT_TRUE(info.output.contains("dhd:" + name + ",model=delta")) << info.output;
     const auto replayed = at.run(burin + " replay o.session");
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;

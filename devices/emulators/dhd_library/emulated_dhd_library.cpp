@@ -154,7 +154,10 @@ int dhdGetStatus(int* status, char id) {
 unsigned int dhdGetButtonMask(char id) {
     const std::lock_guard lock(dhd().mutex);
     auto* const device = dhd().device(id);
-    return device != nullptr ? device->memory->buttons.load() : 0;
+    if (device == nullptr) return 0;
+    // A gripper is no button until it is told to be one.
+    const bool is_silent = burin::devices::dhd_type_grips(device->memory->type) && device->memory->emulates_button == 0;
+    return is_silent ? 0 : device->memory->buttons.load();
 }
 #endif
 
@@ -183,6 +186,14 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double,
         device.memory->frame_ns = dhd().clock.now_ns();
     }
     return dhd().device(id) != nullptr ? 0 : -1;
+}
+
+int dhdEmulateButton(unsigned char on, char id) {
+    const std::lock_guard lock(dhd().mutex);
+    auto* const device = dhd().device(id);
+    if (device == nullptr || !burin::devices::dhd_type_grips(device->memory->type)) return -1;
+    device->memory->emulates_button = on != 0 ? 1 : 0;
+    return 0;
 }
 
 int dhdErrorGetLast() {

@@ -198,7 +198,10 @@ void hdSetDoublev(unsigned int what, const double* from) {
 }
 
 const char* hdGetString(unsigned int what) {
-    return what == burin::devices::kHdVersion ? BURIN_EMULATED_HD_VERSION : "PHANTOM Omni, emulated";
+    if (what == burin::devices::kHdVersion) return BURIN_EMULATED_HD_VERSION;
+    const std::lock_guard lock(library().mutex);
+    auto* const device = library().device(library().current);
+    return device != nullptr && what == burin::devices::kHdModel ? device->memory->model.data() : nullptr;
 }
 
 unsigned int hdCheckCalibration() {
