@@ -104,6 +104,7 @@ struct RehabCommand::Of {
             if (const auto set = values->set(kind.settings[i].key, words[i]); !set) return std::unexpected(set.error());
         }
         if (const auto wrong = activities::problems(*values); !wrong.empty()) return std::unexpected(wrong.front());
+        if (const auto conflict = kind.conflict(*values)) return std::unexpected(*conflict);
         return values;
     }
 };

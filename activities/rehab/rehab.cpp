@@ -54,15 +54,28 @@ bodies::FlightRoom room_among(const session::WorldObjects& world, const bodies::
     return room;
 }
 
-FingersTurn fingers_of(const FingerTicks& ticks, double dt_s) {
+// Returns how much of a finger's force is an object's. A point that touches two things counts as the firmer one's.
+double share_of(std::uint32_t object, const haptics::TickRecord& tick) {
+    Vec3 own_N(0.0), other_N(0.0);
+    for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+        const haptics::PointRecord& point = tick.contact.points[i];
+        (point.object == object ? own_N : other_N) += point.force_device_N;
+    }
+    const double own = glm::length(own_N), all = own + glm::length(other_N);
+    return all > 0.0 ? own / all : 0.0;
+}
+
+FingersTurn fingers_of(const FingerTicks& ticks, std::uint32_t body, double dt_s) {
     FingersTurn turn;
     turn.dt_s = dt_s;
     for (std::size_t i = 0; i < kFelt; ++i) {
-        turn.forces_N[i] = glm::length(ticks[i]->gate.given.force_device_N);
+        const double told_N = glm::length(ticks[i]->gate.given.force_device_N), share = share_of(body, *ticks[i]);
+        turn.forces_N[i] = share * told_N;
+        turn.elsewhere_N[i] = (1.0 - share) * told_N;
         std::copy_n(ticks[i]->sample.joints.begin(), turn.joints_rad[i].size(), turn.joints_rad[i].begin());
         turn.has_fault[i] = ticks[i]->sample.fault != devices::DeviceFault::none;
         const devices::OneWayDrive& drive = ticks[i]->sample.drive;
-        if ((drive.state & devices::kDriveMeasured) != 0) turn.measured_N[i] = drive.measured_N;
+        if ((drive.state & devices::kDriveMeasured) != 0) turn.measured_N[i] = share * drive.measured_N;
     }
     return turn;
 }
@@ -83,6 +96,7 @@ Json json_of(const FingerMeasures& finger, const char* name) {
             {"mean_force_N", finger.mean_N()},
             {"peak_measured_N", measured ? Json(finger.measured_peak_N) : Json()},
             {"mean_measured_N", measured ? Json(*measured) : Json()},
+            {"peak_elsewhere_N", finger.elsewhere_peak_N},
             {"pushed_s", finger.pushed_s},
             {"range_of_motion_rad", std::move(ranges)},
             {"peak_speed_rad_per_s", finger.peak_rad_per_s},
@@ -167,7 +181,9 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         const double dt_s = turn_ns_ > 0 ? seconds(now_ns - turn_ns_) : 0.0;
         turn_ns_ = now_ns;
         const HandReading hand = reading_of(ticks);
-        turn({now_ns, holds, fingers_of(ticks, dt_s), hand.scene_from_hand, closure_of(hand), lies_in_palm_m_}, orders);
+        turn({now_ns, holds, fingers_of(ticks, body_->setup().object, dt_s), hand.scene_from_hand, closure_of(hand),
+              lies_in_palm_m_},
+             orders);
     });
 }
 
@@ -254,6 +270,7 @@ Json Rehab::report() const {
             {"score", course.score},
             {"time_s", course.time_s},
             {"counts", std::move(counts)},
+            {"rejected_sets", hand_.rejected_sets()},
             {"fingers", std::move(fingers)},
             {"events", std::move(events)}};
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct SettingKind {
     double usual = 0.0, least = 0.0, most = 0.0;
     bool whole = false;                       // of numbers
     std::span<const char* const> words = {};  // empty: it is a number
+    // What a recording means whose line lacks it, of one that has been added since; none: every line has it.
+    std::optional<double> before = std::nullopt;
 };
 
 // Those that every exercise has: the level of difficulty, from 1 to `levels`, and when it ends, in seconds.
@@ -65,6 +68,11 @@ private:
 
 // Returns what nobody can do: each names its setting by its key. Empty: the values are sound.
 [[nodiscard]] std::vector<Error> problems(const SettingValues& values);
+
+// Returns the mistake of a time limit that ends before the shortest time that the other settings take; nothing where it
+// does not. sum: the arithmetic, as "5 squeezes of 2 s and 4 rests of 0.25 s".
+[[nodiscard]] std::optional<Error> too_short_a_limit(const SettingValues& values, double least_s,
+                                                     const std::string& sum);
 
 // Reads an exercise's table of a file, of which there may be none; mistakes go to the reading.
 [[nodiscard]] SettingValues values_in(TableReading& reading, const toml::table* table, std::string_view exercise,

@@ -53,6 +53,13 @@ GameSettings game_settings(const SettingValues& values) {
 
 std::unique_ptr<Exercise> Game::make(const SettingValues& values) { return std::make_unique<Game>(values); }
 
+std::optional<Error> Game::conflict(const SettingValues& values) {
+    // To open a hand and to close it again takes no less: ours, five times a second.
+    constexpr double kThrows_s = 0.2;
+    const unsigned throws = game_settings(values).throws;
+    return too_short_a_limit(values, throws * kThrows_s, formatted("%u throws of %g s", throws, kThrows_s));
+}
+
 Game::Game(const SettingValues& values) : values_(values), settings_(game_settings(values)) {}
 
 bodies::SoftPartSetup Game::body() const {

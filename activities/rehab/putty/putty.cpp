@@ -53,6 +53,12 @@ std::string_view Putty::grip(const SettingValues& values) {
     return putty_settings(values).is_pinch() ? "pinch" : "whole";
 }
 
+std::optional<Error> Putty::conflict(const SettingValues& values) {
+    const unsigned kneads = putty_settings(values).kneads;
+    return too_short_a_limit(values, kneads * PuttyState::kGrips_s,
+                             formatted("%u kneads of %g s", kneads, PuttyState::kGrips_s));
+}
+
 Putty::Putty(const SettingValues& values) : values_(values), settings_(putty_settings(values)) {}
 
 bodies::SoftPartSetup Putty::body() const {
@@ -98,9 +104,12 @@ ExerciseCourse Putty::course() const {
 }
 
 std::string Putty::task() const {
-    return formatted(settings_.is_pinch() ? "Pinch the putty between thumb and index with %.1f N in both, then relax."
-                                          : "Knead the putty in the whole hand with %.1f N in all fingers, then relax.",
-                     settings_.target_N());
+    return formatted(settings_.is_pinch()
+                         ? "Pinch the putty between thumb and index with %.1f N in both together, %.2f N "
+                           "or more in each, then relax."
+                         : "Knead the putty in the whole hand with %.1f N in all fingers together, "
+                           "%.2f N or more in each, then relax.",
+                     settings_.target_N(), PuttyState::kTakesPart_N);
 }
 
 }  // namespace burin::activities
