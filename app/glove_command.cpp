@@ -44,6 +44,8 @@ GloveCommand::GloveCommand(Command app)
                 "A drill: send nothing from so many seconds on after a session has begun, as a glove whose cable is "
                 "pulled; 0: never")
         .within(0.0, 86400.0);
+    options_->emulate.option("--silent-for", options_->silent_for_s, "... for so many seconds; 0: for good")
+        .within(0.0, 86400.0);
     options_->emulate.flag("--motors-off", options_->motors_off, "A drill: the motors are off, and it says so");
     options_->emulate
         .option("--dead", options_->dead, "A drill: the piston of a finger gives nothing, whatever it is told")
@@ -53,8 +55,6 @@ GloveCommand::GloveCommand(Command app)
     options_->emulate.option("--frames", options_->version, "The version of its frames, 1 or 2: docs/glove.md")
         .within(std::uint64_t{1}, std::uint64_t{2})
         .show_default();
-    options_->emulate.option("--silent-for", options_->silent_for_s, "... for so many seconds; 0: for good")
-        .within(0.0, 86400.0);
 }
 
 GloveCommand::~GloveCommand() = default;

@@ -157,7 +157,7 @@ Result<void> RehabCommand::run() const {
 }
 
 Result<void> RehabCommand::run(const Of& of) const {
-    const Result<SettingValues> values = of.values();
+    Result<SettingValues> values = of.values();
     if (!values) return std::unexpected(values.error());
     const bool scripted = !of.hand.empty();
     if (const auto ok = check_results(of.results, scripted); !ok) return ok;
@@ -170,6 +170,8 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto glove = check_glove(live); !glove) return glove;
     std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
+    if (values->has("start") && values->number("start") == activities::kStartsByDevice)
+        values->set("start", is_simulated ? activities::kStartsAtOnce : activities::kStartsPressed);
     if (scripted) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());

@@ -2,8 +2,8 @@
 // Where a body as a whole is: at its place, in a hand, or in flight. The body's solver works in this frame.
 //
 //   stands  at its place, and whatever presses it is held by springs there
-//   held    with the palm of the hand that holds it, as it lay in it when it was taken; what it falls among stops it, so
-//           that it slides along there and comes back into the palm when the way is free
+//   held    with the palm of the hand that holds it, as it lay in it when it was taken; what it falls among stops it,
+//           so that it slides along there and comes back into the palm when the way is free
 //   flies   a ball in closed form (bodies/flight/ball_flight.hpp), pushed by what touches it; where it comes to rest,
 //           it stands
 // A change from one to another leaves place and velocity as they are, so the force on a finger goes on without a step.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/text.hpp"
@@ -87,11 +88,13 @@ double closure_of(const HandReading& hand) {
     return sum / static_cast<double>(kFelt);
 }
 
-Json json_of(const FingerMeasures& finger, const char* name) {
+// pressed: whether it gave a force when the start asked for one; nothing where it did not ask.
+Json json_of(const FingerMeasures& finger, const char* name, std::optional<bool> pressed) {
     Json ranges = Json::array();
     for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) ranges.push_back(finger.range_rad(joint));
     const std::optional<double> fractionation = finger.fractionation(), measured = finger.mean_measured_N();
     return {{"finger", name},
+            {"pressed_at_start", pressed ? Json(*pressed) : Json()},
             {"peak_force_N", finger.peak_N},
             {"mean_force_N", finger.mean_N()},
             {"peak_measured_N", measured ? Json(finger.measured_peak_N) : Json()},
@@ -110,6 +113,9 @@ Rehab::Rehab(std::unique_ptr<Exercise> exercise) : exercise_(std::move(exercise)
     auto made = bodies::SoftPart::create(exercise_->body());
     BURIN_CHECK(made.has_value());
     if (made) body_ = std::move(*made);
+    const SettingValues& values = exercise_->settings();
+    asks_ = values.has("start") && values.number("start") == kStartsPressed;
+    if (asks_) start_.asks = exercise_->pressing_fingers();
 }
 
 std::string Rehab::settings() const {
@@ -187,8 +193,21 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
     });
 }
 
+bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& orders) {
+    if (!asks_ || start_.is_done()) return true;
+    if (!std::exchange(has_asked_, true))
+        orders.messages.push_back("press with each finger once: " + start_.missing() + "; then the time begins");
+    start_ = with_turn(start_, fingers);
+    if (!start_.is_done()) return false;
+    orders.messages.push_back(start_.missing().empty()
+                                  ? "each finger has pressed; the time begins"
+                                  : "gave nothing when they were to press: " + start_.missing() +
+                                        "; the time begins without, and what is measured of them says so");
+    return true;
+}
+
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
-    if (exercise_->end() != ExerciseEnd::not_yet) return;
+    if (exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
     measures_ = with_turn(measures_, turn.fingers);
     exercise_->turn(turn, orders);
     if (exercise_->end() != ExerciseEnd::not_yet)
@@ -238,6 +257,8 @@ session::ActivityPanel Rehab::panel() const {
     session::ActivityPanel panel{.title = exercise_->name(), .aside = {}, .page = {}, .rows = {}, .buttons = {}};
     panel.title[0] = static_cast<char>(panel.title[0] - 'a' + 'A');
     panel.page = exercise_->task();
+    if (asks_ && !start_.is_done())
+        panel.page = "Press with each finger once, then the time begins: " + start_.missing();
     for (const ExerciseCourse::Count& count : course.counts)
         if (count.wanted > 0)
             panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
@@ -259,7 +280,8 @@ Json Rehab::report() const {
             settings[kind.key] = values.word(kind.key);
     for (const ExerciseCourse::Count& count : course.counts) counts[count.key] = count.number;
     for (std::size_t i = 0; i < kFingerNames.size(); ++i)
-        fingers.push_back(json_of(measures_.fingers[i], kFingerNames[i]));
+        fingers.push_back(json_of(measures_.fingers[i], kFingerNames[i],
+                                  start_.asks[i] ? std::optional(start_.gave[i]) : std::nullopt));
     for (const ExerciseEvent& event : course.events)
         events.push_back(
             {{"what", event.what}, {"time_s", seconds(event.time_ns - course.begun_ns)}, {"force_N", event.force_N}});

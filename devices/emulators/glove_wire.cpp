@@ -59,8 +59,8 @@ unsigned force_steps(double force_N) {
     return !(steps > 0.0) ? 0u : steps >= 255.0 ? 255u : static_cast<unsigned>(std::lround(steps));
 }
 
-// The remainder of the message by a polynomial, as on paper: the message is followed by eight zeros, and one bit after the
-// other goes into a register of eight.
+// The remainder of the message by a polynomial, as on paper: the message is followed by eight zeros, and one bit after
+// the other goes into a register of eight.
 std::byte remainder_by(unsigned polynomial, std::span<const std::byte> bytes) {
     unsigned rest = 0;
     for (std::size_t bit = 0; bit < 8 * (bytes.size() + 1); ++bit) {

@@ -196,7 +196,8 @@ private:
                  (rejects ? kDriveSetRejected : 0u);
     }
 
-    // Goes on through the sets by so long: at their own pace, a fifth faster or slower until it is as late as they need.
+    // Goes on through the sets by so long: at their own pace, a fifth faster or slower until it is as late as they
+    // need.
     void play(const GloveSets& sets, Nanoseconds time_ns) noexcept {
         if (sets.count == 0) return;
         const Nanoseconds newest_ns = sets.newest().taken_ns;

@@ -4,13 +4,13 @@
 // positions and 32 of positions and forces, so that as many go over 38,400 bit/s. docs/glove.md has the layout.
 //
 // Angles are of 12 bits over 270 degrees, from -90 on: steps of 0.066 degrees. Forces are of 8 bits in steps of 0.05 N.
-// Sets are of version 1 or 2; one of version 2 begins with another byte, far from that of version 1, and ends in a second
-// check. The first check, CRC-8 by x^8 + x^2 + x + 1, does not see two bits that are 127 apart; the second, by x^8 + x^4 +
-// x^3 + x^2 + 1, does not see two that are 255 apart: both together see any two and any odd number of a frame. Commands
-// and laws are shorter than 127 bits, so that one check sees the same of them.
-// The reader comes into step by itself: a byte that begins no frame, or one whose check differs, is dropped, and what
-// follows it is looked at anew. A frame inside a frame is found where the outer one does not check.
-// Pure; no heap, lock or throw; one thread for each reader.
+// Sets are of version 1 or 2; one of version 2 begins with another byte, far from that of version 1, and ends in a
+// second check. The first check, CRC-8 by x^8 + x^2 + x + 1, does not see two bits that are 127 apart; the second, by
+// x^8 + x^4 + x^3 + x^2 + 1, does not see two that are 255 apart: both together see any two and any odd number of a
+// frame. Commands and laws are shorter than 127 bits, so that one check sees the same of them. The reader comes into
+// step by itself: a byte that begins no frame, or one whose check differs, is dropped, and what follows it is looked at
+// anew. A frame inside a frame is found where the outer one does not check. Pure; no heap, lock or throw; one thread
+// for each reader.
 #pragma once
 
 #include <array>

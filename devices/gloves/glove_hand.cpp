@@ -19,7 +19,8 @@ constexpr AngleLimits kFingerLimits{{degrees(-20), degrees(-20), 0.0, degrees(-5
 constexpr AngleLimits kThumbLimits{{degrees(-45), degrees(-20), degrees(-10), degrees(-15)},
                                    {degrees(30), degrees(50), degrees(60), degrees(80)}};
 
-// To the side; then the knuckle, the middle joint and the end joint, of the thumb those of its base and its two phalanges.
+// To the side; then the knuckle, the middle joint and the end joint, of the thumb those of its base and its two
+// phalanges.
 constexpr AngleLimits kFingerBounds{{degrees(-75), degrees(-85), degrees(-75), degrees(-75)},
                                     {degrees(75), degrees(115), degrees(140), degrees(115)}};
 constexpr AngleLimits kThumbBounds{{degrees(-75), degrees(-75), degrees(-75), degrees(-88)},

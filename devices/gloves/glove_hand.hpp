@@ -48,8 +48,8 @@ struct AngleLimits {
 // Returns what is told of a joint beyond its bounds: "the index finger's middle joint reads -80 degrees, ...".
 [[nodiscard]] std::string false_reading_text(std::size_t finger, std::size_t joint, double angle_rad);
 
-// What is wrong with a finger's angles that follow others after so long, in seconds: beyond its bounds; or turned faster
-// than any finger does. A fist in one set is that.
+// What is wrong with a finger's angles that follow others after so long, in seconds: beyond its bounds; or turned
+// faster than any finger does. A fist in one set is that.
 inline constexpr double kFastestJoint_rad_per_s = 40.0;
 enum class AngleFault : std::uint8_t { none, beyond_bounds, jumped };
 [[nodiscard]] AngleFault angle_fault(std::size_t finger, const FingerAngles& before, const FingerAngles& now,

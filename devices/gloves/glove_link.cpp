@@ -49,8 +49,8 @@ Result<termios> set_up_line(int file, const std::string& port) {
     return before;
 }
 
-// Has a serial adapter hand bytes over at once, or wait for more again: one on USB waits for 16 ms else. Returns whether
-// that has been changed; a port that is no such adapter is left as it is.
+// Has a serial adapter hand bytes over at once, or wait for more again: one on USB waits for 16 ms else. Returns
+// whether that has been changed; a port that is no such adapter is left as it is.
 bool ask_to_wait_less(int file, bool less) {
     serial_struct port{};
     if (::ioctl(file, TIOCGSERIAL, &port) != 0) return false;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The serial line to a glove's controller: a thread that reads its sets and sends it what the pistons are to give.
 //
-// Data flow: line -> GloveFrameReader -> GloveTimeline, which tells when the controller took each set -> the newest sets,
-// with the time of the last arrival -> the haptic thread. The newest
+// Data flow: line -> GloveFrameReader -> GloveTimeline, which tells when the controller took each set -> the newest
+// sets, with the time of the last arrival -> the haptic thread. The newest
 // forces -> a command each kSend_ns -> line, and one of the laws that hold before it; a line of 38,400 bit/s carries no
 // more. When the object ends, and where the haptic thread has given no forces for kSilent_ns, the pistons are told to
 // stop, and the line is set as it was before.
 // Failures: a port that is missing, forbidden, busy or no terminal, and one on which no glove is heard, are errors of
 // open(). A serial adapter that keeps bytes back to hand over more at once is asked not to, as long as the line is
-// open; where the port is none that can be asked, nothing is said. A line that goes silent, or vanishes, shows in age: GloveHeard::time_ns stays.
+// open; where the port is none that can be asked, nothing is said. A line that goes silent, or vanishes, shows in age:
+// GloveHeard::time_ns stays.
 // Threads: open() and the destructor on one; newest() and command() on the haptic thread, wait-free.
 #pragma once
 

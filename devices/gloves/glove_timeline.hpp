@@ -4,8 +4,8 @@
 // Sets come when the line brings them: an adapter that waits for 16 ms hands over two at once, and one that is lost
 // leaves a gap. Their numbers tell how they follow each other. A set was taken at the time of the one before and as
 // many periods later as their numbers are apart; one that comes before that shows that all were taken so much earlier.
-// The controller's clock is followed: its period by the newest kWatched sets, and what is left by how late the soonest of
-// kSoonestOf sets came, over as many sets more.
+// The controller's clock is followed: its period by the newest kWatched sets, and what is left by how late the soonest
+// of kSoonestOf sets came, over as many sets more.
 // A set whose number says nothing, or says another time than that of its arrival by more than kAstray_ns, begins anew.
 //
 // A set in which a joint has turned faster than any finger does is left out and counted: a check may let a false one

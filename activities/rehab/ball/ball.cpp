@@ -46,6 +46,7 @@ std::span<const SettingKind> Ball::setting_kinds() {
                     .usual = 0.1,
                     .most = 0.25,
                     .before = 0.0},
+        start_setting(),
     };
     return kinds;
 }

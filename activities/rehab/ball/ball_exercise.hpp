@@ -5,9 +5,9 @@
 //   waiting -> grasped -> squeezing, the fingers' forces add up to the target, and each finger gives its share of it
 //           -> held so for hold_s: a repetition
 //           -> relaxed to kRelaxed of the target for kRelaxes_s, or let go -> the next
-// Who lets the force, or a finger's share, sink below kKept of that before hold_s has passed has held too short: that is counted too,
-// and the time begins anew. Where a finger
-// has kept the target from counting for kUneven_s, that is told once a squeeze. It ends with the last repetition, or with the time limit.
+// Who lets the force, or a finger's share, sink below kKept of that before hold_s has passed has held too short: that
+// is counted too, and the time begins anew. Where a finger has kept the target from counting for kUneven_s, that is
+// told once a squeeze. It ends with the last repetition, or with the time limit.
 // Units: newtons, seconds; times of the loop's clock in nanoseconds. No heap but for the events; any thread.
 #pragma once
 

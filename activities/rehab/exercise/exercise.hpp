@@ -15,6 +15,7 @@
 
 #include "activities/rehab/exercise/exercise_settings.hpp"
 #include "activities/rehab/measures/hand_measures.hpp"
+#include "activities/rehab/measures/start_check.hpp"
 #include "base/clock.hpp"
 #include "bodies/soft_part.hpp"
 #include "session/state/activity.hpp"
@@ -72,6 +73,8 @@ public:
     // Returns whether a hand that grasps the body carries it, and the body falls when it is let go of. Otherwise it
     // stays at its place.
     [[nodiscard]] virtual bool is_carried() const { return false; }
+    // Returns the fingers that press in it, which its start asks for.
+    [[nodiscard]] virtual WhichFingers pressing_fingers() const { return {true, true, true, true}; }
     // Returns how a desk leads the hand of a glove, where that is not as usual.
     [[nodiscard]] virtual std::optional<session::LedHand> led_hand() const { return std::nullopt; }
     // Called once, when the body has taken the place of the world's object. An exercise that moves its body by itself

@@ -58,8 +58,20 @@ SettingKind time_limit_setting(double usual_s) {
             .most = kMostTime_s};
 }
 
+SettingKind start_setting() {
+    return {.key = "start",
+            .option = "--start",
+            .help = "When the time begins: when each finger has pressed once, or at once",
+            .words = kStarts,
+            .before = kStartsAtOnce};
+}
+
 SettingValues::SettingValues(std::span<const SettingKind> kinds) : kinds_(kinds) {
     for (const SettingKind& kind : kinds) values_.push_back(kind.usual);
+}
+
+bool SettingValues::has(std::string_view key) const {
+    return std::ranges::find(kinds_, key, &SettingKind::key) != kinds_.end();
 }
 
 std::size_t SettingValues::index_of(std::string_view key) const {

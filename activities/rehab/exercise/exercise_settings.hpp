@@ -9,6 +9,7 @@
 // nearest that there is. Units: as the keys say. Pure; any thread. docs/rehab.md lists the keys.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -37,6 +38,11 @@ struct SettingKind {
 // Those that every exercise has: the level of difficulty, from 1 to `levels`, and when it ends, in seconds.
 [[nodiscard]] SettingKind level_setting(unsigned levels, const char* help, const char* remedy);
 [[nodiscard]] SettingKind time_limit_setting(double usual_s);
+// And that of those in which fingers press: when the clock begins. By the device: pressed with a glove on a line, at
+// once with a simulated one.
+inline constexpr std::array kStarts{"by_device", "pressed", "at_once"};
+inline constexpr double kStartsByDevice = 0.0, kStartsPressed = 1.0, kStartsAtOnce = 2.0;
+[[nodiscard]] SettingKind start_setting();
 
 // The values of an exercise's settings. Equal where all of them are.
 class SettingValues {
@@ -45,6 +51,7 @@ public:
     explicit SettingValues(std::span<const SettingKind> kinds);
 
     [[nodiscard]] std::span<const SettingKind> kinds() const { return kinds_; }
+    [[nodiscard]] bool has(std::string_view key) const;
     // Requires a key that there is.
     [[nodiscard]] double number(std::string_view key) const { return values_[index_of(key)]; }
     [[nodiscard]] unsigned count(std::string_view key) const { return static_cast<unsigned>(number(key)); }

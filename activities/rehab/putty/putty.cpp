@@ -38,6 +38,7 @@ std::span<const SettingKind> Putty::setting_kinds() {
                     .most = 1000,
                     .whole = true},
         time_limit_setting(60.0),
+        start_setting(),
     };
     return kinds;
 }

@@ -28,6 +28,9 @@ public:
     [[nodiscard]] const SettingValues& settings() const override { return values_; }
     [[nodiscard]] bodies::SoftPartSetup body() const override;
     [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.hardness).srgb; }
+    [[nodiscard]] WhichFingers pressing_fingers() const override {
+        return {true, true, !settings_.is_pinch(), !settings_.is_pinch()};
+    }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
