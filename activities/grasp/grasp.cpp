@@ -243,7 +243,8 @@ void Grasp::free_fingers(const HandReading& hand, session::ActivityOrders& order
 void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders) {
     geometry::GestureInput input{.time_ns = hand.time_ns, .closures = {}, .touched = opposed_contacts(hand)};
     for (std::size_t i = 0; i < geometry::kHandFingers; ++i)
-        input.closures[i] = geometry::closure_of(static_cast<Finger>(i), hand.bend[i]);
+        input.closures[i] = (geometry::closure_of(static_cast<Finger>(i), hand.bend[i]) - options_.open) /
+                            (options_.closed - options_.open);
     for (std::uint64_t& object : input.touched)
         if (const auto* touched = world != nullptr ? world->find(object) : nullptr;
             touched == nullptr || ball_around(*touched).second > kLargest_m * hand.scene_from_hand.scale)

@@ -55,22 +55,26 @@ bodies::FlightRoom room_among(const session::WorldObjects& world, const bodies::
     return room;
 }
 
-// Returns how much of a finger's force is an object's. A point that touches two things counts as the firmer one's.
-double share_of(std::uint32_t object, const haptics::TickRecord& tick) {
+// Returns how much of a finger's force is an object's: what it was where nothing is touched, since a force takes some
+// ticks to go. A point that touches two things counts as the firmer one's.
+double share_of(std::uint32_t object, const haptics::TickRecord& tick, double before) {
     Vec3 own_N(0.0), other_N(0.0);
     for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
         const haptics::PointRecord& point = tick.contact.points[i];
         (point.object == object ? own_N : other_N) += point.force_device_N;
     }
     const double own = glm::length(own_N), all = own + glm::length(other_N);
-    return all > 0.0 ? own / all : 0.0;
+    return all > 0.0 ? own / all : before;
 }
 
-FingersTurn fingers_of(const FingerTicks& ticks, std::uint32_t body, double dt_s) {
+// shares_before: of the body, in the turn before.
+FingersTurn fingers_of(const FingerTicks& ticks, std::uint32_t body, const std::array<double, kFelt>& shares_before,
+                       double dt_s) {
     FingersTurn turn;
     turn.dt_s = dt_s;
     for (std::size_t i = 0; i < kFelt; ++i) {
-        const double told_N = glm::length(ticks[i]->gate.given.force_device_N), share = share_of(body, *ticks[i]);
+        const double told_N = glm::length(ticks[i]->gate.given.force_device_N);
+        const double share = turn.body_shares[i] = share_of(body, *ticks[i], shares_before[i]);
         turn.forces_N[i] = share * told_N;
         turn.elsewhere_N[i] = (1.0 - share) * told_N;
         std::copy_n(ticks[i]->sample.joints.begin(), turn.joints_rad[i].size(), turn.joints_rad[i].begin());
@@ -89,6 +93,16 @@ double closure_of(const HandReading& hand) {
 }
 
 // pressed: whether it gave a force when the start asked for one; nothing where it did not ask.
+constexpr double kMostForce_s = 0.25;  // a force that is held for so long counts as one that a person has
+
+GraspOptions options_of(const SettingValues& values) {
+    GraspOptions options;
+    const PersonRange range = range_of(values);
+    options.open = range.open;
+    options.closed = range.closed;
+    return options;
+}
+
 Json json_of(const FingerMeasures& finger, const char* name, std::optional<bool> pressed) {
     Json ranges = Json::array();
     for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) ranges.push_back(finger.range_rad(joint));
@@ -109,11 +123,13 @@ Json json_of(const FingerMeasures& finger, const char* name, std::optional<bool>
 
 }  // namespace
 
-Rehab::Rehab(std::unique_ptr<Exercise> exercise) : exercise_(std::move(exercise)), hand_(GraspOptions{}) {
+Rehab::Rehab(std::unique_ptr<Exercise> exercise)
+    : exercise_(std::move(exercise)), hand_(options_of(exercise_->settings())) {
     auto made = bodies::SoftPart::create(exercise_->body());
     BURIN_CHECK(made.has_value());
     if (made) body_ = std::move(*made);
     const SettingValues& values = exercise_->settings();
+    range_ = range_of(values);
     asks_ = values.has("start") && values.number("start") == kStartsPressed;
     if (asks_) start_.asks = exercise_->pressing_fingers();
 }
@@ -187,10 +203,32 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         const double dt_s = turn_ns_ > 0 ? seconds(now_ns - turn_ns_) : 0.0;
         turn_ns_ = now_ns;
         const HandReading hand = reading_of(ticks);
-        turn({now_ns, holds, fingers_of(ticks, body_->setup().object, dt_s), hand.scene_from_hand, closure_of(hand),
-              lies_in_palm_m_},
+        const FingersTurn fingers = fingers_of(ticks, body_->setup().object, body_shares_, dt_s);
+        body_shares_ = fingers.body_shares;
+        turn({now_ns, holds, fingers, hand.scene_from_hand, range_.share_of(closure_of(hand)), lies_in_palm_m_},
              orders);
     });
+}
+
+void Rehab::follow_most_force(const FingersTurn& fingers) {
+    double sum_N = 0.0;
+    for (std::size_t i = 0; i < kFelt; ++i)
+        if (!fingers.has_fault[i]) sum_N += fingers.measured_N[i].value_or(fingers.forces_N[i]);
+    smooth_sum_N_ += (sum_N - smooth_sum_N_) * (1.0 - std::exp(-fingers.dt_s / kMostForce_s));
+    most_together_N_ = std::max(most_together_N_, smooth_sum_N_);
+}
+
+// What the hand has shown, as settings of the next run take it; nothing of a finger that was not read.
+Json Rehab::person_range() const {
+    double open = 0.0, closed = 0.0;
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        const FingerMeasures& finger = measures_.fingers[i];
+        for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint)
+            if (!(finger.most_rad[joint] >= finger.least_rad[joint])) return {};
+        open += geometry::closure_of(static_cast<geometry::Finger>(i), finger.least_rad) / kFelt;
+        closed += geometry::closure_of(static_cast<geometry::Finger>(i), finger.most_rad) / kFelt;
+    }
+    return {{"open", open}, {"closed", closed}, {"most_N", most_together_N_}};
 }
 
 bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& orders) {
@@ -209,6 +247,7 @@ bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& ord
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     if (exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
     measures_ = with_turn(measures_, turn.fingers);
+    follow_most_force(turn.fingers);
     exercise_->turn(turn, orders);
     if (exercise_->end() != ExerciseEnd::not_yet)
         orders.messages.push_back(formatted("%s: score %.0f of 100",
@@ -292,6 +331,7 @@ Json Rehab::report() const {
             {"score", course.score},
             {"time_s", course.time_s},
             {"counts", std::move(counts)},
+            {"person_range", person_range()},
             {"rejected_sets", hand_.rejected_sets()},
             {"fingers", std::move(fingers)},
             {"events", std::move(events)}};

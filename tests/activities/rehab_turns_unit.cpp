@@ -105,6 +105,12 @@ TEST(RehabTurns, TellForcesOfTheBodyApartFromThoseOfAllElse) {
     EXPECT_EQ(fingers.elsewhere_N, (FingerForces{5.0, 0.0, 3.0, 0.0}));
     const std::array<double, kFelt> measured_N{0.0, 2.0, 0.5, 0.0};
     for (std::size_t finger = 0; finger < kFelt; ++finger) EXPECT_EQ(fingers.measured_N[finger], measured_N[finger]);
+    // A force takes some ticks to go after the finger has left: it stays what it was.
+    noted.hand.touch_nothing();
+    noted.hand.lean(2, 0, 0.0);
+    noted.go_on(1);
+    EXPECT_EQ(noted.turns.back().fingers.forces_N, (FingerForces{0.0, 2.0, 0.25, 0.0}));
+    EXPECT_EQ(noted.turns.back().fingers.elsewhere_N, (FingerForces{5.0, 0.0, 0.75, 0.0}));
     const Json report = noted.rehab.report();
     EXPECT_EQ(report["fingers"][0]["peak_force_N"], 0.0);
     EXPECT_EQ(report["fingers"][0]["peak_elsewhere_N"], 5.0);

@@ -47,6 +47,9 @@ std::span<const SettingKind> Ball::setting_kinds() {
                     .most = 0.25,
                     .before = 0.0},
         start_setting(),
+        most_force_setting(),
+        open_setting(),
+        closed_setting(),
     };
     return kinds;
 }
@@ -57,12 +60,14 @@ BallSettings ball_settings(const SettingValues& values) {
             values.count("repetitions"),
             values.number("hold_s"),
             values.number("time_limit_s"),
-            values.number("share")};
+            values.number("share"),
+            values.number("most_N")};
 }
 
 std::unique_ptr<Exercise> Ball::make(const SettingValues& values) { return std::make_unique<Ball>(values); }
 
 std::optional<Error> Ball::conflict(const SettingValues& values) {
+    if (auto wrong = too_short_a_way(values)) return wrong;
     const BallSettings settings = ball_settings(values);
     const unsigned rests = settings.repetitions - 1;
     return too_short_a_limit(values, settings.repetitions * settings.hold_s + rests * BallState::kRelaxes_s,
@@ -118,7 +123,7 @@ ExerciseCourse Ball::course() const {
 std::string Ball::task() const {
     const std::string of_each =
         settings_.share > 0.0 ? formatted(", %.1f N or more in each,", settings_.of_each_N()) : "";
-    return formatted("Squeeze the ball with %.0f N in all fingers together%s for %.1f s, then relax.",
+    return formatted("Squeeze the ball with %.3g N in all fingers together%s for %.1f s, then relax.",
                      settings_.target_N(), of_each.c_str(), settings_.hold_s);
 }
 

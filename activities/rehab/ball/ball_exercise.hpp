@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "activities/rehab/exercise/exercise.hpp"
+#include "activities/rehab/exercise/person_range.hpp"
 #include "base/clock.hpp"
 
 namespace burin::activities {
@@ -36,6 +37,7 @@ struct BallKind {
 
 struct BallSettings {
     static constexpr std::array<double, 3> kTargets_N{2.0, 4.0, 6.0};  // by level: the sum of the fingers' forces
+    static constexpr std::array<double, 3> kOfMost{0.25, 0.5, 0.75};   // or of the person's most force
 
     BallColour colour = BallColour::red;
     unsigned level = 1;  // of difficulty; 1 to 3
@@ -43,7 +45,9 @@ struct BallSettings {
     double hold_s = 1.0, time_limit_s = 60.0;
     double share = 0.1;  // of the target, that each finger gives at least; 0: the fingers reach it together
 
-    [[nodiscard]] double target_N() const { return kTargets_N[level - 1]; }
+    double most_N = 0.0;  // that the person presses with; 0: not known
+
+    [[nodiscard]] double target_N() const { return fitted_target_N(kTargets_N[level - 1], kOfMost[level - 1], most_N); }
     [[nodiscard]] double of_each_N() const { return share * target_N(); }
     bool operator==(const BallSettings&) const = default;
 };

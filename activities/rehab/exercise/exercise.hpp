@@ -27,8 +27,8 @@ struct ExerciseTurn {
     Nanoseconds time_ns = 0;  // of the loop's clock
     bool grasped = false;     // the body, by any gesture of grasping
     FingersTurn fingers;
-    Similarity scene_from_hand = {};                    // of the hand that the joints tell
-    double closure = 0.0;                               // the mean of the fingers' (geometry/hand/hand_joints.hpp)
+    Similarity scene_from_hand = {};  // of the hand that the joints tell
+    double closure = 0.0;             // the mean of the fingers', as a share of the person's way (PersonRange)
     std::optional<Vec3> lies_in_palm_m = std::nullopt;  // of a held body's middle, by its newest shape
 };
 

@@ -34,8 +34,9 @@ struct FingersTurn {
     devices::GloveJoints joints_rad{};
     std::array<bool, devices::kGloveFingers> has_fault{};  // by its device
     std::array<std::optional<double>, devices::kGloveFingers>
-        measured_N{};            // that it gives of these, where it measures that
-    FingerForces elsewhere_N{};  // that it was told to give of anything else
+        measured_N{};                                          // that it gives of these, where it measures that
+    FingerForces elsewhere_N{};                                // that it was told to give of anything else
+    std::array<double, devices::kGloveFingers> body_shares{};  // of what it was told, that is the body's
 };
 
 // A mean force is over the time in which the finger was told to be pushed at all: by more than kPushed_N; the measured

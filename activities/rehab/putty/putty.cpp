@@ -39,13 +39,20 @@ std::span<const SettingKind> Putty::setting_kinds() {
                     .whole = true},
         time_limit_setting(60.0),
         start_setting(),
+        most_force_setting(),
+        open_setting(),
+        closed_setting(),
     };
     return kinds;
 }
 
 PuttySettings putty_settings(const SettingValues& values) {
-    return {static_cast<PuttyShape>(values.count("shape")), static_cast<PuttyHardness>(values.count("hardness")),
-            values.count("level"), values.count("kneads"), values.number("time_limit_s")};
+    return {static_cast<PuttyShape>(values.count("shape")),
+            static_cast<PuttyHardness>(values.count("hardness")),
+            values.count("level"),
+            values.count("kneads"),
+            values.number("time_limit_s"),
+            values.number("most_N")};
 }
 
 std::unique_ptr<Exercise> Putty::make(const SettingValues& values) { return std::make_unique<Putty>(values); }
@@ -55,6 +62,7 @@ std::string_view Putty::grip(const SettingValues& values) {
 }
 
 std::optional<Error> Putty::conflict(const SettingValues& values) {
+    if (auto wrong = too_short_a_way(values)) return wrong;
     const unsigned kneads = putty_settings(values).kneads;
     return too_short_a_limit(values, kneads * PuttyState::kGrips_s,
                              formatted("%u kneads of %g s", kneads, PuttyState::kGrips_s));
