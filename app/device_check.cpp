@@ -29,6 +29,7 @@ const char* words_for(DeviceFault fault) {
         case DeviceFault::other: return "it reports a fault";
         case DeviceFault::motors_off: return "its motors are off";
         case DeviceFault::force_differs: return "it gives another force than it is told";
+        case DeviceFault::false_reading: return "a joint of it reads what none can be";
     }
     return "";
 }

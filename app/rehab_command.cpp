@@ -104,6 +104,7 @@ struct RehabCommand::Of {
             if (const auto set = values->set(kind.settings[i].key, words[i]); !set) return std::unexpected(set.error());
         }
         if (const auto wrong = activities::problems(*values); !wrong.empty()) return std::unexpected(wrong.front());
+        if (const auto conflict = kind.conflict(*values)) return std::unexpected(*conflict);
         return values;
     }
 };
@@ -156,7 +157,7 @@ Result<void> RehabCommand::run() const {
 }
 
 Result<void> RehabCommand::run(const Of& of) const {
-    const Result<SettingValues> values = of.values();
+    Result<SettingValues> values = of.values();
     if (!values) return std::unexpected(values.error());
     const bool scripted = !of.hand.empty();
     if (const auto ok = check_results(of.results, scripted); !ok) return ok;
@@ -169,6 +170,8 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto glove = check_glove(live); !glove) return glove;
     std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
+    if (values->has("start") && values->number("start") == activities::kStartsByDevice)
+        values->set("start", is_simulated ? activities::kStartsAtOnce : activities::kStartsPressed);
     if (scripted) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());

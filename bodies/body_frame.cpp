@@ -2,6 +2,7 @@
 #include "bodies/body_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "devices/gloves/glove_hand.hpp"
@@ -89,6 +90,23 @@ void BodyFrame::use(std::optional<FlightRoom> room) {
     if (!room_) put(flying_->place_m);
 }
 
+// Goes in steps of a quarter of its radius, each out of what it has come into: so it passes through nothing, however
+// thin.
+Vec3 BodyFrame::led_to(const Vec3& place_m) const {
+    if (!room_ || room_->obstacles.empty()) return place_m;
+    constexpr double kMostSteps = 256.0;
+    const Vec3 way_m = place_m - pose_.position_m;
+    const double steps = std::clamp(std::ceil(4.0 * glm::length(way_m) / room_->radius_m), 1.0, kMostSteps);
+    Vec3 at_m = pose_.position_m;
+    bool is_free = true;
+    for (double step = 0.0; step < steps; ++step) {
+        const Vec3 next_m = at_m + way_m / steps;
+        at_m = outside(*room_, next_m);
+        is_free = is_free && at_m == next_m;
+    }
+    return is_free ? place_m : at_m;
+}
+
 void BodyFrame::follow_hand() {
     const auto palm = palm_of(held_by_);
     if (!palm) return;
@@ -98,8 +116,9 @@ void BodyFrame::follow_hand() {
         const double step_m = kSeats_m_per_s * std::max(seconds(palm->time_ns - been_.back().time_ns), 0.0);
         palm_from_body_.position_m += far_m > step_m ? step_m / far_m * way_m : way_m;
     }
-    pose_ = scene::composed(palm->scene_from_palm, palm_from_body_);
-    pose_.orientation = glm::normalize(pose_.orientation);
+    Pose wanted = scene::composed(palm->scene_from_palm, palm_from_body_);
+    wanted.position_m = led_to(wanted.position_m);
+    pose_ = {wanted.position_m, glm::normalize(wanted.orientation)};
     if (!been_.empty() && palm->time_ns <= been_.back().time_ns) {
         velocities_ = {};  // no news: it stands still
         return;
@@ -108,7 +127,11 @@ void BodyFrame::follow_hand() {
                                 : scene::velocities_between(been_.back().pose, pose_,
                                                             seconds(palm->time_ns - been_.back().time_ns));
     been_.push_back({pose_, palm->time_ns});
-    const auto is_old = [&](const Been& been) { return palm->time_ns - been.time_ns > kThrow_ns; };
+    // Of the two newest, the older one tells the velocity even where updates come late.
+    const auto is_old = [&](const Been& been) {
+        const bool is_needed = &been + 2 >= been_.data() + been_.size();
+        return palm->time_ns - been.time_ns > (is_needed ? kLate_ns : kThrow_ns);
+    };
     been_.erase(been_.begin(), std::ranges::find_if_not(been_, is_old));
 }
 

@@ -2,7 +2,8 @@
 // Where a body as a whole is: at its place, in a hand, or in flight. The body's solver works in this frame.
 //
 //   stands  at its place, and whatever presses it is held by springs there
-//   held    with the palm of the hand that holds it, as it lay in it when it was taken
+//   held    with the palm of the hand that holds it, as it lay in it when it was taken; what it falls among stops it,
+//           so that it slides along there and comes back into the palm when the way is free
 //   flies   a ball in closed form (bodies/flight/ball_flight.hpp), pushed by what touches it; where it comes to rest,
 //           it stands
 // A change from one to another leaves place and velocity as they are, so the force on a finger goes on without a step.
@@ -25,9 +26,9 @@ namespace burin::bodies {
 
 class BodyFrame {
 public:
-    // A ball that is let go of flies with the mean velocity of this time; without one where the hand has told nothing
-    // for so long.
-    static constexpr Nanoseconds kThrow_ns = 20'000'000;
+    // A ball that is let go of flies with the mean velocity of this time, or of that between its last two updates where
+    // these are up to kLate_ns apart; without one where the hand has told nothing for kThrow_ns.
+    static constexpr Nanoseconds kThrow_ns = 20'000'000, kLate_ns = 100'000'000;
     static constexpr double kSeats_m_per_s = 0.15;
     // A push counts for so long at most, however late an update comes: it is known as of the update before.
     static constexpr double kMostPush_s = 0.016;
@@ -75,6 +76,8 @@ private:
     };
     [[nodiscard]] std::optional<Known> palm_of(std::span<const std::size_t> hands) const;
     void follow_hand();
+    // Returns where it comes from its place on the way to another, as far as what it falls among lets it.
+    [[nodiscard]] Vec3 led_to(const Vec3& place_m) const;
     void fly_on(Nanoseconds now_ns, const Vec3& push_m_per_s2);
     void land();
 
@@ -85,7 +88,7 @@ private:
     std::vector<std::size_t> held_by_;
     Pose palm_from_body_;
     std::optional<Vec3> seat_palm_m_;
-    std::vector<Been> been_;  // while it is held, the newest last: those of the last kThrow_ns
+    std::vector<Been> been_;  // while it is held, the newest last: those of the last kThrow_ns, two at least
     std::optional<FlyingBall> flying_;
     bool is_pushed_ = true;        // in flight
     Nanoseconds flown_to_ns_ = 0;  // or to when it has come otherwise

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/gloves/glove_device.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
 namespace burin::activities {
@@ -39,6 +40,8 @@ const char* text_of(devices::DeviceFault fault) {
             return "the glove's motors are off, so there is no force: switch them on at its controller";
         case devices::DeviceFault::force_differs:
             return "the glove's pistons give other forces than they are told, so there is no force: see to its air";
+        case devices::DeviceFault::false_reading:
+            return "no finger of the glove reads what it can be, so there is no force: see to its sensors";
         default: return "the glove reports a fault, so there is no force: see to its controller";
     }
 }
@@ -162,7 +165,8 @@ void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& tic
                         session::ActivityOrders& orders) {
     const auto has_fault = [](const auto* tick) { return tick->sample.fault != devices::DeviceFault::none; };
     const Nanoseconds now_ns = ticks[0]->time_ns;
-    tell_of_pistons(ticks, orders);
+    tell_of_fingers(ticks, orders);
+    count_rejected(ticks, orders);
     has_fault_ = std::ranges::all_of(ticks, has_fault);
     if (!has_fault_) {
         well_ns_ = now_ns;
@@ -179,18 +183,40 @@ void Grasp::watch_glove(const std::array<const haptics::TickRecord*, kFelt>& tic
     if (hand_ && world != nullptr) point_at(*hand_, *world, orders);
 }
 
-// A piston that gives another force than it is told is lost to the exercise, while the other fingers go on.
-void Grasp::tell_of_pistons(const std::array<const haptics::TickRecord*, kFelt>& ticks,
+// One may happen; many are told, ever more seldom.
+void Grasp::count_rejected(const std::array<const haptics::TickRecord*, kFelt>& ticks,
+                           session::ActivityOrders& orders) {
+    if ((ticks[0]->sample.drive.state & devices::kDriveSetRejected) == 0) return;
+    ++rejected_sets_;
+    if (rejected_sets_ < std::max<std::uint64_t>(10 * told_of_sets_, 10)) return;
+    told_of_sets_ = rejected_sets_;
+    orders.messages.push_back(
+        formatted("%llu of the glove's sets were left out, since a finger jumped in them: see to its line and sensors",
+                  static_cast<unsigned long long>(rejected_sets_)));
+}
+
+// A finger with a fault of its own is lost to the exercise, while the others go on. The joint that is wrong shows when
+// the finger has come to its reading.
+void Grasp::tell_of_fingers(const std::array<const haptics::TickRecord*, kFelt>& ticks,
                             session::ActivityOrders& orders) {
     constexpr std::array<const char*, kFelt> kNames{"thumb's", "index finger's", "middle finger's", "ring finger's"};
     for (std::size_t i = 0; i < kFelt; ++i) {
-        const bool differs = ticks[i]->sample.fault == devices::DeviceFault::force_differs;
-        if (differs && !told_of_pistons_[i])
+        const devices::DeviceSample& sample = ticks[i]->sample;
+        if (sample.fault != told_of_fingers_[i]) told_of_fingers_[i] = devices::DeviceFault::none;
+        if (told_of_fingers_[i] == sample.fault) continue;
+        if (sample.fault == devices::DeviceFault::force_differs) {
+            told_of_fingers_[i] = sample.fault;
             orders.messages.push_back(
                 formatted("the %s piston gives another force than it is told (now %.1f N), so it "
                           "is told none: see to its air, then switch the glove off and on",
-                          kNames[i], ticks[i]->sample.drive.measured_N));
-        told_of_pistons_[i] = differs;
+                          kNames[i], sample.drive.measured_N));
+        }
+        devices::FingerAngles angles{};
+        std::copy_n(sample.joints.begin(), angles.size(), angles.begin());
+        const auto joint = devices::joint_beyond(i, angles);
+        if (sample.fault != devices::DeviceFault::false_reading || !joint) continue;
+        told_of_fingers_[i] = sample.fault;
+        orders.messages.push_back(devices::false_reading_text(i, *joint, angles[*joint]));
     }
 }
 
@@ -217,7 +243,8 @@ void Grasp::free_fingers(const HandReading& hand, session::ActivityOrders& order
 void Grasp::go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders) {
     geometry::GestureInput input{.time_ns = hand.time_ns, .closures = {}, .touched = opposed_contacts(hand)};
     for (std::size_t i = 0; i < geometry::kHandFingers; ++i)
-        input.closures[i] = geometry::closure_of(static_cast<Finger>(i), hand.bend[i]);
+        input.closures[i] = (geometry::closure_of(static_cast<Finger>(i), hand.bend[i]) - options_.open) /
+                            (options_.closed - options_.open);
     for (std::uint64_t& object : input.touched)
         if (const auto* touched = world != nullptr ? world->find(object) : nullptr;
             touched == nullptr || ball_around(*touched).second > kLargest_m * hand.scene_from_hand.scale)

@@ -50,6 +50,8 @@ public:
     // Returns all grasps that were begun, in their order.
     [[nodiscard]] const std::vector<Grasped>& grasps() const { return grasps_; }
     [[nodiscard]] const geometry::GestureState& gesture() const { return gesture_; }
+    // Returns how many of the glove's sets were left out, since a finger jumped in them.
+    [[nodiscard]] std::uint64_t rejected_sets() const { return rejected_sets_; }
     // Returns the hand as the newest ticks had it; none before the first.
     [[nodiscard]] const std::optional<HandReading>& hand() const { return hand_; }
 
@@ -57,7 +59,8 @@ private:
     // Says when the glove is lost and when it is back, and lets go of what a hand that is lost for long holds.
     void watch_glove(const std::array<const haptics::TickRecord*, kFelt>& ticks, const session::WorldObjects* world,
                      session::ActivityOrders& orders);
-    void tell_of_pistons(const std::array<const haptics::TickRecord*, kFelt>& ticks, session::ActivityOrders& orders);
+    void tell_of_fingers(const std::array<const haptics::TickRecord*, kFelt>& ticks, session::ActivityOrders& orders);
+    void count_rejected(const std::array<const haptics::TickRecord*, kFelt>& ticks, session::ActivityOrders& orders);
     // Sets a fingertip that stays behind a thing to the hand, when that has left and holds nothing.
     void free_fingers(const HandReading& hand, session::ActivityOrders& orders);
     void go_on_by(const HandReading& hand, const session::WorldObjects* world, session::ActivityOrders& orders);
@@ -73,9 +76,10 @@ private:
     mutable std::unique_ptr<const DrawnHand> drawn_;  // made when a picture is first wanted
     std::array<std::optional<haptics::TickRecord>, kFelt> last_ticks_;
     std::optional<HandReading> hand_;
-    bool has_fault_ = false, told_of_fault_ = false;  // of all parts: the glove's
-    Nanoseconds well_ns_ = 0;                         // when it had none for the last time
-    std::array<bool, kFelt> told_of_pistons_{};       // of each that gives another force than it is told
+    bool has_fault_ = false, told_of_fault_ = false;             // of all parts: the glove's
+    Nanoseconds well_ns_ = 0;                                    // when it had none for the last time
+    std::array<devices::DeviceFault, kFelt> told_of_fingers_{};  // what was told of each finger's own fault last
+    std::uint64_t rejected_sets_ = 0, told_of_sets_ = 0;
     geometry::GestureState gesture_;
     std::array<bool, geometry::kHandFingers> holding_{};  // the fingers with which the last grasp began
     Vec3 taken_at_m_{0.0};                                // where they were then, on average

@@ -26,6 +26,9 @@ struct GraspOptions {
     double extent_mm = 6.0;  // from a patch's middle to its neighbours, along the skin; 1 to 7
     PatchStiffness stiffness = PatchStiffness::shared;
     GloveRendering rendering = GloveRendering::distributed;
+    // Closures between which this person's hand goes; a gesture is told by the share of that way. An exercise sets
+    // them, and keeps them among its own settings.
+    double open = 0.0, closed = 1.0;
 };
 inline constexpr unsigned kMostFingertipPoints = 5;
 inline constexpr double kLeastExtent_mm = 1.0, kMostExtent_mm = 7.0;

@@ -19,11 +19,12 @@ constexpr std::string_view kPrefix = "rehab ";
 std::span<const ExerciseKind> all_kinds() {
     static const std::array kinds{
         ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "worlds/hand.toml",
-                     "sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball},
+                     "sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball, Ball::conflict},
         ExerciseKind{"game", "Throw a ball at a wall above a line, and catch it", "worlds/game.toml",
-                     "sessions/rehab-game.txt", Game::setting_kinds(), Game::make, scripted_game},
+                     "sessions/rehab-game.txt", Game::setting_kinds(), Game::make, scripted_game, Game::conflict},
         ExerciseKind{"putty", "Knead putty that keeps its dents, pinched or in the whole hand", "worlds/putty.toml",
-                     "sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make, scripted_putty, Putty::grip},
+                     "sessions/rehab-putty.txt", Putty::setting_kinds(), Putty::make, scripted_putty, Putty::conflict,
+                     Putty::grip},
     };
     return kinds;
 }

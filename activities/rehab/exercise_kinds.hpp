@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,9 @@ struct ExerciseKind {
     std::unique_ptr<Exercise> (*make)(const SettingValues& values) = nullptr;
     // Returns the script as a scripted participant follows it, drawn from a seed.
     std::string (*scripted)(const SettingValues& values, std::uint64_t seed, std::string_view script) = nullptr;
+    // Returns what cannot be met together, of values that are sound each by itself. Recordings that there are may have
+    // it; new runs are refused.
+    std::optional<Error> (*conflict)(const SettingValues& values) = nullptr;
     // Returns how a simulated glove has to close for it (devices/gloves/grip_shape.hpp); null: as it usually does.
     std::string_view (*grip)(const SettingValues& values) = nullptr;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/text.hpp"
@@ -54,15 +55,32 @@ bodies::FlightRoom room_among(const session::WorldObjects& world, const bodies::
     return room;
 }
 
-FingersTurn fingers_of(const FingerTicks& ticks, double dt_s) {
+// Returns how much of a finger's force is an object's: what it was where nothing is touched, since a force takes some
+// ticks to go. A point that touches two things counts as the firmer one's.
+double share_of(std::uint32_t object, const haptics::TickRecord& tick, double before) {
+    Vec3 own_N(0.0), other_N(0.0);
+    for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+        const haptics::PointRecord& point = tick.contact.points[i];
+        (point.object == object ? own_N : other_N) += point.force_device_N;
+    }
+    const double own = glm::length(own_N), all = own + glm::length(other_N);
+    return all > 0.0 ? own / all : before;
+}
+
+// shares_before: of the body, in the turn before.
+FingersTurn fingers_of(const FingerTicks& ticks, std::uint32_t body, const std::array<double, kFelt>& shares_before,
+                       double dt_s) {
     FingersTurn turn;
     turn.dt_s = dt_s;
     for (std::size_t i = 0; i < kFelt; ++i) {
-        turn.forces_N[i] = glm::length(ticks[i]->gate.given.force_device_N);
+        const double told_N = glm::length(ticks[i]->gate.given.force_device_N);
+        const double share = turn.body_shares[i] = share_of(body, *ticks[i], shares_before[i]);
+        turn.forces_N[i] = share * told_N;
+        turn.elsewhere_N[i] = (1.0 - share) * told_N;
         std::copy_n(ticks[i]->sample.joints.begin(), turn.joints_rad[i].size(), turn.joints_rad[i].begin());
         turn.has_fault[i] = ticks[i]->sample.fault != devices::DeviceFault::none;
         const devices::OneWayDrive& drive = ticks[i]->sample.drive;
-        if ((drive.state & devices::kDriveMeasured) != 0) turn.measured_N[i] = drive.measured_N;
+        if ((drive.state & devices::kDriveMeasured) != 0) turn.measured_N[i] = share * drive.measured_N;
     }
     return turn;
 }
@@ -74,15 +92,28 @@ double closure_of(const HandReading& hand) {
     return sum / static_cast<double>(kFelt);
 }
 
-Json json_of(const FingerMeasures& finger, const char* name) {
+// pressed: whether it gave a force when the start asked for one; nothing where it did not ask.
+constexpr double kMostForce_s = 0.25;  // a force that is held for so long counts as one that a person has
+
+GraspOptions options_of(const SettingValues& values) {
+    GraspOptions options;
+    const PersonRange range = range_of(values);
+    options.open = range.open;
+    options.closed = range.closed;
+    return options;
+}
+
+Json json_of(const FingerMeasures& finger, const char* name, std::optional<bool> pressed) {
     Json ranges = Json::array();
     for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) ranges.push_back(finger.range_rad(joint));
     const std::optional<double> fractionation = finger.fractionation(), measured = finger.mean_measured_N();
     return {{"finger", name},
+            {"pressed_at_start", pressed ? Json(*pressed) : Json()},
             {"peak_force_N", finger.peak_N},
             {"mean_force_N", finger.mean_N()},
             {"peak_measured_N", measured ? Json(finger.measured_peak_N) : Json()},
             {"mean_measured_N", measured ? Json(*measured) : Json()},
+            {"peak_elsewhere_N", finger.elsewhere_peak_N},
             {"pushed_s", finger.pushed_s},
             {"range_of_motion_rad", std::move(ranges)},
             {"peak_speed_rad_per_s", finger.peak_rad_per_s},
@@ -92,10 +123,15 @@ Json json_of(const FingerMeasures& finger, const char* name) {
 
 }  // namespace
 
-Rehab::Rehab(std::unique_ptr<Exercise> exercise) : exercise_(std::move(exercise)), hand_(GraspOptions{}) {
+Rehab::Rehab(std::unique_ptr<Exercise> exercise)
+    : exercise_(std::move(exercise)), hand_(options_of(exercise_->settings())) {
     auto made = bodies::SoftPart::create(exercise_->body());
     BURIN_CHECK(made.has_value());
     if (made) body_ = std::move(*made);
+    const SettingValues& values = exercise_->settings();
+    range_ = range_of(values);
+    asks_ = values.has("start") && values.number("start") == kStartsPressed;
+    if (asks_) start_.asks = exercise_->pressing_fingers();
 }
 
 std::string Rehab::settings() const {
@@ -167,13 +203,51 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         const double dt_s = turn_ns_ > 0 ? seconds(now_ns - turn_ns_) : 0.0;
         turn_ns_ = now_ns;
         const HandReading hand = reading_of(ticks);
-        turn({now_ns, holds, fingers_of(ticks, dt_s), hand.scene_from_hand, closure_of(hand), lies_in_palm_m_}, orders);
+        const FingersTurn fingers = fingers_of(ticks, body_->setup().object, body_shares_, dt_s);
+        body_shares_ = fingers.body_shares;
+        turn({now_ns, holds, fingers, hand.scene_from_hand, range_.share_of(closure_of(hand)), lies_in_palm_m_},
+             orders);
     });
 }
 
+void Rehab::follow_most_force(const FingersTurn& fingers) {
+    double sum_N = 0.0;
+    for (std::size_t i = 0; i < kFelt; ++i)
+        if (!fingers.has_fault[i]) sum_N += fingers.measured_N[i].value_or(fingers.forces_N[i]);
+    smooth_sum_N_ += (sum_N - smooth_sum_N_) * (1.0 - std::exp(-fingers.dt_s / kMostForce_s));
+    most_together_N_ = std::max(most_together_N_, smooth_sum_N_);
+}
+
+// What the hand has shown, as settings of the next run take it; nothing of a finger that was not read.
+Json Rehab::person_range() const {
+    double open = 0.0, closed = 0.0;
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        const FingerMeasures& finger = measures_.fingers[i];
+        for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint)
+            if (!(finger.most_rad[joint] >= finger.least_rad[joint])) return {};
+        open += geometry::closure_of(static_cast<geometry::Finger>(i), finger.least_rad) / kFelt;
+        closed += geometry::closure_of(static_cast<geometry::Finger>(i), finger.most_rad) / kFelt;
+    }
+    return {{"open", open}, {"closed", closed}, {"most_N", most_together_N_}};
+}
+
+bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& orders) {
+    if (!asks_ || start_.is_done()) return true;
+    if (!std::exchange(has_asked_, true))
+        orders.messages.push_back("press with each finger once: " + start_.missing() + "; then the time begins");
+    start_ = with_turn(start_, fingers);
+    if (!start_.is_done()) return false;
+    orders.messages.push_back(start_.missing().empty()
+                                  ? "each finger has pressed; the time begins"
+                                  : "gave nothing when they were to press: " + start_.missing() +
+                                        "; the time begins without, and what is measured of them says so");
+    return true;
+}
+
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
-    if (exercise_->end() != ExerciseEnd::not_yet) return;
+    if (exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
     measures_ = with_turn(measures_, turn.fingers);
+    follow_most_force(turn.fingers);
     exercise_->turn(turn, orders);
     if (exercise_->end() != ExerciseEnd::not_yet)
         orders.messages.push_back(formatted("%s: score %.0f of 100",
@@ -222,6 +296,8 @@ session::ActivityPanel Rehab::panel() const {
     session::ActivityPanel panel{.title = exercise_->name(), .aside = {}, .page = {}, .rows = {}, .buttons = {}};
     panel.title[0] = static_cast<char>(panel.title[0] - 'a' + 'A');
     panel.page = exercise_->task();
+    if (asks_ && !start_.is_done())
+        panel.page = "Press with each finger once, then the time begins: " + start_.missing();
     for (const ExerciseCourse::Count& count : course.counts)
         if (count.wanted > 0)
             panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
@@ -243,7 +319,8 @@ Json Rehab::report() const {
             settings[kind.key] = values.word(kind.key);
     for (const ExerciseCourse::Count& count : course.counts) counts[count.key] = count.number;
     for (std::size_t i = 0; i < kFingerNames.size(); ++i)
-        fingers.push_back(json_of(measures_.fingers[i], kFingerNames[i]));
+        fingers.push_back(json_of(measures_.fingers[i], kFingerNames[i],
+                                  start_.asks[i] ? std::optional(start_.gave[i]) : std::nullopt));
     for (const ExerciseEvent& event : course.events)
         events.push_back(
             {{"what", event.what}, {"time_s", seconds(event.time_ns - course.begun_ns)}, {"force_N", event.force_N}});
@@ -254,6 +331,8 @@ Json Rehab::report() const {
             {"score", course.score},
             {"time_s", course.time_s},
             {"counts", std::move(counts)},
+            {"person_range", person_range()},
+            {"rejected_sets", hand_.rejected_sets()},
             {"fingers", std::move(fingers)},
             {"events", std::move(events)}};
 }

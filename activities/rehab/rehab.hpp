@@ -5,15 +5,18 @@
 //   ticks of the fingers -> Grasp (gestures, what is held, the drawn hand) -> turns of the exercise -> its course
 //                        -> the soft body, a part of the scene (bodies/soft_part.hpp) -> what the fingers feel of it
 //   the body's changes, with the update that the frame takes -> its picture
-//   the turns until the exercise ends -> measures of the hand; course and measures -> report()
+//   the turns until each finger has pressed once -> the start, with a glove that is worn
+//   the turns from then on until the exercise ends -> measures of the hand; course and measures -> report()
 // Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
 #include "activities/grasp/grasp.hpp"
 #include "activities/rehab/exercise/exercise.hpp"
+#include "activities/rehab/exercise/person_range.hpp"
 #include "base/json.hpp"
 
 namespace burin::activities {
@@ -47,6 +50,10 @@ private:
     void take_shape(const session::ActivityView& view);
     // Has the body follow what the hand has taken hold of and let go of.
     void carry(std::span<const session::HoldObject> holds, session::ActivityOrders& orders);
+    // Has the fingers press once; returns whether the exercise may go on.
+    [[nodiscard]] bool has_started(const FingersTurn& fingers, session::ActivityOrders& orders);
+    void follow_most_force(const FingersTurn& fingers);
+    [[nodiscard]] Json person_range() const;
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders);
 
     std::unique_ptr<Exercise> exercise_;
@@ -59,6 +66,11 @@ private:
     std::optional<Vec3> lies_in_palm_m_;  // by that update
     bool is_lost_ = false;                // the body has fallen so deep that nobody reaches it
     Nanoseconds turn_ns_ = 0;
+    std::array<double, kFelt> body_shares_{};  // of each finger's force, in the turn before
+    bool asks_ = false, has_asked_ = false;    // each finger to press once, before the exercise begins
+    StartCheck start_;
+    PersonRange range_;
+    double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s
     HandMeasures measures_;
     std::size_t written_ = 0;  // events
 };

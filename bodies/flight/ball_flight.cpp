@@ -209,8 +209,11 @@ FlyingBall bounced(FlyingBall ball, const FlightRoom& room, const Contact& conta
 
 Vec3 nearest_in(const Box& box, const Vec3& place) { return glm::clamp(place, box.lo, box.hi); }
 
-// Moves a ball that was put into obstacles to the nearest place outside; out of several one after another.
-Vec3 outside(const FlightRoom& room, Vec3 place) {
+}  // namespace
+
+// Out of several obstacles one after another.
+Vec3 outside(const FlightRoom& room, const Vec3& place_m) {
+    Vec3 place = place_m;
     constexpr int kRounds = 4;
     for (int round = 0; round < kRounds; ++round) {
         bool moved = false;
@@ -244,8 +247,6 @@ Vec3 outside(const FlightRoom& room, Vec3 place) {
     }
     return place;
 }
-
-}  // namespace
 
 double clearance_m(const Obstacle& obstacle, const Vec3& place_m, double radius_m) {
     if (const auto* plane = std::get_if<HalfSpace>(&obstacle))

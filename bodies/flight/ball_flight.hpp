@@ -94,6 +94,9 @@ inline constexpr double kLeastBounce_m_per_s = 0.02, kLeastOffEdge_m_per_s = 0.0
 [[nodiscard]] std::optional<double> first_within(std::span<const Arc> arcs, const Vec3& at_m,
                                                  const Vec3& velocity_m_per_s, double distance_m);
 
+// Returns the nearest place at which the ball is in no obstacle; its own where it is in none.
+[[nodiscard]] Vec3 outside(const FlightRoom& room, const Vec3& place_m);
+
 // Returns how far the ball's surface is from an obstacle; below 0 in it.
 [[nodiscard]] double clearance_m(const Obstacle& obstacle, const Vec3& place_m, double radius_m);
 

@@ -21,7 +21,12 @@
 namespace burin::devices {
 namespace {
 
-constexpr double kSet_s = 1.0 / 120.0;
+// How long a set takes to go out.
+double set_s(const EmulatedGlove& glove) {
+    constexpr double kLineBytes_per_s = 3840.0;
+    return static_cast<double>(bytes_of(set_of(glove))) / kLineBytes_per_s;
+}
+
 // Of the script: for how long the hand rests open, is closed or closing, and open again.
 constexpr double kOpen_s = 2.0, kClosed_s = 5.0, kAll_s = 9.0;
 // The approximate lever arm of the piston's force about the first joint.
@@ -81,7 +86,8 @@ EmulatedGlove stepped(EmulatedGlove glove, bool in_time) {
         const bool is_local = (glove.local >> i & 1u) != 0 && glove.laws[i].holds;
         const double most = EmulatedGlove::kStep_s / EmulatedGlove::kBlend_s;
         glove.blended[i] = std::clamp(glove.blended[i] + (is_local ? most : -most), 0.0, 1.0);
-        glove.given_N[i] += follows * (wanted_N(glove, i) - glove.given_N[i]);
+        const bool gives = glove.motors_on && (glove.dead >> i & 1u) == 0;
+        glove.given_N[i] += follows * ((gives ? wanted_N(glove, i) : 0.0) - glove.given_N[i]);
     }
     glove.grip = stepped(glove.grip, wants_closed(glove) ? 1.0 : 0.0, glove.given_N, EmulatedGlove::kStep_s);
     for (std::size_t i = 0; i < kGloveFingers; ++i) {
@@ -118,11 +124,12 @@ bool is_silent(const EmulatedGlove& glove) {
 
 GloveSet set_of(const EmulatedGlove& glove) {
     return {.number = glove.number,
-            .motors_on = true,
+            .motors_on = glove.motors_on,
             .fault = false,
             .is_local = glove.local != 0,
             .joints = glove.joints,
-            .forces_N = glove.given_N};
+            .forces_N = glove.given_N,
+            .version = glove.version};
 }
 
 Result<GlovePort> GlovePort::create() {
@@ -182,6 +189,7 @@ void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends,
     const Nanoseconds step_ns = nanoseconds(EmulatedGlove::kStep_s);
     Nanoseconds due_ns = clock.now_ns();
     double next_set_s = glove.time_s;
+    std::vector<std::byte> frame;    // that goes to the host, or two
     std::vector<std::byte> on_line;  // a set takes a period to go out: it is of where the fingers were at its turn
     while (!ends()) {
         due_ns = std::max(due_ns + step_ns, clock.now_ns() - 50 * step_ns);
@@ -191,13 +199,16 @@ void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends,
         if (watch) watch(glove);
         for (std::size_t i = 0; i < kGloveFingers; ++i) given_N_[i].store(glove.given_N[i], std::memory_order_relaxed);
         if (glove.time_s < next_set_s) continue;
-        next_set_s = std::max(next_set_s + kSet_s, glove.time_s - kSet_s);
+        next_set_s = std::max(next_set_s + set_s(glove), glove.time_s - set_s(glove));
         if (is_silent_.load(std::memory_order_relaxed) || is_silent(glove)) continue;
-        const std::vector<std::byte> frame = std::exchange(on_line, controller_frame(set_of(glove)));
+        const std::vector<std::byte> out = std::exchange(on_line, controller_frame(set_of(glove)));
+        frame.insert(frame.end(), out.begin(), out.end());
+        const bool waits = glove.in_pairs && glove.number % 2 == 0;
         ++glove.number;
-        if (frame.empty()) continue;
+        if (frame.empty() || waits) continue;
         // Frames that nobody reads are lost, as on a real serial line.
         if (::write(file_, frame.data(), frame.size()) < 0) static_cast<void>(::tcflush(file_, TCIOFLUSH));
+        frame.clear();
     }
 }
 

@@ -7,7 +7,8 @@
 // commands, so that a session finds the hand open. A piston follows its command as a low-pass of kBand_Hz, as the
 // paper's glove does from 10 to 50 Hz, and gives nothing when no command has come for kWatchdog_s. A finger that the
 // host has left to it is rendered at 500 Hz by its law of piston length (DriveLaw), from its own joints. Line: 38,400
-// bit/s carry 3,840 bytes a second, so a set of 32 bytes takes 8.3 ms and arrives when it is out. Units: SI.
+// bit/s carry 3,840 bytes a second, so a set of 32 bytes takes 8.3 ms and arrives when it is out, one of version 2 8.6.
+// Units: SI.
 #pragma once
 
 #include <array>
@@ -41,6 +42,10 @@ struct EmulatedGlove {
     // A drill: sends nothing from then on, in seconds of the script, for so many seconds; from 0: never, for 0: for
     // good.
     double silent_from_s = 0.0, silent_for_s = 0.0;
+    // Drills: motors that are off, pistons that give nothing (bit i: finger i), sets that an adapter hands over two at
+    // a time; and the version of its frames.
+    bool motors_on = true, in_pairs = false;
+    std::uint8_t dead = 0, version = 1;
     double time_s = 0.0, scripted_s = 0.0;
     bool commanded = false;  // to give forces, ever
     Grip grip = {};

@@ -8,7 +8,7 @@ namespace burin::devices {
 namespace {
 
 // The tables of docs/glove.md, section "The line".
-constexpr unsigned kHostBegins = 0x9e, kControllerBegins = 0x9d;
+constexpr unsigned kHostBegins = 0x9e, kControllerBegins = 0x9d, kControllerBeginsSecond = 0x62;
 constexpr unsigned kHostForces = 3, kHostStop = 4, kHostLaw = 5;
 constexpr std::size_t kHostForcesLength = 8, kHostLawLength = 11;
 constexpr double kNewtonsOfStep = 0.05;
@@ -59,19 +59,26 @@ unsigned force_steps(double force_N) {
     return !(steps > 0.0) ? 0u : steps >= 255.0 ? 255u : static_cast<unsigned>(std::lround(steps));
 }
 
-}  // namespace
-
-// The remainder of the message by the polynomial, as on paper: the message is followed by eight zeros, and one bit
-// after the other goes into a register of eight.
-std::byte controller_check(std::span<const std::byte> bytes) {
-    constexpr unsigned kPolynomial = 0b1'0000'0111;  // x^8 + x^2 + x + 1
+// The remainder of the message by a polynomial, as on paper: the message is followed by eight zeros, and one bit after
+// the other goes into a register of eight.
+std::byte remainder_by(unsigned polynomial, std::span<const std::byte> bytes) {
     unsigned rest = 0;
     for (std::size_t bit = 0; bit < 8 * (bytes.size() + 1); ++bit) {
         const unsigned byte = bit / 8 < bytes.size() ? number(bytes[bit / 8]) : 0u;
         rest = rest << 1 | (byte >> (7 - bit % 8) & 1u);
-        if ((rest & 0x100u) != 0) rest ^= kPolynomial;
+        if ((rest & 0x100u) != 0) rest ^= polynomial;
     }
     return static_cast<std::byte>(rest);
+}
+
+}  // namespace
+
+std::byte controller_check(std::span<const std::byte> bytes) {
+    return remainder_by(0b1'0000'0111, bytes);  // x^8 + x^2 + x + 1
+}
+
+std::byte controller_second_check(std::span<const std::byte> bytes) {
+    return remainder_by(0b1'0001'1101, bytes);  // x^8 + x^4 + x^3 + x^2 + 1
 }
 
 std::optional<HeardGloveFrame> GloveControllerEar::take(std::byte byte) {
@@ -97,7 +104,7 @@ std::optional<HeardGloveFrame> GloveControllerEar::take(std::byte byte) {
 std::vector<std::byte> controller_frame(const GloveSet& set) {
     std::vector<std::byte> frame;
     const auto add = [&](unsigned byte) { frame.push_back(static_cast<std::byte>(byte)); };
-    add(kControllerBegins);
+    add(set.version == 2 ? kControllerBeginsSecond : kControllerBegins);
     add((set.forces_N ? 2u : 1u) + (set.motors_on ? 0x10u : 0u) + (set.fault ? 0x20u : 0u) +
         (set.is_local ? 0x40u : 0u));
     add(set.number);
@@ -113,6 +120,7 @@ std::vector<std::byte> controller_frame(const GloveSet& set) {
     if (set.forces_N)
         for (const double force_N : *set.forces_N) add(force_steps(force_N));
     frame.push_back(controller_check(frame));
+    if (set.version == 2) frame.push_back(controller_second_check(frame));
     return frame;
 }
 

@@ -30,10 +30,11 @@ private:
     std::vector<std::byte> waiting_;
 };
 
-// Returns the frame of a set: of positions alone where it has no forces.
+// Returns the frame of a set, of its version: of positions alone where it has no forces.
 [[nodiscard]] std::vector<std::byte> controller_frame(const GloveSet& set);
 
-// Returns the check of a frame's bytes before the last.
+// Returns the check of a frame's bytes before it, and the second check of a frame of version 2.
 [[nodiscard]] std::byte controller_check(std::span<const std::byte> bytes);
+[[nodiscard]] std::byte controller_second_check(std::span<const std::byte> bytes);
 
 }  // namespace burin::devices

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -100,13 +102,11 @@ private:
             has_fault_ = heard.set.fault;
             are_motors_off_ = !heard.set.motors_on;
             if (is_lost_) pistons_ = {};  // whoever switches a glove off and on has seen to it
-            joints_ = joints_at(heard);
-            hear_of(heard.set);
+            play(heard.sets, now_ns_ - (before_ns > 0 ? before_ns : now_ns_));
+            judge(heard.sets);
+            hear_of(heard);
             expect(seconds(before_ns > 0 ? now_ns_ - before_ns : 0));
-            if (heard.time_ns != judged_ns_) {
-                compare_forces(heard);
-                judge(heard);
-            }
+            if (heard.time_ns != std::exchange(judged_ns_, heard.time_ns)) compare_forces(heard);
         }
         for (std::size_t i = 0; i < kGloveFingers; ++i) places_[i] = place_of(shape_[i], joints_[i]);
     }
@@ -159,43 +159,74 @@ private:
         }
     }
 
-    // Judges the angles of a set that is new.
-    void judge(const GloveHeard& heard) noexcept {
-        judged_ns_ = heard.time_ns;
-        const Nanoseconds between_ns = heard.time_ns - heard.before_ns;
-        const bool follows = heard.before_ns != 0 && between_ns <= kGloveLost_ns;
-        // Sets may come in a bunch; the controller took them a period apart.
-        const double between_s = seconds(std::max(between_ns, GloveLink::kSend_ns));
-        for (std::size_t i = 0; i < kGloveFingers; ++i) {
-            const FingerAngles& now = heard.set.joints[i];
-            switch (angle_fault(i, follows ? heard.before.joints[i] : now, now, between_s)) {
-                case AngleFault::none: own_faults_[i] = DeviceFault::none; break;
-                case AngleFault::jumped: own_faults_[i] = DeviceFault::overspeed; break;
-                case AngleFault::beyond_limits: own_faults_[i] = DeviceFault::other; break;
+    // Judges the angles that are played now and that come after them: a finger gets no force from when a false reading
+    // has come until it is past.
+    void judge(const GloveSets& sets) noexcept {
+        for (std::size_t finger = 0; finger < kGloveFingers; ++finger) {
+            own_faults_[finger] = DeviceFault::none;
+            for (std::size_t i = std::max<std::size_t>(played_, 1) - 1; i < sets.count; ++i) {
+                const FingerAngles& angles = sets.list[i].set.joints[finger];
+                const bool follows = i >= std::max<std::size_t>(played_, 1) &&
+                                     sets.list[i].taken_ns - sets.list[i - 1].taken_ns <= kGloveLost_ns;
+                const FingerAngles& before = follows ? sets.list[i - 1].set.joints[finger] : angles;
+                // Sets whose numbers say nothing may come in a bunch; the controller took them a period apart.
+                const Nanoseconds between_ns = follows ? sets.list[i].taken_ns - sets.list[i - 1].taken_ns : 0;
+                switch (angle_fault(finger, before, angles,
+                                    seconds(std::max(between_ns, set_period_ns(sets.list[i].set))))) {
+                    case AngleFault::none: break;
+                    case AngleFault::jumped:
+                        if (own_faults_[finger] == DeviceFault::none) own_faults_[finger] = DeviceFault::overspeed;
+                        break;
+                    case AngleFault::beyond_bounds: own_faults_[finger] = DeviceFault::false_reading; break;
+                }
             }
         }
     }
 
     // Takes what the controller says of its pistons; nothing of a line that is lost.
-    void hear_of(const GloveSet& set) noexcept {
+    void hear_of(const GloveHeard& heard) noexcept {
+        const GloveSet& set = heard.set;
         const bool measures = !is_lost_ && set.forces_N.has_value();
         measured_N_ = measures ? *set.forces_N : GloveForces{};
         is_local_ = set.is_local && !is_lost_;
-        state_ = is_lost_ ? 0u
-                          : (set.motors_on ? kDriveOn : 0u) | (set.fault ? kDriveFault : 0u) |
-                                (measures ? kDriveMeasured : 0u);
+        const bool rejects = std::exchange(rejected_, heard.sets.rejected) != heard.sets.rejected;
+        state_ = (is_lost_ ? 0u
+                           : (set.motors_on ? kDriveOn : 0u) | (set.fault ? kDriveFault : 0u) |
+                                 (measures ? kDriveMeasured : 0u)) |
+                 (rejects ? kDriveSetRejected : 0u);
     }
 
-    // On the way from the set before to the newest, as far as the time since its arrival is of that between them.
-    [[nodiscard]] GloveJoints joints_at(const GloveHeard& heard) const noexcept {
-        const Nanoseconds between_ns = heard.time_ns - heard.before_ns;
-        if (heard.before_ns == 0 || between_ns <= 0 || between_ns > kGloveLost_ns) return heard.set.joints;
-        const double share = std::min(seconds(now_ns_ - heard.time_ns) / seconds(between_ns), 1.0);
+    // Goes on through the sets by so long: at their own pace, a fifth faster or slower until it is as late as they
+    // need.
+    void play(const GloveSets& sets, Nanoseconds time_ns) noexcept {
+        if (sets.count == 0) return;
+        const Nanoseconds newest_ns = sets.newest().taken_ns;
+        const Nanoseconds wanted_ns = std::min(now_ns_ - sets.needs_ns, newest_ns);
+        at_ns_ -= sets.shifted_ns - std::exchange(shifted_ns_, sets.shifted_ns);
+        if (!std::exchange(plays_, true) || std::abs(wanted_ns - at_ns_) > kGloveLost_ns) {
+            at_ns_ = wanted_ns;
+        } else {
+            const Nanoseconds most_ns = time_ns / 5;
+            at_ns_ += time_ns + std::clamp(wanted_ns - at_ns_ - time_ns, -most_ns, most_ns);
+            at_ns_ = std::min(at_ns_, newest_ns);
+        }
+        played_ = 0;
+        while (played_ < sets.count && sets.list[played_].taken_ns <= at_ns_) ++played_;
+        joints_ = joints_at(sets);
+    }
+
+    // On the way from the set before played_ to that.
+    [[nodiscard]] GloveJoints joints_at(const GloveSets& sets) const noexcept {
+        if (played_ == sets.count) return sets.newest().set.joints;
+        const TimedSet &to = sets.list[played_], &from = played_ > 0 ? sets.list[played_ - 1] : to;
+        const Nanoseconds between_ns = to.taken_ns - from.taken_ns;
+        if (between_ns <= 0 || between_ns > kGloveLost_ns) return to.set.joints;
+        const double share = seconds(at_ns_ - from.taken_ns) / seconds(between_ns);
         GloveJoints joints{};
         for (std::size_t i = 0; i < kGloveFingers; ++i)
             for (std::size_t k = 0; k < kFingerJoints; ++k) {
-                const double from = heard.before.joints[i][k], to = heard.set.joints[i][k];
-                joints[i][k] = from + share * (to - from);
+                const double first = from.set.joints[i][k], last = to.set.joints[i][k];
+                joints[i][k] = first + share * (last - first);
             }
         return joints;
     }
@@ -219,9 +250,13 @@ private:
     bool is_lost_ = false, has_fault_ = false, are_motors_off_ = false;
     std::array<DeviceFault, kGloveFingers> own_faults_{};
     std::array<Piston, kGloveFingers> pistons_{};
-    Nanoseconds judged_ns_ = 0;  // arrival of the set that own_faults_ and pistons_ are of
-    std::uint32_t state_ = 0;    // of all pistons: DriveState
-    bool is_local_ = false;      // the controller renders some finger by itself
+    Nanoseconds judged_ns_ = 0;  // arrival of the set that pistons_ are of
+    bool plays_ = false;
+    Nanoseconds at_ns_ = 0, shifted_ns_ = 0;  // of the controller's time: what is played now
+    std::size_t played_ = 0;                  // the first set that comes after that
+    std::uint64_t rejected_ = 0;              // sets, when the last tick read
+    std::uint32_t state_ = 0;                 // of all pistons: DriveState
+    bool is_local_ = false;                   // the controller renders some finger by itself
     GloveForces measured_N_{};
     std::array<FingertipPlace, kGloveFingers> places_{};
     GloveJoints joints_{};

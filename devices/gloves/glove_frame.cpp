@@ -7,7 +7,8 @@
 namespace burin::devices {
 namespace {
 
-constexpr std::uint8_t kSetSync = 0x9d, kCommandSync = 0x9e;
+// A set of version 2 begins with another number in every bit than one of version 1.
+constexpr std::uint8_t kSetSync = 0x9d, kSecondSetSync = 0x62, kCommandSync = 0x9e;
 // The lower half of a frame's second byte; the upper half of a set's has the controller's state.
 constexpr std::uint8_t kKindMask = 0x0f, kPositions = 1, kPositionsAndForces = 2, kForces = 3, kStop = 4, kLaw = 5;
 constexpr std::uint8_t kMotorsOn = 0x10, kFault = 0x20, kLocal = 0x40;
@@ -15,12 +16,14 @@ constexpr unsigned kUpperHalf = 4;  // bits up to it: of a command, which finger
 constexpr std::size_t kAnglesAt = 3, kForcesAt = 27, kCommandForcesAt = 3, kLawAt = 3;
 constexpr int kAngleSteps = 4095;
 
-// CRC-8 with the polynomial x^8 + x^2 + x + 1, most significant bit first, beginning at 0 (SMBus's packet error code).
-std::uint8_t check_of(std::span<const std::byte> bytes) noexcept {
+// CRC-8, most significant bit first, beginning at 0. The first check's polynomial is x^8 + x^2 + x + 1 (SMBus's packet
+// error code), the second's x^8 + x^4 + x^3 + x^2 + 1 (that of SAE J1850).
+constexpr unsigned kFirstPolynomial = 0x07, kSecondPolynomial = 0x1d;
+std::uint8_t check_of(std::span<const std::byte> bytes, unsigned polynomial = kFirstPolynomial) noexcept {
     unsigned crc = 0;
     for (const std::byte byte : bytes) {
         crc ^= static_cast<unsigned>(byte);
-        for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x80u) != 0 ? (crc << 1 ^ 0x07u) & 0xffu : crc << 1;
+        for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x80u) != 0 ? (crc << 1 ^ polynomial) & 0xffu : crc << 1;
     }
     return static_cast<std::uint8_t>(crc);
 }
@@ -60,8 +63,23 @@ std::size_t size_of(const GloveCommand*, std::uint8_t kind) noexcept {
     return own == kForces || kind == kStop ? kCommandBytes : 0;
 }
 
-constexpr std::uint8_t sync_of(const GloveSet*) noexcept { return kSetSync; }
-constexpr std::uint8_t sync_of(const GloveCommand*) noexcept { return kCommandSync; }
+// Returns the version of a frame that begins with this byte; 0: none does.
+constexpr std::uint8_t version_of(const GloveSet*, std::byte first) noexcept {
+    return first == std::byte{kSetSync} ? 1 : first == std::byte{kSecondSetSync} ? 2 : 0;
+}
+constexpr std::uint8_t version_of(const GloveCommand*, std::byte first) noexcept {
+    return first == std::byte{kCommandSync} ? 1 : 0;
+}
+
+// Returns whether a whole frame's checks are its bytes'.
+bool checks(std::span<const std::byte> frame, std::uint8_t version) noexcept {
+    const std::span<const std::byte> first = version == 2 ? frame.first(frame.size() - 1) : frame;
+    if (version == 2 && static_cast<std::uint8_t>(frame.back()) != check_of(first, kSecondPolynomial)) return false;
+    return static_cast<std::uint8_t>(first.back()) == check_of(first.first(first.size() - 1));
+}
+
+void set_version(GloveSet& set, std::uint8_t version) noexcept { set.version = version; }
+void set_version(GloveCommand&, std::uint8_t) noexcept {}
 
 void read(std::span<const std::byte> bytes, GloveSet& set) noexcept {
     const auto kind = static_cast<std::uint8_t>(bytes[1]);
@@ -113,7 +131,7 @@ GloveBytes frame_of(const GloveSet& set) noexcept {
     const std::uint8_t kind = set.forces_N ? kPositionsAndForces : kPositions;
     const auto state = static_cast<std::uint8_t>((set.motors_on ? kMotorsOn : 0) | (set.fault ? kFault : 0) |
                                                  (set.is_local ? kLocal : 0));
-    frame.bytes[0] = std::byte{kSetSync};
+    frame.bytes[0] = std::byte{set.version == 2 ? kSecondSetSync : kSetSync};
     frame.bytes[1] = static_cast<std::byte>(kind | state);
     frame.bytes[2] = static_cast<std::byte>(set.number);
     for (std::size_t i = 0; i < kGloveFingers * kFingerJoints; i += 2) {
@@ -130,6 +148,10 @@ GloveBytes frame_of(const GloveSet& set) noexcept {
     for (std::size_t i = 0; set.forces_N && i < kGloveFingers; ++i)
         frame.bytes[kForcesAt + i] = force_byte((*set.forces_N)[i]);
     finish(frame, set.forces_N ? kSetWithForcesBytes : kSetBytes);
+    if (set.version == 2) {
+        frame.bytes[frame.count] = static_cast<std::byte>(check_of(frame.view(), kSecondPolynomial));
+        ++frame.count;
+    }
     return frame;
 }
 
@@ -169,12 +191,14 @@ template <typename Frame>
 std::optional<Frame> GloveFrameReader<Frame>::look() noexcept {
     constexpr const Frame* kType = nullptr;
     while (count_ > 0) {
-        const bool begins = static_cast<std::uint8_t>(bytes_[0]) == sync_of(kType);
-        if (begins && count_ < 2) return std::nullopt;
-        const std::size_t size = begins ? size_of(kType, static_cast<std::uint8_t>(bytes_[1])) : 0;
+        const std::uint8_t version = version_of(kType, bytes_[0]);
+        if (version > 0 && count_ < 2) return std::nullopt;
+        const std::size_t own = version > 0 ? size_of(kType, static_cast<std::uint8_t>(bytes_[1])) : 0;
+        const std::size_t size = own > 0 && version == 2 ? own + 1 : own;
         if (size > count_) return std::nullopt;
         const std::span<const std::byte> frame(bytes_.data(), size);
-        if (size == 0 || static_cast<std::uint8_t>(frame.back()) != check_of(frame.first(size - 1))) {
+        const bool is_within = version == 1 && since_second_ < kSecondHolds;
+        if (size == 0 || is_within || !checks(frame, version)) {
             ++counts_.dropped_bytes;
             drop(1);
             continue;
@@ -182,6 +206,8 @@ std::optional<Frame> GloveFrameReader<Frame>::look() noexcept {
         Frame read_frame;
         read_frame.number = static_cast<std::uint8_t>(frame[2]);
         read(frame, read_frame);
+        set_version(read_frame, version);
+        if (version == 2) since_second_ = 0;
         drop(size);
         ++counts_.frames;
         if (last_number_) counts_.missed += static_cast<std::uint8_t>(read_frame.number - *last_number_ - 1);
@@ -194,6 +220,7 @@ std::optional<Frame> GloveFrameReader<Frame>::look() noexcept {
 template <typename Frame>
 std::optional<Frame> GloveFrameReader<Frame>::take(std::byte byte) noexcept {
     bytes_[count_++] = byte;
+    since_second_ = std::min(since_second_ + 1, kSecondHolds);
     return look();
 }
 

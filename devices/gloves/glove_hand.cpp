@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text.hpp"
+
 namespace burin::devices {
 namespace {
 
@@ -16,6 +18,20 @@ constexpr AngleLimits kFingerLimits{{degrees(-20), degrees(-20), 0.0, degrees(-5
                                     {degrees(20), degrees(90), degrees(110), degrees(80)}};
 constexpr AngleLimits kThumbLimits{{degrees(-45), degrees(-20), degrees(-10), degrees(-15)},
                                    {degrees(30), degrees(50), degrees(60), degrees(80)}};
+
+// To the side; then the knuckle, the middle joint and the end joint, of the thumb those of its base and its two
+// phalanges.
+constexpr AngleLimits kFingerBounds{{degrees(-75), degrees(-85), degrees(-75), degrees(-75)},
+                                    {degrees(75), degrees(115), degrees(140), degrees(115)}};
+constexpr AngleLimits kThumbBounds{{degrees(-75), degrees(-75), degrees(-75), degrees(-88)},
+                                   {degrees(75), degrees(90), degrees(110), degrees(115)}};
+
+constexpr std::array<const char*, kGloveFingers> kOwners{"thumb's", "index finger's", "middle finger's",
+                                                         "ring finger's"};
+constexpr std::array<const char*, kFingerJoints> kFingerJointNames{"knuckle to the side", "knuckle", "middle joint",
+                                                                   "end joint"};
+constexpr std::array<const char*, kFingerJoints> kThumbJointNames{"base to the side", "base", "middle joint",
+                                                                  "end joint"};
 
 Quat unit(double w, double x, double y, double z) { return glm::normalize(Quat(w, x, y, z)); }
 
@@ -41,15 +57,29 @@ const GloveHand& usual_hand() {
 
 const AngleLimits& angle_limits(std::size_t finger) { return finger == 0 ? kThumbLimits : kFingerLimits; }
 
-AngleFault angle_fault(std::size_t finger, const FingerAngles& before, const FingerAngles& now, double between_s) {
+const AngleLimits& angle_bounds(std::size_t finger) { return finger == 0 ? kThumbBounds : kFingerBounds; }
+
+std::optional<std::size_t> joint_beyond(std::size_t finger, const FingerAngles& angles) {
     constexpr double kStep_rad = kAngleRange_rad / 4095;
     constexpr double kSlack_rad = 1.5 * kStep_rad;  // a step, and half a step of rounding
-    const AngleLimits& limits = angle_limits(finger);
-    for (std::size_t i = 0; i < kFingerJoints; ++i) {
-        if (!(now[i] >= limits.lowest[i] - kSlack_rad && now[i] <= limits.highest[i] + kSlack_rad))
-            return AngleFault::beyond_limits;
+    const AngleLimits& bounds = angle_bounds(finger);
+    for (std::size_t i = 0; i < kFingerJoints; ++i)
+        if (!(angles[i] >= bounds.lowest[i] - kSlack_rad && angles[i] <= bounds.highest[i] + kSlack_rad)) return i;
+    return std::nullopt;
+}
+
+std::string false_reading_text(std::size_t finger, std::size_t joint, double angle_rad) {
+    const auto in_degrees = [](double rad) { return rad * 180.0 / std::numbers::pi; };
+    const AngleLimits& bounds = angle_bounds(finger);
+    return formatted("the %s %s reads %.0f degrees, and none bends beyond %.0f to %.0f: see to its sensor",
+                     kOwners[finger], (finger == 0 ? kThumbJointNames : kFingerJointNames)[joint],
+                     in_degrees(angle_rad), in_degrees(bounds.lowest[joint]), in_degrees(bounds.highest[joint]));
+}
+
+AngleFault angle_fault(std::size_t finger, const FingerAngles& before, const FingerAngles& now, double between_s) {
+    if (joint_beyond(finger, now)) return AngleFault::beyond_bounds;
+    for (std::size_t i = 0; i < kFingerJoints; ++i)
         if (!(std::abs(now[i] - before[i]) <= kFastestJoint_rad_per_s * between_s)) return AngleFault::jumped;
-    }
     return AngleFault::none;
 }
 

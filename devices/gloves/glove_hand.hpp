@@ -6,6 +6,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
 
 #include "base/space.hpp"
 #include "devices/gloves/glove_frame.hpp"
@@ -31,10 +35,23 @@ struct AngleLimits {
 };
 [[nodiscard]] const AngleLimits& angle_limits(std::size_t finger);
 
-// What is wrong with a finger's angles that follow others after so long, in seconds: beyond its limits by more than a
-// step of the readings, which noise may be; or turned faster than any finger does. A fist in one set is that.
+// How far any finger bends, whatever has become of it: what is beyond has been read falsely. Readings within are a
+// person's own, such as a middle joint that bends backwards in a swan neck. Sources: a knuckle bends backwards by 30
+// degrees and more in loose-jointed people, and passively by 70 to 80 often (Reider, The Orthopaedic Physical
+// Examination, ch. 4); a hitchhiker's thumb does so in its end joint by 50 degrees and more (Glass and Kistler 1953,
+// Acta Genetica et Statistica Medica 4: 192-206). For flexion, about a quarter more than is usual there. For what is
+// left we found no figure that bounds it: 75 degrees backwards and to the side are ours. The ends of what a frame
+// carries, -90 and 180 degrees, are always beyond: a torn wire reads one of them.
+[[nodiscard]] const AngleLimits& angle_bounds(std::size_t finger);
+// Returns the first joint whose angle is beyond its bounds, or is no number; none: all can be.
+[[nodiscard]] std::optional<std::size_t> joint_beyond(std::size_t finger, const FingerAngles& angles);
+// Returns what is told of a joint beyond its bounds: "the index finger's middle joint reads -80 degrees, ...".
+[[nodiscard]] std::string false_reading_text(std::size_t finger, std::size_t joint, double angle_rad);
+
+// What is wrong with a finger's angles that follow others after so long, in seconds: beyond its bounds; or turned
+// faster than any finger does. A fist in one set is that.
 inline constexpr double kFastestJoint_rad_per_s = 40.0;
-enum class AngleFault : std::uint8_t { none, beyond_limits, jumped };
+enum class AngleFault : std::uint8_t { none, beyond_bounds, jumped };
 [[nodiscard]] AngleFault angle_fault(std::size_t finger, const FingerAngles& before, const FingerAngles& now,
                                      double between_s);
 

@@ -2,6 +2,7 @@
 #include "devices/gloves/glove_link.hpp"
 
 #include <fcntl.h>
+#include <linux/serial.h>
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
@@ -48,6 +49,17 @@ Result<termios> set_up_line(int file, const std::string& port) {
     return before;
 }
 
+// Has a serial adapter hand bytes over at once, or wait for more again: one on USB waits for 16 ms else. Returns
+// whether that has been changed; a port that is no such adapter is left as it is.
+bool ask_to_wait_less(int file, bool less) {
+    serial_struct port{};
+    if (::ioctl(file, TIOCGSERIAL, &port) != 0) return false;
+    constexpr int kLowLatency = 1 << ASYNCB_LOW_LATENCY;
+    if (((port.flags & kLowLatency) != 0) == less) return false;
+    port.flags ^= kLowLatency;
+    return ::ioctl(file, TIOCSSERIAL, &port) == 0;
+}
+
 // Waits until what was written has gone out, but never for long: a line may take nothing.
 void let_out(int file) {
     constexpr int kMostWaits = 10;
@@ -71,6 +83,7 @@ Result<std::unique_ptr<GloveLink>> GloveLink::open(const std::string& port, Cloc
     if (!before) return std::unexpected(before.error());
     link->before_ = std::make_unique<const termios>(*before);
     if (::ioctl(file, TIOCEXCL) != 0) return no_port(port, errno);
+    link->waits_less_ = ask_to_wait_less(file, true);
     MonotonicClock watch;  // the session's own clock may stand still until the session begins
     const Nanoseconds until_ns = watch.now_ns() + kFirst_ns;
     while (link->last_.time_ns == 0 && watch.now_ns() < until_ns) {
@@ -95,6 +108,7 @@ GloveLink::~GloveLink() {
     if (last_.time_ns != 0) send({.number = ++number_, .stop = true});
     if (before_) {
         let_out(file_);
+        if (waits_less_) static_cast<void>(ask_to_wait_less(file_, false));
         static_cast<void>(::tcsetattr(file_, TCSANOW, before_.get()));
         static_cast<void>(::ioctl(file_, TIOCNXCL));
     }
@@ -116,10 +130,13 @@ bool GloveLink::read_some() {
     for (ssize_t i = 0; i < count; ++i) {
         const std::optional<GloveSet> set = reader_.take(bytes[static_cast<std::size_t>(i)]);
         if (!set) continue;
-        last_.before = last_.set;
-        last_.before_ns = last_.time_ns;
-        last_.set = *set;
-        last_.time_ns = clock_.now_ns();
+        const Nanoseconds now_ns = clock_.now_ns();
+        if (timeline_.take(*set, now_ns)) {
+            last_.before_ns = last_.time_ns;
+            last_.set = *set;
+            last_.time_ns = now_ns;
+        }
+        last_.sets = timeline_.sets();
         heard_.draft() = last_;
         heard_.publish();
     }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The serial line to a glove's controller: a thread that reads its sets and sends it what the pistons are to give.
 //
-// Data flow: line -> GloveFrameReader -> newest set, with the time of its arrival -> the haptic thread. The newest
+// Data flow: line -> GloveFrameReader -> GloveTimeline, which tells when the controller took each set -> the newest
+// sets, with the time of the last arrival -> the haptic thread. The newest
 // forces -> a command each kSend_ns -> line, and one of the laws that hold before it; a line of 38,400 bit/s carries no
 // more. When the object ends, and where the haptic thread has given no forces for kSilent_ns, the pistons are told to
 // stop, and the line is set as it was before.
 // Failures: a port that is missing, forbidden, busy or no terminal, and one on which no glove is heard, are errors of
-// open(). A line that goes silent, or vanishes, shows in age: GloveHeard::time_ns stays.
+// open(). A serial adapter that keeps bytes back to hand over more at once is asked not to, as long as the line is
+// open; where the port is none that can be asked, nothing is said. A line that goes silent, or vanishes, shows in age:
+// GloveHeard::time_ns stays.
 // Threads: open() and the destructor on one; newest() and command() on the haptic thread, wait-free.
 #pragma once
 
@@ -18,7 +21,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/newest_slot.hpp"
-#include "devices/gloves/glove_frame.hpp"
+#include "devices/gloves/glove_timeline.hpp"
 
 struct termios;
 
@@ -27,7 +30,8 @@ namespace burin::devices {
 struct GloveHeard {
     Nanoseconds time_ns = 0;    // of the newest set's arrival; 0: none yet
     Nanoseconds before_ns = 0;  // of the one before; 0: none
-    GloveSet set, before;       // the newest, and the one before
+    GloveSet set;               // the newest
+    GloveSets sets;             // and those before it, by the times at which the controller took them
 };
 
 class GloveLink {
@@ -61,9 +65,11 @@ private:
         Nanoseconds time_ns = 0;
     };
     int file_;
+    bool waits_less_ = false;  // the adapter has been asked for that, and is asked to wait again at the end
     std::unique_ptr<const termios> before_;  // how the line was set, and is set again at the end; null: not set yet
     Clock& clock_;
     GloveFrameReader<GloveSet> reader_;
+    GloveTimeline timeline_;
     GloveHeard last_;
     std::uint64_t bytes_ = 0;
     std::uint8_t number_ = 0;

@@ -69,8 +69,9 @@ enum class DeviceFault : std::uint8_t {
     other,
     motors_off,     // it is there, but its motors are off
     force_differs,  // it gives, by its own measurement, another force than it is told
+    false_reading,  // a joint of it reads what none can be
 };
-inline constexpr DeviceFault kLastDeviceFault = DeviceFault::force_differs;
+inline constexpr DeviceFault kLastDeviceFault = DeviceFault::false_reading;
 
 // The one direction in which a part drives, where it has but one: a glove's piston, from its foot on the palm to the
 // fingertip. It turns with the pose, so it comes with each sample. It gives a force F at the handle as F . moves_device

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "activities/grasp/grasp.hpp"
+#include "devices/gloves/glove_device.hpp"
 #include "devices/gloves/grip_shape.hpp"
 
 namespace burin::activities {
@@ -43,10 +45,21 @@ public:
     void bend(devices::GripShape shape, double closed) {
         for (std::size_t i = 0; i < kFelt; ++i) joints_[i] = devices::bent_in(shape, i, closed);
     }
+    void bend_joint(std::size_t finger, std::size_t joint, double angle_rad) { joints_[finger][joint] = angle_rad; }
     void touch(std::size_t finger, scene::ObjectId object, const Vec3& normal) {
         objects_[finger] = object;
         normals_[finger] = normal;
     }
+    // Has a finger be pushed by what it touches, and by another thing that it leans on.
+    void push(std::size_t finger, double force_N) { pushes_N_[finger] = force_N; }
+    void lean(std::size_t finger, scene::ObjectId object, double force_N) {
+        leans_on_[finger] = object;
+        leans_N_[finger] = force_N;
+    }
+    // Has each tick say that a set was left out before it.
+    void leave_out_sets(bool leaves_out) { leaves_out_ = leaves_out; }
+    // What the device measures that it gives; none: nothing.
+    void measure(std::size_t finger, double force_N) { measured_N_[finger] = force_N; }
     void press(double depth_m) { depth_m_ = depth_m; }
     void touch_nothing() { objects_ = {}; }
     void move_to(const Pose& palm) { palm_ = palm; }
@@ -82,7 +95,20 @@ public:
         record.motion.object_from_device = scene_from_device_;
         record.contact.point_count = 1;
         record.contact.points[0].hip_object_m = scene_from_device_ * record.sample.position_device_m;
+        if (leaves_out_) record.sample.drive.state |= devices::kDriveSetRejected;
+        if (measured_N_[finger]) {
+            record.sample.drive.state |= devices::kDriveMeasured;
+            record.sample.drive.measured_N = *measured_N_[finger];
+        }
+        if (leans_on_[finger] != 0) {
+            record.flags = haptics::kTickInContact;
+            record.contact.point_count = 2;
+            record.contact.points[1].object = static_cast<std::uint32_t>(leans_on_[finger]);
+            record.contact.points[1].force_device_N = Vec3(0.0, leans_N_[finger], 0.0);
+        }
+        record.gate.given.force_device_N = Vec3(0.0, pushes_N_[finger] + leans_N_[finger], 0.0);
         if (objects_[finger] == 0) return record;
+        record.contact.points[0].force_device_N = Vec3(0.0, pushes_N_[finger], 0.0);
         record.flags = haptics::kTickInContact;
         record.contact.points[0].object = static_cast<std::uint32_t>(objects_[finger]);
         const Vec3 normal = scene_from_device_.orientation * normals_[finger];
@@ -125,6 +151,10 @@ private:
     devices::GloveJoints joints_{};
     std::array<scene::ObjectId, kFelt> objects_{};
     std::array<Vec3, kFelt> normals_{};
+    bool leaves_out_ = false;
+    std::array<double, kFelt> pushes_N_{}, leans_N_{};
+    std::array<scene::ObjectId, kFelt> leans_on_{};
+    std::array<std::optional<double>, kFelt> measured_N_{};
 };
 
 inline void hold_ball(ActedHand& hand) {

@@ -167,6 +167,19 @@ TEST(ProgressPage, ShowsEachParticipantByNumberAndSaysWhatNoPersonDid) {
     EXPECT_FALSE(page.contains("nan"));
 }
 
+TEST(ProgressPage, HasAskedAndGivenForcesSideBySide) {
+    KeptRuns kept;
+    kept.runs.push_back(run_of(7, "2026-11-01", 80));
+    Json fingers = Json::array();
+    for (const auto& [asked_N, given_N] : {std::pair(2.5, 2.25), {1.0, 0.0}})
+        fingers.push_back({{"finger", "index"}, {"peak_force_N", asked_N}, {"peak_measured_N", given_N}});
+    fingers.push_back({{"finger", "ring"}, {"peak_force_N", 0.75}, {"peak_measured_N", nullptr}});
+    kept.runs.back().report["fingers"] = fingers;
+    const std::string page = progress_page(kept, levels_of_ball, "a test");
+    EXPECT_TRUE(page.contains("<th>asked, N</th><th>given, N</th>"));
+    EXPECT_TRUE(page.contains("<td>2.50, 1.00, 0.75</td><td>2.25, 0.00, -</td>"));
+}
+
 // One run, and runs of a few days, once had ticks at fractions of a day, and before the first.
 TEST(ProgressPage, MarksWholeDaysAlone) {
     for (const int last : {1, 3, 5}) {

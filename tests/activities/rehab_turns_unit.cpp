@@ -86,6 +86,38 @@ TEST(RehabTurns, TakeAsLongAsTheTicksOfThemAreApart) {
     }
 }
 
+// A finger that leans on the table, one that presses the ball, one that does both, and one that nothing touches.
+TEST(RehabTurns, TellForcesOfTheBodyApartFromThoseOfAllElse) {
+    NotedRehab noted;
+    noted.go_on(1);
+    const Vec3 up{0.0, 1.0, 0.0};
+    noted.hand.touch(0, kTable, up);
+    noted.hand.push(0, 5.0);
+    noted.hand.touch(1, kBall, up);
+    noted.hand.push(1, 2.0);
+    noted.hand.touch(2, kBall, up);
+    noted.hand.push(2, 1.0);
+    noted.hand.lean(2, kTable, 3.0);
+    for (std::size_t finger = 0; finger < kFelt; ++finger) noted.hand.measure(finger, 2.0);
+    noted.go_on(3);
+    const FingersTurn& fingers = noted.turns.back().fingers;
+    EXPECT_EQ(fingers.forces_N, (FingerForces{0.0, 2.0, 1.0, 0.0}));
+    EXPECT_EQ(fingers.elsewhere_N, (FingerForces{5.0, 0.0, 3.0, 0.0}));
+    const std::array<double, kFelt> measured_N{0.0, 2.0, 0.5, 0.0};
+    for (std::size_t finger = 0; finger < kFelt; ++finger) EXPECT_EQ(fingers.measured_N[finger], measured_N[finger]);
+    // A force takes some ticks to go after the finger has left: it stays what it was.
+    noted.hand.touch_nothing();
+    noted.hand.lean(2, 0, 0.0);
+    noted.go_on(1);
+    EXPECT_EQ(noted.turns.back().fingers.forces_N, (FingerForces{0.0, 2.0, 0.25, 0.0}));
+    EXPECT_EQ(noted.turns.back().fingers.elsewhere_N, (FingerForces{5.0, 0.0, 0.75, 0.0}));
+    const Json report = noted.rehab.report();
+    EXPECT_EQ(report["fingers"][0]["peak_force_N"], 0.0);
+    EXPECT_EQ(report["fingers"][0]["peak_elsewhere_N"], 5.0);
+    EXPECT_EQ(report["fingers"][1]["peak_force_N"], 2.0);
+    EXPECT_EQ(report["fingers"][1]["peak_elsewhere_N"], 0.0);
+}
+
 TEST(RehabTurns, TellHowABodyLiesInThePalmWhileAHandHoldsIt) {
     NotedRehab noted;
     noted.go_on(2);

@@ -182,7 +182,7 @@ TEST(RehabSettings, AreReadAndWrittenAlike) {
     const ReadSettings read = read_settings(table_text("ball", values), "s.toml", kind);
     EXPECT_TRUE(read.errors.empty()) << all_lines(read);
     EXPECT_EQ(read.values, values);
-    EXPECT_EQ(ball_settings(read.values), (BallSettings{BallColour::blue, 3, 12, 0.75, 90.0}));
+    EXPECT_EQ(ball_settings(read.values), (BallSettings{BallColour::blue, 3, 12, 0.75, 90.0, 0.1}));
     EXPECT_EQ(ball_settings(read_settings("", "s.toml", kind).values), BallSettings{}) << "every key has a default";
 }
 

@@ -164,7 +164,8 @@ TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
 TEST_F(RehabSessions, RunOnAGloveAreRecordedAndDoneAgainToTheBit) {
     Workplace::Outcome recorded;
     const auto late = kept_from_real_time(at, "g.session", [&] {
-        recorded = at.run(with_glove("--repetitions 1 --hold 0.1 --results " + path("results") + " --participant 12"));
+        recorded = at.run(with_glove("--start at_once --repetitions 1 --hold 0.1 --results " + path("results") +
+                                     " --participant 12"));
         return bent_index_rad() > 0.2;
     });
     if (late) GTEST_SKIP() << *late;

@@ -60,6 +60,8 @@ public:
         }
         frame_.update(now_ns_, Vec3(0.0));
     }
+    // Time passes without an update.
+    void pass(int ticks) { now_ns_ += ticks * kFrameTick_ns; }
     // Time passes and nobody tells anything.
     void be_silent(int ticks) {
         for (int i = 0; i < ticks; ++i) frame_.update(now_ns_ += kFrameTick_ns, Vec3(0.0));
@@ -165,6 +167,65 @@ TEST(BodyFrame, IsThrownWithTheWayOfItsOwnHoldAlone) {
                           1e-6)
                     << of;
             }
+        }
+}
+
+// Updates of a busy machine come late; a throw is no less one for that.
+TEST(BodyFrame, IsThrownWithTheVelocityThatItHasWhereUpdatesComeLate) {
+    const Vec3 velocity(1.3, 0.9, -2.1);
+    for (const int late : {4, 6, 10, 24, 26}) {  // ticks of 4 ms between two updates
+        BodyFrame frame(uneven_pose(0), weightless());
+        GlovedHand hand(frame);
+        Pose palm = palm_after(0);
+        hand.be_at(palm, 0.4);
+        frame.take_hold(Parts{0, 1, 2});
+        for (int i = 0; i < 4; ++i) {
+            palm.position_m += late * kFrameTick_s * velocity;
+            hand.pass(late - 1);
+            hand.be_at(palm, 0.4);
+        }
+        frame.let_go();
+        const bool is_known = late * kFrameTick_ns <= BodyFrame::kLate_ns;
+        EXPECT_LT(
+            glm::distance(frame.velocity_at(frame.pose().position_m), is_known ? hand.in_scene(velocity) : Vec3(0.0)),
+            1e-6)
+            << late;
+    }
+}
+
+// A table, a thin shelf and a floor; at each speed of the hand, straight down and aslant.
+TEST(BodyFrame, StopsAtWhatStandsInItsWayWhileAHandHoldsIt) {
+    FlightRoom room;
+    room.radius_m = 0.03;
+    room.obstacles = {HalfSpace{{0.0, 1.0, 0.0}, 0.0}, Box{Vec3(-0.3, 0.0, -0.3), Vec3(0.3, 0.1, 0.3)},
+                      Box{Vec3(0.4, 0.2, -0.3), Vec3(0.8, 0.202, 0.3)}};
+    struct Way {
+        Vec3 from_m, way_m;
+        double lowest_m;  // of its middle
+    };
+    for (const Way& way : {Way{{0.0, 0.3, 0.0}, {0.0, -0.6, 0.0}, 0.13}, Way{{0.0, 0.3, 0.0}, {0.1, -0.6, 0.05}, 0.13},
+                           Way{{0.6, 0.4, 0.0}, {0.0, -0.6, 0.0}, 0.232}, Way{{0.9, 0.3, 0.0}, {0.0, -0.6, 0.0}, 0.03}})
+        for (const int steps : {1, 3, 50}) {
+            BodyFrame frame({way.from_m, Quat(1.0, 0.0, 0.0, 0.0)}, room);
+            haptics::TickRecord tick;
+            const auto be_at = [&](const Vec3& place_m) {
+                tick.time_ns += kFrameTick_ns;
+                tick.sample.position_device_m = place_m;
+                frame.take_tick(6, tick);  // a part that carries the body itself
+                frame.update(tick.time_ns, Vec3(0.0));
+            };
+            be_at(way.from_m);
+            frame.take_hold(Parts{6});
+            for (int i = 1; i <= steps; ++i) {
+                be_at(way.from_m + i / static_cast<double>(steps) * way.way_m);
+                for (const Obstacle& obstacle : room.obstacles)
+                    EXPECT_GT(clearance_m(obstacle, frame.pose().position_m, room.radius_m), -1e-6) << steps;
+            }
+            EXPECT_NEAR(frame.pose().position_m.y, way.lowest_m, 1e-6) << steps;
+            EXPECT_NEAR(frame.pose().position_m.x, way.from_m.x + way.way_m.x, 0.02) << "it slides along there";
+            // It comes back into the palm as it lay there.
+            be_at(way.from_m);
+            EXPECT_LT(glm::distance(frame.pose().position_m, way.from_m), 1e-9) << steps;
         }
 }
 

@@ -104,7 +104,7 @@ TEST(EmulatedGloves, G16APistonFollowsAsALowPassOpensItsFingerAndStopsByItself) 
     EXPECT_LT(glove.given_N[1], 1e-6);
 }
 
-TEST(GloveHands, AFistInOneSetIsAFaultAndNoiseOfOneStepPastALimitIsNone) {
+TEST(GloveHands, AFistInOneSetIsAFaultAndNoiseOfOneStepPastABoundIsNone) {
     constexpr double kStep_rad = kAngleRange_rad / 4095, kSet_s = 1.0 / 120.0;
     for (std::size_t i = 0; i < kGloveFingers; ++i) {
         const FingerAngles open = bent_in(GripShape::whole, i, 0.0), fist = bent_in(GripShape::whole, i, 1.0);
@@ -115,19 +115,56 @@ TEST(GloveHands, AFistInOneSetIsAFaultAndNoiseOfOneStepPastALimitIsNone) {
                   AngleFault::none);
         for (std::size_t k = 0; k < kFingerJoints; ++k) {
             FingerAngles end = open;
-            end[k] = angle_limits(i).highest[k] + kStep_rad;
+            end[k] = angle_bounds(i).highest[k] + kStep_rad;
             EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::none) << "noise";
             end[k] += kStep_rad;
-            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::beyond_limits);
-            end[k] = angle_limits(i).lowest[k] - kStep_rad;
+            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::beyond_bounds);
+            end[k] = angle_bounds(i).lowest[k] - kStep_rad;
             EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::none) << "noise";
             end[k] -= kStep_rad;
-            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::beyond_limits);
+            EXPECT_EQ(angle_fault(i, end, end, kSet_s), AngleFault::beyond_bounds);
         }
         FingerAngles none = open;
         none[2] = std::nan("");
         EXPECT_NE(angle_fault(i, open, none, kSet_s), AngleFault::none);
     }
+}
+
+// Hands that a therapist sees: each as a person's joints have it, in degrees, and passed from set to set.
+TEST(GloveHands, ReadingsOfCommonHandsAreNoFaults) {
+    const auto degrees = [](double angle) { return angle * 3.14159265358979 / 180.0; };
+    for (const FingerAngles& hand : {FingerAngles{0, 0, -1, 0},          // a middle joint a little past straight
+                                     FingerAngles{0, 20, -35, 60},       // a swan neck
+                                     FingerAngles{0, 10, 75, -40},       // a boutonniere
+                                     FingerAngles{0, -30, 0, 0},         // a loose knuckle
+                                     FingerAngles{0, 95, 115, 85},       // a tight fist
+                                     FingerAngles{-45, 60, 10, 0},       // drift to the side
+                                     FingerAngles{0, -60, -30, -30}}) {  // one that another hand bends back
+        for (std::size_t i = 1; i < kGloveFingers; ++i) {
+            FingerAngles angles{};
+            for (std::size_t k = 0; k < kFingerJoints; ++k) angles[k] = degrees(hand[k]);
+            EXPECT_EQ(angle_fault(i, angles, angles, 0.0083), AngleFault::none)
+                << i << " " << hand[1] << " " << hand[2];
+            EXPECT_TRUE(finite(place_of(usual_hand()[i], angles).piston_hand));
+        }
+    }
+    const FingerAngles hitchhiker{0.0, 0.0, degrees(-40), degrees(-80)};
+    EXPECT_EQ(angle_fault(0, hitchhiker, hitchhiker, 0.0083), AngleFault::none);
+    // A torn wire reads an end of the scale, whichever joint it is of.
+    for (std::size_t i = 0; i < kGloveFingers; ++i)
+        for (std::size_t k = 0; k < kFingerJoints; ++k)
+            for (const double end : {-90.0, 180.0}) {
+                FingerAngles torn{};
+                torn[k] = degrees(end);
+                EXPECT_EQ(joint_beyond(i, torn), k) << i << " " << end;
+            }
+}
+
+TEST(GloveHands, AFalseReadingIsToldByFingerJointAndAngle) {
+    EXPECT_EQ(false_reading_text(1, 2, -1.57079632679),
+              "the index finger's middle joint reads -90 degrees, and none bends beyond -75 to 140: see to its sensor");
+    EXPECT_EQ(false_reading_text(0, 0, 3.14159265359),
+              "the thumb's base to the side reads 180 degrees, and none bends beyond -75 to 75: see to its sensor");
 }
 
 // What the controller is left to render: it goes from the host's force to its own, and back, without a step.

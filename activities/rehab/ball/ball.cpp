@@ -39,16 +39,41 @@ std::span<const SettingKind> Ball::setting_kinds() {
                     .usual = 1.0,
                     .most = 60.0},
         time_limit_setting(60.0),
+        SettingKind{.key = "share",
+                    .option = "--share",
+                    .help = "Of the force, that each finger gives at least; 0: all together, whoever gives it",
+                    .remedy = "ask for 0, all together, to 0.25, of each finger a quarter",
+                    .usual = 0.1,
+                    .most = 0.25,
+                    .before = 0.0},
+        start_setting(),
+        most_force_setting(),
+        open_setting(),
+        closed_setting(),
     };
     return kinds;
 }
 
 BallSettings ball_settings(const SettingValues& values) {
-    return {static_cast<BallColour>(values.count("colour")), values.count("level"), values.count("repetitions"),
-            values.number("hold_s"), values.number("time_limit_s")};
+    return {static_cast<BallColour>(values.count("colour")),
+            values.count("level"),
+            values.count("repetitions"),
+            values.number("hold_s"),
+            values.number("time_limit_s"),
+            values.number("share"),
+            values.number("most_N")};
 }
 
 std::unique_ptr<Exercise> Ball::make(const SettingValues& values) { return std::make_unique<Ball>(values); }
+
+std::optional<Error> Ball::conflict(const SettingValues& values) {
+    if (auto wrong = too_short_a_way(values)) return wrong;
+    const BallSettings settings = ball_settings(values);
+    const unsigned rests = settings.repetitions - 1;
+    return too_short_a_limit(values, settings.repetitions * settings.hold_s + rests * BallState::kRelaxes_s,
+                             formatted("%u squeezes of %g s and %u rests of %g s", settings.repetitions,
+                                       settings.hold_s, rests, BallState::kRelaxes_s));
+}
 
 Ball::Ball(const SettingValues& values) : values_(values), settings_(ball_settings(values)) {}
 
@@ -76,6 +101,11 @@ void Ball::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
         orders.trials.push_back({event.time_ns, formatted("squeeze %u", number + state_.too_short + 1)});
     if (counted || too_short) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
     if (counted) orders.messages.push_back(formatted("squeeze %u of %u counted", number, settings_.repetitions));
+    if (event.what == ball_event::kUneven) {
+        const std::size_t finger = state_.weakest_finger();
+        orders.messages.push_back(formatted("the %s presses with %.2f N, and %.2f N is asked of each finger",
+                                            kFingerNames[finger], state_.smooth_each_N[finger], settings_.of_each_N()));
+    }
     if (too_short) orders.messages.push_back("held too short; squeeze again");
 }
 
@@ -91,8 +121,10 @@ ExerciseCourse Ball::course() const {
 }
 
 std::string Ball::task() const {
-    return formatted("Squeeze the ball with %.0f N in all fingers for %.1f s, then relax.", settings_.target_N(),
-                     settings_.hold_s);
+    const std::string of_each =
+        settings_.share > 0.0 ? formatted(", %.1f N or more in each,", settings_.of_each_N()) : "";
+    return formatted("Squeeze the ball with %.3g N in all fingers together%s for %.1f s, then relax.",
+                     settings_.target_N(), of_each.c_str(), settings_.hold_s);
 }
 
 }  // namespace burin::activities

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "activities/rehab/ball/ball_exercise.hpp"
@@ -16,6 +17,8 @@ class Ball final : public Exercise {
 public:
     [[nodiscard]] static std::span<const SettingKind> setting_kinds();
     [[nodiscard]] static std::unique_ptr<Exercise> make(const SettingValues& values);
+    // Returns what cannot be met together. Requires sound values.
+    [[nodiscard]] static std::optional<Error> conflict(const SettingValues& values);
     // Requires sound values.
     explicit Ball(const SettingValues& values);
 

@@ -22,6 +22,10 @@ double sum_of(const FingerForces& forces_N) { return std::accumulate(forces_N.be
 
 std::array<BallKind, 4> ball_kinds() { return kBallKinds; }
 
+std::size_t BallState::weakest_finger() const {
+    return static_cast<std::size_t>(std::ranges::min_element(smooth_each_N) - smooth_each_N.begin());
+}
+
 const BallKind& kind_of(BallColour colour) { return kBallKinds[static_cast<std::size_t>(colour)]; }
 
 std::optional<BallColour> ball_named(std::string_view name) {
@@ -34,7 +38,11 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
     BallState& next = step.state;
     if (state.phase == BallPhase::ended) return step;
     const double sum_N = sum_of(turn.fingers.forces_N), target_N = settings.target_N();
-    next.smooth_N += (sum_N - state.smooth_N) * (1.0 - std::exp(-turn.fingers.dt_s / BallState::kSmooths_s));
+    const double follows = 1.0 - std::exp(-turn.fingers.dt_s / BallState::kSmooths_s);
+    next.smooth_N += (sum_N - state.smooth_N) * follows;
+    for (std::size_t i = 0; i < next.smooth_each_N.size(); ++i)
+        next.smooth_each_N[i] += (turn.fingers.forces_N[i] - state.smooth_each_N[i]) * follows;
+    const double least_N = next.smooth_each_N[next.weakest_finger()];
     const double force_N = next.smooth_N;
     const auto tell = [&](std::string_view what) { step.events.push_back({what, turn.time_ns, force_N}); };
     if (state.phase == BallPhase::begins) {
@@ -48,11 +56,23 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
         next.grasps += turn.grasped ? 1 : 0;
         tell(turn.grasped ? ball_event::kGrasped : ball_event::kLetGo);
     }
-    const bool kept = turn.grasped && force_N >= BallState::kKept * target_N;
+    const bool kept =
+        turn.grasped && force_N >= BallState::kKept * target_N && least_N >= BallState::kKept * settings.of_each_N();
     if (force_N > BallState::kRelaxed * target_N) next.pressed_ns = turn.time_ns;
     const bool relaxed = seconds(turn.time_ns - next.pressed_ns) >= BallState::kRelaxes_s;
     if (next.phase == BallPhase::relaxes && (!turn.grasped || relaxed)) next.phase = BallPhase::waits;
-    if (next.phase == BallPhase::waits && turn.grasped && force_N >= target_N) {
+    const bool reaches = next.phase == BallPhase::waits && turn.grasped && force_N >= target_N;
+    const bool uneven = reaches && least_N < settings.of_each_N();
+    if (!uneven)
+        next.uneven_since_ns = 0;
+    else if (state.uneven_since_ns == 0)
+        next.uneven_since_ns = turn.time_ns;
+    else if (!state.told_uneven && seconds(turn.time_ns - state.uneven_since_ns) >= BallState::kUneven_s) {
+        next.told_uneven = true;
+        tell(ball_event::kUneven);
+    }
+    if (relaxed || !turn.grasped) next.told_uneven = false;
+    if (reaches && !uneven) {
         next.phase = BallPhase::holds;
         next.held_since_ns = turn.time_ns;
         tell(ball_event::kReached);

@@ -15,6 +15,7 @@
 
 #include "activities/rehab/exercise/exercise_settings.hpp"
 #include "activities/rehab/measures/hand_measures.hpp"
+#include "activities/rehab/measures/start_check.hpp"
 #include "base/clock.hpp"
 #include "bodies/soft_part.hpp"
 #include "session/state/activity.hpp"
@@ -26,8 +27,8 @@ struct ExerciseTurn {
     Nanoseconds time_ns = 0;  // of the loop's clock
     bool grasped = false;     // the body, by any gesture of grasping
     FingersTurn fingers;
-    Similarity scene_from_hand = {};                    // of the hand that the joints tell
-    double closure = 0.0;                               // the mean of the fingers' (geometry/hand/hand_joints.hpp)
+    Similarity scene_from_hand = {};  // of the hand that the joints tell
+    double closure = 0.0;             // the mean of the fingers', as a share of the person's way (PersonRange)
     std::optional<Vec3> lies_in_palm_m = std::nullopt;  // of a held body's middle, by its newest shape
 };
 
@@ -72,6 +73,8 @@ public:
     // Returns whether a hand that grasps the body carries it, and the body falls when it is let go of. Otherwise it
     // stays at its place.
     [[nodiscard]] virtual bool is_carried() const { return false; }
+    // Returns the fingers that press in it, which its start asks for.
+    [[nodiscard]] virtual WhichFingers pressing_fingers() const { return {true, true, true, true}; }
     // Returns how a desk leads the hand of a glove, where that is not as usual.
     [[nodiscard]] virtual std::optional<session::LedHand> led_hand() const { return std::nullopt; }
     // Called once, when the body has taken the place of the world's object. An exercise that moves its body by itself

@@ -25,6 +25,16 @@ std::string known_words(const SettingKind& kind) {
     return text;
 }
 
+// The line of those settings that are wanted.
+template <typename Wanted>
+std::string line_with(const SettingValues& values, Wanted wanted) {
+    std::string line;
+    for (std::size_t i = 0; i < values.kinds().size(); ++i)
+        if (wanted(values.kinds()[i]))
+            line += (line.empty() ? "" : " ") + std::string(values.kinds()[i].option) + " " + values.text(i);
+    return line;
+}
+
 }  // namespace
 
 SettingKind level_setting(unsigned levels, const char* help, const char* remedy) {
@@ -48,8 +58,20 @@ SettingKind time_limit_setting(double usual_s) {
             .most = kMostTime_s};
 }
 
+SettingKind start_setting() {
+    return {.key = "start",
+            .option = "--start",
+            .help = "When the time begins: when each finger has pressed once, or at once",
+            .words = kStarts,
+            .before = kStartsAtOnce};
+}
+
 SettingValues::SettingValues(std::span<const SettingKind> kinds) : kinds_(kinds) {
     for (const SettingKind& kind : kinds) values_.push_back(kind.usual);
+}
+
+bool SettingValues::has(std::string_view key) const {
+    return std::ranges::find(kinds_, key, &SettingKind::key) != kinds_.end();
 }
 
 std::size_t SettingValues::index_of(std::string_view key) const {
@@ -86,6 +108,13 @@ std::vector<Error> problems(const SettingValues& values) {
     return found;
 }
 
+std::optional<Error> too_short_a_limit(const SettingValues& values, double least_s, const std::string& sum) {
+    const double limit_s = values.number("time_limit_s");
+    if (least_s <= limit_s) return std::nullopt;
+    return Error{sum + formatted(" take %g s at least, and it ends after %g s", least_s, limit_s), "time_limit_s",
+                 "ask for less, or for more time"};
+}
+
 SettingValues values_in(TableReading& reading, const toml::table* table, std::string_view exercise,
                         std::span<const SettingKind> kinds) {
     SettingValues values(kinds);
@@ -117,14 +146,17 @@ std::string table_text(std::string_view exercise, const SettingValues& values) {
 }
 
 std::string line_of(const SettingValues& values) {
-    std::string line;
-    for (std::size_t i = 0; i < values.kinds().size(); ++i)
-        line += (i > 0 ? " " : "") + std::string(values.kinds()[i].option) + " " + values.text(i);
-    return line;
+    return line_with(values, [](const SettingKind&) { return true; });
 }
 
 Result<SettingValues> values_of(std::string_view line, std::span<const SettingKind> kinds) {
     SettingValues values(kinds);
+    std::vector<const SettingKind*> lacking;
+    for (const SettingKind& kind : kinds)
+        if (kind.before && !(" " + std::string(line)).contains(" " + std::string(kind.option) + " ")) {
+            lacking.push_back(&kind);
+            values.set(kind.key, *kind.before);
+        }
     std::string_view rest = line;
     const auto next_word = [&rest] {
         const std::string_view word = rest.substr(0, rest.find(' '));
@@ -141,7 +173,8 @@ Result<SettingValues> values_of(std::string_view line, std::span<const SettingKi
         else if (std::from_chars(text.data(), text.data() + text.size(), number).ec == std::errc{})
             values.set(kind->key, number);
     }
-    if (problems(values).empty() && line_of(values) == line) return values;
+    const auto is_there = [&](const SettingKind& kind) { return std::ranges::find(lacking, &kind) == lacking.end(); };
+    if (problems(values).empty() && line_with(values, is_there) == line) return values;
     return fail(std::string(line), "are no settings of this exercise", "replay it with the program that recorded it");
 }
 

@@ -9,7 +9,9 @@
 // nearest that there is. Units: as the keys say. Pure; any thread. docs/rehab.md lists the keys.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,11 +31,18 @@ struct SettingKind {
     double usual = 0.0, least = 0.0, most = 0.0;
     bool whole = false;                       // of numbers
     std::span<const char* const> words = {};  // empty: it is a number
+    // What a recording means whose line lacks it, of one that has been added since; none: every line has it.
+    std::optional<double> before = std::nullopt;
 };
 
 // Those that every exercise has: the level of difficulty, from 1 to `levels`, and when it ends, in seconds.
 [[nodiscard]] SettingKind level_setting(unsigned levels, const char* help, const char* remedy);
 [[nodiscard]] SettingKind time_limit_setting(double usual_s);
+// And that of those in which fingers press: when the clock begins. By the device: pressed with a glove on a line, at
+// once with a simulated one.
+inline constexpr std::array kStarts{"by_device", "pressed", "at_once"};
+inline constexpr double kStartsByDevice = 0.0, kStartsPressed = 1.0, kStartsAtOnce = 2.0;
+[[nodiscard]] SettingKind start_setting();
 
 // The values of an exercise's settings. Equal where all of them are.
 class SettingValues {
@@ -42,6 +51,7 @@ public:
     explicit SettingValues(std::span<const SettingKind> kinds);
 
     [[nodiscard]] std::span<const SettingKind> kinds() const { return kinds_; }
+    [[nodiscard]] bool has(std::string_view key) const;
     // Requires a key that there is.
     [[nodiscard]] double number(std::string_view key) const { return values_[index_of(key)]; }
     [[nodiscard]] unsigned count(std::string_view key) const { return static_cast<unsigned>(number(key)); }
@@ -65,6 +75,11 @@ private:
 
 // Returns what nobody can do: each names its setting by its key. Empty: the values are sound.
 [[nodiscard]] std::vector<Error> problems(const SettingValues& values);
+
+// Returns the mistake of a time limit that ends before the shortest time that the other settings take; nothing where it
+// does not. sum: the arithmetic, as "5 squeezes of 2 s and 4 rests of 0.25 s".
+[[nodiscard]] std::optional<Error> too_short_a_limit(const SettingValues& values, double least_s,
+                                                     const std::string& sum);
 
 // Reads an exercise's table of a file, of which there may be none; mistakes go to the reading.
 [[nodiscard]] SettingValues values_in(TableReading& reading, const toml::table* table, std::string_view exercise,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "activities/grasp/hand_reading.hpp"
+#include "activities/rehab/exercise/person_range.hpp"
 #include "base/text.hpp"
 
 namespace burin::activities {
@@ -42,6 +43,8 @@ std::span<const SettingKind> Game::setting_kinds() {
                     .most = 1000,
                     .whole = true},
         time_limit_setting(120.0),
+        open_setting(),
+        closed_setting(),
     };
     return kinds;
 }
@@ -52,6 +55,14 @@ GameSettings game_settings(const SettingValues& values) {
 }
 
 std::unique_ptr<Exercise> Game::make(const SettingValues& values) { return std::make_unique<Game>(values); }
+
+std::optional<Error> Game::conflict(const SettingValues& values) {
+    if (auto wrong = too_short_a_way(values)) return wrong;
+    // To open a hand and to close it again takes no less: ours, five times a second.
+    constexpr double kThrows_s = 0.2;
+    const unsigned throws = game_settings(values).throws;
+    return too_short_a_limit(values, throws * kThrows_s, formatted("%u throws of %g s", throws, kThrows_s));
+}
 
 Game::Game(const SettingValues& values) : values_(values), settings_(game_settings(values)) {}
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "activities/rehab/game/game_exercise.hpp"
@@ -19,6 +20,8 @@ class Game final : public Exercise {
 public:
     [[nodiscard]] static std::span<const SettingKind> setting_kinds();
     [[nodiscard]] static std::unique_ptr<Exercise> make(const SettingValues& values);
+    // Returns what cannot be met together. Requires sound values.
+    [[nodiscard]] static std::optional<Error> conflict(const SettingValues& values);
     // Requires sound values.
     explicit Game(const SettingValues& values);
 

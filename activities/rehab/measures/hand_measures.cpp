@@ -96,6 +96,7 @@ HandMeasures with_turn(HandMeasures measures, const FingersTurn& turn) {
             measures.window_is_sound[i] = false;
             continue;
         }
+        finger.elsewhere_peak_N = std::max(finger.elsewhere_peak_N, turn.elsewhere_N[i]);
         follow_forces(finger, turn.forces_N[i], turn.measured_N[i], turn.dt_s);
         follow_range(finger, turn.joints_rad[i], turn.dt_s);
     }

@@ -2,6 +2,8 @@
 // Measures a hand's fingers while an exercise runs: their forces, how far and how fast they went, and how still the
 // others stayed while one moved. Pure; any thread.
 //
+// Forces are those of the exercise's body. What a finger is pushed with by anything else, such as the table on which it
+// leans, is told apart and measures nothing.
 // Only sound readings count: not those of a finger whose device reports a fault, nor any way across a gap or a fault. A
 // joint's least and most are angles beyond which it stayed for kHeld_s: a reading that is off for a moment is no range
 // of motion.
@@ -28,10 +30,13 @@ inline constexpr std::array<const char*, devices::kGloveFingers> kFingerNames{"t
 // A turn of the haptic loop, as an exercise sees it.
 struct FingersTurn {
     double dt_s = 0.0;        // since the turn before
-    FingerForces forces_N{};  // that the device was told to give
+    FingerForces forces_N{};  // that the device was told to give, of the exercise's body
     devices::GloveJoints joints_rad{};
-    std::array<bool, devices::kGloveFingers> has_fault{};                    // by its device
-    std::array<std::optional<double>, devices::kGloveFingers> measured_N{};  // that it gives, where it measures that
+    std::array<bool, devices::kGloveFingers> has_fault{};  // by its device
+    std::array<std::optional<double>, devices::kGloveFingers>
+        measured_N{};                                          // that it gives of these, where it measures that
+    FingerForces elsewhere_N{};                                // that it was told to give of anything else
+    std::array<double, devices::kGloveFingers> body_shares{};  // of what it was told, that is the body's
 };
 
 // A mean force is over the time in which the finger was told to be pushed at all: by more than kPushed_N; the measured
@@ -47,6 +52,7 @@ struct FingerMeasures {
     };
 
     double peak_N = 0.0, pushed_s = 0.0, impulse_Ns = 0.0;
+    double elsewhere_peak_N = 0.0;  // told, of anything but the body
     double measured_peak_N = 0.0, measured_s = 0.0, measured_impulse_Ns = 0.0;
     Joints least_rad{HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}, most_rad{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     std::array<Part, kHeldParts> parts{};  // the newest, without a gap; the last is under way

@@ -101,6 +101,16 @@ std::string pairs_of(const Json& object) {
     return text;
 }
 
+// Returns the highest of each finger's forces; a dash where nothing is known.
+std::string forces_of(const Json& report, const char* key) {
+    std::string text;
+    for (const Json& finger : report.at("fingers")) {
+        const double force_N = number_at(finger, key);
+        text += (text.empty() ? "" : ", ") + (std::isfinite(force_N) ? formatted("%.2f", force_N) : "-");
+    }
+    return text;
+}
+
 std::string table_of(const Runs& runs) {
     std::string rows;
     for (const KeptRun* run : runs) {
@@ -108,10 +118,11 @@ std::string table_of(const Runs& runs) {
         rows += "<tr>" + cell(run->date) + cell(run->time) + cell(run->hand) + cell(pairs_of(report.at("settings"))) +
                 cell(report.at("ended").get<std::string>()) +
                 number_cell(formatted("%.0f", number_at(report, "score"))) + cell(pairs_of(report.at("counts"))) +
-                number_cell(formatted("%.1f", number_at(report, "time_s"))) + "</tr>\n";
+                number_cell(formatted("%.1f", number_at(report, "time_s"))) + cell(forces_of(report, "peak_force_N")) +
+                cell(forces_of(report, "peak_measured_N")) + "</tr>\n";
     }
     return "<div class=\"wide\"><table>\n<tr><th>date</th><th>time</th><th>hand</th><th>settings</th><th>ended</th>"
-           "<th>score</th><th>counted</th><th>seconds</th></tr>\n" +
+           "<th>score</th><th>counted</th><th>seconds</th><th>asked, N</th><th>given, N</th></tr>\n" +
            rows + "</table></div>\n";
 }
 
@@ -144,8 +155,10 @@ std::string progress_page(const KeptRuns& kept, unsigned (*levels)(std::string_v
     for (const KeptRun& run : kept.runs)
         sections[{run.participant, run.report.at("exercise").get<std::string>()}].push_back(&run);
     std::string html = plot::page_begin("Progress of exercises") + element("h1", "Progress of exercises");
-    html += element("p", formatted("%zu runs. %s. Forces are those that the device was told to give.", kept.runs.size(),
-                                   program.c_str()));
+    html += element(
+        "p", formatted("%zu runs. %s. Forces are those that the device was asked to give; beside them stand those "
+                       "that it measured that it gave, the highest of thumb, index, middle and ring.",
+                       kept.runs.size(), program.c_str()));
     for (const Error& error : kept.errors)
         html += "<p class=\"warning\">Left out: " + plot::escaped(error.line()) + "</p>\n";
     for (const auto& [of, runs] : sections) html += section_of(of.first, of.second, runs, levels(of.second));

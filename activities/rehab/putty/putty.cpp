@@ -38,19 +38,34 @@ std::span<const SettingKind> Putty::setting_kinds() {
                     .most = 1000,
                     .whole = true},
         time_limit_setting(60.0),
+        start_setting(),
+        most_force_setting(),
+        open_setting(),
+        closed_setting(),
     };
     return kinds;
 }
 
 PuttySettings putty_settings(const SettingValues& values) {
-    return {static_cast<PuttyShape>(values.count("shape")), static_cast<PuttyHardness>(values.count("hardness")),
-            values.count("level"), values.count("kneads"), values.number("time_limit_s")};
+    return {static_cast<PuttyShape>(values.count("shape")),
+            static_cast<PuttyHardness>(values.count("hardness")),
+            values.count("level"),
+            values.count("kneads"),
+            values.number("time_limit_s"),
+            values.number("most_N")};
 }
 
 std::unique_ptr<Exercise> Putty::make(const SettingValues& values) { return std::make_unique<Putty>(values); }
 
 std::string_view Putty::grip(const SettingValues& values) {
     return putty_settings(values).is_pinch() ? "pinch" : "whole";
+}
+
+std::optional<Error> Putty::conflict(const SettingValues& values) {
+    if (auto wrong = too_short_a_way(values)) return wrong;
+    const unsigned kneads = putty_settings(values).kneads;
+    return too_short_a_limit(values, kneads * PuttyState::kGrips_s,
+                             formatted("%u kneads of %g s", kneads, PuttyState::kGrips_s));
 }
 
 Putty::Putty(const SettingValues& values) : values_(values), settings_(putty_settings(values)) {}
@@ -98,9 +113,12 @@ ExerciseCourse Putty::course() const {
 }
 
 std::string Putty::task() const {
-    return formatted(settings_.is_pinch() ? "Pinch the putty between thumb and index with %.1f N in both, then relax."
-                                          : "Knead the putty in the whole hand with %.1f N in all fingers, then relax.",
-                     settings_.target_N());
+    return formatted(settings_.is_pinch()
+                         ? "Pinch the putty between thumb and index with %.1f N in both together, %.2f N "
+                           "or more in each, then relax."
+                         : "Knead the putty in the whole hand with %.1f N in all fingers together, "
+                           "%.2f N or more in each, then relax.",
+                     settings_.target_N(), PuttyState::kTakesPart_N);
 }
 
 }  // namespace burin::activities

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "activities/rehab/putty/putty_exercise.hpp"
@@ -16,6 +17,8 @@ class Putty final : public Exercise {
 public:
     [[nodiscard]] static std::span<const SettingKind> setting_kinds();
     [[nodiscard]] static std::unique_ptr<Exercise> make(const SettingValues& values);
+    // Returns what cannot be met together. Requires sound values.
+    [[nodiscard]] static std::optional<Error> conflict(const SettingValues& values);
     // Returns how a simulated hand has to close for it (devices/gloves/grip_shape.hpp). Requires sound values.
     [[nodiscard]] static std::string_view grip(const SettingValues& values);
     // Requires sound values.
@@ -25,6 +28,9 @@ public:
     [[nodiscard]] const SettingValues& settings() const override { return values_; }
     [[nodiscard]] bodies::SoftPartSetup body() const override;
     [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.hardness).srgb; }
+    [[nodiscard]] WhichFingers pressing_fingers() const override {
+        return {true, true, !settings_.is_pinch(), !settings_.is_pinch()};
+    }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;

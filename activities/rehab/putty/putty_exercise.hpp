@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "activities/rehab/exercise/exercise.hpp"
+#include "activities/rehab/exercise/person_range.hpp"
 #include "base/clock.hpp"
 
 namespace burin::activities {
@@ -33,6 +34,7 @@ struct PuttyKind {
 struct PuttySettings {
     // By level: the sum of the forces of the fingers that the grip takes.
     static constexpr std::array<double, 3> kPinch_N{1.5, 2.5, 3.5}, kWhole_N{3.0, 5.0, 7.0};
+    static constexpr std::array<double, 3> kOfMost{0.25, 0.5, 0.75};  // or of the person's most force in that grip
 
     PuttyShape shape = PuttyShape::ball;
     PuttyHardness hardness = PuttyHardness::medium;
@@ -41,7 +43,11 @@ struct PuttySettings {
     double time_limit_s = 60.0;
 
     [[nodiscard]] bool is_pinch() const { return shape == PuttyShape::ball; }
-    [[nodiscard]] double target_N() const { return (is_pinch() ? kPinch_N : kWhole_N)[level - 1]; }
+    double most_N = 0.0;  // that the person presses with in that grip; 0: not known
+
+    [[nodiscard]] double target_N() const {
+        return fitted_target_N((is_pinch() ? kPinch_N : kWhole_N)[level - 1], kOfMost[level - 1], most_N);
+    }
     bool operator==(const PuttySettings&) const = default;
 };
 
