@@ -23,6 +23,8 @@ constexpr double kFelt = 0.01;
 constexpr double kOfStart = 0.6;
 // The part of a point's share that a look of the watch may cost, at least.
 constexpr double kOfLook = 0.5;
+// Of the width of what touches: how far it may be behind the tool that cuts.
+constexpr double kShortOfCut = 0.25;
 
 bool painting(const ProbeInput& in) {
     return (in.sample.buttons & 1u) != 0 && in.parameters.action == ToolAction::paint;
@@ -229,6 +231,8 @@ ProxySettings PointContact::settings() const {
     }
     const double speed = std::sqrt(glm::dot(slip, slip));
     const FrictionCone cone = eased_friction_at(friction_, rubs_, speed);
+    // What lies in a pit that the tool has left is not held there by friction: the tool goes no farther than around it.
+    if (falls_short(s.contact_radius_m)) return s;
     s.static_friction = cone.static_friction;
     s.dynamic_friction = cone.dynamic_friction;
     return s;
@@ -288,8 +292,10 @@ ProxyResult PointContact::moved(const ProxyState& state, const Vec3& hand_object
                                 const ProxyBudget& budget) {
     if (shape_ == nullptr) return move_proxy(state, hand_object_m, settings, bodies_.surface(), budget);
     Quat& orientation = step_.next.tool_orientation_object;
-    const ShapeMotion motion{hand_object_m, state.placed ? orientation : input_.motion.orientation_object,
-                             input_.motion.orientation_object, settings.static_friction, settings.dynamic_friction};
+    ShapeMotion motion{hand_object_m, state.placed ? orientation : input_.motion.orientation_object,
+                       input_.motion.orientation_object, settings.static_friction, settings.dynamic_friction};
+    motion.cuts = cuts();
+    if (falls_short(settings.contact_radius_m)) motion.cut_to_object_m = step_.next.cutting.point_object_m;
     const ShapeResult result = move_shape(state, motion, *shape_, bodies_.surface(), budget);
     orientation = result.orientation_object;
     if (result.proxy.constraints > 0) bear_at(result.touched_object_m, result.proxy.next.position_object_m);
@@ -389,6 +395,13 @@ void PointContact::let_go() {
 bool PointContact::cuts() const {
     const bool pressed = (input_.sample.buttons & 1u) != 0 && input_.parameters.action == ToolAction::cut;
     return pressed && &point_ == &input_.parameters.probe.points[0] && step_.next.cutting.engaged;
+}
+
+// Tells whether the tool has cut on, nearer to the hand than what touches by a part of its width.
+bool PointContact::falls_short(double half_width_m) const {
+    if (!cuts() || !state_.placed) return false;
+    const double cut_m = glm::length(step_.next.cutting.point_object_m - record_.hip_object_m);
+    return cut_m + 2.0 * kShortOfCut * half_width_m < glm::length(state_.position_object_m - record_.hip_object_m);
 }
 
 // Has the watch look at the contact of the last tick, taken along with the body that it is with.

@@ -84,6 +84,7 @@ private:
     [[nodiscard]] ProxyResult as_caught(const ProxyState& state) const;
     void let_go();
     [[nodiscard]] bool cuts() const;
+    [[nodiscard]] bool falls_short(double half_width_m) const;
     void watch(const ProxyState& contact, double most_ns, ContactWork& work);
     void count_work(const ContactWork& work, bool limited);
     [[nodiscard]] double scale() const { return input_.motion.object_from_device.scale; }

@@ -11,8 +11,8 @@ namespace burin::bench {
 namespace {
 
 // Steps of a tick, and how far a hand that leads is before the tool.
-constexpr double kLeads_m = 0.0025, kFall_m = 1e-5, kGoes_m = 2e-5, kPushes = 8.0;
-constexpr double kLiftedFrom_m = 0.003, kOfBall = 0.8, kClear_m = 0.0005, kNoForce_N = 0.01;
+constexpr double kLeads_m = 0.0025, kFall_m = 1e-5, kGoes_m = 2e-5, kPushes = 0.1;
+constexpr double kLiftedFrom_m = 0.003, kOfTool = 0.8, kClear_m = 0.0005, kNoForce_N = 0.01;
 constexpr double kFirstGroove_m = 0.0015, kAgainDeeper_m = 0.0007;
 constexpr double kTick_s = 1e-3;
 const CarvedBlock kPlungedBlock{{0.03, 0.016, 0.03}};
@@ -29,11 +29,13 @@ void note(Figures& figures, const haptics::TickRecord& record) {
 
 // Leads the tool down to a depth and along to x, pressed as much as that takes, and rests.
 void carve_groove(CarvingHand& hand, double from_x, double to_x, double depth_m) {
+    double pushed_m = 0.0;
     const auto lead = [&](double x, double y) {
         const Vec3 at = hand.cut_m();
-        // Pushed down where it lies too high; lifted by no more than it lies too low, so that it stays in its bed.
-        const double deeper = std::max(y < at.y ? y + kPushes * (y - at.y) : y, at.y - kLeads_m);
-        hand.go_to({std::min(x, at.x + kLeads_m), deeper, 0.0}, true);
+        // Pushed down the farther the longer it lies too high, and never lifted by more than it lies too low. A push that
+        // follows the error at once swings between the yield and free air.
+        pushed_m = std::clamp(pushed_m + kPushes * (at.y - y), 0.0, kLeads_m);
+        hand.go_to({std::min(x, at.x + kLeads_m), y - pushed_m, 0.0}, true);
     };
     for (int i = 0; i < 50; ++i) hand.go_to({from_x, 0.001, 0.0}, false);
     for (int i = 0; i < 4000 && hand.cut_m().y > -depth_m; ++i) lead(from_x, std::max(0.001 - kFall_m * i, -depth_m));
@@ -47,9 +49,11 @@ void carve_groove(CarvingHand& hand, double from_x, double to_x, double depth_m)
 
 Lifted lift_out(const compute::ToolShape& tool, int resolution, double speed_m_per_s) {
     CarvingHand hand(tool, {.resolution = resolution});
-    // A ball is as wide as its groove up to its middle alone.
-    const auto* ball = std::get_if<compute::BallTool>(&tool);
-    carve_groove(hand, -0.005, 0.005, ball != nullptr ? kOfBall * ball->radius_m : kLiftedFrom_m);
+    // A ball is as wide as its groove up to its middle alone, and a box that is wholly in it cuts itself a roof.
+    double depth_m = kLiftedFrom_m;
+    if (const auto* ball = std::get_if<compute::BallTool>(&tool)) depth_m = kOfTool * ball->radius_m;
+    if (const auto* box = std::get_if<compute::BoxTool>(&tool)) depth_m = kOfTool * 2.0 * box->half_size_m.y;
+    carve_groove(hand, -0.005, 0.005, depth_m);
     const Vec3 at = hand.cut_m();
     Lifted figures;
     for (double up = 0.0; up < 4.0 * kLiftedFrom_m; up += speed_m_per_s * kTick_s) {

@@ -25,6 +25,8 @@ constexpr double kWorthGoing = 0.25, kFarther = 1.5;
 // A turn that brings the tool deeper into something than this part of its width is halved, so often, before it is put
 // off to the next tick.
 constexpr int kTurnHalvings = 4;
+// Of the tool's width: how far behind the place to which it has cut what touches goes at most.
+constexpr double kNotYetKnown = 0.15;
 // Parts of a way that is free, each as long as a step.
 constexpr int kMostWays = 4;
 constexpr double kTurnedInto = 0.1;
@@ -107,6 +109,7 @@ private:
         const bool turns = state_.placed && motion_.before != motion_.wanted;
         turn(turns ? motion_.before : motion_.wanted);
         const double way = turns ? angle_of_turn() * shape_.reach_m : 0.0;
+        if (!turns && motion_.cut_to_object_m) follow_cut();
         if (!turns && lets_go()) return true;
         if (turns) {
             turn(motion_.wanted);
@@ -132,12 +135,24 @@ private:
         return true;
     }
 
+    // A tool that cuts has been where it has cut to: what touches goes after it, as far as nothing is in its way.
+    void follow_cut() {
+        const Vec3 way = search_.to_tool(*motion_.cut_to_object_m - surface_.origin_object()) - at_;
+        // The surface does not show yet what was cut last.
+        const double known_m = glm::length(way) - kNotYetKnown * shape_.size_m;
+        if (!state_.placed || was_set_ || !(known_m > 0.0)) return;
+        const Vec3 step = bounded(way * (known_m / glm::length(way)));
+        if (!search_.is_way_free(at_, step, squeezed_m())) return;
+        at_ += step;
+        at_object_ = search_.from_tool(at_);
+    }
+
     // A hand that lifts its tool: where nothing is between the two any more nothing is touched, and the tool goes with
     // the hand.
     bool lets_go() {
         if (!state_.placed || was_set_) return false;
-        // One that is held is not tried, unless it has been left behind for want of work.
-        if (holds_back() && (!state_.left_behind || search_.is_stopped(at_, hip() - at_))) return false;
+        // One that is held is not tried, unless it does not cut and has been left behind for want of work.
+        if (holds_back() && (motion_.cuts || !state_.left_behind || search_.is_stopped(at_, hip() - at_))) return false;
         for (int parts = 0; parts < kMostWays; ++parts) {
             const Vec3 pull = hip() - at_, step = bounded(pull);
             if (!search_.is_way_free(at_, step, squeezed_m())) return false;

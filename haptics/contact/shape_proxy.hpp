@@ -22,6 +22,8 @@
 // Frame: object, metres. No heap, lock, throw; the work is counted and bounded (contact_work.hpp).
 #pragma once
 
+#include <optional>
+
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/tool_shape.hpp"
 
@@ -32,6 +34,8 @@ struct ShapeMotion {
     // object_from_tool: of the last tick, and as the hand holds the tool now
     Quat before{1.0, 0.0, 0.0, 0.0}, wanted{1.0, 0.0, 0.0, 0.0};
     double static_friction = 0.0, dynamic_friction = 0.0;
+    bool cuts = false;                                   // its hand is within material that it cuts
+    std::optional<Vec3> cut_to_object_m = std::nullopt;  // where the tool has cut to, of which what touches falls short
 };
 
 struct ShapeResult {

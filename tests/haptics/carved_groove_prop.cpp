@@ -2,11 +2,14 @@
 // A tool in the groove that it cuts: it is let go, it sinks by the law, and it is never set inside material.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/haptics/carving_hand.hpp"
 #include "bench/haptics/carving_scenes.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/support/property_cases.hpp"
@@ -64,6 +67,24 @@ TEST(CarvedGroove, APressedToolSinksByTheLawAndHoldsStillBelowTheYield) {
         const double within = tool.name == "bull-nose" || tool.name == "cone" ? 0.2 : 0.1;
         EXPECT_NEAR(sunk.found_m_per_s / sunk.law_m_per_s, 1.0, within) << tool.name << ' ' << from_m;
         EXPECT_LT(bench::sink(tool.shape, 128, 0.9, from_m).found_m_per_s, 1e-5) << tool.name << ' ' << from_m;
+    }
+}
+
+// What touches lay in the pit, held by friction on its wall, and the tool stood still a tool's length away from it.
+TEST(CarvedGroove, AToolThatIsDrawnOutOfAPitGoesOn) {
+    constexpr double kPit_m = 0.0019, kGroove_m = 0.0015, kTo_m = 0.006, kTick_m = 2e-5, kLeads_m = 0.0025;
+    for (const bench::CarvingTool& tool : bench::carving_tools()) {
+        bench::CarvingHand hand(tool.shape, {.resolution = 256});
+        const auto lead = [&](double x, double y) {
+            const Vec3 at = hand.cut_m();
+            hand.go_to({std::min(x, at.x + kLeads_m), std::max(y, at.y - kLeads_m), 0.0}, true);
+        };
+        for (int i = 0; i < 150; ++i) hand.go_to({-kTo_m, 0.001 - 1e-5 * std::min(i, 110), 0.0}, false);
+        for (int i = 0; i < 4000 && hand.cut_m().y > -kPit_m; ++i) lead(-kTo_m, -2.0 * kPit_m);
+        ASSERT_LE(hand.cut_m().y, -kPit_m) << tool.name;
+        for (double x = -kTo_m; x < -kTo_m + 0.002; x += kTick_m) lead(x, -kPit_m);
+        for (double x = -kTo_m + 0.002; x < 2.0 * kTo_m; x += kTick_m) lead(x, -kGroove_m);
+        EXPECT_GT(hand.cut_m().x, kTo_m) << tool.name;
     }
 }
 
