@@ -32,8 +32,8 @@ void carve_groove(CarvingHand& hand, double from_x, double to_x, double depth_m)
     double pushed_m = 0.0;
     const auto lead = [&](double x, double y) {
         const Vec3 at = hand.cut_m();
-        // Pushed down the farther the longer it lies too high, and never lifted by more than it lies too low. A push that
-        // follows the error at once swings between the yield and free air.
+        // Pushed down the farther the longer it lies too high, and never lifted by more than it lies too low. A push
+        // that follows the error at once swings between the yield and free air.
         pushed_m = std::clamp(pushed_m + kPushes * (at.y - y), 0.0, kLeads_m);
         hand.go_to({std::min(x, at.x + kLeads_m), y - pushed_m, 0.0}, true);
     };

@@ -91,9 +91,10 @@ struct LookedAt {
     Engagement known;
     EngagementWork work;
 };
-// What contact leaves to a tool that cuts: for its look, where there was no work for one in the last tick or the surface
-// is another, and for its step. For a ball as much as they took last. Contact of a tool with a shape may use all that it
-// is given where a surface is new: it has it all in that tick, and the look as much as it may need in the next.
+// What contact leaves to a tool that cuts: for its look, where there was no work for one in the last tick or the
+// surface is another, and for its step. For a ball as much as they took last. Contact of a tool with a shape may use
+// all that it is given where a surface is new: it has it all in that tick, and the look as much as it may need in the
+// next.
 struct CuttingReserve {
     double look_ns = 0.0, step_ns = 0.0;
 };
