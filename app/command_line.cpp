@@ -110,6 +110,12 @@ std::string resolve_asset(AssetRoom room, std::string& text) {
 
 // ---- Misspelt words
 
+// Refuses an empty text, as of a shell's variable that is not set: without a word the option would be as if left out.
+CLI::Option* not_empty(CLI::Option* option) {
+    return option->check(
+        [](const std::string& text) { return text.empty() ? std::string("is empty; leave it out for none") : ""; });
+}
+
 // Returns the name that a word was meant to be; empty where none is near.
 std::string meant(std::string_view word, const std::vector<std::string>& names) {
     if (names.empty() || word.size() < 3) return "";
@@ -217,11 +223,11 @@ Command Command::subcommand(const std::string& name, const std::string& help) {
 void Command::require_subcommand() { app_->require_subcommand(1); }
 
 CommandOption Command::option(const std::string& name, std::string& to, const std::string& help) {
-    return CommandOption(app_->add_option(name, to, help));
+    return CommandOption(not_empty(app_->add_option(name, to, help)));
 }
 
 CommandOption Command::option(const std::string& name, std::vector<std::string>& to, const std::string& help) {
-    return CommandOption(app_->add_option(name, to, help));
+    return CommandOption(not_empty(app_->add_option(name, to, help)));
 }
 
 CommandOption Command::option(const std::string& name,

@@ -43,8 +43,10 @@ Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand
         return fail(
             "haptic device " + name, "names no device",
             "write a place in the library's list, from dhd:0, or a serial number, and @FILE for a library elsewhere");
-    if (!named_model.empty() && dhd_model_called(named_model).key != named_model)
-        return fail("haptic device " + name, "has no model " + named_model, "write one of " + dhd_model_keys());
+    const bool names_model = choice_at_library != choice_with_model;
+    if (names_model && dhd_model_called(named_model).key != named_model)
+        return fail("haptic device " + name, named_model.empty() ? "names no model" : "has no model " + named_model,
+                    "write one of " + dhd_model_keys());
     const bool is_emulated = first.starts_with("emulated");
     if (is_emulated && std::ranges::count(emulated_dhds(), first) == 0)
         return fail("haptic device " + name, "no emulator runs by this name",

@@ -39,8 +39,10 @@ void tell_if_unsure(HdDevice& device, const ArmModel& described) {
 
 Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand, Clock& clock) {
     const auto [name_at_library, named_model] = without_model(name_with_model);
-    if (!named_model.empty() && hd_model_called(named_model).key != named_model)
-        return fail("haptic device omni " + name_at_library, "has no model " + named_model,
+    const bool names_model = name_at_library != name_with_model;
+    if (names_model && hd_model_called(named_model).key != named_model)
+        return fail("haptic device omni " + name_at_library,
+                    named_model.empty() ? "names no model" : "has no model " + named_model,
                     "write one of " + hd_model_keys());
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);

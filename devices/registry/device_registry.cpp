@@ -334,13 +334,14 @@ Result<ChosenKind> chosen(std::string_view name) {
     const std::string where = "haptic device " + std::string(name);
     if (tracker_kind_of(name) != nullptr)
         return fail(where, "is a tracker, which has no force", "give it as --tracker " + std::string(name));
-    // wand@LIBRARY, where wand:@LIBRARY is meant.
+    // wand@LIBRARY, where wand:@LIBRARY is meant, and omni,model=touch-x.
     const std::size_t end = name.find_first_of("@,=");
     const auto meant = std::ranges::find(kHapticKinds, name.substr(0, end), &HapticKind::name);
-    if (end != std::string_view::npos && meant != kHapticKinds.end())
-        return fail(
-            where, "has no colon behind the device's name",
-            "write " + std::string(meant->name) + ":" + std::string(name.substr(name[end] == '@' ? end : end + 1)));
+    if (end != std::string_view::npos && meant != kHapticKinds.end()) {
+        const bool keeps = name[end] == '@' || name.substr(end).starts_with(",model=");
+        return fail(where, "has no colon behind the device's name",
+                    "write " + std::string(meant->name) + ":" + std::string(name.substr(keeps ? end : end + 1)));
+    }
     std::array<std::string_view, kHapticKinds.size()> names;
     std::ranges::transform(kHapticKinds, names.begin(), &HapticKind::name);
     return fail(where, "is no device that Burin knows",

@@ -57,6 +57,9 @@ Result<void> check_for_a_session(const SculptOptions& options) {
                   "press F12 in the session, or give 'command screenshot FILE' in its --input"},
         Misplaced{!options.report.empty(), "--report", "time sessions with burin profile --json"},
     };
+    if (!options.stroke.empty() && (options.live.lsl || options.live.lsl_markers))
+        return fail("--stroke", "is carved without a session, and --lsl and --lsl-markers are of sessions",
+                    "leave them out, or write the stroke as an --input");
     for (const Misplaced& one : misplaced)
         if (one.given) return fail(one.option, "belongs to carving along a --stroke and not to a session", one.instead);
     return {};

@@ -34,7 +34,10 @@ Result<void> check_streams(const LiveOptions& live) {
     if (live.lsl && !live.record.empty() && !is_session_file(live.record))
         return fail("--lsl", "has no ticks of a session that is recorded as text, whose log alone reads them",
                     "record into a session file: --record FILE.session");
-    if (live.lsl_markers && !is_session_file(live.record))
+    if (live.lsl_markers && !live.record.empty() && !is_session_file(live.record))
+        return fail("--lsl-markers", "hears markers for the events of a recording, and a log as text has none",
+                    "record into a session file: --record FILE.session");
+    if (live.lsl_markers && live.record.empty())
         return fail("--lsl-markers", "hears markers for the events of a recording, and there is none",
                     "give --record FILE.session as well");
     if (live.lsl_markers)

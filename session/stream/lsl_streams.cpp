@@ -19,6 +19,7 @@ namespace {
 
 constexpr auto kPushEvery = std::chrono::milliseconds(10);
 constexpr auto kLookEvery = std::chrono::milliseconds(500);
+constexpr std::uint64_t kLooksUntilTold = 6;
 constexpr std::size_t kMostChunk = 512;  // rows of a push
 constexpr std::size_t kMostWaitingMarkers = 16384;
 // A marker that is stamped further than this from when it came has no stamp of this kind.
@@ -47,6 +48,7 @@ struct LslStreams::Work {
     StreamClock clock;
     std::optional<StreamOutlets> outlets;  // the outlets' thread's
     std::optional<StreamInlets> inlets;    // the inlets' thread's
+    std::string markers;                   // the predicate by which they are looked for
     std::vector<std::unique_ptr<Rows>> rows;
 
     std::mutex mutex;  // guards what follows; held by nobody who calls the library
@@ -62,6 +64,7 @@ struct LslStreams::Work {
     void push_rows(std::size_t part);
     void push_events();
     void pull_all();
+    void note_found(std::uint64_t looks);
     void take(const HeardMarker& marker);
     void tell(std::string message) {
         const std::lock_guard lock(mutex);
@@ -137,6 +140,7 @@ void LslStreams::Work::push_events() {
 void LslStreams::Work::pull_all() {
     constexpr double kWait_s = 0.05;
     auto looked = std::chrono::steady_clock::now() - kLookEvery;
+    std::uint64_t looks = 0;
     for (;;) {
         {
             std::unique_lock lock(mutex);
@@ -145,6 +149,7 @@ void LslStreams::Work::pull_all() {
         if (std::chrono::steady_clock::now() - looked >= kLookEvery) {
             inlets->look();
             looked = std::chrono::steady_clock::now();
+            note_found(++looks);
         }
         for (const HeardMarker& marker : inlets->pull(kWait_s)) take(marker);
         for (std::string& message : inlets->take_messages()) tell("streams: " + std::move(message));
@@ -153,6 +158,15 @@ void LslStreams::Work::pull_all() {
     const std::lock_guard lock(mutex);
     inlets_end = true;
     ended.notify_all();
+}
+
+// Tells once that there is nothing to hear: a name may be misspelt.
+void LslStreams::Work::note_found(std::uint64_t looks) {
+    const std::size_t found = inlets->found();
+    if (found == 0 && looks == kLooksUntilTold)
+        tell("streams: no stream of markers is found yet by " + markers + "; it is looked for until the session ends");
+    const std::lock_guard lock(mutex);
+    figures.marker_streams = found;
 }
 
 void LslStreams::Work::take(const HeardMarker& marker) {
@@ -178,6 +192,9 @@ Result<std::unique_ptr<LslStreams>> LslStreams::open(const devices::LslApi& api,
     auto work = std::make_shared<Work>();
     work->api = api;
     work->clock = measure_stream_clock(api, clock);
+    if (!std::isfinite(work->clock.offset_s))
+        return fail("liblsl " + api.library, "has a clock that is no number",
+                    "name another library by BURIN_LIBLSL, or leave out --lsl and --lsl-markers");
     if (!plan.parts.empty()) {
         Result<StreamOutlets> outlets = StreamOutlets::open(api, plan.parts, work->clock, plan.source);
         if (!outlets) return std::unexpected(outlets.error());
@@ -189,6 +206,7 @@ Result<std::unique_ptr<LslStreams>> LslStreams::open(const devices::LslApi& api,
         Result<StreamInlets> inlets = StreamInlets::open(api, *plan.markers, plan.source);
         if (!inlets) return std::unexpected(inlets.error());
         work->inlets.emplace(std::move(*inlets));
+        work->markers = *plan.markers;
     }
     work->tell(formatted("streams: by liblsl %s, whose clock is %.9f s ahead of the session's, to within %.3f us",
                          api.version().c_str(), work->clock.offset_s, work->clock.within_s * 1e6));
@@ -283,6 +301,7 @@ std::string StreamFigures::text() const {
     std::string text = std::to_string(ticks) + " ticks and " + std::to_string(events) + " events streamed, " +
                        std::to_string(dropped_ticks + refused_ticks + unordered) + " ticks and " +
                        std::to_string(dropped_events) + " events lost, " + std::to_string(markers) + " markers heard" +
+                       (marker_streams == std::size_t{0} ? " since no stream of any was found" : "") +
                        (dropped_markers > 0 ? " and " + std::to_string(dropped_markers) + " lost" : "");
     if (is_left_behind) return text + "; the library does not return, and is left behind";
     return text + formatted("; the clocks drifted by %.1f us", drift_s * 1e6);

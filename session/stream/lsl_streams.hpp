@@ -51,8 +51,9 @@ struct StreamFigures {
     std::uint64_t unordered = 0;      // ticks no later than the one before, which were left out
     std::uint64_t events = 0, dropped_events = 0;
     std::uint64_t markers = 0, dropped_markers = 0;
-    double drift_s = 0.0;         // of the offset between the clocks, since the streams were opened
-    bool is_left_behind = false;  // the library did not return
+    double drift_s = 0.0;                       // of the offset between the clocks, since the streams were opened
+    std::optional<std::size_t> marker_streams;  // found; nothing where none was looked for
+    bool is_left_behind = false;                // the library did not return
     [[nodiscard]] std::string text() const;
 };
 

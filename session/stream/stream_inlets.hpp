@@ -32,6 +32,8 @@ public:
 
     // Opens the streams that were found since; call it now and then.
     void look();
+    // Returns how many streams of markers were found until now, with those that are not heard.
+    [[nodiscard]] std::size_t found() const { return heard_.size(); }
     // Pulls what has come, and waits for it up to a time.
     [[nodiscard]] std::vector<HeardMarker> pull(double timeout_s);
     // Returns what there is to tell since the last call.

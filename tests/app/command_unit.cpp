@@ -38,6 +38,14 @@ void expect_refused(const Workplace& place, const std::string& arguments, int st
 
 }  // namespace
 
+TEST(Command, ANameThatIsEmptyIsRefusedByItsOption) {
+    Workplace place;
+    for (const std::string option :
+         {"sculpt --record", "rehab putty --hand scripted --results", "world garden --report",
+          "rehab putty --hand scripted --settings", "sculpt --export"})
+        expect_refused(place, option + " ''", 2, {option.substr(option.rfind(' ') + 1), "is empty"});
+}
+
 TEST(Command, RefusesWrongUsageWithStatusTwo) {
     Workplace place;
     expect_refused(place, "sculpt --workpiece ball:1 --resolution 8", 2, {"--resolution", "16", "2048"});

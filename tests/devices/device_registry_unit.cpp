@@ -104,6 +104,11 @@ TEST(HapticRegistry, SaysTheRightFormOfATrackersNameAnEmptyLibraryAndAMissingCol
         << said("vrpn:");
     EXPECT_TRUE(said("dtrack:5000").contains("give it as --tracker dtrack:5000"));
     EXPECT_TRUE(said("wand@/x/libhil.so").contains("write wand:@/x/libhil.so")) << said("wand@/x/libhil.so");
+    for (const std::string arm : {"omni", "dhd"}) {
+        const std::string model = ",model=delta";
+        EXPECT_TRUE(said(arm + model).contains("write " + arm + ":" + model)) << said(arm + model);
+        EXPECT_TRUE(said(arm + ":,model=").contains("names no model")) << said(arm + ":,model=");
+    }
     EXPECT_TRUE(said("dhd@/x/libdhd.so").contains("write dhd:@/x/libdhd.so"));
     EXPECT_TRUE(said("spacemouse,speed=0.1").contains("write spacemouse:speed=0.1"));
     for (const std::string name : {"dhd:@", "wand:@", "omni:@", "wand:emulated@", "dhd:emulated@", "omni:emulated@"})

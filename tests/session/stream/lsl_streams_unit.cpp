@@ -324,6 +324,18 @@ TEST(LslStreams, AStreamOfMarkersThatIsLostIsToldAndOneWithTooManyValuesIsLeftOu
     static_cast<void>(streams->close());
 }
 
+TEST(LslStreams, MarkersThatNobodySendsAreToldOfByTheirPredicate) {
+    StandInLsl library;
+    MonotonicClock clock;
+    StreamPlan plan;
+    plan.markers = marker_predicate("Keybaord").value();
+    const auto streams = opened_streams(library, clock, std::move(plan));
+    EXPECT_TRUE(told_by(*streams, "no stream of markers is found").contains("Keybaord"));
+    const StreamFigures figures = streams->close();
+    EXPECT_EQ(figures.marker_streams, 0u);
+    EXPECT_TRUE(figures.text().contains("0 markers heard since no stream of any was found")) << figures.text();
+}
+
 TEST(LslStreams, APredicateThatIsNoneIsRefused) {
     StandInLsl library;
     MonotonicClock clock;
