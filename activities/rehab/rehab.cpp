@@ -221,14 +221,35 @@ void Rehab::follow_most_force(const FingersTurn& fingers) {
 // What the hand has shown, as settings of the next run take it; nothing of a finger that was not read.
 Json Rehab::person_range() const {
     double open = 0.0, closed = 0.0;
+    std::string never_free, stopped;
+    const auto name = [](std::string& names, std::size_t i) {
+        names += (names.empty() ? "" : ", ") + std::string(kFingerNames[i]);
+    };
     for (std::size_t i = 0; i < kFelt; ++i) {
         const FingerMeasures& finger = measures_.fingers[i];
+        const auto of = static_cast<geometry::Finger>(i);
         for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint)
             if (!(finger.most_rad[joint] >= finger.least_rad[joint])) return {};
-        open += geometry::closure_of(static_cast<geometry::Finger>(i), finger.least_rad) / kFelt;
-        closed += geometry::closure_of(static_cast<geometry::Finger>(i), finger.most_rad) / kFelt;
+        if (!finger.was_free()) {
+            name(never_free, i);
+            continue;
+        }
+        open += finger.open_closure(of) / kFelt;
+        closed += finger.closed_closure(of) / kFelt;
+        if (!finger.closed_freely(of)) name(stopped, i);
     }
-    return {{"open", open}, {"closed", closed}, {"most_N", most_together_N_}};
+    Json range{{"most_N", most_together_N_}};
+    // One end alone fits nothing: both are the way by which closures are told.
+    if (!never_free.empty()) {
+        range["way_left_out"] = "pushed all the time: " + never_free;
+    } else if (!stopped.empty()) {
+        range["way_left_out"] =
+            "stopped where it closed farthest: " + stopped + "; close the hand once with nothing in it";
+    } else {
+        range["open"] = open;
+        range["closed"] = closed;
+    }
+    return range;
 }
 
 bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& orders) {
