@@ -65,7 +65,8 @@ Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const Exercise
     return folder;
 }
 
-void print_score(const activities::Exercise& exercise) {
+void print_score(const activities::Rehab& rehab) {
+    const activities::Exercise& exercise = rehab.exercise();
     const activities::ExerciseCourse course = exercise.course();
     std::string counts;
     for (const auto& count : course.counts) {
@@ -74,7 +75,13 @@ void print_score(const activities::Exercise& exercise) {
         counts += count.wanted > 0 ? formatted("%u of %u %s, ", count.number, count.wanted, name.c_str())
                                    : formatted("%u %s, ", count.number, name.c_str());
     }
-    std::printf("%s: %sscore %.0f of 100, in %.1f s\n", exercise.name(), counts.c_str(), course.score, course.time_s);
+    std::string ended;
+    if (course.end == activities::ExerciseEnd::not_yet) {
+        const std::string why = rehab.failure();
+        ended = std::string(text_of(course.end)) + (why.empty() ? "" : ", since " + why) + ": ";
+    }
+    std::printf("%s: %s%sscore %.0f of 100, in %.1f s\n", exercise.name(), ended.c_str(), counts.c_str(), course.score,
+                course.time_s);
 }
 
 }  // namespace
@@ -187,7 +194,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     // What the person has done is kept, even where the session missed something else; one that never began leaves an
     // older report alone.
     if (!done && exercise->exercise().course().events.empty()) return done;
-    print_score(exercise->exercise());
+    print_score(*exercise);
     const Json report = exercise->report();
     const Result<void> written = write_output(of.report, json_text(report));
     // What a script has done, no person has.

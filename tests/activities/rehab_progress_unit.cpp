@@ -75,7 +75,12 @@ TEST(Proposals, AreOfALevelUpOrDownAfterThreeRunsThatAgree) {
     const auto mixed = after({run_of(1, day(1), 99), run_of(1, day(2), 99, 2), run_of(1, day(3), 99, 2)});
     EXPECT_TRUE(mixed.reason.contains("different settings")) << mixed.reason;
     const auto broken = after({run_of(1, day(1), 99), run_of(1, day(2), 99, 1, "broken off"), run_of(1, day(3), 99)});
-    EXPECT_TRUE(broken.reason.contains("broken off")) << broken.reason;
+    EXPECT_EQ(broken.reason, "Level 1 stays: a proposal takes 3 runs that were carried to an end, and there are 2.");
+    EXPECT_EQ(after({run_of(1, day(1), 99, 1, "broken off")}).reason,
+              "Level 1 stays: a proposal takes 3 runs that were carried to an end, and there are 0.");
+    const auto among = after(
+        {run_of(1, day(1), 99), run_of(1, day(2), 99), run_of(1, day(3), 0, 1, "broken off"), run_of(1, day(4), 99)});
+    EXPECT_EQ(among.level, 2u) << among.reason;
 }
 
 TEST_F(KeptRunsFolder, AreReadAsTheyWereKeptByParticipantAndTime) {

@@ -19,21 +19,22 @@ unsigned level_of(const KeptRun& run) {
 
 }  // namespace
 
-Proposal proposed(std::span<const KeptRun* const> runs, unsigned levels) {
-    const unsigned level = level_of(*runs.back());
+Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
+    std::vector<const KeptRun*> runs(all.begin(), all.end());
+    std::erase_if(runs, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; });
+    const unsigned level = level_of(runs.empty() ? *all.back() : *runs.back());
     if (level == 0 || levels == 0) return {0, "The exercise has no levels that are known."};
     const auto stays = [&](const std::string& reason) {
         return Proposal{0, formatted("Level %u stays: ", level) + reason};
     };
     if (runs.size() < Proposal::kRuns)
-        return stays(formatted("there are %zu of the %zu runs that a proposal takes.", runs.size(), Proposal::kRuns));
-    const auto last = runs.last(Proposal::kRuns);
+        return stays(formatted("a proposal takes %zu runs that were carried to an end, and there %s %zu.",
+                               Proposal::kRuns, runs.size() == 1 ? "is" : "are", runs.size()));
+    const auto last = std::span(runs).last(Proposal::kRuns);
     const auto differs = [&](const KeptRun* run) {
         return run->report.at("settings") != runs.back()->report.at("settings");
     };
     if (std::ranges::any_of(last, differs)) return stays("the last three runs had different settings.");
-    if (std::ranges::any_of(last, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; }))
-        return stays("one of the last three runs was broken off.");
     std::string scores;
     for (const KeptRun* run : last) scores += formatted(scores.empty() ? "%.0f" : ", %.0f", score_of(*run));
     const bool well = std::ranges::all_of(last, [](const KeptRun* run) { return score_of(*run) >= Proposal::kWell; });

@@ -10,7 +10,7 @@
 
 namespace burin::activities {
 
-// A level is proposed where the last kRuns runs, all with the same settings and all carried to an end, agree: the next
+// A level is proposed where the last kRuns runs that were carried to an end, all with the same settings, agree: the next
 // higher where each scored kWell or more, the next lower where none scored more than kBadly.
 struct Proposal {
     static constexpr std::size_t kRuns = 3;
