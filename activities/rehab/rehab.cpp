@@ -254,15 +254,23 @@ Json Rehab::person_range() const {
 
 bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& orders) {
     if (!asks_ || start_.is_done()) return true;
+    if (start_.has_failed()) return false;
     if (!std::exchange(has_asked_, true))
         orders.messages.push_back("press with each finger once: " + start_.missing() + "; then the time begins");
     start_ = with_turn(start_, fingers);
+    if (start_.has_failed()) orders.messages.push_back("broken off: " + failure());
     if (!start_.is_done()) return false;
     orders.messages.push_back(start_.missing().empty()
                                   ? "each finger has pressed; the time begins"
                                   : "gave nothing when they were to press: " + start_.missing() +
                                         "; the time begins without, and what is measured of them says so");
     return true;
+}
+
+std::string Rehab::failure() const {
+    if (!asks_ || !start_.has_failed()) return "";
+    return formatted("the device had a fault at each finger for the first %g s, as with its motors off",
+                     StartCheck::kMost_s);
 }
 
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
@@ -319,6 +327,7 @@ session::ActivityPanel Rehab::panel() const {
     panel.page = exercise_->task();
     if (asks_ && !start_.is_done())
         panel.page = "Press with each finger once, then the time begins: " + start_.missing();
+    if (const std::string why = failure(); !why.empty()) panel.page = "Broken off: " + why;
     for (const ExerciseCourse::Count& count : course.counts)
         if (count.wanted > 0)
             panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
@@ -345,10 +354,12 @@ Json Rehab::report() const {
     for (const ExerciseEvent& event : course.events)
         events.push_back(
             {{"what", event.what}, {"time_s", seconds(event.time_ns - course.begun_ns)}, {"force_N", event.force_N}});
+    const std::string why = failure();
     return {{"exercise", exercise_->name()},
             {"settings", std::move(settings)},
             {"young_Pa", body_->setup().material.young_Pa},
             {"ended", text_of(course.end)},
+            {"broken_off_because", why.empty() ? Json() : Json(why)},
             {"score", course.score},
             {"time_s", course.time_s},
             {"counts", std::move(counts)},

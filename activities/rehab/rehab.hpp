@@ -44,6 +44,8 @@ public:
     [[nodiscard]] const HandMeasures& measures() const { return measures_; }
     // Returns settings, score, counts, measures and events.
     [[nodiscard]] Json report() const;
+    // Returns why it was broken off by itself, before its time began; empty: it was not.
+    [[nodiscard]] std::string failure() const;
 
 private:
     void take_over(const session::ActivityView& view, session::ActivityOrders& orders);
