@@ -261,7 +261,7 @@ bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& ord
     if (start_.has_failed()) orders.messages.push_back("broken off: " + failure());
     if (!start_.is_done()) return false;
     orders.messages.push_back(start_.missing().empty()
-                                  ? "each finger has pressed; the time begins"
+                                  ? "each finger has pressed; let go: the time begins"
                                   : "gave nothing when they were to press: " + start_.missing() +
                                         "; the time begins without, and what is measured of them says so");
     return true;
@@ -275,9 +275,17 @@ std::string Rehab::failure() const {
 
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     if (exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
-    measures_ = with_turn(measures_, turn.fingers);
-    follow_most_force(turn.fingers);
-    exercise_->turn(turn, orders);
+    has_let_go_ = has_let_go_ || !asks_ || StartCheck::is_let_go(turn.fingers);
+    if (has_let_go_) {
+        measures_ = with_turn(measures_, turn.fingers);
+        follow_most_force(turn.fingers);
+        exercise_->turn(turn, orders);
+    } else {  // the press that the start asked for is none of the exercise's
+        ExerciseTurn without = turn;
+        without.grasped = false;
+        without.fingers.forces_N = {};
+        exercise_->turn(without, orders);
+    }
     if (exercise_->end() != ExerciseEnd::not_yet)
         orders.messages.push_back(formatted("%s: score %.0f of 100",
                                             exercise_->end() == ExerciseEnd::done ? "done" : "time is over",

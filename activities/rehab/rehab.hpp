@@ -69,7 +69,8 @@ private:
     bool is_lost_ = false;                // the body has fallen so deep that nobody reaches it
     Nanoseconds turn_ns_ = 0;
     std::array<double, kFelt> body_shares_{};  // of each finger's force, in the turn before
-    bool asks_ = false, has_asked_ = false;    // each finger to press once, before the exercise begins
+    bool asks_ = false, has_asked_ = false,
+         has_let_go_ = false;  // each finger to press once, before the exercise begins
     StartCheck start_;
     PersonRange range_;
     double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s

@@ -86,6 +86,26 @@ TEST(StartCheck, NobodyIsWaitedForForEver) {
     EXPECT_EQ(rehab->report()["fingers"][0]["pressed_at_start"], false);
 }
 
+// The press that begins the time is none of the exercise's, however long it lasts.
+TEST(StartCheck, WhatIsPressedCountsOnceTheHandHasLetGo) {
+    const auto rehab = rehab_that_starts("putty");
+    const auto kneads = [&] { return rehab->exercise().course().counts.at(0).number; };
+    ActedHand hand;
+    const FingerForces pinch_N{1.5, 1.5, 0.0, 0.0};
+    push_all(hand, pinch_N, pinch_N);
+    hand.go_on(*rehab, 2000);
+    EXPECT_GT(rehab->exercise().course().time_s, 1.8);
+    EXPECT_EQ(kneads(), 0u);
+    EXPECT_EQ(rehab->report()["person_range"], Json()) << "nor is it the person's force";
+    EXPECT_EQ(rehab->report()["fingers"][0]["peak_force_N"], 0.0);
+    push_all(hand, {}, {});
+    hand.go_on(*rehab, 200);
+    push_all(hand, pinch_N, pinch_N);
+    hand.go_on(*rehab, 400);
+    EXPECT_EQ(kneads(), 1u);
+    EXPECT_EQ(rehab->report()["fingers"][0]["peak_force_N"], 1.5);
+}
+
 // Motors that are off for 20 s are no run that a person has done badly.
 TEST(StartCheck, ADeviceThatHasAFaultAtEachFingerBreaksOff) {
     for (const bool one_works : {false, true}) {

@@ -19,6 +19,10 @@ bool StartCheck::has_failed() const {
     return true;
 }
 
+bool StartCheck::is_let_go(const FingersTurn& turn) {
+    return std::ranges::all_of(turn.forces_N, [](double force_N) { return force_N < kLetGo_N; });
+}
+
 std::string StartCheck::missing() const {
     std::string names;
     for (std::size_t i = 0; i < asks.size(); ++i)
