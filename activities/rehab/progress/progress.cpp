@@ -2,7 +2,10 @@
 #include "activities/rehab/progress/progress.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
+#include "activities/rehab/exercise_kinds.hpp"
 #include "base/text.hpp"
 
 namespace burin::activities {
@@ -15,6 +18,38 @@ unsigned level_of(const KeptRun& run) {
     return level != nullptr && level->is_number() && *level >= 1.0 && *level <= 100.0
                ? static_cast<unsigned>(level->get<double>())
                : 0;
+}
+
+// Returns a run's settings. One that it lacks was not there yet when it was kept, and counts as its default.
+Json settings_of(const KeptRun& run) {
+    Json settings = run.report.at("settings");
+    const ExerciseKind* const kind = exercise_named(run.report.at("exercise").get<std::string>());
+    if (kind == nullptr) return settings;
+    const SettingValues usual(kind->settings);
+    for (const SettingKind& setting : kind->settings) {
+        if (settings.contains(setting.key)) continue;
+        if (setting.words.empty())
+            settings[setting.key] = setting.usual;
+        else
+            settings[setting.key] = usual.word(setting.key);
+    }
+    return settings;
+}
+
+// Returns whether two runs had the same settings. A start by the device, the default, is the other run's.
+bool have_same_settings(const KeptRun& one, const KeptRun& other) {
+    Json first = settings_of(one), second = settings_of(other);
+    const auto by_device = [](const Json& settings) {
+        const auto start = settings.find("start");
+        return start != settings.end() && *start == kStarts[static_cast<std::size_t>(kStartsByDevice)];
+    };
+    if (by_device(first) || by_device(second)) {
+        first.erase("start");
+        second.erase("start");
+    }
+    return first.size() == second.size() && std::ranges::all_of(first.items(), [&](const auto& setting) {
+               return find_value(second, "/" + setting.key()) != nullptr && second.at(setting.key()) == setting.value();
+           });
 }
 
 }  // namespace
@@ -31,9 +66,7 @@ Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
         return stays(formatted("a proposal takes %zu runs that were carried to an end, and there %s %zu.",
                                Proposal::kRuns, runs.size() == 1 ? "is" : "are", runs.size()));
     const auto last = std::span(runs).last(Proposal::kRuns);
-    const auto differs = [&](const KeptRun* run) {
-        return run->report.at("settings") != runs.back()->report.at("settings");
-    };
+    const auto differs = [&](const KeptRun* run) { return !have_same_settings(*run, *runs.back()); };
     if (std::ranges::any_of(last, differs)) return stays("the last three runs had different settings.");
     std::string scores;
     for (const KeptRun* run : last) scores += formatted(scores.empty() ? "%.0f" : ", %.0f", score_of(*run));
