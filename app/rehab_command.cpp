@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/rehab_command.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -16,6 +17,8 @@
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/gloves/glove_hand.hpp"
+#include "devices/gloves/grip_shape.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
@@ -45,6 +48,18 @@ Result<void> check_glove(const session::LiveOptions& live) {
     if (nature->is_worn) return {};
     return fail("--device " + live.device, "is no glove",
                 "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
+}
+
+// Checks that the glove's pistons can give what the exercise asks for; a simulated hand gives way before that.
+Result<void> check_target(const activities::Exercise& exercise, bool is_simulated) {
+    const auto fingers = std::ranges::count(exercise.pressing_fingers(), true);
+    const double of_each_N = is_simulated ? devices::Grip::kHolds_N : devices::kMostPistonForce_N;
+    const double most_N = of_each_N * static_cast<double>(fingers);
+    if (exercise.target_N() <= most_N) return {};
+    return fail("--most-force",
+                formatted("makes a target of %g N, and %td fingers of this glove give %g N each, %g N together",
+                          exercise.target_N(), fingers, of_each_N, most_N),
+                "give less, or a lower --level");
 }
 
 // Writes the script that a participant of that seed follows, and has the session follow it.
@@ -101,6 +116,21 @@ struct RehabCommand::Of {
     std::uint64_t seed = 1;
     bool print_config = false;
 
+    // Returns a mistake that names the options that were given in place of the settings' keys.
+    [[nodiscard]] Error by_option(Error error) const {
+        std::string named;
+        for (std::string_view rest = error.where; !rest.empty();) {
+            const std::string_view key = rest.substr(0, rest.find(", "));
+            rest.remove_prefix(std::min(key.size() + 2, rest.size()));
+            std::string name(key);
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                if (key == kind.settings[i].key && (numbers[i] || !words[i].empty() || settings.empty()))
+                    name = kind.settings[i].option;
+            named += (named.empty() ? "" : ", ") + name;
+        }
+        error.where = named;
+        return error;
+    }
     // Returns the settings of the file with what the command line says.
     [[nodiscard]] Result<SettingValues> values() const {
         Result<SettingValues> values = settings_in(settings, kind);
@@ -108,10 +138,12 @@ struct RehabCommand::Of {
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             if (numbers[i]) values->set(kind.settings[i].key, *numbers[i]);
             if (words[i].empty()) continue;
-            if (const auto set = values->set(kind.settings[i].key, words[i]); !set) return std::unexpected(set.error());
+            if (const auto set = values->set(kind.settings[i].key, words[i]); !set)
+                return std::unexpected(by_option(set.error()));
         }
-        if (const auto wrong = activities::problems(*values); !wrong.empty()) return std::unexpected(wrong.front());
-        if (const auto conflict = kind.conflict(*values)) return std::unexpected(*conflict);
+        if (const auto wrong = activities::problems(*values); !wrong.empty())
+            return std::unexpected(by_option(wrong.front()));
+        if (const auto conflict = kind.conflict(*values)) return std::unexpected(by_option(*conflict));
         return values;
     }
 };
@@ -189,6 +221,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
     if (const auto ready = prepare_results(of.results); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
+    if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
     // What the person has done is kept, even where the session missed something else; one that never began leaves an

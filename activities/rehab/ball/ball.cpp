@@ -68,6 +68,8 @@ std::unique_ptr<Exercise> Ball::make(const SettingValues& values) { return std::
 
 std::optional<Error> Ball::conflict(const SettingValues& values) {
     if (auto wrong = too_short_a_way(values)) return wrong;
+    if (auto wrong = too_low_a_target(BallSettings::kOfMost[values.count("level") - 1], values.number("most_N")))
+        return wrong;
     const BallSettings settings = ball_settings(values);
     const unsigned rests = settings.repetitions - 1;
     return too_short_a_limit(values, settings.repetitions * settings.hold_s + rests * BallState::kRelaxes_s,

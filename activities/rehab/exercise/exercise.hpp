@@ -75,6 +75,8 @@ public:
     [[nodiscard]] virtual bool is_carried() const { return false; }
     // Returns the fingers that press in it, which its start asks for.
     [[nodiscard]] virtual WhichFingers pressing_fingers() const { return {true, true, true, true}; }
+    // Returns the force that they are to reach together; 0: none is asked.
+    [[nodiscard]] virtual double target_N() const { return 0.0; }
     // Returns how a desk leads the hand of a glove, where that is not as usual.
     [[nodiscard]] virtual std::optional<session::LedHand> led_hand() const { return std::nullopt; }
     // Called once, when the body has taken the place of the world's object. An exercise that moves its body by itself
