@@ -97,6 +97,7 @@ void print_score(const activities::Rehab& rehab) {
     }
     std::printf("%s: %s%sscore %.0f of 100, in %.1f s\n", exercise.name(), ended.c_str(), counts.c_str(), course.score,
                 course.time_s);
+    for (const std::string& note : course.notes) std::printf("%s: %s\n", exercise.name(), note.c_str());
 }
 
 }  // namespace

@@ -371,6 +371,7 @@ Json Rehab::report() const {
             {"score", course.score},
             {"time_s", course.time_s},
             {"counts", std::move(counts)},
+            {"notes", course.notes},
             {"person_range", person_range()},
             {"rejected_sets", hand_.rejected_sets()},
             {"fingers", std::move(fingers)},

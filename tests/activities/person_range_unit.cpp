@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,24 @@ TEST(PersonRange, AGraspIsToldByTheShareOfThePersonsWay) {
         hand.go_on(*rehab, 100, objects);
         EXPECT_EQ(holds_ball(*rehab), fitted);
     }
+}
+
+// A hand that presses as it should, but is not closed by the range that is set, is told why that does not count.
+TEST(PersonRange, AForceWithoutAGraspIsToldAndNoted) {
+    const auto rehab = fitted_rehab("ball", {{"closed", 1.5}});
+    ActedHand hand;
+    for (std::size_t finger = 0; finger < kFelt; ++finger) {
+        hand.touch(finger, kTable, {0.0, 1.0, 0.0});
+        hand.push(finger, 1.0);
+    }
+    EXPECT_EQ(rehab->report()["notes"], Json::array());
+    const auto told = hand.go_on(*rehab, 3000).messages;
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_TRUE(told[0].starts_with("4.0 N do not count: the hand does not grasp the ball")) << told[0];
+    const Json notes = rehab->report()["notes"];
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(notes[0].get<std::string>().starts_with("the force was reached once")) << notes[0];
+    EXPECT_EQ(rehab->exercise().course().counts.at(0).number, 0u);
 }
 
 TEST(PersonRange, LinesOfRecordingsThatLackItAreOfTheUsualHand) {

@@ -34,12 +34,15 @@ public:
     [[nodiscard]] std::string task() const override;
 
 private:
+    void follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders);
     void tell(const ExerciseEvent& event, session::ActivityOrders& orders);
 
     SettingValues values_;
     BallSettings settings_;
     BallState state_;
     std::vector<ExerciseEvent> events_;
+    double pressed_open_s_ = 0.0;  // with the target's force and no grasp, since it was less
+    unsigned pressed_open_ = 0;    // how often for kPressedOpen_s
 };
 
 }  // namespace burin::activities

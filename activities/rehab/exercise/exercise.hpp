@@ -55,6 +55,7 @@ struct ExerciseCourse {
     double score = 0.0;        // 0 to 100
     std::vector<Count> counts;
     std::vector<ExerciseEvent> events;
+    std::vector<std::string> notes = {};  // what did not count and why, a sentence each
 };
 
 class Exercise {

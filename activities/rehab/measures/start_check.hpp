@@ -3,7 +3,8 @@
 // a force at all, and the first seconds of finding the body are no part of the time.
 //
 //   each turn -> a finger that is pushed with kPressed_N for kPressed_s, by what the device measures, has given
-//   all have -> it begins, and what they press with counts from when all have let go; the others have for kWaits_s, or nobody for kMost_s -> it begins without those that are left
+//   all have -> it begins; the others have for kWaits_s, or nobody for kMost_s -> it begins without those that are left
+//   it has begun -> what they press with counts from when all have let go
 // A device whose asked fingers have all had a fault until kMost_s begins nothing: it has failed.
 // A device that does not measure is taken at its word. A finger with a fault gives nothing.
 // Units: newtons, seconds. Pure; any thread.
