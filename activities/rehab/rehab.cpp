@@ -268,9 +268,11 @@ bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& ord
 }
 
 std::string Rehab::failure() const {
-    if (!asks_ || !start_.has_failed()) return "";
-    return formatted("the device had a fault at each finger for the first %g s, as with its motors off",
-                     StartCheck::kMost_s);
+    if (!asks_ || start_.is_done() || start_.asked_s == 0.0) return "";
+    for (std::size_t i = 0; i < start_.asks.size(); ++i)
+        if (start_.asks[i] && start_.worked[i]) return "";
+    return formatted("the device had a fault at each finger for the first %.0f s, as with its motors off",
+                     start_.asked_s);
 }
 
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
@@ -335,7 +337,7 @@ session::ActivityPanel Rehab::panel() const {
     panel.page = exercise_->task();
     if (asks_ && !start_.is_done())
         panel.page = "Press with each finger once, then the time begins: " + start_.missing();
-    if (const std::string why = failure(); !why.empty()) panel.page = "Broken off: " + why;
+    if (start_.has_failed()) panel.page = "Broken off: " + failure();
     for (const ExerciseCourse::Count& count : course.counts)
         if (count.wanted > 0)
             panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
