@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/rehab_command.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -16,6 +17,8 @@
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "devices/gloves/glove_hand.hpp"
+#include "devices/gloves/grip_shape.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
@@ -47,6 +50,18 @@ Result<void> check_glove(const session::LiveOptions& live) {
                 "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
 }
 
+// Checks that the glove's pistons can give what the exercise asks for; a simulated hand gives way before that.
+Result<void> check_target(const activities::Exercise& exercise, bool is_simulated) {
+    const auto fingers = std::ranges::count(exercise.pressing_fingers(), true);
+    const double of_each_N = is_simulated ? devices::Grip::kHolds_N : devices::kMostPistonForce_N;
+    const double most_N = of_each_N * static_cast<double>(fingers);
+    if (exercise.target_N() <= most_N) return {};
+    return fail("--most-force",
+                formatted("makes a target of %g N, and %td fingers of this glove give %g N each, %g N together",
+                          exercise.target_N(), fingers, of_each_N, most_N),
+                "give less, or a lower --level");
+}
+
 // Writes the script that a participant of that seed follows, and has the session follow it.
 Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const ExerciseKind& kind, const SettingValues& values,
                                       std::uint64_t seed) {
@@ -65,7 +80,8 @@ Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const Exercise
     return folder;
 }
 
-void print_score(const activities::Exercise& exercise) {
+void print_score(const activities::Rehab& rehab) {
+    const activities::Exercise& exercise = rehab.exercise();
     const activities::ExerciseCourse course = exercise.course();
     std::string counts;
     for (const auto& count : course.counts) {
@@ -74,7 +90,14 @@ void print_score(const activities::Exercise& exercise) {
         counts += count.wanted > 0 ? formatted("%u of %u %s, ", count.number, count.wanted, name.c_str())
                                    : formatted("%u %s, ", count.number, name.c_str());
     }
-    std::printf("%s: %sscore %.0f of 100, in %.1f s\n", exercise.name(), counts.c_str(), course.score, course.time_s);
+    std::string ended;
+    if (course.end == activities::ExerciseEnd::not_yet) {
+        const std::string why = rehab.failure();
+        ended = std::string(text_of(course.end)) + (why.empty() ? "" : ", since " + why) + ": ";
+    }
+    std::printf("%s: %s%sscore %.0f of 100, in %.1f s\n", exercise.name(), ended.c_str(), counts.c_str(), course.score,
+                course.time_s);
+    for (const std::string& note : course.notes) std::printf("%s: %s\n", exercise.name(), note.c_str());
 }
 
 }  // namespace
@@ -94,6 +117,21 @@ struct RehabCommand::Of {
     std::uint64_t seed = 1;
     bool print_config = false;
 
+    // Returns a mistake that names the options that were given in place of the settings' keys.
+    [[nodiscard]] Error by_option(Error error) const {
+        std::string named;
+        for (std::string_view rest = error.where; !rest.empty();) {
+            const std::string_view key = rest.substr(0, rest.find(", "));
+            rest.remove_prefix(std::min(key.size() + 2, rest.size()));
+            std::string name(key);
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                if (key == kind.settings[i].key && (numbers[i] || !words[i].empty() || settings.empty()))
+                    name = kind.settings[i].option;
+            named += (named.empty() ? "" : ", ") + name;
+        }
+        error.where = named;
+        return error;
+    }
     // Returns the settings of the file with what the command line says.
     [[nodiscard]] Result<SettingValues> values() const {
         Result<SettingValues> values = settings_in(settings, kind);
@@ -101,10 +139,12 @@ struct RehabCommand::Of {
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             if (numbers[i]) values->set(kind.settings[i].key, *numbers[i]);
             if (words[i].empty()) continue;
-            if (const auto set = values->set(kind.settings[i].key, words[i]); !set) return std::unexpected(set.error());
+            if (const auto set = values->set(kind.settings[i].key, words[i]); !set)
+                return std::unexpected(by_option(set.error()));
         }
-        if (const auto wrong = activities::problems(*values); !wrong.empty()) return std::unexpected(wrong.front());
-        if (const auto conflict = kind.conflict(*values)) return std::unexpected(*conflict);
+        if (const auto wrong = activities::problems(*values); !wrong.empty())
+            return std::unexpected(by_option(wrong.front()));
+        if (const auto conflict = kind.conflict(*values)) return std::unexpected(by_option(*conflict));
         return values;
     }
 };
@@ -182,12 +222,13 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
     if (const auto ready = prepare_results(of.results); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
+    if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
     // What the person has done is kept, even where the session missed something else; one that never began leaves an
     // older report alone.
     if (!done && exercise->exercise().course().events.empty()) return done;
-    print_score(exercise->exercise());
+    print_score(*exercise);
     const Json report = exercise->report();
     const Result<void> written = write_output(of.report, json_text(report));
     // What a script has done, no person has.

@@ -92,13 +92,14 @@ Result<void> keep_results(const ResultsOptions& options, const std::string& hand
 }
 
 Result<void> rehab_report(const std::string& folder, const std::string& page) {
+    if (folder.empty()) return fail("FOLDER", "is empty", "name the folder that --results was given");
     const Result<activities::KeptRuns> kept = activities::read_runs(folder);
     if (!kept) return std::unexpected(kept.error());
     if (kept->runs.empty() && kept->errors.empty())
         return fail(folder, "holds no runs", "name the folder that --results was given");
     const std::string to = page.empty() ? page_of(folder) : page;
     if (const auto written = write_page(*kept, to); !written) return written;
-    std::printf("%zu runs: %s\n", kept->runs.size(), to.c_str());
+    std::printf("%zu %s: %s\n", kept->runs.size(), kept->runs.size() == 1 ? "run" : "runs", to.c_str());
     if (kept->errors.empty()) return {};
     for (std::size_t i = 1; i < kept->errors.size(); ++i)
         std::fprintf(stderr, "burin: left out: %s\n", kept->errors[i].line().c_str());

@@ -221,34 +221,73 @@ void Rehab::follow_most_force(const FingersTurn& fingers) {
 // What the hand has shown, as settings of the next run take it; nothing of a finger that was not read.
 Json Rehab::person_range() const {
     double open = 0.0, closed = 0.0;
+    std::string never_free, stopped;
+    const auto name = [](std::string& names, std::size_t i) {
+        names += (names.empty() ? "" : ", ") + std::string(kFingerNames[i]);
+    };
     for (std::size_t i = 0; i < kFelt; ++i) {
         const FingerMeasures& finger = measures_.fingers[i];
+        const auto of = static_cast<geometry::Finger>(i);
         for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint)
             if (!(finger.most_rad[joint] >= finger.least_rad[joint])) return {};
-        open += geometry::closure_of(static_cast<geometry::Finger>(i), finger.least_rad) / kFelt;
-        closed += geometry::closure_of(static_cast<geometry::Finger>(i), finger.most_rad) / kFelt;
+        if (!finger.was_free()) {
+            name(never_free, i);
+            continue;
+        }
+        open += finger.open_closure(of) / kFelt;
+        closed += finger.closed_closure(of) / kFelt;
+        if (!finger.closed_freely(of)) name(stopped, i);
     }
-    return {{"open", open}, {"closed", closed}, {"most_N", most_together_N_}};
+    Json range{{"most_N", most_together_N_}};
+    // One end alone fits nothing: both are the way by which closures are told.
+    if (!never_free.empty()) {
+        range["way_left_out"] = "pushed all the time: " + never_free;
+    } else if (!stopped.empty()) {
+        range["way_left_out"] =
+            "stopped where it closed farthest: " + stopped + "; close the hand once with nothing in it";
+    } else {
+        range["open"] = open;
+        range["closed"] = closed;
+    }
+    return range;
 }
 
 bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& orders) {
     if (!asks_ || start_.is_done()) return true;
+    if (start_.has_failed()) return false;
     if (!std::exchange(has_asked_, true))
         orders.messages.push_back("press with each finger once: " + start_.missing() + "; then the time begins");
     start_ = with_turn(start_, fingers);
+    if (start_.has_failed()) orders.messages.push_back("broken off: " + failure());
     if (!start_.is_done()) return false;
     orders.messages.push_back(start_.missing().empty()
-                                  ? "each finger has pressed; the time begins"
+                                  ? "each finger has pressed; let go: the time begins"
                                   : "gave nothing when they were to press: " + start_.missing() +
                                         "; the time begins without, and what is measured of them says so");
     return true;
 }
 
+std::string Rehab::failure() const {
+    if (!asks_ || start_.is_done() || start_.asked_s == 0.0) return "";
+    for (std::size_t i = 0; i < start_.asks.size(); ++i)
+        if (start_.asks[i] && start_.worked[i]) return "";
+    return formatted("the device had a fault at each finger for the first %.0f s, as with its motors off",
+                     start_.asked_s);
+}
+
 void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     if (exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
-    measures_ = with_turn(measures_, turn.fingers);
-    follow_most_force(turn.fingers);
-    exercise_->turn(turn, orders);
+    has_let_go_ = has_let_go_ || !asks_ || StartCheck::is_let_go(turn.fingers);
+    if (has_let_go_) {
+        measures_ = with_turn(measures_, turn.fingers);
+        follow_most_force(turn.fingers);
+        exercise_->turn(turn, orders);
+    } else {  // the press that the start asked for is none of the exercise's
+        ExerciseTurn without = turn;
+        without.grasped = false;
+        without.fingers.forces_N = {};
+        exercise_->turn(without, orders);
+    }
     if (exercise_->end() != ExerciseEnd::not_yet)
         orders.messages.push_back(formatted("%s: score %.0f of 100",
                                             exercise_->end() == ExerciseEnd::done ? "done" : "time is over",
@@ -298,6 +337,7 @@ session::ActivityPanel Rehab::panel() const {
     panel.page = exercise_->task();
     if (asks_ && !start_.is_done())
         panel.page = "Press with each finger once, then the time begins: " + start_.missing();
+    if (start_.has_failed()) panel.page = "Broken off: " + failure();
     for (const ExerciseCourse::Count& count : course.counts)
         if (count.wanted > 0)
             panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
@@ -324,13 +364,16 @@ Json Rehab::report() const {
     for (const ExerciseEvent& event : course.events)
         events.push_back(
             {{"what", event.what}, {"time_s", seconds(event.time_ns - course.begun_ns)}, {"force_N", event.force_N}});
+    const std::string why = failure();
     return {{"exercise", exercise_->name()},
             {"settings", std::move(settings)},
             {"young_Pa", body_->setup().material.young_Pa},
             {"ended", text_of(course.end)},
+            {"broken_off_because", why.empty() ? Json() : Json(why)},
             {"score", course.score},
             {"time_s", course.time_s},
             {"counts", std::move(counts)},
+            {"notes", course.notes},
             {"person_range", person_range()},
             {"rejected_sets", hand_.rejected_sets()},
             {"fingers", std::move(fingers)},

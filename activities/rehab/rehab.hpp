@@ -44,6 +44,8 @@ public:
     [[nodiscard]] const HandMeasures& measures() const { return measures_; }
     // Returns settings, score, counts, measures and events.
     [[nodiscard]] Json report() const;
+    // Returns why it was broken off by itself, before its time began; empty: it was not.
+    [[nodiscard]] std::string failure() const;
 
 private:
     void take_over(const session::ActivityView& view, session::ActivityOrders& orders);
@@ -67,7 +69,8 @@ private:
     bool is_lost_ = false;                // the body has fallen so deep that nobody reaches it
     Nanoseconds turn_ns_ = 0;
     std::array<double, kFelt> body_shares_{};  // of each finger's force, in the turn before
-    bool asks_ = false, has_asked_ = false;    // each finger to press once, before the exercise begins
+    bool asks_ = false, has_asked_ = false,
+         has_let_go_ = false;  // each finger to press once, before the exercise begins
     StartCheck start_;
     PersonRange range_;
     double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s

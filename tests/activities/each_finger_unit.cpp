@@ -229,6 +229,7 @@ TEST(EachFinger, KeepsItsMeasuresWhileTheOthersGoOn) {
         const HandMeasures before = hand.measures;
         hand.go(500, finger, {0.2, 0.4, 0.3, 0.1});
         hand.push(50, finger, 1.0);
+        hand.push(100, finger, 0.0);  // its free way begins anew
         for (std::size_t other = 0; other < kMeasuredFingers; ++other)
             EXPECT_EQ(hand.measures.fingers[other] == before.fingers[other], other != finger) << finger << other;
     }

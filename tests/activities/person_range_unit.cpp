@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,24 @@ TEST(PersonRange, AGraspIsToldByTheShareOfThePersonsWay) {
     }
 }
 
+// A hand that presses as it should, but is not closed by the range that is set, is told why that does not count.
+TEST(PersonRange, AForceWithoutAGraspIsToldAndNoted) {
+    const auto rehab = fitted_rehab("ball", {{"closed", 1.5}});
+    ActedHand hand;
+    for (std::size_t finger = 0; finger < kFelt; ++finger) {
+        hand.touch(finger, kTable, {0.0, 1.0, 0.0});
+        hand.push(finger, 1.0);
+    }
+    EXPECT_EQ(rehab->report()["notes"], Json::array());
+    const auto told = hand.go_on(*rehab, 3000).messages;
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_TRUE(told[0].starts_with("4.0 N do not count: the hand does not grasp the ball")) << told[0];
+    const Json notes = rehab->report()["notes"];
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(notes[0].get<std::string>().starts_with("the force was reached once")) << notes[0];
+    EXPECT_EQ(rehab->exercise().course().counts.at(0).number, 0u);
+}
+
 TEST(PersonRange, LinesOfRecordingsThatLackItAreOfTheUsualHand) {
     const auto old = exercise_of("rehab game --speed slow --level 1 --throws 5 --time-limit 120");
     ASSERT_TRUE(old);
@@ -102,12 +121,28 @@ TEST(PersonRange, AReportTellsTheWayAndTheForceThatTheHandHasShown) {
         hand.measure(finger, 0.5);
     }
     hand.go_on(*rehab, 3000);
+    // What stopped it there may have been the body: how far it closes is not known.
+    const Json stopped = rehab->report()["person_range"];
+    EXPECT_FALSE(stopped.contains("closed")) << stopped.dump();
+    EXPECT_FALSE(stopped.contains("open")) << "one end alone fits no hand";
+    EXPECT_EQ(stopped["way_left_out"],
+              "stopped where it closed farthest: thumb, index, middle, ring; close the hand once with nothing in it");
+    for (std::size_t finger = 0; finger < kFelt; ++finger) {
+        hand.push(finger, 0.0);
+        hand.measure(finger, 0.0);
+    }
+    bend(0.51);
+    hand.go_on(*rehab, 300);
+    EXPECT_FALSE(rehab->report()["person_range"].contains("closed")) << "hardly farther than it was stopped";
+    bend(0.7);
+    hand.go_on(*rehab, 300);
     const Json shown = rehab->report()["person_range"];
+    EXPECT_FALSE(shown.contains("way_left_out")) << shown.dump();
     double open = 0.0, closed = 0.0;
     for (std::size_t finger = 0; finger < kFelt; ++finger) {
         const auto of = static_cast<geometry::Finger>(finger);
         open += 0.25 * geometry::closure_of(of, {0.0, 0.1, 0.1, 0.1});
-        closed += 0.25 * geometry::closure_of(of, {0.0, 0.5, 0.5, 0.5});
+        closed += 0.25 * geometry::closure_of(of, {0.0, 0.7, 0.7, 0.7});
     }
     EXPECT_NEAR(shown["open"].get<double>(), open, 1e-9);
     EXPECT_NEAR(shown["closed"].get<double>(), closed, 1e-9);

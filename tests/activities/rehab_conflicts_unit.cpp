@@ -39,6 +39,25 @@ TEST(RehabConflicts, AreRefusedWithTheirArithmetic) {
     for (const ExerciseKind& kind : exercise_kinds()) EXPECT_EQ(conflict_of(kind.name, {}), "") << "as it usually is";
 }
 
+TEST(RehabConflicts, ATargetThatAnyTouchReachesIsRefusedWithItsArithmetic) {
+    EXPECT_EQ(
+        conflict_of("ball", {{"most_N", 0.01}}),
+        "most_N: 0.25 of 0.01 N is a target of 0.0025 N, and any touch reaches one of less than 0.1 N; give 0.4 N "
+        "or more, or 0: not known");
+    EXPECT_EQ(conflict_of("ball", {{"most_N", 0.4}}), "");
+    EXPECT_EQ(conflict_of("putty", {{"most_N", 0.0}}), "");
+    EXPECT_NE(conflict_of("putty", {{"most_N", 0.19}, {"level", 2}}), "");
+}
+
+TEST(RehabConflicts, AFileOfSettingsHasNumbersAsTheyWereGiven) {
+    SettingValues values(exercise_named("ball")->settings);
+    values.set("share", 0.1);
+    values.set("open", -0.0);
+    const std::string text = table_text("ball", values);
+    EXPECT_TRUE(text.contains("share = 0.1\n") && text.contains("open = 0\n")) << text;
+    EXPECT_TRUE(text.contains("colour = \"red\"\n")) << text;
+}
+
 // What was recorded with such settings is replayed all the same.
 TEST(RehabConflicts, OfARecordingAreNone) {
     EXPECT_TRUE(exercise_of("rehab ball --colour green --level 2 --repetitions 7 --hold 60 --time-limit 33.5"));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "activities/rehab/progress/progress.hpp"
@@ -75,7 +76,29 @@ TEST(Proposals, AreOfALevelUpOrDownAfterThreeRunsThatAgree) {
     const auto mixed = after({run_of(1, day(1), 99), run_of(1, day(2), 99, 2), run_of(1, day(3), 99, 2)});
     EXPECT_TRUE(mixed.reason.contains("different settings")) << mixed.reason;
     const auto broken = after({run_of(1, day(1), 99), run_of(1, day(2), 99, 1, "broken off"), run_of(1, day(3), 99)});
-    EXPECT_TRUE(broken.reason.contains("broken off")) << broken.reason;
+    EXPECT_EQ(broken.reason, "Level 1 stays: a proposal takes 3 runs that were carried to an end, and there are 2.");
+    EXPECT_EQ(after({run_of(1, day(1), 99, 1, "broken off")}).reason,
+              "Level 1 stays: a proposal takes 3 runs that were carried to an end, and there are 0.");
+    const auto among = after(
+        {run_of(1, day(1), 99), run_of(1, day(2), 99), run_of(1, day(3), 0, 1, "broken off"), run_of(1, day(4), 99)});
+    EXPECT_EQ(among.level, 2u) << among.reason;
+}
+
+// Runs that were kept before a setting was there had no other one.
+TEST(Proposals, TakeASettingThatARunLacksAsItsDefault) {
+    const KeptRun old = run_of(1, "2026-11-01", 95);
+    KeptRun now = run_of(1, "2026-11-02", 95);
+    for (const auto& [key, value] : {std::pair("open", 0.0), {"closed", 1.0}, {"share", 0.1}, {"most_N", 0.0}})
+        now.report["settings"][key] = value;
+    now.report["settings"]["start"] = "pressed";
+    EXPECT_EQ(after({old, old, now}).level, 2u) << after({old, old, now}).reason;
+    EXPECT_EQ(after({now, now, old}).level, 2u);
+    KeptRun fitted = now;
+    fitted.report["settings"]["closed"] = 0.5;
+    EXPECT_TRUE(after({old, old, fitted}).reason.contains("different settings"));
+    KeptRun at_once = now;
+    at_once.report["settings"]["start"] = "at_once";
+    EXPECT_TRUE(after({now, now, at_once}).reason.contains("different settings"));
 }
 
 TEST_F(KeptRunsFolder, AreReadAsTheyWereKeptByParticipantAndTime) {
@@ -130,6 +153,27 @@ TEST_F(KeptRunsFolder, TellWhatCannotBeRead) {
     const std::string page = progress_page(*kept, levels_of_ball, "a test");
     EXPECT_TRUE(page.contains("Left out: ") && page.contains("wrong3.json"));
     EXPECT_FALSE(read_runs(folder / "nothing"));
+}
+
+// A report of what is no exercise, no finger or no level is shown in no plot.
+TEST_F(KeptRunsFolder, LeaveOutRunsWhoseExerciseFingersOrLevelAreNone) {
+    const auto with = [](const char* place, const Json& value) {
+        KeptRun run = run_of(1, "2026-11-03", 70);
+        run.report[Json::json_pointer(place)] = value;
+        return run;
+    };
+    keep(run_of(1, "2026-11-03", 70));
+    keep(with("/exercise", "juggling"));
+    keep(with("/fingers", Json::array()));
+    keep(with("/fingers/0/finger", "toe"));
+    for (const double level : {0.0, 4.0, 1.5}) keep(with("/settings/level", level));
+    keep(with("/settings", Json::object()));
+    const auto kept = read_runs(folder);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->runs.size(), 1u);
+    EXPECT_EQ(kept->errors.size(), 7u);
+    const std::string page = progress_page(*kept, levels_of_ball, "a test");
+    EXPECT_TRUE(page.contains("1 run. ") && page.contains("1 run from ")) << page;
 }
 
 TEST_F(KeptRunsFolder, KeepOlderRunsWhereANewOneCannotBeWritten) {

@@ -86,6 +86,46 @@ TEST(StartCheck, NobodyIsWaitedForForEver) {
     EXPECT_EQ(rehab->report()["fingers"][0]["pressed_at_start"], false);
 }
 
+// The press that begins the time is none of the exercise's, however long it lasts.
+TEST(StartCheck, WhatIsPressedCountsOnceTheHandHasLetGo) {
+    const auto rehab = rehab_that_starts("putty");
+    const auto kneads = [&] { return rehab->exercise().course().counts.at(0).number; };
+    ActedHand hand;
+    const FingerForces pinch_N{1.5, 1.5, 0.0, 0.0};
+    push_all(hand, pinch_N, pinch_N);
+    hand.go_on(*rehab, 2000);
+    EXPECT_GT(rehab->exercise().course().time_s, 1.8);
+    EXPECT_EQ(kneads(), 0u);
+    EXPECT_EQ(rehab->report()["person_range"], Json()) << "nor is it the person's force";
+    EXPECT_EQ(rehab->report()["fingers"][0]["peak_force_N"], 0.0);
+    push_all(hand, {}, {});
+    hand.go_on(*rehab, 200);
+    push_all(hand, pinch_N, pinch_N);
+    hand.go_on(*rehab, 400);
+    EXPECT_EQ(kneads(), 1u);
+    EXPECT_EQ(rehab->report()["fingers"][0]["peak_force_N"], 1.5);
+}
+
+// Motors that are off for 20 s are no run that a person has done badly.
+TEST(StartCheck, ADeviceThatHasAFaultAtEachFingerBreaksOff) {
+    for (const bool one_works : {false, true}) {
+        const auto rehab = rehab_that_starts("ball");
+        ActedHand hand;
+        for (std::size_t i = one_works ? 1 : 0; i < kFelt; ++i) hand.have_fault(i, devices::DeviceFault::motors_off);
+        hand.go_on(*rehab, 19'900);
+        const auto told = hand.go_on(*rehab, 200).messages;
+        hand.go_on(*rehab, 1000);
+        const Json report = rehab->report();
+        EXPECT_EQ(rehab->exercise().course().events.empty(), !one_works);
+        EXPECT_EQ(report["broken_off_because"].is_string(), !one_works);
+        if (one_works) continue;
+        EXPECT_EQ(report["ended"], "broken off");
+        ASSERT_EQ(told.size(), 1u);
+        EXPECT_TRUE(told[0].starts_with("broken off: the device had a fault at each finger")) << told[0];
+        EXPECT_TRUE(rehab->panel().page.starts_with("Broken off")) << rehab->panel().page;
+    }
+}
+
 // A pinch is asked of two fingers; what was recorded before, and a simulated glove, begin at once.
 TEST(StartCheck, AsksForTheFingersOfTheExerciseAndOnlyWhereItIsToAsk) {
     const auto pinch = rehab_that_starts("putty");

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "activities/rehab/ball/ball.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base/text.hpp"
 
 namespace burin::activities {
@@ -13,6 +17,8 @@ constexpr double kRadius_m = 0.035;
 constexpr double kBallElementsAlongRadius = 3.2;  // 1,632 elements: the scene's thread has more to do than them
 
 constexpr std::array kColours{"yellow", "red", "green", "blue"};  // as BallColour has them
+
+constexpr double kPressedOpen_s = 0.5;  // with the target's force by a hand that does not grasp: this is told
 
 }  // namespace
 
@@ -68,6 +74,8 @@ std::unique_ptr<Exercise> Ball::make(const SettingValues& values) { return std::
 
 std::optional<Error> Ball::conflict(const SettingValues& values) {
     if (auto wrong = too_short_a_way(values)) return wrong;
+    if (auto wrong = too_low_a_target(BallSettings::kOfMost[values.count("level") - 1], values.number("most_N")))
+        return wrong;
     const BallSettings settings = ball_settings(values);
     const unsigned rests = settings.repetitions - 1;
     return too_short_a_limit(values, settings.repetitions * settings.hold_s + rests * BallState::kRelaxes_s,
@@ -91,6 +99,20 @@ void Ball::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     BallStep step = step_ball(state_, settings_, turn);
     state_ = step.state;
     for (const ExerciseEvent& event : step.events) tell(event, orders);
+    follow_pressed_open(turn, orders);
+}
+
+// A hand that is not closed by the range that is set does not grasp, and its force does not count.
+void Ball::follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders) {
+    const bool presses = !turn.grasped && state_.phase == BallPhase::waits && state_.smooth_N >= settings_.target_N();
+    const double before_s = pressed_open_s_;
+    pressed_open_s_ = presses ? before_s + turn.fingers.dt_s : 0.0;
+    if (before_s >= kPressedOpen_s || pressed_open_s_ < kPressedOpen_s) return;
+    ++pressed_open_;
+    orders.messages.push_back(
+        formatted("%.1f N do not count: the hand does not grasp the ball; it is closed by %.2f of "
+                  "the way from open %g to closed %g",
+                  state_.smooth_N, turn.closure, values_.number("open"), values_.number("closed")));
 }
 
 void Ball::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
@@ -110,6 +132,13 @@ void Ball::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
 }
 
 ExerciseCourse Ball::course() const {
+    std::vector<std::string> notes;
+    if (pressed_open_ > 0)
+        notes.push_back(
+            formatted("the force was reached %s and did not count, since the hand did not grasp the "
+                      "ball: it was not closed as open %g and closed %g have it, or not around the ball",
+                      pressed_open_ == 1 ? "once" : formatted("%u times", pressed_open_).c_str(),
+                      values_.number("open"), values_.number("closed")));
     return {state_.end,
             state_.begun_ns,
             state_.time_s(),
@@ -117,7 +146,8 @@ ExerciseCourse Ball::course() const {
             {{"repetitions", "Squeezes", state_.repetitions, settings_.repetitions},
              {"held_too_short", "Held too short", state_.too_short, 0},
              {"grasps", "Grasps", state_.grasps, 0}},
-            events_};
+            events_,
+            std::move(notes)};
 }
 
 std::string Ball::task() const {

@@ -27,18 +27,22 @@ public:
     [[nodiscard]] bodies::SoftPartSetup body() const override;
     [[nodiscard]] bool is_carried() const override { return true; }
     [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.colour).srgb; }
+    [[nodiscard]] double target_N() const override { return settings_.target_N(); }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
     [[nodiscard]] std::string task() const override;
 
 private:
+    void follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders);
     void tell(const ExerciseEvent& event, session::ActivityOrders& orders);
 
     SettingValues values_;
     BallSettings settings_;
     BallState state_;
     std::vector<ExerciseEvent> events_;
+    double pressed_open_s_ = 0.0;  // with the target's force and no grasp, since it was less
+    unsigned pressed_open_ = 0;    // how often for kPressedOpen_s
 };
 
 }  // namespace burin::activities

@@ -55,6 +55,7 @@ struct ExerciseCourse {
     double score = 0.0;        // 0 to 100
     std::vector<Count> counts;
     std::vector<ExerciseEvent> events;
+    std::vector<std::string> notes = {};  // what did not count and why, a sentence each
 };
 
 class Exercise {
@@ -75,6 +76,8 @@ public:
     [[nodiscard]] virtual bool is_carried() const { return false; }
     // Returns the fingers that press in it, which its start asks for.
     [[nodiscard]] virtual WhichFingers pressing_fingers() const { return {true, true, true, true}; }
+    // Returns the force that they are to reach together; 0: none is asked.
+    [[nodiscard]] virtual double target_N() const { return 0.0; }
     // Returns how a desk leads the hand of a glove, where that is not as usual.
     [[nodiscard]] virtual std::optional<session::LedHand> led_hand() const { return std::nullopt; }
     // Called once, when the body has taken the place of the world's object. An exercise that moves its body by itself

@@ -2,6 +2,7 @@
 #include "activities/rehab/exercise/exercise_settings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -17,6 +18,13 @@ constexpr double kLeastTime_s = 0.1, kMostTime_s = 3600.0;
 std::string fault_of(const SettingKind& kind, double value) {
     if (value >= kind.least && value <= kind.most && (!kind.whole || value == std::floor(value))) return "";
     return formatted("is %g", value);
+}
+
+// Returns the fewest digits that are read as the same number.
+std::string shortest(double value) {
+    std::array<char, 32> text;
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), written.ptr};
 }
 
 std::string known_words(const SettingKind& kind) {
@@ -139,8 +147,10 @@ SettingValues values_in(TableReading& reading, const toml::table* table, std::st
 std::string table_text(std::string_view exercise, const SettingValues& values) {
     std::string text = "[" + std::string(exercise) + "]\n";
     for (std::size_t i = 0; i < values.kinds().size(); ++i) {
-        const char* const quote = values.kinds()[i].words.empty() ? "" : "\"";
-        text += values.kinds()[i].key + std::string(" = ") + quote + values.text(i) + quote + "\n";
+        const std::string quote = "\"";
+        const std::string value = values.kinds()[i].words.empty() ? shortest(values.number(values.kinds()[i].key))
+                                                                  : quote + values.text(i) + quote;
+        text += values.kinds()[i].key + std::string(" = ") + value + "\n";
     }
     return text;
 }

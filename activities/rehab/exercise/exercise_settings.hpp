@@ -60,7 +60,7 @@ public:
     [[nodiscard]] std::string text(std::size_t kind) const;
 
     // Sets a value of any size. problems() says what cannot be.
-    void set(std::string_view key, double value) { values_[index_of(key)] = value; }
+    void set(std::string_view key, double value) { values_[index_of(key)] = value == 0.0 ? 0.0 : value; }  // no -0
     // Fails on a word that there is not.
     [[nodiscard]] Result<void> set(std::string_view key, std::string_view word);
 

@@ -48,6 +48,13 @@ std::optional<Error> too_short_a_way(const SettingValues& values) {
                  "closed, open", "measure the hand anew: the report of a run has its person_range"};
 }
 
+std::optional<Error> too_low_a_target(double share, double most_N) {
+    if (most_N == 0.0 || share * most_N >= kLeastTarget_N) return std::nullopt;
+    return Error{formatted("%g of %g N is a target of %g N, and any touch reaches one of less than %g N", share, most_N,
+                           share * most_N, kLeastTarget_N),
+                 "most_N", formatted("give %g N or more, or 0: not known", kLeastTarget_N / share)};
+}
+
 double fitted_target_N(double of_level_N, double share, double most_N) {
     return most_N > 0.0 ? share * most_N : of_level_N;
 }

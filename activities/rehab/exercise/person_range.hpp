@@ -34,6 +34,9 @@ struct PersonRange {
 [[nodiscard]] PersonRange range_of(const SettingValues& values);
 // Returns what is wrong with a range that leaves less than kLeastWay; nothing where it is sound.
 [[nodiscard]] std::optional<Error> too_short_a_way(const SettingValues& values);
+// Returns what is wrong with a target, a share of the person's most force, below what any touch reaches.
+inline constexpr double kLeastTarget_N = 0.1;
+[[nodiscard]] std::optional<Error> too_low_a_target(double share, double most_N);
 // Returns a level's target: the level's own, or its share of the person's most force where that is set.
 [[nodiscard]] double fitted_target_N(double of_level_N, double share, double most_N);
 

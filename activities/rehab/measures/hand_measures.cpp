@@ -14,20 +14,22 @@ constexpr double kPart_s = FingerMeasures::kHeld_s / static_cast<double>(FingerM
 constexpr double kRounding_s = 1e-9;
 
 // Takes a joint's angles of a turn without a gap before it, and ends a part of kHeld_s where it is over.
-void follow_range(FingerMeasures& finger, const devices::FingerAngles& angles_rad, double dt_s) {
+void follow_range(FingerMeasures& finger, const devices::FingerAngles& angles_rad, bool is_free, double dt_s) {
     FingerMeasures::Part& now = finger.parts.back();
     if (finger.parts_begun == 0) {
         finger.parts_begun = 1;
         finger.part_s = 0.0;
-        now = {angles_rad, angles_rad};
+        now = {angles_rad, angles_rad, is_free};
         return;
     }
     for (std::size_t joint = 0; joint < angles_rad.size(); ++joint) {
         now.least_rad[joint] = std::min(now.least_rad[joint], angles_rad[joint]);
         now.most_rad[joint] = std::max(now.most_rad[joint], angles_rad[joint]);
     }
+    now.is_free = now.is_free && is_free;
     finger.part_s += dt_s;
     if (finger.part_s < kPart_s - kRounding_s) return;
+    const bool all_free = std::ranges::all_of(finger.parts, &FingerMeasures::Part::is_free);
     if (finger.parts_begun == finger.parts.size())
         for (std::size_t joint = 0; joint < angles_rad.size(); ++joint) {
             double stayed_above_rad = HUGE_VAL, stayed_below_rad = -HUGE_VAL;
@@ -37,9 +39,12 @@ void follow_range(FingerMeasures& finger, const devices::FingerAngles& angles_ra
             }
             finger.most_rad[joint] = std::max(finger.most_rad[joint], stayed_above_rad);
             finger.least_rad[joint] = std::min(finger.least_rad[joint], stayed_below_rad);
+            double& most_rad = (all_free ? finger.free_most_rad : finger.pushed_most_rad)[joint];
+            most_rad = std::max(most_rad, stayed_above_rad);
+            if (all_free) finger.free_least_rad[joint] = std::min(finger.free_least_rad[joint], stayed_below_rad);
         }
     std::ranges::rotate(finger.parts, finger.parts.begin() + 1);
-    finger.parts.back() = {angles_rad, angles_rad};
+    finger.parts.back() = {angles_rad, angles_rad, is_free};
     finger.parts_begun = std::min(finger.parts_begun + 1, finger.parts.size());
     finger.part_s = 0.0;
 }
@@ -82,7 +87,27 @@ void end_window(HandMeasures& measures, const std::array<double, devices::kGlove
     measures.fingers[farthest].followed_rad += (all_rad - ways_rad[farthest]) / (ways_rad.size() - 1.0);
 }
 
+// A body that gives is pressed a little farther than where it is touched first: what is closer is stopped by it.
+constexpr double kBeyond = 0.02;
+
 }  // namespace
+
+bool FingerMeasures::was_free() const {
+    return std::ranges::equal(free_least_rad, free_most_rad, std::ranges::less_equal());
+}
+
+double FingerMeasures::open_closure(geometry::Finger finger) const {
+    return geometry::closure_of(finger, free_least_rad);
+}
+
+double FingerMeasures::closed_closure(geometry::Finger finger) const {
+    return geometry::closure_of(finger, free_most_rad);
+}
+
+bool FingerMeasures::closed_freely(geometry::Finger finger) const {
+    return !std::isfinite(pushed_most_rad[1]) ||
+           closed_closure(finger) >= geometry::closure_of(finger, pushed_most_rad) + kBeyond;
+}
 
 HandMeasures with_turn(HandMeasures measures, const FingersTurn& turn) {
     const bool goes_on = measures.begun && turn.dt_s <= kGap_s;
@@ -98,7 +123,9 @@ HandMeasures with_turn(HandMeasures measures, const FingersTurn& turn) {
         }
         finger.elsewhere_peak_N = std::max(finger.elsewhere_peak_N, turn.elsewhere_N[i]);
         follow_forces(finger, turn.forces_N[i], turn.measured_N[i], turn.dt_s);
-        follow_range(finger, turn.joints_rad[i], turn.dt_s);
+        const bool is_free = turn.forces_N[i] + turn.elsewhere_N[i] <= FingerMeasures::kPushed_N &&
+                             turn.measured_N[i].value_or(0.0) <= FingerMeasures::kStopped_N;
+        follow_range(finger, turn.joints_rad[i], is_free, turn.dt_s);
     }
     measures.begun = true;
     if (!goes_on) {

@@ -7,6 +7,9 @@
 // Only sound readings count: not those of a finger whose device reports a fault, nor any way across a gap or a fault. A
 // joint's least and most are angles beyond which it stayed for kHeld_s: a reading that is off for a moment is no range
 // of motion.
+// An end of a finger's way is its own only where nothing pushed it there: by more than kPushed_N that was told, or more
+// than kStopped_N that was measured. Ends of free readings are kept apart, and beside them how far it closed while it
+// was pushed: a body stopped it where that is as far.
 // Speed and stillness come from the way that a finger's flexion (the sum of its three joints that bend) makes in each
 // kWindow_s, from end to end: a glove's readings come in steps, and their differences from tick to tick are noise.
 // Fractionation of a finger, over the windows in which it went farthest of all and more than kMoved_rad: 1 less the
@@ -21,6 +24,7 @@
 #include <optional>
 
 #include "devices/gloves/glove_frame.hpp"
+#include "geometry/hand/hand_joints.hpp"
 
 namespace burin::activities {
 
@@ -44,10 +48,12 @@ struct FingersTurn {
 // kMoved_rad.
 struct FingerMeasures {
     static constexpr double kPushed_N = 0.05, kWindow_s = 0.05, kMoved_rad = 0.01, kLed_rad = 0.5, kHeld_s = 0.05;
+    static constexpr double kStopped_N = 0.15;  // measured: above what a piston's sensor tells of a free finger
     static constexpr std::size_t kHeldParts = 5;
     using Joints = std::array<double, devices::kFingerJoints>;
     struct Part {  // of kHeld_s: the least and the most angle of each joint in it
         Joints least_rad{}, most_rad{};
+        bool is_free = true;  // of a push, throughout
         bool operator==(const Part&) const = default;
     };
 
@@ -55,9 +61,11 @@ struct FingerMeasures {
     double elsewhere_peak_N = 0.0;  // told, of anything but the body
     double measured_peak_N = 0.0, measured_s = 0.0, measured_impulse_Ns = 0.0;
     Joints least_rad{HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}, most_rad{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    std::array<Part, kHeldParts> parts{};  // the newest, without a gap; the last is under way
-    std::size_t parts_begun = 0;           // of these; 0: the next reading begins one
-    double part_s = 0.0;                   // of the one under way
+    Joints free_least_rad = least_rad, free_most_rad = most_rad;  // likewise, of free readings alone
+    Joints pushed_most_rad = most_rad;                            // and of those while it was pushed
+    std::array<Part, kHeldParts> parts{};                         // the newest, without a gap; the last is under way
+    std::size_t parts_begun = 0;                                  // of these; 0: the next reading begins one
+    double part_s = 0.0;                                          // of the one under way
     double peak_rad_per_s = 0.0, moved_rad = 0.0, moved_s = 0.0;
     double led_rad = 0.0, followed_rad = 0.0;  // while it led: its own way, and the mean of the others'
 
@@ -69,6 +77,13 @@ struct FingerMeasures {
     [[nodiscard]] double range_rad(std::size_t joint) const {
         return most_rad[joint] > least_rad[joint] ? most_rad[joint] - least_rad[joint] : 0.0;
     }
+    // Returns whether it was read for long enough, free of a push.
+    [[nodiscard]] bool was_free() const;
+    // Returns how far it opened and closed by itself, as a closure of that finger. Requires was_free().
+    [[nodiscard]] double open_closure(geometry::Finger finger) const;
+    [[nodiscard]] double closed_closure(geometry::Finger finger) const;
+    // Returns whether it closed farther than anything has stopped it. Requires was_free().
+    [[nodiscard]] bool closed_freely(geometry::Finger finger) const;
     [[nodiscard]] double mean_rad_per_s() const { return moved_s > 0.0 ? moved_rad / moved_s : 0.0; }
     // Returns nothing where the finger led by less than kLed_rad in all: that it led at all may be chance.
     [[nodiscard]] std::optional<double> fractionation() const {

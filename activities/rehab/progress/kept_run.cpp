@@ -5,10 +5,13 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <tuple>
 
+#include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/measures/hand_measures.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 
@@ -65,9 +68,18 @@ bool is_report(const Json& report) {
             return false;
     const double score = report.at("score").get<double>(), time_s = report.at("time_s").get<double>();
     if (!(score >= 0.0 && score <= 100.0) || !(time_s >= 0.0 && time_s < 1e6)) return false;
+    const ExerciseKind* const kind = exercise_named(report.at("exercise").get<std::string>());
+    const Json* const level = find_value(report, "/settings/level");
+    if (kind == nullptr || level == nullptr || !level->is_number()) return false;
+    const double number = level->get<double>();
+    if (!(number >= 1.0 && number <= levels_of(kind->name)) || number != std::floor(number)) return false;
     const Json* const fingers = find_value(report, "/fingers");
-    return fingers != nullptr && fingers->is_array() &&
-           std::ranges::all_of(*fingers, [](const Json& finger) { return finger.is_object(); });
+    return fingers != nullptr && fingers->is_array() && !fingers->empty() &&
+           std::ranges::all_of(*fingers, [](const Json& finger) {
+               const Json* const name = finger.is_object() ? text_at(finger, "finger") : nullptr;
+               return name != nullptr &&
+                      std::ranges::find(kFingerNames, name->get<std::string>()) != kFingerNames.end();
+           });
 }
 
 Result<KeptRun> run_of(const fs::path& path) {

@@ -2,7 +2,10 @@
 #include "activities/rehab/progress/progress.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
+#include "activities/rehab/exercise_kinds.hpp"
 #include "base/text.hpp"
 
 namespace burin::activities {
@@ -17,23 +20,54 @@ unsigned level_of(const KeptRun& run) {
                : 0;
 }
 
+// Returns a run's settings. One that it lacks was not there yet when it was kept, and counts as its default.
+Json settings_of(const KeptRun& run) {
+    Json settings = run.report.at("settings");
+    const ExerciseKind* const kind = exercise_named(run.report.at("exercise").get<std::string>());
+    if (kind == nullptr) return settings;
+    const SettingValues usual(kind->settings);
+    for (const SettingKind& setting : kind->settings) {
+        if (settings.contains(setting.key)) continue;
+        if (setting.words.empty())
+            settings[setting.key] = setting.usual;
+        else
+            settings[setting.key] = usual.word(setting.key);
+    }
+    return settings;
+}
+
+// Returns whether two runs had the same settings. A start by the device, the default, is the other run's.
+bool have_same_settings(const KeptRun& one, const KeptRun& other) {
+    Json first = settings_of(one), second = settings_of(other);
+    const auto by_device = [](const Json& settings) {
+        const auto start = settings.find("start");
+        return start != settings.end() && *start == kStarts[static_cast<std::size_t>(kStartsByDevice)];
+    };
+    if (by_device(first) || by_device(second)) {
+        first.erase("start");
+        second.erase("start");
+    }
+    return first.size() == second.size() && std::ranges::all_of(first.items(), [&](const auto& setting) {
+               return find_value(second, "/" + setting.key()) != nullptr && second.at(setting.key()) == setting.value();
+           });
+}
+
 }  // namespace
 
-Proposal proposed(std::span<const KeptRun* const> runs, unsigned levels) {
-    const unsigned level = level_of(*runs.back());
+Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
+    std::vector<const KeptRun*> runs(all.begin(), all.end());
+    std::erase_if(runs, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; });
+    const unsigned level = level_of(runs.empty() ? *all.back() : *runs.back());
     if (level == 0 || levels == 0) return {0, "The exercise has no levels that are known."};
     const auto stays = [&](const std::string& reason) {
         return Proposal{0, formatted("Level %u stays: ", level) + reason};
     };
     if (runs.size() < Proposal::kRuns)
-        return stays(formatted("there are %zu of the %zu runs that a proposal takes.", runs.size(), Proposal::kRuns));
-    const auto last = runs.last(Proposal::kRuns);
-    const auto differs = [&](const KeptRun* run) {
-        return run->report.at("settings") != runs.back()->report.at("settings");
-    };
+        return stays(formatted("a proposal takes %zu runs that were carried to an end, and there %s %zu.",
+                               Proposal::kRuns, runs.size() == 1 ? "is" : "are", runs.size()));
+    const auto last = std::span(runs).last(Proposal::kRuns);
+    const auto differs = [&](const KeptRun* run) { return !have_same_settings(*run, *runs.back()); };
     if (std::ranges::any_of(last, differs)) return stays("the last three runs had different settings.");
-    if (std::ranges::any_of(last, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; }))
-        return stays("one of the last three runs was broken off.");
     std::string scores;
     for (const KeptRun* run : last) scores += formatted(scores.empty() ? "%.0f" : ", %.0f", score_of(*run));
     const bool well = std::ranges::all_of(last, [](const KeptRun* run) { return score_of(*run) >= Proposal::kWell; });

@@ -10,8 +10,8 @@
 
 namespace burin::activities {
 
-// A level is proposed where the last kRuns runs, all with the same settings and all carried to an end, agree: the next
-// higher where each scored kWell or more, the next lower where none scored more than kBadly.
+// A level is proposed where the last kRuns runs that were carried to an end, all with the same settings, agree: the
+// next higher where each scored kWell or more, the next lower where none scored more than kBadly.
 struct Proposal {
     static constexpr std::size_t kRuns = 3;
     static constexpr double kWell = 90.0, kBadly = 40.0;

@@ -134,9 +134,9 @@ std::string title_of(std::string name) {
 std::string section_of(unsigned participant, const std::string& exercise, const Runs& runs, unsigned levels) {
     const auto scripted = std::ranges::count_if(runs, &KeptRun::is_scripted);
     std::string html = element("h2", formatted("Participant %u: ", participant) + title_of(exercise));
-    html += element(
-        "p", formatted("%zu runs from %s to %s, the last with a score of %.0f.", runs.size(),
-                       runs.front()->date.c_str(), runs.back()->date.c_str(), number_at(runs.back()->report, "score")));
+    html += element("p", formatted("%zu %s from %s to %s, the last with a score of %.0f.", runs.size(),
+                                   runs.size() == 1 ? "run" : "runs", runs.front()->date.c_str(),
+                                   runs.back()->date.c_str(), number_at(runs.back()->report, "score")));
     if (scripted > 0)
         html += "<p class=\"warning\">" +
                 plot::escaped(formatted("%td of these runs were done by a simulated hand, by script: no person did "
@@ -155,10 +155,10 @@ std::string progress_page(const KeptRuns& kept, unsigned (*levels)(std::string_v
     for (const KeptRun& run : kept.runs)
         sections[{run.participant, run.report.at("exercise").get<std::string>()}].push_back(&run);
     std::string html = plot::page_begin("Progress of exercises") + element("h1", "Progress of exercises");
-    html += element(
-        "p", formatted("%zu runs. %s. Forces are those that the device was asked to give; beside them stand those "
-                       "that it measured that it gave, the highest of thumb, index, middle and ring.",
-                       kept.runs.size(), program.c_str()));
+    html += element("p",
+                    formatted("%zu %s. %s. Forces are those that the device was asked to give; beside them stand those "
+                              "that it measured that it gave, the highest of thumb, index, middle and ring.",
+                              kept.runs.size(), kept.runs.size() == 1 ? "run" : "runs", program.c_str()));
     for (const Error& error : kept.errors)
         html += "<p class=\"warning\">Left out: " + plot::escaped(error.line()) + "</p>\n";
     for (const auto& [of, runs] : sections) html += section_of(of.first, of.second, runs, levels(of.second));

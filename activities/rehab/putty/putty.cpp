@@ -63,6 +63,8 @@ std::string_view Putty::grip(const SettingValues& values) {
 
 std::optional<Error> Putty::conflict(const SettingValues& values) {
     if (auto wrong = too_short_a_way(values)) return wrong;
+    if (auto wrong = too_low_a_target(PuttySettings::kOfMost[values.count("level") - 1], values.number("most_N")))
+        return wrong;
     const unsigned kneads = putty_settings(values).kneads;
     return too_short_a_limit(values, kneads * PuttyState::kGrips_s,
                              formatted("%u kneads of %g s", kneads, PuttyState::kGrips_s));

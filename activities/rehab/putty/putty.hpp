@@ -31,6 +31,7 @@ public:
     [[nodiscard]] WhichFingers pressing_fingers() const override {
         return {true, true, !settings_.is_pinch(), !settings_.is_pinch()};
     }
+    [[nodiscard]] double target_N() const override { return settings_.target_N(); }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
