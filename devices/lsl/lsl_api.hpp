@@ -16,15 +16,18 @@
 
 namespace burin::devices {
 
-// Handles, by the header's names of what they point to.
-using LslInfo = struct lsl_streaminfo_struct_*;
-using LslOutlet = struct lsl_outlet_struct_*;
-using LslInlet = struct lsl_inlet_struct_*;
-using LslXml = struct lsl_xml_ptr_struct_*;
-using LslResolver = struct lsl_continuous_resolver_*;
+// Handles: lsl_streaminfo, lsl_outlet, lsl_inlet, lsl_xml_ptr and lsl_continuous_resolver. No types of their own, since
+// a sanitizer that compares a function's type with its pointer's goes by their names.
+using LslInfo = void*;
+using LslOutlet = void*;
+using LslInlet = void*;
+using LslXml = void*;
+using LslResolver = void*;
 
 // lsl_channel_format_t, four bytes wide.
-enum class LslFormat : std::int32_t { float32 = 1, string = 3 };
+namespace LslFormat {
+inline constexpr std::int32_t float32 = 1, string = 3;
+}
 // lsl_error_code_t.
 inline constexpr std::int32_t kLslNoError = 0, kLslTimeout = -1, kLslLost = -2, kLslArgument = -3, kLslInternal = -4;
 inline constexpr double kLslIrregularRate = 0.0;
@@ -37,8 +40,8 @@ struct LslApi {
     double (*local_clock)() = nullptr;
     void (*destroy_string)(char*) = nullptr;
 
-    LslInfo (*create_info)(const char* name, const char* type, std::int32_t channels, double rate_Hz, LslFormat format,
-                           const char* source_id) = nullptr;
+    LslInfo (*create_info)(const char* name, const char* type, std::int32_t channels, double rate_Hz,
+                           std::int32_t format, const char* source_id) = nullptr;
     void (*destroy_info)(LslInfo) = nullptr;
     const char* (*name_of)(LslInfo) = nullptr;
     const char* (*source_id_of)(LslInfo) = nullptr;
