@@ -127,7 +127,7 @@ void BodyFrame::follow_hand() {
                                 : scene::velocities_between(been_.back().pose, pose_,
                                                             seconds(palm->time_ns - been_.back().time_ns));
     been_.push_back({pose_, palm->time_ns});
-    // Of the two newest, the older one tells the velocity even where updates come late.
+    // The older of the two newest poses gives the velocity, even where updates come late.
     const auto is_old = [&](const Been& been) {
         const bool is_needed = &been + 2 >= been_.data() + been_.size();
         return palm->time_ns - been.time_ns > (is_needed ? kLate_ns : kThrow_ns);

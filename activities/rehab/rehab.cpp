@@ -218,7 +218,7 @@ void Rehab::follow_most_force(const FingersTurn& fingers) {
     most_together_N_ = std::max(most_together_N_, smooth_sum_N_);
 }
 
-// What the hand has shown, as settings of the next run take it; nothing of a finger that was not read.
+// Returns what the hand has shown, as the next run takes it for settings; nothing of a finger that was not read.
 Json Rehab::person_range() const {
     double open = 0.0, closed = 0.0;
     std::string never_free, stopped;

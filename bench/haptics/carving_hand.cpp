@@ -13,21 +13,13 @@
 #include "sculpt/workpiece.hpp"
 
 namespace burin::bench {
-namespace {
 
-constexpr std::uint64_t kTicksAnUpdateOfTheSolid = 10;
-constexpr Nanoseconds kCarvingTick_ns = 1'000'000;
-// How far a hand may go until the next update, as in a session: 1 m/s for 12 ms.
-constexpr double kGoesFarther_m = 0.012;
-constexpr double kBarWide_m = 0.0015, kBarLong_m = 0.005;
-
-// A bar of six sides about +Y, from the origin up.
-std::shared_ptr<const geometry::TriangleMesh> bar_of_six_sides() {
+std::shared_ptr<const geometry::TriangleMesh> six_sided_bar(double radius_m, double length_m) {
     auto bar = std::make_shared<geometry::TriangleMesh>();
-    for (const double y : {0.0, kBarLong_m})
+    for (const double y : {0.0, length_m})
         for (int i = 0; i < 6; ++i) {
             const double angle = i * std::numbers::pi / 3.0;
-            bar->positions_m.push_back({kBarWide_m * std::cos(angle), y, kBarWide_m * std::sin(angle)});
+            bar->positions_m.push_back({radius_m * std::cos(angle), y, radius_m * std::sin(angle)});
         }
     for (std::uint32_t i = 0; i < 6; ++i) {
         const std::uint32_t next = (i + 1) % 6;
@@ -39,6 +31,13 @@ std::shared_ptr<const geometry::TriangleMesh> bar_of_six_sides() {
     }
     return bar;
 }
+
+namespace {
+
+constexpr std::uint64_t kTicksAnUpdateOfTheSolid = 10;
+constexpr Nanoseconds kCarvingTick_ns = 1'000'000;
+// The way of a hand until the next update, at most, as in a session: 1 m/s for 12 ms.
+constexpr double kGoesFarther_m = 0.012;
 
 compute::Solid block_of(const CarvedBlock& block, WorkerPool& pool) {
     const std::string source = "block:" + std::to_string(block.size_m.x) + "," + std::to_string(block.size_m.y) + "," +
@@ -54,7 +53,7 @@ std::vector<CarvingTool> carving_tools() {
             {"cone", compute::ConeTool{0.0005, 0.002, 0.006}},
             {"bull-nose", compute::BullNoseTool{0.0015, 0.0005, 0.006}},
             {"box", compute::BoxTool{{0.002, 0.0015, 0.0025}}},
-            {"bar", compute::MeshTool{bar_of_six_sides()}}};
+            {"bar", compute::MeshTool{six_sided_bar(0.0015, 0.005)}}};
 }
 
 CarvingHand::CarvingHand(const compute::ToolShape& tool, const CarvedBlock& block)

@@ -3,7 +3,7 @@
 // share that ask what a tool feels in the groove that it cuts.
 //
 // A session's own settings in simulated time: a tick a millisecond, an update of the solid each ten. The device does
-// not yield to force. Frame: object, metres; the block's face is y = top_m(), the tool stands upright on it (+Y).
+// not yield to force. Frame: object, metres; the tool stands upright (+Y) on the block's upper face.
 #pragma once
 
 #include <memory>
@@ -17,6 +17,9 @@
 #include "sculpt/carved_scene.hpp"
 
 namespace burin::bench {
+
+// A bar of six sides about +Y, from the origin up.
+[[nodiscard]] std::shared_ptr<const geometry::TriangleMesh> six_sided_bar(double radius_m, double length_m);
 
 struct CarvingTool {
     std::string name;
@@ -37,7 +40,7 @@ public:
 
     // Takes a tick with the tool's lowest place there, relative to the middle of the block's face.
     const haptics::TickRecord& go_to(const Vec3& tip_m, bool pressed);
-    // The same with the hand so far from where the tool has cut to that the spring presses with this force.
+    // Takes a tick that presses with this force: the hand is as far below the cutting point as stretches its spring so.
     const haptics::TickRecord& press(double force_N);
 
     [[nodiscard]] const haptics::TickRecord& record() const { return record_; }

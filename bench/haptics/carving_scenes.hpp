@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tool feels in the groove that it cuts, against what is right: each function is one run of a hand over a block
+// Scenes of a tool in the groove that it cuts, against what is right: each function is one run of a hand over a block
 // (carving_hand.hpp), in simulated time, and gives the same figures on every machine. Tests and the bench share them.
 #pragma once
 

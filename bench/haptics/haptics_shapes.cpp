@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <numbers>
 
+#include "bench/haptics/carving_hand.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/haptics/touch_run.hpp"
@@ -23,25 +23,6 @@ struct ShapeTool {
     std::string name;
     compute::ToolShape shape;
 };
-
-// A bar of six sides about +Y, from the origin up.
-std::shared_ptr<const geometry::TriangleMesh> six_sided_bar(double radius_m, double length_m) {
-    auto bar = std::make_shared<geometry::TriangleMesh>();
-    for (const double y : {0.0, length_m})
-        for (int i = 0; i < 6; ++i) {
-            const double angle = i * std::numbers::pi / 3.0;
-            bar->positions_m.push_back({radius_m * std::cos(angle), y, radius_m * std::sin(angle)});
-        }
-    for (std::uint32_t i = 0; i < 6; ++i) {
-        const std::uint32_t next = (i + 1) % 6;
-        bar->triangles.push_back({i, i + 6, next + 6});
-        bar->triangles.push_back({i, next + 6, next});
-        if (i == 0 || i == 5) continue;
-        bar->triangles.push_back({0, i, i + 1});
-        bar->triangles.push_back({6, i + 7, i + 6});
-    }
-    return bar;
-}
 
 std::vector<ShapeTool> shape_tools() {
     return {{"mill", compute::CylinderTool{0.001, 0.006}},

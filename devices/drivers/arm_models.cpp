@@ -60,7 +60,7 @@ const ArmModel& model_called(std::span<const ArmModel> models, std::string_view 
     return found != models.end() ? *found : models.front();
 }
 
-// Nothing: it is not known.
+// Returns the key of the model that the string names; nothing where it names none.
 std::optional<std::string_view> hd_key(std::string_view said) {
     if (said.contains("Premium")) {
         if (said.contains("1.5")) return "premium-1.5";

@@ -25,7 +25,7 @@ struct ArmModel {
 // Returns what HDAPI's model string means. A library whose greatest force is below the model's means the first one, a
 // PHANTOM Omni, as does a string that is not known.
 [[nodiscard]] const ArmModel& hd_model(std::string_view said, double most_N);
-// Whether the string names one of them.
+// Tells whether the string names one of the PHANTOMs that are described.
 [[nodiscard]] bool hd_knows(std::string_view said);
 // Returns what DHD's system type means. A type that CHAI3D has no figures for, as a lambda's, is the unknown one.
 [[nodiscard]] const ArmModel& dhd_model(int type);
@@ -36,7 +36,7 @@ struct ArmModel {
 // Returns their keys, for people.
 [[nodiscard]] std::string hd_model_keys();
 [[nodiscard]] std::string dhd_model_keys();
-// Whether a device of this type has a gripper, which presses the first button where the library is told so.
+// Tells whether a device of this type has a gripper, which presses the first button where the library is told so.
 [[nodiscard]] bool dhd_has_gripper(int type) noexcept;
 
 struct ModelledText {

@@ -21,7 +21,7 @@
 namespace burin::devices {
 namespace {
 
-// How long a set takes to go out.
+// Returns how long a set takes on the serial line.
 double set_s(const EmulatedGlove& glove) {
     constexpr double kLineBytes_per_s = 3840.0;
     return static_cast<double>(bytes_of(set_of(glove))) / kLineBytes_per_s;

@@ -31,7 +31,7 @@ struct SettingKind {
     double usual = 0.0, least = 0.0, most = 0.0;
     bool whole = false;                       // of numbers
     std::span<const char* const> words = {};  // empty: it is a number
-    // What a recording means whose line lacks it, of one that has been added since; none: every line has it.
+    // The value in recordings of before there was this setting; none: each recording has it.
     std::optional<double> before = std::nullopt;
 };
 
