@@ -294,7 +294,6 @@ ProxyResult PointContact::moved(const ProxyState& state, const Vec3& hand_object
     Quat& orientation = step_.next.tool_orientation_object;
     ShapeMotion motion{hand_object_m, state.placed ? orientation : input_.motion.orientation_object,
                        input_.motion.orientation_object, settings.static_friction, settings.dynamic_friction};
-    motion.cuts = cuts();
     if (falls_short(settings.contact_radius_m)) motion.cut_to_object_m = step_.next.cutting.point_object_m;
     const ShapeResult result = move_shape(state, motion, *shape_, bodies_.surface(), budget);
     orientation = result.orientation_object;

@@ -46,7 +46,6 @@ struct ProxyState {
     std::uint64_t surface_sequence = 0;  // of the surface used in the last tick
     bool placed = false;                 // false: the next tick starts from the HIP
     bool slipping = false;               // with friction: it slid in the last tick
-    bool left_behind = false;            // a shape's work did not suffice in the last tick
     // Whether the proxy was held off the HIP in the last tick, and its motion along the surface then. They serve only
     // as the first guess of the broad phase.
     bool touching = false;

@@ -150,9 +150,7 @@ private:
     // A hand that lifts its tool: where nothing is between the two any more nothing is touched, and the tool goes with
     // the hand.
     bool lets_go() {
-        if (!state_.placed || was_set_) return false;
-        // One that is held is not tried, unless it does not cut and has been left behind for want of work.
-        if (holds_back() && (motion_.cuts || !state_.left_behind || search_.is_stopped(at_, hip() - at_))) return false;
+        if (!state_.placed || was_set_ || holds_back()) return false;
         for (int parts = 0; parts < kMostWays; ++parts) {
             const Vec3 pull = hip() - at_, step = bounded(pull);
             if (!search_.is_way_free(at_, step, squeezed_m())) return false;
@@ -336,7 +334,7 @@ private:
     }
 
     ShapeResult limited() {
-        result_.proxy.work_limited = result_.proxy.next.left_behind = true;
+        result_.proxy.work_limited = true;
         at_object_ = search_.from_tool(at_);
         if (was_set_ && !fits()) return unfit();
         if (search_.overlaps()) {

@@ -34,7 +34,6 @@ struct ShapeMotion {
     // object_from_tool: of the last tick, and as the hand holds the tool now
     Quat before{1.0, 0.0, 0.0, 0.0}, wanted{1.0, 0.0, 0.0, 0.0};
     double static_friction = 0.0, dynamic_friction = 0.0;
-    bool cuts = false;                                   // its hand is within material that it cuts
     std::optional<Vec3> cut_to_object_m = std::nullopt;  // where the tool has cut to, of which what touches falls short
 };
 

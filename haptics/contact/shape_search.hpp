@@ -70,7 +70,6 @@ public:
     // Whether nothing is in the way of a step, nor touches the tool after it; false as well where the work does not
     // suffice to tell. squeezed_m: how deep facets may be in the tool that it lies between, as in its own bed. What was
     // gathered before is gone.
-    [[nodiscard]] bool is_stopped(const Vec3& at, const Vec3& pull) noexcept;
     [[nodiscard]] bool is_way_free(const Vec3& at, const Vec3& step, double squeezed_m) noexcept;
 
 private:

@@ -20,8 +20,6 @@ constexpr double kOfWorkForWay = 0.85;
 constexpr double kFineForWay = 0.1;
 // Cosine of normals between which a tool lies.
 constexpr double kOpposes = -0.5;
-// A face stops a way that leads into it by this sine; and of the work left, what a look for one may take.
-constexpr double kStops = 0.3, kOfWorkToBeStopped = 0.03;
 
 }  // namespace
 
@@ -102,20 +100,6 @@ bool ShapeSearch::passes(Candidate c, const Vec3& at, WaySeen& seen) noexcept {
     const Separation s = from(c, to, rounding_);
     if (s.overlaps || (s.gap_m < stop && faces(c, s.normal))) return false;
     return is_left || until(c, at, seen.step) > 1.0;
-}
-
-// Whether a face stands before the place of the tool that goes ahead of all others.
-bool ShapeSearch::is_stopped(const Vec3& at, const Vec3& pull) noexcept {
-    const Vec3 ahead = from_tool(at + lowest_along(-pull)), way = from_tool(pull);
-    geometry::Near near{.lo = ahead, .hi = ahead, .reach_m = 2.0 * rounding_};
-    const std::uint32_t most_looks = near.looks_left = affords(kOfWorkToBeStopped, WorkCost::kLook_ns);
-    bool stops = false;
-    geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t, const geometry::Triangle& t) {
-        stops = glm::dot(outward_normal(t), way) < -kStops * glm::length(way);
-        return !stops;
-    });
-    work_.triangles_seen += most_looks - near.looks_left;
-    return stops;
 }
 
 }  // namespace burin::haptics

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace burin::session {
 namespace {
@@ -25,9 +26,18 @@ void MessageLog::notify(const std::string& message, MessageKind kind, const Besi
 }
 
 void MessageLog::notify_of_event(const std::string& message, MessageKind kind, const Beside& beside) {
-    if (hears_outside_ && !follows_recording_) keep(message, kind);
+    ++changes_;
     print_message(message, beside);
-    events_.push_back(message);
+    heard_.push_back({message, kind});
+}
+
+std::vector<std::string> MessageLog::take_events() {
+    std::vector<std::string> taken;
+    for (Heard& event : std::exchange(heard_, {})) {
+        if (hears_outside_ && !follows_recording_) keep(event.message, event.kind);
+        taken.push_back(std::move(event.message));
+    }
+    return taken;
 }
 
 // A recording does not keep the kind of what came from outside.

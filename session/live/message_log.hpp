@@ -39,8 +39,9 @@ public:
     void begin_step(Nanoseconds time_ns) { now_ns_ = time_ns; }
     // Logs a message that follows from the input.
     void notify(const std::string& message, MessageKind kind = MessageKind::warning, const Beside& beside = {});
-    // Logs a message from outside the session: from windows, files, trackers or the system. In a session that replays a
-    // recording the panel shows the recorded ones instead (replay_events).
+    // Takes a message from outside the session: from windows, files, trackers or the system. It is logged between two
+    // steps (take_events), so that a recording, which keeps no finer order, shows the same: a session that replays one
+    // logs the recorded ones instead (replay_events).
     void notify_of_event(const std::string& message, MessageKind kind = MessageKind::info, const Beside& beside = {});
     void replay_events(std::span<const std::string> recorded);
     // Takes those that are shown off the picture; they stay in the log.
@@ -48,8 +49,8 @@ public:
 
     // Returns whether messages from outside are a recording's.
     [[nodiscard]] bool follows_recording() const { return follows_recording_; }
-    // Returns the messages from outside since the last call, for the recorder.
-    [[nodiscard]] std::vector<std::string> take_events() { return std::exchange(events_, {}); }
+    // Logs the messages from outside since the last call, and returns them for the recorder.
+    [[nodiscard]] std::vector<std::string> take_events();
     // Returns all that are kept, the oldest first, and whether one is to be shown now.
     [[nodiscard]] const std::vector<Message>& all() const { return all_; }
     [[nodiscard]] bool is_shown(const Message& message) const;
@@ -60,13 +61,17 @@ public:
     [[nodiscard]] std::optional<Nanoseconds> next_change_ns() const;
 
 private:
+    struct Heard {
+        std::string message;
+        MessageKind kind = MessageKind::info;
+    };
     void keep(const std::string& message, MessageKind kind);
 
     std::vector<Message> all_;
     Nanoseconds now_ns_ = 0;
     std::uint64_t changes_ = 0;
     bool follows_recording_ = false, hears_outside_ = true;
-    std::vector<std::string> events_;
+    std::vector<Heard> heard_;  // from outside, not logged yet
 };
 
 }  // namespace burin::session

@@ -194,8 +194,9 @@ TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     log.notify("undone", MessageKind::info, {"script.txt:3: ", " (elsewhere)"});
     EXPECT_EQ(log.newest(), "undone") << "what the panel shows depends on no file's name";
     log.notify_of_event("a monitor has gone");
-    EXPECT_EQ(log.newest(), "a monitor has gone");
+    EXPECT_EQ(log.newest(), "undone") << "a recording keeps it between two steps";
     EXPECT_EQ(log.take_events(), std::vector<std::string>{"a monitor has gone"}) << "no message of the input's";
+    EXPECT_EQ(log.newest(), "a monitor has gone");
     EXPECT_TRUE(log.take_events().empty());
     const std::vector<std::string> recorded{"the tracker is there", "wrote it"};
     log.replay_events(recorded);
@@ -210,6 +211,20 @@ TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     for (const char* line :
          {"burin: script.txt:3: undone (elsewhere)\n", "burin: a monitor has gone\n", "burin: not as recorded\n"})
         EXPECT_NE(said.find(line), std::string::npos) << said;
+}
+
+// A switch of the amplifiers and the fault that it brings may be told in one step.
+TEST(MessageLog, HasTheOrderThatAReplayHas) {
+    MessageLog live, again;
+    live.notify_of_event("the amplifiers are off");
+    live.notify("no force");
+    const std::vector<std::string> recorded = live.take_events();
+    again.replay_events({});
+    again.notify("no force");
+    again.replay_events(recorded);
+    ASSERT_EQ(live.all().size(), 2u);
+    ASSERT_EQ(again.all().size(), 2u);
+    for (const std::size_t i : {0u, 1u}) EXPECT_EQ(live.all()[i].text, again.all()[i].text) << i;
 }
 
 TEST(LiveSession, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
