@@ -368,6 +368,7 @@ Json Rehab::report() const {
     return {{"exercise", exercise_->name()},
             {"settings", std::move(settings)},
             {"young_Pa", body_->setup().material.young_Pa},
+            {"held_N_per_m", body_->setup().held_N_per_m},
             {"ended", text_of(course.end)},
             {"broken_off_because", why.empty() ? Json() : Json(why)},
             {"score", course.score},
