@@ -156,8 +156,8 @@ std::optional<SoftContact> SoftPart::contact_at(const Vec3& point_m) const {
         place_m += best.shares[i] * surface_m_[corner];
     }
     if (!(glm::length(normal) > 1e-9)) return std::nullopt;
-    // A facet lies beneath the surface that its corners' tangent planes describe, on a paraboloid by half of this mean of
-    // its distances from them (Boubekeur and Alexa 2008, "Phong Tessellation", has three quarters, for looks).
+    // A facet lies beneath the surface that its corners' tangent planes describe, on a paraboloid by half of its mean
+    // distance from them (Boubekeur and Alexa 2008, "Phong Tessellation", take three quarters, for looks).
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t corner = best.corners[static_cast<std::size_t>(i)];
         bulge_m += 0.5 * best.shares[i] * glm::dot(surface_m_[corner] - place_m, normals_[corner]) * normals_[corner];
