@@ -181,6 +181,25 @@ TEST(SoftPart, IsDentedByOnePointAsHertzSays) {
     }
 }
 
+// Five points of a fingertip, 0.05 and 0.1 of the radius deep: elements of 9 mm give as those of 5 mm do.
+TEST(SoftPart, IsPressedByAFingertipAsAFinerOneIs) {
+    for (const double depth_m : {0.0015, 0.003}) {
+        std::array<double, 2> felt_N{};
+        for (const bool fine : {false, true}) {
+            SoftPartSetup setup = coarse_setup();
+            if (fine) setup.spacing_m = 0.005;
+            setup.held_N_per_m = 1e7;
+            Pressing body(setup);
+            const auto tick = fingertip(depth_m - setup.point_radius_m, glm::normalize(Vec3(0.3, 0.8, -0.5)));
+            Nanoseconds now_ns = 0;
+            for (int i = 0; i < 80; ++i) body.press(tick, now_ns += 4 * kTick_ns);
+            felt_N[fine ? 1 : 0] = body.felt_N(tick, now_ns);
+        }
+        EXPECT_GT(felt_N[1], 0.5);
+        EXPECT_NEAR(felt_N[0] / felt_N[1], 1.0, 0.1) << 1e3 * depth_m << " mm";
+    }
+}
+
 TEST(SoftPart, StepsNoMoreThanAFewTimesWhenAnUpdateIsLate) {
     Pressing body(coarse_setup());
     const auto tick = fingertip(0.002);
