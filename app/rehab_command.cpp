@@ -7,10 +7,12 @@
 #include <memory>
 
 #include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/progress/page_texts.hpp"
 #include "activities/rehab/rehab.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/output_files.hpp"
+#include "app/rehab_pages.hpp"
 #include "app/rehab_results.hpp"
 #include "app/temporary_folder.hpp"
 #include "base/assets.hpp"
@@ -60,6 +62,13 @@ Result<void> check_target(const activities::Exercise& exercise, bool is_simulate
                 formatted("makes a target of %g N, and %td fingers of this glove give %g N each, %g N together",
                           exercise.target_N(), fingers, of_each_N, most_N),
                 "give less, or a lower --level");
+}
+
+// Returns when the time begins by default. led: by a script, which presses no button unless it says so.
+double usual_start(const ExerciseKind& kind, bool is_simulated, bool led) {
+    const bool presses = kind.make(SettingValues(kind.settings))->target_N() > 0.0;
+    if (!is_simulated && presses) return activities::kStartsPressed;
+    return led ? activities::kStartsAtOnce : activities::kStartsAsked;
 }
 
 // Writes the script that a participant of that seed follows, and has the session follow it.
@@ -114,6 +123,7 @@ struct RehabCommand::Of {
     std::vector<std::string> words;
     std::string settings, report, hand;
     ResultsOptions results;
+    RunRemarks remarks;
     std::uint64_t seed = 1;
     bool print_config = false;
 
@@ -151,7 +161,9 @@ struct RehabCommand::Of {
 
 struct RehabCommand::Report {
     Command command;
-    std::string folder, page;
+    std::string folder, page, language;
+    Command withdraw;
+    RehabWithdrawOptions withdrawn;
 };
 
 RehabCommand::RehabCommand(Command app)
@@ -179,18 +191,27 @@ RehabCommand::RehabCommand(Command app)
         command.option("--seed", of.seed, "Of the scripted hand").show_default();
         command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
         add_results_options(command, of.results);
+        add_remark_options(command, of.remarks);
         add_live_options(command, of.session.live);
     }
     report_ = std::make_unique<Report>();
-    report_->command = command_.subcommand("report", "Write the page of all participants' progress anew");
+    report_->command = command_.subcommand("report", "Write the pages of all participants' progress anew");
     report_->command.option("FOLDER", report_->folder, "That --results was given").required();
-    report_->command.option("--out", report_->page, "The page, if not FOLDER/report.html");
+    report_->command.option("--out", report_->page, "The page that leads to theirs, if not FOLDER/report.html");
+    report_->command.option(
+        "--language", report_->language,
+        "Of all pages: " + activities::PageTexts::listed() + "; each participant's own if not given");
+    report_->withdraw = command_.subcommand("withdraw", "Take a participant off all pages, who is exercised no more");
+    report_->withdraw.option("FOLDER", report_->withdrawn.folder, "That --results was given").required();
+    report_->withdraw.option("--participant", report_->withdrawn.participant, "By number, 1 to 999").required();
+    report_->withdraw.flag("--erase", report_->withdrawn.erase, "Erase all runs of the participant, too");
 }
 
 RehabCommand::~RehabCommand() = default;
 
 Result<void> RehabCommand::run() const {
-    if (report_->command.parsed()) return rehab_report(report_->folder, report_->page);
+    if (report_->command.parsed()) return rehab_report(report_->folder, report_->page, report_->language);
+    if (report_->withdraw.parsed()) return rehab_withdraw(report_->withdrawn);
     for (const auto& of : exercises_)
         if (of->command.parsed()) return run(*of);
     return {};
@@ -201,6 +222,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (!values) return std::unexpected(values.error());
     const bool scripted = !of.hand.empty();
     if (const auto ok = check_results(of.results, scripted); !ok) return ok;
+    if (const auto ok = check_remarks(of.remarks, !of.results.folder.empty()); !ok) return ok;
     if (of.print_config) {
         std::fputs(activities::table_text(of.kind.name, *values).c_str(), stdout);
         return {};
@@ -210,8 +232,8 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto glove = check_glove(live); !glove) return glove;
     std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
-    if (values->has("start") && values->number("start") == activities::kStartsByDevice)
-        values->set("start", is_simulated ? activities::kStartsAtOnce : activities::kStartsPressed);
+    if (values->number("start") == activities::kStartsByDevice)
+        values->set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
     if (scripted) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
         if (!made) return std::unexpected(made.error());
@@ -223,11 +245,16 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto ready = prepare_results(of.results); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
+    exercise->describe(json_of(of.remarks));
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
     // What the person has done is kept, even where the session missed something else; one that never began leaves an
     // older report alone.
     if (!done && exercise->exercise().course().events.empty()) return done;
+    if (exercise->exercise().course().events.empty() && exercise->failure().empty()) {
+        std::printf("%s: it was never begun, and nothing is kept of it\n", of.kind.name);
+        return done;
+    }
     print_score(*exercise);
     const Json report = exercise->report();
     const Result<void> written = write_output(of.report, json_text(report));

@@ -7,16 +7,15 @@
 #include <vector>
 
 #include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/progress/patient_page.hpp"
 #include "activities/rehab/progress/progress.hpp"
-#include "app/output_files.hpp"
+#include "app/rehab_pages.hpp"
 #include "base/text.hpp"
 
 namespace burin::app {
 namespace {
 
 using activities::KeptRun;
-
-std::string page_of(const std::string& folder) { return (std::filesystem::path(folder) / "report.html").string(); }
 
 // The clock on the wall, as strftime writes it.
 std::string now_as(const char* form) {
@@ -25,10 +24,6 @@ std::string now_as(const char* form) {
     if (::localtime_r(&now, &local) == nullptr) return "";
     char text[32];
     return {text, std::strftime(text, sizeof text, form, &local)};
-}
-
-Result<void> write_page(const activities::KeptRuns& kept, const std::string& page) {
-    return write_text(page, activities::progress_page(kept, activities::levels_of, "Burin " BURIN_VERSION));
 }
 
 }  // namespace
@@ -63,6 +58,7 @@ Result<void> check_results(const ResultsOptions& options, bool scripted) {
 
 Result<void> prepare_results(const ResultsOptions& options) {
     if (options.folder.empty()) return {};
+    if (const auto stays = check_stays(options.folder, *options.participant); !stays) return stays;
     return activities::prepare_results(options.folder, *options.participant);
 }
 
@@ -82,8 +78,10 @@ Result<void> keep_results(const ResultsOptions& options, const std::string& hand
     for (const KeptRun& other : kept->runs)
         if (other.participant == run.participant && other.report.at("exercise") == report.at("exercise"))
             own.push_back(&other);
-    if (const auto written = write_page(*kept, page_of(options.folder)); !written) return written;
-    std::printf("progress: %s\n", page_of(options.folder).c_str());
+    const Result<std::string> index =
+        write_pages({.folder = options.folder, .index = {}, .language = {}, .participant = options.participant});
+    if (!index) return std::unexpected(index.error());
+    std::printf("progress: %s/participant-%03u/progress.html\n", options.folder.c_str(), *options.participant);
     if (!own.empty())
         std::printf(
             "%s\n",
@@ -91,15 +89,17 @@ Result<void> keep_results(const ResultsOptions& options, const std::string& hand
     return {};
 }
 
-Result<void> rehab_report(const std::string& folder, const std::string& page) {
+Result<void> rehab_report(const std::string& folder, const std::string& page, const std::string& language) {
     if (folder.empty()) return fail("FOLDER", "is empty", "name the folder that --results was given");
     const Result<activities::KeptRuns> kept = activities::read_runs(folder);
     if (!kept) return std::unexpected(kept.error());
-    if (kept->runs.empty() && kept->errors.empty())
+    const Result<activities::Withdrawals> withdrawn = activities::read_withdrawals(folder);
+    if (!withdrawn) return std::unexpected(withdrawn.error());
+    if (kept->runs.empty() && kept->errors.empty() && withdrawn->empty())
         return fail(folder, "holds no runs", "name the folder that --results was given");
-    const std::string to = page.empty() ? page_of(folder) : page;
-    if (const auto written = write_page(*kept, to); !written) return written;
-    std::printf("%zu %s: %s\n", kept->runs.size(), kept->runs.size() == 1 ? "run" : "runs", to.c_str());
+    const Result<std::string> index = write_pages({.folder = folder, .index = page, .language = language});
+    if (!index) return std::unexpected(index.error());
+    std::printf("%zu %s: %s\n", kept->runs.size(), kept->runs.size() == 1 ? "run" : "runs", index->c_str());
     if (kept->errors.empty()) return {};
     for (std::size_t i = 1; i < kept->errors.size(); ++i)
         std::fprintf(stderr, "burin: left out: %s\n", kept->errors[i].line().c_str());

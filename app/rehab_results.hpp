@@ -27,7 +27,9 @@ void add_results_options(Command command, ResultsOptions& options);
 // Does nothing where nothing is to be kept.
 [[nodiscard]] Result<void> keep_results(const ResultsOptions& options, const std::string& hand, const Json& report);
 
-// burin rehab report FOLDER: writes the page; empty: FOLDER/report.html.
-[[nodiscard]] Result<void> rehab_report(const std::string& folder, const std::string& page);
+// burin rehab report FOLDER: writes all participants' pages, and one that leads to them; empty: FOLDER/report.html.
+// language: of them all; empty: each participant's own.
+[[nodiscard]] Result<void> rehab_report(const std::string& folder, const std::string& page,
+                                        const std::string& language);
 
 }  // namespace burin::app

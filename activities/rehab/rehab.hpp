@@ -6,17 +6,22 @@
 //                        -> the soft body, a part of the scene (bodies/soft_part.hpp) -> what the fingers feel of it
 //   the body's changes, with the update that the frame takes -> its picture
 //   the turns until each finger has pressed once -> the start, with a glove that is worn
+//   start, pause, rest, stop (activities/rehab/exercise/run_control.hpp) -> whether its clock goes on, with force
 //   the turns from then on until the exercise ends -> measures of the hand; course and measures -> report()
 // Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "activities/grasp/grasp.hpp"
 #include "activities/rehab/exercise/exercise.hpp"
 #include "activities/rehab/exercise/person_range.hpp"
+#include "activities/rehab/exercise/run_control.hpp"
 #include "base/json.hpp"
 
 namespace burin::activities {
@@ -26,14 +31,13 @@ public:
     explicit Rehab(std::unique_ptr<Exercise> exercise);
 
     [[nodiscard]] std::string settings() const override;
+    [[nodiscard]] std::span<const session::Act> acts() const override;
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
     void write(session::ActivityRecord& record) override;
     [[nodiscard]] std::uint64_t check() const override;
     [[nodiscard]] bool is_running() const override { return true; }
-    void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override {
-        hand_.adjust(of, parameters);
-    }
+    void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     [[nodiscard]] bool draws_hands() const override { return true; }
     [[nodiscard]] std::optional<session::LedHand> led_hand() const override { return exercise_->led_hand(); }
     void stage(renderer::Scene& scene, std::size_t screen) const override;
@@ -42,9 +46,11 @@ public:
 
     [[nodiscard]] const Exercise& exercise() const { return *exercise_; }
     [[nodiscard]] const HandMeasures& measures() const { return measures_; }
+    // Adds what is told of the run besides, such as a comment, to its report.
+    void describe(Json told) { told_ = std::move(told); }
     // Returns settings, score, counts, measures and events.
     [[nodiscard]] Json report() const;
-    // Returns why it was broken off by itself, before its time began; empty: it was not.
+    // Returns why it was broken off: stopped, or by itself before its time began; empty: it was not.
     [[nodiscard]] std::string failure() const;
 
 private:
@@ -56,7 +62,20 @@ private:
     [[nodiscard]] bool has_started(const FingersTurn& fingers, session::ActivityOrders& orders);
     void follow_most_force(const FingersTurn& fingers);
     [[nodiscard]] Json person_range() const;
-    void turn(const ExerciseTurn& turn, session::ActivityOrders& orders);
+    void turn(ExerciseTurn turn, session::ActivityOrders& orders);
+    // Carries out Start, Pause, Rest or Stop.
+    [[nodiscard]] Result<void> follow(RunOrder order, session::ActivityOrders& orders);
+    [[nodiscard]] Result<void> start_without_presses();
+    // Moves times of trials from `first` on to the loop's clock.
+    void on_loop_clock(std::vector<session::TrialMark>& trials, std::size_t first) const;
+    [[nodiscard]] bool is_asking() const { return asks_ && !start_.is_done(); }
+    // Returns whether the device is to give force: not before the start, in a break or when it was stopped.
+    [[nodiscard]] bool gives_force() const { return control_.gives_force(); }
+    // Of the panel (rehab_panel.cpp).
+    [[nodiscard]] std::string state_text() const;
+    [[nodiscard]] session::ActivityPanel::Task task() const;
+    [[nodiscard]] std::vector<session::ActivityPanel::Table> tables() const;
+    [[nodiscard]] std::vector<session::ActivityPanel::Button> buttons() const;
 
     std::unique_ptr<Exercise> exercise_;
     Grasp hand_;
@@ -75,7 +94,11 @@ private:
     PersonRange range_;
     double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s
     HandMeasures measures_;
-    std::size_t written_ = 0;  // events
+    RunControl control_;
+    Json told_ = Json::object();
+    FingersTurn shown_;                       // the last turn's, with forces that are slow enough to be read
+    std::vector<session::EventMark> orders_;  // that were followed and are not written yet
+    std::size_t written_ = 0;                 // events
 };
 
 }  // namespace burin::activities

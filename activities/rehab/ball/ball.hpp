@@ -29,9 +29,12 @@ public:
     [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.colour).srgb; }
     [[nodiscard]] double target_N() const override { return settings_.target_N(); }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    void interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseGoal goal() const override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
     [[nodiscard]] std::string task() const override;
+    [[nodiscard]] std::vector<std::string> help() const override;
 
 private:
     void follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders);
