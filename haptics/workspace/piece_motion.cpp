@@ -84,7 +84,7 @@ FollowedPiece followed(FollowedPiece state, const Similarity& published, double 
     // Beyond kLongest_s it makes no difference, and the sum stays exact.
     if (state.since_s <= kLongest_s) state.since_s += dt_s;
     // The last tick takes what is left of a tick with it, so that none has but a splinter to go.
-    const bool arrives = state.left_s < 1.5 * dt_s;
+    const bool arrives = !(state.left_s > 1.5 * dt_s);
     state.object_from_device =
         arrives ? published : part_of_way(state.object_from_device, published, dt_s / state.left_s);
     state.left_s = arrives ? 0.0 : state.left_s - dt_s;
