@@ -100,9 +100,9 @@ TEST(CarvedGroove, AToolThatIsPlungedIsNeverSetInsideMaterial) {
         }
 }
 
-// A hand that goes anywhere at 5 to 500 mm/s and presses the button as it likes, as deep as its tool cuts itself no roof,
-// under which it would be held while its hand is above the block, and without friction, by which a wall would hold it.
-// Clear is a hand that has been there for 60 ticks.
+// A hand that goes anywhere at 5 to 500 mm/s and presses the button at will. It goes as deep as its tool cuts itself
+// no roof, under which it would be held while the hand is above the block, and without friction, by which a wall would
+// hold it. Clear is a hand that has been above for 60 ticks.
 TEST(CarvedGroove, CarvingAtRandomIsBoundedAndHoldsNothingInFreeAir) {
     constexpr double kClear_m = 0.0005, kCostBound_us = 340.0, kNoForce_N = 0.01;
     constexpr int kClearTicks = 60, kLegs = 200;
