@@ -61,10 +61,15 @@ std::vector<GroovePoint> measure_groove(const GrooveOptions& options,
                                         const std::function<void(const std::string&)>& notify) {
     std::vector<GroovePoint> points;
     for (const CarvingTool& tool : options.tools) {
+        bool breaks = false;
         for (const int resolution : options.resolutions)
             for (const double press : options.presses) {
                 notify(tool.name + ", " + std::to_string(resolution) + " cells, pressed");
                 const Sunk sunk = sink(tool.shape, resolution, press, options.pressed_from_m);
+                if (resolution == options.resolutions.front() && press > 1.0 && !breaks) {
+                    points.push_back({kSinks, tool.name, kLaw, resolution, 1.0, 0.0});  // where the law breaks off
+                    breaks = true;
+                }
                 if (resolution == options.resolutions.front())
                     points.push_back({kSinks, tool.name, kLaw, resolution, press, 1e3 * sunk.law_m_per_s});
                 points.push_back({kSinks, tool.name, kNow, resolution, press, 1e3 * sunk.found_m_per_s});

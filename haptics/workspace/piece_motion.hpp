@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The motion of the piece under a hand: a mapping that is published once a picture, followed from tick to tick.
 //
-// The contact is felt in the piece's own frame, so a piece that somebody turns or carries is a mapping object_from_device
+// The contact is felt in the piece's own frame, so a piece that is turned or carried is a mapping object_from_device
 // that changes, some sixty times a second. Each change used to start contact afresh, so that a turned piece was felt
 // with less than half of its force. Now the tick leads the mapping to the one published last, along the screw between
-// both, at a constant velocity, and the piece is a body that moves with this velocity (docs/decisions/021-moving-bodies.md).
+// both, at a constant velocity, and the piece is a body with this velocity (docs/decisions/021-moving-bodies.md).
 //
 // It is interpolated, not foretold: a piece that stops has never been felt beyond where it stopped. The way to a
 // published mapping takes kSpread times as long as the last two were apart, so that one which is a little late finds

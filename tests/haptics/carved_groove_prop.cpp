@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,6 +98,49 @@ TEST(CarvedGroove, AToolThatIsPlungedIsNeverSetInsideMaterial) {
             EXPECT_EQ(plunged.without_force, 0u) << one.name() << ' ' << at_once;
             EXPECT_LE(plunged.most_cost_us, 340.0) << one.name() << ' ' << at_once;
         }
+}
+
+// A hand that goes anywhere at 5 to 500 mm/s and presses the button at will. It goes as deep as its tool cuts itself
+// no roof, under which it would be held while the hand is above the block, and without friction, by which a wall would
+// hold it. Clear is a hand that has been above for 60 ticks.
+TEST(CarvedGroove, CarvingAtRandomIsBoundedAndHoldsNothingInFreeAir) {
+    constexpr double kClear_m = 0.0005, kCostBound_us = 340.0, kNoForce_N = 0.01;
+    constexpr int kClearTicks = 60, kLegs = 200;
+    const int most = compute::test::kSanitized ? 500 : test::costly_cases(100'000);
+    std::mt19937_64 random(test::property_cases().seed);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    for (const bench::CarvingTool& tool : bench::carving_tools()) {
+        bench::CarvingHand hand(tool.shape, {.resolution = 128});
+        for (TouchMaterial& material : hand.parameters().materials)
+            material.static_friction = material.dynamic_friction = 0.0;
+        const double deep_m = tool.name == "ball" ? 0.0012 : tool.name == "box" ? 0.0024 : 0.004;
+        Vec3 at(0.0, 0.005, 0.0);
+        bool pressed = false;
+        int ticks = 0, clear = 0, in_contact = 0;
+        for (int leg = 0; leg < kLegs && ticks < most; ++leg) {
+            const Vec3 from = at;
+            const Vec3 to((any(random) - 0.5) * 0.044, -deep_m + any(random) * 2.0 * deep_m,
+                          (any(random) - 0.5) * 0.034);
+            const double speed_m_per_s = std::pow(10.0, -2.3 + 2.0 * any(random));
+            if (any(random) < 0.5) pressed = !pressed;
+            const int steps = std::max(1, static_cast<int>(glm::length(to - from) / (speed_m_per_s * 1e-3)));
+            for (int i = 1; i <= steps && ticks < most; ++i, ++ticks) {
+                at = from + (to - from) * (static_cast<double>(i) / steps);
+                const TickRecord& record = hand.go_to(at, pressed);
+                const double force_N = std::max(glm::length(record.gate.given.force_device_N),
+                                                glm::length(record.contact.wrench.force_device_N));
+                const std::string what = tool.name + ", tick " + std::to_string(ticks);
+                ASSERT_TRUE(std::isfinite(force_N)) << what;
+                ASSERT_LE(hand.cost_us(), kCostBound_us) << what;
+                const bool cuts = at.y < 0.0 && (pressed || (record.flags & kTickCutting) != 0);
+                ASSERT_FALSE(cuts && (record.flags & kTickLetGo) != 0) << what << ": set inside material";
+                clear = at.y > kClear_m ? clear + 1 : 0;
+                ASSERT_TRUE(clear <= kClearTicks || force_N <= kNoForce_N) << what << ": " << force_N << " N";
+                in_contact += record.in_contact() ? 1 : 0;
+            }
+        }
+        EXPECT_GT(in_contact, ticks / 50) << tool.name;
+    }
 }
 
 }  // namespace burin::haptics

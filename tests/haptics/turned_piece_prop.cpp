@@ -59,6 +59,7 @@ TEST(TurnedPiece, TakesAToolAlongThatGoesWithIt) {
             EXPECT_GT(turned.least_N, (1.0 - kOfForce) * right_N) << one.name(speed);
             EXPECT_LT(turned.most_N, (1.0 + kOfForce) * right_N) << one.name(speed);
             EXPECT_LE(turned.most_beside, 1.25 * turned.dynamic_friction + kOfForce) << one.name(speed);
+            EXPECT_LT(turned.moved_m, 1e-9) << one.name(speed) << ": it stays where it is on the piece";
         }
     }
 }
