@@ -173,6 +173,7 @@ private:
         if (tells)
             for (CommandInput& told : session->take_told()) now.push_back({next_ns_, std::move(told)});
         tool_ = session->newest_tool();
+        static_cast<void>(session->take_outside());  // as before each step of a session in real time
         session->step({next_ns_, next_ns_, now}, output, tool_, [this](const scene::SceneThread::Order& order) {
             order();
             session->scene().finish();  // an export
