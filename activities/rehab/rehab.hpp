@@ -6,13 +6,17 @@
 //                        -> the soft body, a part of the scene (bodies/soft_part.hpp) -> what the fingers feel of it
 //   the body's changes, with the update that the frame takes -> its picture
 //   the turns until each finger has pressed once -> the start, with a glove that is worn
+//   its events, as they come -> the keeper, which writes them down (progress/run_journal.hpp)
 //   the turns from then on until the exercise ends -> measures of the hand; course and measures -> report()
 // Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "activities/grasp/grasp.hpp"
 #include "activities/rehab/exercise/exercise.hpp"
@@ -33,6 +37,7 @@ public:
     [[nodiscard]] bool is_running() const override { return true; }
     void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override {
         hand_.adjust(of, parameters);
+        exercise_->adjust(of.part, parameters);
     }
     [[nodiscard]] bool draws_hands() const override { return true; }
     [[nodiscard]] std::optional<session::LedHand> led_hand() const override { return exercise_->led_hand(); }
@@ -42,6 +47,18 @@ public:
 
     [[nodiscard]] const Exercise& exercise() const { return *exercise_; }
     [[nodiscard]] const HandMeasures& measures() const { return measures_; }
+    // Has a keeper told how far the run has come: with each event and, while it goes on, each kTells_ns besides, the
+    // report and the events since. What it cannot keep is told to the person, once, and tried again.
+    using Keeper = std::function<Result<void>(const Json& report, const Json& new_events)>;
+    void keep_with(Keeper keeper) { keeper_ = std::move(keeper); }
+    // Adds a fact of the run, which does not depend on it, to what a session file keeps of it.
+    void add_fact(std::string name, std::string value) { facts_.emplace_back(std::move(name), std::move(value)); }
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts() const override { return facts_; }
+
+    // Has report and panel say by what assessment it is fitted to the person: an object with a "text". It changes
+    // nothing: the settings have what came of it.
+    void fitted_by(Json assessment) { fitted_ = std::move(assessment); }
+
     // Returns settings, score, counts, measures and events.
     [[nodiscard]] Json report() const;
     // Returns why it was broken off by itself, before its time began; empty: it was not.
@@ -57,6 +74,9 @@ private:
     void follow_most_force(const FingersTurn& fingers);
     [[nodiscard]] Json person_range() const;
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders);
+    void tell_keeper(session::ActivityOrders& orders);
+
+    static constexpr Nanoseconds kTells_ns = 5'000'000'000, kTriesAgain_ns = 1'000'000'000;
 
     std::unique_ptr<Exercise> exercise_;
     Grasp hand_;
@@ -76,6 +96,12 @@ private:
     double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s
     HandMeasures measures_;
     std::size_t written_ = 0;  // events
+    Keeper keeper_;
+    std::size_t kept_ = 0;  // events
+    Nanoseconds told_keeper_ns_ = 0;
+    bool keeper_fails_ = false;
+    Json fitted_;  // null: by none
+    std::vector<std::pair<std::string, std::string>> facts_;
 };
 
 }  // namespace burin::activities

@@ -60,9 +60,15 @@ public:
     [[nodiscard]] std::string text(std::size_t kind) const;
 
     // Sets a value of any size. problems() says what cannot be.
-    void set(std::string_view key, double value) { values_[index_of(key)] = value == 0.0 ? 0.0 : value; }  // no -0
+    void set(std::string_view key, double value) {
+        values_[index_of(key)] = value == 0.0 ? 0.0 : value;  // no -0
+        was_set_[index_of(key)] = true;
+    }
     // Fails on a word that there is not.
     [[nodiscard]] Result<void> set(std::string_view key, std::string_view word);
+
+    // Returns whether somebody has set it, be it to what is usual.
+    [[nodiscard]] bool was_set(std::string_view key) const { return was_set_[index_of(key)]; }
 
     bool operator==(const SettingValues& other) const { return values_ == other.values_; }
 
@@ -71,6 +77,7 @@ private:
 
     std::span<const SettingKind> kinds_;
     std::vector<double> values_;
+    std::vector<bool> was_set_;
 };
 
 // Returns what nobody can do: each names its setting by its key. Empty: the values are sound.

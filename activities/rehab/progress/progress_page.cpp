@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "activities/rehab/progress/baseline.hpp"
 #include "activities/rehab/progress/progress.hpp"
 #include "base/plot/figures.hpp"
 #include "base/plot/html.hpp"
@@ -144,6 +145,7 @@ std::string section_of(unsigned participant, const std::string& exercise, const 
                                         scripted)) +
                 "</p>\n";
     html += element("p", proposed(runs, levels).reason + " Settings change only where somebody changes them.");
+    if (exercise == "assess") html += baseline_table(runs);
     return html + figures_of(runs) + table_of(runs);
 }
 
