@@ -39,8 +39,8 @@ void add_results_options(Command command, ResultsOptions& options);
 class ResultsOfRun {
 public:
     // Takes the participant, takes up what runs that were killed have left, and writes that this one begins. Prints
-    // what was taken up. hand: what does it. Also has the exercise's session file, where one is recorded, keep whose run
-    // it is and when it was done. Requires checked options.
+    // what was taken up. hand: what does it. Also has the exercise's session file, where one is recorded, keep whose
+    // run it is and when it was done. Requires checked options.
     [[nodiscard]] static Result<ResultsOfRun> begin(const ResultsOptions& options, const std::string& hand,
                                                     const std::shared_ptr<activities::Rehab>& exercise);
     // Likewise of a run that `recording` does again: it is that one's, by whom and when it was.

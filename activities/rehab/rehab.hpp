@@ -6,7 +6,7 @@
 //                        -> the soft body, a part of the scene (bodies/soft_part.hpp) -> what the fingers feel of it
 //   the body's changes, with the update that the frame takes -> its picture
 //   the turns until each finger has pressed once -> the start, with a glove that is worn
-//   its events, as they come -> the keeper, which writes them down (progress/run_journal.hpp)
+//   its events, as they come -> the keeper, which writes them down (activities/rehab/progress/run_journal.hpp)
 //   the turns from then on until the exercise ends -> measures of the hand; course and measures -> report()
 // Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once

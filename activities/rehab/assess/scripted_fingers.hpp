@@ -14,8 +14,8 @@
 
 namespace burin::activities {
 
-// How far it closes (1: a grasp of the whole hand), how far the other fingers go with one that moves alone, how long one
-// opening or closing takes where it is to be fast, and with what force each finger presses.
+// How far it closes (1: a grasp of the whole hand), how far the other fingers go with one that moves alone, how long
+// one opening or closing takes where it is to be fast, and with what force each finger presses.
 struct AssessedHand {
     double closes = 1.0, others_follow = 0.1, stroke_s = 0.25;
     std::array<double, devices::kGloveFingers> holds_N{2.5, 2.0, 2.0, 1.5};

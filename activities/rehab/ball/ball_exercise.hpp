@@ -6,10 +6,10 @@
 //           -> held so for hold_s: a repetition
 //           -> relaxed to kRelaxed of the target for kRelaxes_s, or let go -> the next
 // Who lets the force, or a finger's share, sink below kKept of that before hold_s has passed has held too short: that
-// is counted too, and the time begins anew. Where a force adapts (activities/rehab/adapt/staircase.hpp), that is a trial
-// that has failed, a repetition one that has succeeded, and who presses with kRelaxed of the target and relaxes without
-// having held it has pressed too weakly: a failure as well. Where a finger has kept the target from counting for kUneven_s, that is
+// is counted too, and the time begins anew. Where a finger has kept the target from counting for kUneven_s, that is
 // told once a squeeze. It ends with the last repetition, or with the time limit.
+// A force may adapt (activities/rehab/adapt/staircase.hpp): a repetition is a trial that has succeeded, one held too
+// short has failed, and so has who presses with more than kRelaxed of the target and relaxes without having reached it.
 // Units: newtons, seconds; times of the loop's clock in nanoseconds. No heap but for the events; any thread.
 #pragma once
 
