@@ -9,9 +9,9 @@ namespace burin::activities {
 namespace {
 
 // Where the mouse leads the hand: above a table, over nothing that a closing finger reaches.
-constexpr Vec3 kAssessMiddle_m{0.0, 0.12, 0.0}, kAssessHalf_m{0.1, 0.02, 0.08};
-// Fingers away from the person and a little up, palm down: how they bend is seen.
-constexpr double kAssessTilt_rad = -1.2;
+constexpr Vec3 kAssessMiddle_m{0.0, 0.055, 0.0}, kAssessHalf_m{0.1, 0.02, 0.08};
+// Fingers up and away from the person, who sees the back of the hand and how each finger bends.
+constexpr double kAssessTilt_rad = -0.6;
 
 Json json_of_measure(const std::optional<double>& measure) { return measure ? Json(*measure) : Json(); }
 
