@@ -89,6 +89,8 @@ ExerciseCourse Assess::course() const {
                           "stronger",
                           kFingerNames[i], values_.number("bound_N")));
     }
+    if (state_.together.was_held && !found.together_N)
+        notes.push_back("no piston gave a force while the fingers pressed: strength is not known; is the force on?");
     const unsigned parts = found.measured_parts();
     return {state_.end,
             state_.begun_ns,

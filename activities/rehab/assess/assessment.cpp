@@ -22,6 +22,7 @@ constexpr std::array<AssessPart, kAssessParts> kParts{{
     {AssessTask::alone, 3, 8.0, "ring alone begins"},
 }};
 constexpr double kHeldStep_s = HeldForce::kFor_s / static_cast<double>(HeldForce::kSteps);
+constexpr double kAnyForce_N = 0.05;
 constexpr double kRoundingOfStep_s = 1e-9;
 
 double flexion_of(const devices::FingerAngles& joints_rad) {
@@ -184,7 +185,11 @@ Assessed assessed(const AssessState& state) {
         found.open = open;
         found.closed = closed;
     }
-    if (state.together.was_held) found.together_N = state.together.most_N;
+    // Where no finger has given anything, nobody knows whether a piston would have: the force may be switched off.
+    if (state.together.was_held && state.together.most_N < kAnyForce_N)
+        for (AssessedFinger& finger : found.fingers) finger.strength_N.reset();
+    else if (state.together.was_held)
+        found.together_N = state.together.most_N;
     return found;
 }
 

@@ -81,7 +81,7 @@ std::string assess_course(SimulatedPerson person) {
 
 std::string scripted_assess(const SettingValues& /*values*/, std::uint64_t /*seed*/, std::string_view script) {
     std::string text(script.substr(0, script.find('\n')));
-    text += "\n0.100 command toggle-panel\n";
+    text += "\n0.100 command toggle-panel\n0.500 command force on\n";
     for (const std::size_t part : {std::size_t{0}, std::size_t{1}, std::size_t{6}})
         text += formatted("%.3f command screenshot %s.png\n", assess_begins_s(part) + 2.0,
                           part == 0   ? "range"
