@@ -87,7 +87,7 @@ std::string scripted_assess(const SettingValues& /*values*/, std::uint64_t /*see
                           part == 0   ? "range"
                           : part == 1 ? "press"
                                       : "alone");
-    return text + formatted("%.3f command quit\n", assess_begins_s(kAssessParts) - kReads_s + 0.5);
+    return text + formatted("%.3f command quit\n", assess_begins_s(kAssessParts) + 0.5);
 }
 
 }  // namespace burin::activities
