@@ -8,10 +8,12 @@
 
 #include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/progress/baseline.hpp"
+#include "activities/rehab/progress/page_texts.hpp"
 #include "activities/rehab/rehab.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/output_files.hpp"
+#include "app/rehab_pages.hpp"
 #include "app/rehab_results.hpp"
 #include "app/temporary_folder.hpp"
 #include "base/assets.hpp"
@@ -64,6 +66,13 @@ Result<void> check_target(const activities::Exercise& exercise, bool is_simulate
                 formatted("makes a target of %g N, and %td fingers of this glove give %g N each, %g N together",
                           exercise.target_N(), fingers, of_each_N, most_N),
                 "give less, or a lower --level");
+}
+
+// Returns when the time begins by default. led: by a script, which presses no button unless it says so.
+double usual_start(const ExerciseKind& kind, bool is_simulated, bool led) {
+    const bool presses = kind.make(SettingValues(kind.settings))->target_N() > 0.0;
+    if (!is_simulated && presses) return activities::kStartsPressed;
+    return led ? activities::kStartsAtOnce : activities::kStartsAsked;
 }
 
 // Writes the script that a participant of that seed follows, and has the session follow it.
@@ -155,6 +164,7 @@ struct RehabCommand::Of {
     std::vector<std::string> words;
     std::string settings, report, hand;
     ResultsOptions results;
+    RunRemarks remarks;
     std::uint64_t seed = 1;
     bool print_config = false;
 
@@ -192,7 +202,9 @@ struct RehabCommand::Of {
 
 struct RehabCommand::Report {
     Command command;
-    std::string folder, page;
+    std::string folder, page, language;
+    Command withdraw;
+    RehabWithdrawOptions withdrawn;
 };
 
 RehabCommand::RehabCommand(Command app)
@@ -228,18 +240,27 @@ RehabCommand::RehabCommand(Command app)
         command.option("--seed", of.seed, "Of the scripted hand").show_default();
         command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
         add_results_options(command, of.results);
+        add_remark_options(command, of.remarks);
         add_live_options(command, of.session.live);
     }
     report_ = std::make_unique<Report>();
-    report_->command = command_.subcommand("report", "Write the page of all participants' progress anew");
+    report_->command = command_.subcommand("report", "Write the pages of all participants' progress anew");
     report_->command.option("FOLDER", report_->folder, "That --results was given").required();
-    report_->command.option("--out", report_->page, "The page, if not FOLDER/report.html");
+    report_->command.option("--out", report_->page, "The page that leads to theirs, if not FOLDER/report.html");
+    report_->command.option(
+        "--language", report_->language,
+        "Of all pages: " + activities::PageTexts::listed() + "; each participant's own if not given");
+    report_->withdraw = command_.subcommand("withdraw", "Take a participant off all pages, who is exercised no more");
+    report_->withdraw.option("FOLDER", report_->withdrawn.folder, "That --results was given").required();
+    report_->withdraw.option("--participant", report_->withdrawn.participant, "By number, 1 to 999").required();
+    report_->withdraw.flag("--erase", report_->withdrawn.erase, "Erase all runs of the participant, too");
 }
 
 RehabCommand::~RehabCommand() = default;
 
 Result<void> RehabCommand::run() const {
-    if (report_->command.parsed()) return rehab_report(report_->folder, report_->page);
+    if (report_->command.parsed()) return rehab_report(report_->folder, report_->page, report_->language);
+    if (report_->withdraw.parsed()) return rehab_withdraw(report_->withdrawn);
     for (const auto& of : exercises_)
         if (of->command.parsed()) return run(*of);
     return {};
@@ -253,6 +274,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     const bool is_again = session::is_database(of.session.live.input);
     const std::string recording = is_again ? of.session.live.input : "";
     if (const auto ok = check_results(of.results, scripted, recording); !ok) return ok;
+    if (const auto ok = check_remarks(of.remarks, !of.results.folder.empty()); !ok) return ok;
     Json fitted;
     if (!is_again)
         if (const auto fits = fit_to_person(*values, of.results, of.kind.conflict, fitted); !fits) return fits;
@@ -268,7 +290,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
     if (values->has("start") && values->number("start") == activities::kStartsByDevice)
-        values->set("start", is_simulated ? activities::kStartsAtOnce : activities::kStartsPressed);
+        values->set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
     if (scripted) {
         Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.hand, of.seed);
         if (!made) return std::unexpected(made.error());
@@ -279,6 +301,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
+    exercise->describe(json_of(of.remarks));
     if (!fitted.is_null()) exercise->fitted_by(std::move(fitted));
     // What a script has done, no person has.
     const std::string hand = of.hand == kWeakHand ? "scripted, a weak hand"
@@ -294,6 +317,11 @@ Result<void> RehabCommand::run(const Of& of) const {
     // older report alone.
     // A replay that went another way than its recording is nobody's run.
     if (!done && (is_again || exercise->exercise().course().events.empty())) {
+        results->discard();
+        return done;
+    }
+    if (exercise->exercise().course().events.empty() && exercise->failure().empty()) {
+        std::printf("%s: it was never begun, and nothing is kept of it\n", of.kind.name);
         results->discard();
         return done;
     }

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/progress/patient_page.hpp"
 #include "activities/rehab/progress/progress.hpp"
-#include "app/output_files.hpp"
+#include "app/rehab_pages.hpp"
 #include "base/text.hpp"
 #include "record/record_reader.hpp"
 #include "session/record/session_recording.hpp"
@@ -18,8 +19,6 @@ namespace burin::app {
 namespace {
 
 using activities::KeptRun;
-
-std::string page_of(const std::string& folder) { return (std::filesystem::path(folder) / "report.html").string(); }
 
 // The clock on the wall, as strftime writes it.
 std::string time_as(const char* form, std::time_t at) {
@@ -30,10 +29,6 @@ std::string time_as(const char* form, std::time_t at) {
 }
 
 std::string now_as(const char* form) { return time_as(form, std::time(nullptr)); }
-
-Result<void> write_page(const activities::KeptRuns& kept, const std::string& page) {
-    return write_text(page, activities::progress_page(kept, activities::levels_of, "Burin " BURIN_VERSION));
-}
 
 // The fact of a session file that says whose run it is, by what hand and when; since there is a journal of runs.
 constexpr const char* kRunFact = "rehab run";
@@ -115,7 +110,7 @@ Result<void> check_results(const ResultsOptions& options, bool scripted, const s
         return fail("--results " + options.folder, "does not say whose run it keeps", "give --participant, a number");
     if (*options.participant < 1 || *options.participant > KeptRun::kMostParticipants)
         return fail("--participant", formatted("is %u", *options.participant), "give a number from 1 to 999");
-    return {};
+    return check_stays(options.folder, *options.participant);
 }
 
 Result<std::optional<activities::Baseline>> baseline_in(const ResultsOptions& options) {
@@ -173,6 +168,7 @@ Result<ResultsOfRun> ResultsOfRun::again(const ResultsOptions& options, const st
     results.run_ = {*participant, recorded->date, recorded->time, recorded->hand, {}};
     results.folder_ = options.folder;
     results.name_ = recorded->name;
+    if (const auto stays = check_stays(options.folder, *participant); !stays) return std::unexpected(stays.error());
     if (const auto ready = activities::prepare_results(options.folder, *participant); !ready)
         return std::unexpected(ready.error());
     return results;
@@ -203,8 +199,10 @@ Result<void> ResultsOfRun::keep(const Json& report) {
     for (const KeptRun& other : kept->runs)
         if (other.participant == run_.participant && other.report.at("exercise") == report.at("exercise"))
             own.push_back(&other);
-    if (const auto written = write_page(*kept, page_of(folder_)); !written) return written;
-    std::printf("progress: %s\n", page_of(folder_).c_str());
+    const Result<std::string> index =
+        write_pages({.folder = folder_, .index = {}, .language = {}, .participant = run_.participant});
+    if (!index) return std::unexpected(index.error());
+    std::printf("progress: %s/participant-%03u/progress.html\n", folder_.c_str(), run_.participant);
     if (!own.empty() && activities::levels_of(report.at("exercise").get<std::string>()) > 0)
         std::printf(
             "%s\n",
@@ -216,16 +214,18 @@ void ResultsOfRun::discard() {
     if (journal_) journal_->discard();
 }
 
-Result<void> rehab_report(const std::string& folder, const std::string& page) {
+Result<void> rehab_report(const std::string& folder, const std::string& page, const std::string& language) {
     if (folder.empty()) return fail("FOLDER", "is empty", "name the folder that --results was given");
     tell_of(activities::take_up_left_runs(folder));
     const Result<activities::KeptRuns> kept = activities::read_runs(folder);
     if (!kept) return std::unexpected(kept.error());
-    if (kept->runs.empty() && kept->errors.empty())
+    const Result<activities::Withdrawals> withdrawn = activities::read_withdrawals(folder);
+    if (!withdrawn) return std::unexpected(withdrawn.error());
+    if (kept->runs.empty() && kept->errors.empty() && withdrawn->empty())
         return fail(folder, "holds no runs", "name the folder that --results was given");
-    const std::string to = page.empty() ? page_of(folder) : page;
-    if (const auto written = write_page(*kept, to); !written) return written;
-    std::printf("%zu %s: %s\n", kept->runs.size(), kept->runs.size() == 1 ? "run" : "runs", to.c_str());
+    const Result<std::string> index = write_pages({.folder = folder, .index = page, .language = language});
+    if (!index) return std::unexpected(index.error());
+    std::printf("%zu %s: %s\n", kept->runs.size(), kept->runs.size() == 1 ? "run" : "runs", index->c_str());
     if (kept->errors.empty()) return {};
     for (std::size_t i = 1; i < kept->errors.size(); ++i)
         std::fprintf(stderr, "burin: left out: %s\n", kept->errors[i].line().c_str());

@@ -24,10 +24,8 @@ struct ResultsOptions {
 };
 void add_results_options(Command command, ResultsOptions& options);
 
-// Checks the options. scripted: no person does it. recording: it is done again by one, which says whose it is.
+// Checks the options, and that the participant has not withdrawn. scripted: no person does it. recording: it is done again by one, which says whose it is.
 [[nodiscard]] Result<void> check_results(const ResultsOptions& options, bool scripted, const std::string& recording);
-// Makes the participant's folder, before the exercise. Requires checked options.
-[[nodiscard]] Result<void> prepare_results(const ResultsOptions& options);
 // Returns the baseline of the participant in the folder of results; nothing where there is none, or no folder yet.
 [[nodiscard]] Result<std::optional<activities::Baseline>> baseline_in(const ResultsOptions& options);
 
@@ -57,7 +55,9 @@ private:
     std::shared_ptr<activities::RunJournal> journal_;  // null: it is done again
 };
 
-// burin rehab report FOLDER: writes the page; empty: FOLDER/report.html.
-[[nodiscard]] Result<void> rehab_report(const std::string& folder, const std::string& page);
+// burin rehab report FOLDER: writes all participants' pages, and one that leads to them; empty: FOLDER/report.html.
+// language: of them all; empty: each participant's own.
+[[nodiscard]] Result<void> rehab_report(const std::string& folder, const std::string& page,
+                                        const std::string& language);
 
 }  // namespace burin::app

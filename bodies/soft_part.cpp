@@ -13,10 +13,12 @@ namespace {
 
 // Contacts are looked for within this distance of the surface: farther than a hand moves within a few steps.
 constexpr double kNear_m = 0.012;
-// The penalty of a contact at one point, as a share of Young's modulus times the body's size.
-constexpr double kContactShare = 0.25;
+// The stiffest that a contact at one point is, as a share of Young's modulus times the body's size.
+constexpr double kContactShare = 0.6, kPlasticShare = 0.25;
+// A mesh is as stiff under a point as a punch of this radius is on a half space, in edges of its lattice (measured).
+constexpr double kPunchOfEdge = 0.68;
 // The least stiffness of a model, as a share of the contact's: that of a first touch.
-constexpr double kLeastShare = 0.2;
+constexpr double kLeastShare = 0.04;
 constexpr double kDamping_s = 0.0005;  // of a model, over its stiffness
 constexpr double kCore = 0.5;          // the share of the half axes within which the body is held
 constexpr double kAtRest_m_per_s = 1e-5, kAtRest_m = 2e-6;
@@ -56,6 +58,17 @@ Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) 
     return {va / sum, vb / sum, vc / sum};
 }
 
+// Of a probe's point, a ball, on this body. A small dent in what yields stays, and is not Hertz's.
+DentLaw dent_law_of(const SoftPartSetup& setup) {
+    const SoftMaterial& material = setup.material;
+    const double size_m = std::cbrt(setup.half_axes_m.x * setup.half_axes_m.y * setup.half_axes_m.z);
+    const double plane_Pa = material.young_Pa / (1.0 - material.poisson * material.poisson);
+    const double radius_m = setup.point_radius_m * size_m / (setup.point_radius_m + size_m);
+    return {.stiffest_N_per_m = (material.is_plastic() ? kPlasticShare : kContactShare) * material.young_Pa * size_m,
+            .hertz_N_per_m32 = material.is_plastic() ? 0.0 : 4.0 / 3.0 * plane_Pa * std::sqrt(radius_m),
+            .mesh_m_per_N = 1.0 / (2.0 * plane_Pa * kPunchOfEdge * setup.spacing_m)};
+}
+
 // A body falls as a ball of the same volume.
 std::optional<FlightRoom> room_of(const SoftPartSetup& setup, std::optional<FlightRoom> room) {
     if (room) room->radius_m = std::cbrt(setup.half_axes_m.x * setup.half_axes_m.y * setup.half_axes_m.z);
@@ -83,6 +96,7 @@ SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
       touched_(ellipsoid_surface(body_.rest(), setup.half_axes_m, kTouchedLevel)),
       drawn_(ellipsoid_surface(body_.rest(), setup.half_axes_m, kDrawnLevel)),
       triangles_at_(touched_.points.size()),
+      law_(dent_law_of(setup)),
       holds_N_per_m_(body_.corners(), 0.0) {
     for (std::uint32_t t = 0; t < touched_.triangles.size(); ++t)
         for (const std::uint32_t corner : touched_.triangles[t]) triangles_at_[corner].push_back(t);
@@ -134,17 +148,23 @@ std::optional<SoftContact> SoftPart::contact_at(const Vec3& point_m) const {
             best = {square, touched_.triangles[t], shares};
     }
     SoftContact contact;
-    Vec3 normal(0.0);
+    Vec3 normal(0.0), place_m(0.0), bulge_m(0.0);
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t corner = best.corners[static_cast<std::size_t>(i)];
         contact.add(touched_.points[corner], best.shares[i]);
         normal += best.shares[i] * normals_[corner];
+        place_m += best.shares[i] * surface_m_[corner];
     }
     if (!(glm::length(normal) > 1e-9)) return std::nullopt;
+    // A facet lies beneath the surface that its corners' tangent planes describe, on a paraboloid by half of its mean
+    // distance from them (Boubekeur and Alexa 2008, "Phong Tessellation", take three quarters, for looks).
+    for (int i = 0; i < 3; ++i) {
+        const std::uint32_t corner = best.corners[static_cast<std::size_t>(i)];
+        bulge_m += 0.5 * best.shares[i] * glm::dot(surface_m_[corner] - place_m, normals_[corner]) * normals_[corner];
+    }
     contact.normal = -glm::normalize(normal);
-    contact.offset_m = glm::dot(contact.normal, point_m) + setup_.point_radius_m;
-    const double size_m = std::cbrt(setup_.half_axes_m.x * setup_.half_axes_m.y * setup_.half_axes_m.z);
-    contact.stiffness_N_per_m = kContactShare * setup_.material.young_Pa * size_m;
+    contact.offset_m = glm::dot(contact.normal, point_m) + setup_.point_radius_m - glm::dot(contact.normal, bulge_m);
+    contact.law = law_;
     if (contact.depth_m(state_.places_m) < -kNear_m) return std::nullopt;
     return contact;
 }
@@ -157,6 +177,8 @@ void SoftPart::find_contacts() {
         const Vec3 area = glm::cross(surface_m_[b] - surface_m_[a], surface_m_[c] - surface_m_[a]);
         for (const std::uint32_t corner : triangle) normals_[corner] += area;
     }
+    for (Vec3& normal : normals_)
+        if (const double length = glm::length(normal); length > 0.0) normal /= length;
     pressed_.clear();
     contacts_.clear();
     const Pose body_from_scene = scene::inverse(frame_.pose());
@@ -175,7 +197,8 @@ void SoftPart::make_models(Nanoseconds now_ns) {
     for (std::size_t i = 0; i < pressed_.size(); ++i) {
         const Pressed& at = pressed_[i];
         const SoftContact& contact = contacts_[i];
-        const double surface_N_per_m = contact.stiffness_N_per_m, force_N = contact.force_N(state_.places_m);
+        const double sunk_m = contact.depth_m(state_.places_m), force_N = contact.law.at(sunk_m).force_N;
+        const double least_N_per_m = kLeastShare * law_.stiffest_N_per_m;
         // Depth of the point in the body at rest, along the ray from the body's middle.
         const double level = glm::length(at.place_m / setup_.half_axes_m);
         const double depth_m = setup_.point_radius_m + glm::length(at.place_m) * (1.0 / std::max(level, 1e-6) - 1.0);
@@ -186,10 +209,10 @@ void SoftPart::make_models(Nanoseconds now_ns) {
         model.normal_object = frame_.pose().orientation * at.normal;
         model.place_object_m = frame_.pose() * at.place_m;
         model.velocity_object_m_per_s = frame_.velocity_at(model.place_object_m);
-        model.stiffness_N_per_m = std::clamp(secant, kLeastShare * surface_N_per_m, surface_N_per_m);
-        model.force_N = force_N > 0.0 ? force_N : model.stiffness_N_per_m * contact.depth_m(state_.places_m);
+        model.stiffness_N_per_m = std::clamp(secant, least_N_per_m, law_.stiffest_N_per_m);
+        model.force_N = force_N > 0.0 ? force_N : model.stiffness_N_per_m * sunk_m;
         model.damping_Ns_per_m = kDamping_s * model.stiffness_N_per_m;
-        model.surface_N_per_m = surface_N_per_m;
+        model.surface_N_per_m = force_N > 0.0 ? force_N / sunk_m : least_N_per_m;
         // A hand that holds the body has taken it to where the hand was then.
         model.time_ns = frame_.is_held() ? hands_[at.hand].time_ns : now_ns;
         hands_[at.hand].models.push_back(model);

@@ -110,6 +110,7 @@ private:
     SoftSolver solver_;
     EmbeddedSurface touched_, drawn_;
     std::vector<std::vector<std::uint32_t>> triangles_at_;  // of each point of the touched surface
+    DentLaw law_;                                           // of a point of a probe
     std::vector<double> holds_N_per_m_;
     std::vector<Vec3> held_at_m_;            // of a plastic body, by corner; empty: their places at rest
     std::vector<Vec3> surface_m_, normals_;  // of the touched surface now

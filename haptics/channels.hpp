@@ -145,6 +145,7 @@ struct PointRecord {
 struct MotionRecord {
     Similarity object_from_device;  // the mapping of the workspace technique in this tick
     WorkspacePicture workspace;
+    PieceMotion piece;  // of the piece under the device, where the mapping follows it
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     Vec3 velocity_device_m_per_s{0.0};
     Vec3 angular_velocity_device_rad_per_s{0.0};

@@ -124,8 +124,9 @@ PointContact::Moved PointContact::touch(const ProxyBudget& budget, double needed
     if (moved.sticking) step_.flags |= kTickSticking;
     record_.active_triangle = moved.active_triangle;
     if (moved.active_triangle != kNoTriangle) record_.object = input_.surface.object(moved.active_triangle);
+    surface_velocity_device_m_per_s_ = of_piece(has_shape() ? step_.contact.touched_object_m : record_.proxy_object_m);
     if (state_.carrier != 0)
-        surface_velocity_device_m_per_s_ = at_device(bodies_.velocity(moved.active_triangle, record_.proxy_object_m));
+        surface_velocity_device_m_per_s_ += at_device(bodies_.velocity(moved.active_triangle, record_.proxy_object_m));
     if (!was_fitting || was_put_elsewhere(moved, before))
         step_.contact.jumped = true;
     else
@@ -185,8 +186,9 @@ double PointContact::bear_on_last_plane(const Vec3& proxy_object_m, const Vec3& 
     const double coefficient = state_.slipping ? settings.dynamic_friction : settings.static_friction;
     record_.proxy_object_m = proxy_object_m + sliding_share(along, depth, coefficient) * along;
     if (!bears(last_.constraints, last_.normal_object)) return 0.0;
+    surface_velocity_device_m_per_s_ = of_piece(proxy_object_m);
     if (state_.carrier != 0)
-        surface_velocity_device_m_per_s_ = at_device(bodies_.velocity_of_body(state_.carrier, proxy_object_m));
+        surface_velocity_device_m_per_s_ += at_device(bodies_.velocity_of_body(state_.carrier, proxy_object_m));
     return glm::dot(unexplained_m, record_.proxy_object_m - record_.hip_object_m) / record_.penetration_m;
 }
 
@@ -221,7 +223,7 @@ ProxySettings PointContact::settings() const {
     ProxySettings s;
     s.contact_radius_m = radius_m();
     s.shading = input_.parameters.shading;
-    Vec3 slip = velocity_device_m_per_s_;
+    Vec3 slip = velocity_device_m_per_s_ - of_piece(state_.position_object_m);
     if (state_.carrier != 0) slip -= at_device(bodies_.velocity_of_body(state_.carrier, state_.position_object_m));
     // What presses in does not rub.
     if (last_.constraints > 0) {
@@ -378,6 +380,7 @@ void PointContact::bear_on_cut(const Vec3& cut_object_m) {
     const Vec3 spring = cut_object_m - record_.hip_object_m;
     const double depth = glm::length(spring);
     if (in_contact() || !(depth > 0.0)) return;
+    surface_velocity_device_m_per_s_ = of_piece(cut_object_m);
     step_.flags |= kTickInContact;
     record_.constraints = 1;
     record_.penetration_m = depth;
@@ -417,6 +420,12 @@ void PointContact::watch(const ProxyState& contact, double most_ns, ContactWork&
 void PointContact::count_work(const ContactWork& work, bool limited) {
     step_.contact.work += work;
     if (limited) step_.flags |= kTickWorkLimited;
+}
+
+// The velocity with which the piece takes a point of its own along.
+Vec3 PointContact::of_piece(const Vec3& place_object_m) const {
+    const MotionRecord& motion = input_.motion;
+    return motion.piece.at(inverse(motion.object_from_device) * place_object_m);
 }
 
 Vec3 PointContact::at_device(const Vec3& velocity_object_m_per_s) const {

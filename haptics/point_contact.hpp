@@ -60,7 +60,7 @@ public:
     [[nodiscard]] Vec3 less_left_out(const Vec3& bearing_object_m) const;
     // The force of this point on the hand.
     [[nodiscard]] PointForce force(const CoupledWall& wall, const Vec3& bearing_object_m);
-    // Of the surface touched; zero where it rests.
+    // Of the surface touched, with the piece under the device; zero where it rests.
     [[nodiscard]] const Vec3& surface_velocity_device_m_per_s() const { return surface_velocity_device_m_per_s_; }
     // Energy stored in the wall's spring at this point.
     [[nodiscard]] double spring_energy_J(const CoupledWall& wall, const Vec3& bearing_object_m) const;
@@ -88,6 +88,7 @@ private:
     void watch(const ProxyState& contact, double most_ns, ContactWork& work);
     void count_work(const ContactWork& work, bool limited);
     [[nodiscard]] double scale() const { return input_.motion.object_from_device.scale; }
+    [[nodiscard]] Vec3 of_piece(const Vec3& place_object_m) const;
     [[nodiscard]] Vec3 at_device(const Vec3& velocity_object_m_per_s) const;
 
     const ProbeInput& input_;

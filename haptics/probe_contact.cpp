@@ -72,7 +72,7 @@ CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& 
     input.hip_object_m = point.record().hip_object_m;
     input.proxy_object_m = point.record().proxy_object_m;
     input.orientation_object = in.motion.orientation_object;
-    input.velocity_device_m_per_s = in.motion.velocity_device_m_per_s;
+    input.velocity_device_m_per_s = in.motion.velocity_device_m_per_s - in.motion.piece.at(in.sample.position_device_m);
     input.scale = in.motion.object_from_device.scale;
     input.slack_m = kSlack * in.parameters.clearance_ratio * tool.size_m;
     input.in_contact = point.in_contact();
@@ -262,7 +262,8 @@ void push_points(const ProbeStep& step, const ProbeInput& input, std::span<Point
         PointRecord& record = step.contact.points[model.point];
         const StiffnessLimit slope = rendered_slope(model, std::min(models.count, geometry::LocalModels::kMost), input);
         const Vec3 turning = glm::cross(motion.angular_velocity_device_rad_per_s, forces[model.point].arm_device_m);
-        const Vec3 velocity = map.scale * (map.orientation * (motion.velocity_device_m_per_s + turning));
+        const Vec3 of_piece = motion.piece.at(input.sample.position_device_m + forces[model.point].arm_device_m);
+        const Vec3 velocity = map.scale * (map.orientation * (motion.velocity_device_m_per_s + turning - of_piece));
         const BodyPush push =
             push_of(model, {record.hip_object_m, velocity, slope.stiffness_N_per_m / map.scale, input.now_ns});
         if (!(push.force_N > 0.0)) continue;
@@ -274,7 +275,7 @@ void push_points(const ProbeStep& step, const ProbeInput& input, std::span<Point
         forces[model.point].force_device_N += force_device_N;
         record.force_device_N += force_device_N;
         step.contact.spring_energy_J += push.energy_J;
-        surface.add(device_from_object * model.velocity_object_m_per_s / map.scale, force_device_N);
+        surface.add(device_from_object * model.velocity_object_m_per_s / map.scale + of_piece, force_device_N);
         step.flags |= kTickInContact;
         if (record.constraints > 0) continue;
         record.constraints = 1;

@@ -237,6 +237,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
         {sample.position_device_m, motion.velocity_device_m_per_s, sample.buttons, state.in_contact, dt_s});
     next.workspace = workspace.next;
     motion.object_from_device = workspace.object_from_device;
+    motion.piece = workspace.piece;
     motion.orientation_object = workspace.object_from_device.orientation * sample.orientation_device;
     motion.workspace = workspace.picture;
     if (workspace.paused) record.flags |= kTickPaused;

@@ -16,15 +16,13 @@
 namespace burin::activities {
 namespace {
 
-std::optional<Error> no_conflict(const SettingValues& /*values*/) { return std::nullopt; }
-
 constexpr std::string_view kPrefix = "rehab ";
 
 std::span<const ExerciseKind> all_kinds() {
     static const std::array kinds{
         ExerciseKind{"assess", "Measure what a hand can do: range, strength, speed, each finger alone",
                      "worlds/assess.toml", "sessions/rehab-assess.txt", Assess::setting_kinds(), Assess::make,
-                     scripted_assess, no_conflict, nullptr, assess_course},
+                     scripted_assess, Assess::conflict, nullptr, assess_course},
         ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "worlds/hand.toml",
                      "sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball, Ball::conflict},
         ExerciseKind{"game", "Throw a ball at a wall above a line, and catch it", "worlds/game.toml",

@@ -119,6 +119,18 @@ GraspOptions options_of(const SettingValues& values) {
     return options;
 }
 
+// Follows forces so slowly that they can be read.
+FingersTurn shown_after(const FingersTurn& before, FingersTurn now) {
+    constexpr double kShows_s = 0.08;
+    const double follows = 1.0 - std::exp(-now.dt_s / kShows_s);
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        now.forces_N[i] = std::lerp(before.forces_N[i], now.forces_N[i], follows);
+        if (now.measured_N[i])
+            now.measured_N[i] = std::lerp(before.measured_N[i].value_or(0.0), *now.measured_N[i], follows);
+    }
+    return now;
+}
+
 Json json_of(const FingerMeasures& finger, const char* name, std::optional<bool> pressed) {
     Json ranges = Json::array();
     for (std::size_t joint = 0; joint < finger.least_rad.size(); ++joint) ranges.push_back(finger.range_rad(joint));
@@ -159,14 +171,70 @@ Rehab::Rehab(std::unique_ptr<Exercise> exercise)
     range_ = range_of(values);
     asks_ = values.has("start") && values.number("start") == kStartsPressed;
     if (asks_) start_.asks = exercise_->pressing_fingers();
+    if (values.has("start") && values.number("start") == kStartsAsked) control_.phase = RunPhase::ready;
 }
 
 std::string Rehab::settings() const {
     return "rehab " + std::string(exercise_->name()) + " " + line_of(exercise_->settings());
 }
 
-Result<void> Rehab::act(std::span<const std::string> words, session::ActivityOrders&) {
-    return fail("command do " + words[0], "is nothing that an exercise is told", "go on with the exercise instead");
+std::span<const session::Act> Rehab::acts() const {
+    static constexpr std::array kActs{
+        session::Act{"start", "", "Start the exercise's clock, or go on after a break"},
+        session::Act{"pause", "", "Stop its clock and let the forces fade out, since something has come up"},
+        session::Act{"rest", "", "Likewise, for the hand to rest"},
+        session::Act{"stop", "", "End it now: it counts as broken off"},
+    };
+    return kActs;
+}
+
+Result<void> Rehab::act(std::span<const std::string> words, session::ActivityOrders& orders) {
+    for (const RunOrder order : {RunOrder::start, RunOrder::pause, RunOrder::rest, RunOrder::stop})
+        if (words[0] == name_of(order)) return follow(order, orders);
+    return fail("do " + words[0], "is nothing that an exercise is told", "say start, pause, rest or stop");
+}
+
+Result<void> Rehab::start_without_presses() {
+    if (std::ranges::find(start_.worked, true) == start_.worked.end())
+        return fail("do start", "comes too early: no finger of the device has worked yet", "see to the device first");
+    start_.asked_s = std::max(start_.asked_s, StartCheck::kMost_s);
+    return {};
+}
+
+Result<void> Rehab::follow(RunOrder order, session::ActivityOrders& orders) {
+    if (exercise_->end() != ExerciseEnd::not_yet)
+        return fail("do " + std::string(name_of(order)), "comes too late: the exercise has ended", "begin it anew");
+    const bool asks_no_more = order == RunOrder::start && control_.runs() && is_asking();
+    if (asks_no_more) {
+        if (auto begun = start_without_presses(); !begun) return begun;
+    } else {
+        const Result<RunControl> next = with_order(control_, order);
+        if (!next) return std::unexpected(next.error());
+        const bool breaks = control_.gives_force() && !next->gives_force();
+        if (breaks && !is_asking()) {
+            const std::size_t first = orders.trials.size();
+            exercise_->interrupt(control_.exercise_ns(control_.last_ns), orders);
+            on_loop_clock(orders.trials, first);
+            measures_.begun = false;  // what it goes on with is a part of its own
+        }
+        control_ = *next;
+    }
+    orders.parameters = true;
+    orders_.push_back({control_.last_ns, std::string(name_of(order)), formatted("%.3f s", exercise_->course().time_s)});
+    const std::string now = state_text();
+    orders.messages.push_back(now.empty() ? "the time begins" : now);
+    return {};
+}
+
+void Rehab::on_loop_clock(std::vector<session::TrialMark>& trials, std::size_t first) const {
+    for (std::size_t i = first; i < trials.size(); ++i) trials[i].time_ns = control_.loop_ns(trials[i].time_ns);
+}
+
+// In a break the hand holds what it would touch: what force there was fades out by the loop's own ramp.
+void Rehab::adjust(session::PartOfHand of, haptics::TickParameters& parameters) const {
+    hand_.adjust(of, parameters);
+    exercise_->adjust(of.part, parameters);
+    if (!gives_force()) parameters.holds = true;
 }
 
 // Has the world's own object give way to the body.
@@ -235,8 +303,15 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
         const HandReading hand = reading_of(ticks);
         const FingersTurn fingers = fingers_of(ticks, object, body_shares_, dt_s);
         body_shares_ = fingers.body_shares;
-        turn({now_ns, holds, fingers, hand.scene_from_hand, range_.share_of(closure_of(hand)), lies_in_palm_m_,
-              tips_of(ticks)},
+        shown_ = shown_after(shown_, fingers);
+        turn({.time_ns = now_ns,
+              .grasped = holds,
+              .fingers = fingers,
+              .scene_from_hand = hand.scene_from_hand,
+              .closure = range_.share_of(closure_of(hand)),
+              .lies_in_palm_m = lies_in_palm_m_,
+              .tips_object_m = tips_of(ticks),
+              .away_ns = 0},
              orders);
     });
     tell_keeper(orders);
@@ -317,6 +392,7 @@ bool Rehab::has_started(const FingersTurn& fingers, session::ActivityOrders& ord
 }
 
 std::string Rehab::failure() const {
+    if (control_.phase == RunPhase::stopped) return "it was stopped";
     if (!asks_ || start_.is_done() || start_.asked_s == 0.0) return "";
     for (std::size_t i = 0; i < start_.asks.size(); ++i)
         if (start_.asks[i] && start_.worked[i]) return "";
@@ -324,8 +400,14 @@ std::string Rehab::failure() const {
                      start_.asked_s);
 }
 
-void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
-    if (exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
+void Rehab::turn(ExerciseTurn turn, session::ActivityOrders& orders) {
+    const bool settled = control_.phase == RunPhase::settles;
+    control_ = with_turn(control_, turn.time_ns, StartCheck::is_let_go(turn.fingers));
+    if (!control_.runs() || exercise_->end() != ExerciseEnd::not_yet || !has_started(turn.fingers, orders)) return;
+    if (settled) orders.messages.push_back("it goes on");
+    turn.away_ns = control_.away_ns;
+    turn.time_ns = control_.exercise_ns(turn.time_ns);
+    const std::size_t first = orders.trials.size();
     has_let_go_ = has_let_go_ || !asks_ || StartCheck::is_let_go(turn.fingers);
     if (has_let_go_) {
         measures_ = with_turn(measures_, turn.fingers);
@@ -337,6 +419,7 @@ void Rehab::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
         without.fingers.forces_N = {};
         exercise_->turn(without, orders);
     }
+    on_loop_clock(orders.trials, first);
     if (exercise_->end() != ExerciseEnd::not_yet)
         orders.messages.push_back(formatted("%s: score %.0f of 100",
                                             exercise_->end() == ExerciseEnd::done ? "done" : "time is over",
@@ -347,8 +430,10 @@ void Rehab::write(session::ActivityRecord& record) {
     const ExerciseCourse course = exercise_->course();
     for (; written_ < course.events.size(); ++written_) {
         const ExerciseEvent& event = course.events[written_];
-        record.events.push_back({event.time_ns, std::string(event.what), formatted("%.3f N", event.force_N)});
+        record.events.push_back(
+            {control_.loop_ns(event.time_ns), std::string(event.what), formatted("%.3f N", event.force_N)});
     }
+    for (session::EventMark& told : std::exchange(orders_, {})) record.events.push_back(std::move(told));
 }
 
 std::uint64_t Rehab::check() const {
@@ -360,6 +445,10 @@ std::uint64_t Rehab::check() const {
     for (const FingerMeasures& finger : measures_.fingers) {
         sum.add(finger.impulse_Ns);
         sum.add(finger.moved_rad);
+    }
+    if (control_.was_told) {  // recordings of before there were such orders have none
+        sum.add(std::uint64_t{static_cast<std::uint8_t>(control_.phase)});
+        sum.add(static_cast<std::uint64_t>(control_.away_ns));
     }
     return sum.sum();
 }
@@ -376,28 +465,6 @@ void Rehab::stage(renderer::Scene& scene, std::size_t screen) const {
              {srgb[0], srgb[1], srgb[2]}});
     }
     hand_.stage(scene, screen);
-}
-
-session::ActivityPanel Rehab::panel() const {
-    const ExerciseCourse course = exercise_->course();
-    const SettingValues& values = exercise_->settings();
-    session::ActivityPanel panel{.title = exercise_->name(), .aside = {}, .page = {}, .rows = {}, .buttons = {}};
-    panel.title[0] = static_cast<char>(panel.title[0] - 'a' + 'A');
-    panel.page = exercise_->task();
-    if (asks_ && !start_.is_done())
-        panel.page = "Press with each finger once, then the time begins: " + start_.missing();
-    if (start_.has_failed()) panel.page = "Broken off: " + failure();
-    for (const ExerciseCourse::Count& count : course.counts)
-        if (count.wanted > 0)
-            panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
-        else if (count.number > 0)
-            panel.rows.push_back({count.name, formatted("%u", count.number)});
-    panel.rows.push_back({"Time", values.has("time_limit_s")
-                                      ? formatted("%.0f of %.0f s", course.time_s, values.number("time_limit_s"))
-                                      : formatted("%.0f s", course.time_s)});
-    if (fitted_.is_object()) panel.rows.push_back({"Fitted by", fitted_.at("text").get<std::string>()});
-    if (course.end != ExerciseEnd::not_yet) panel.rows.push_back({"Score", formatted("%.0f of 100", course.score)});
-    return panel;
 }
 
 Json Rehab::report() const {
@@ -417,8 +484,13 @@ Json Rehab::report() const {
     Json report{{"exercise", exercise_->name()},
                 {"settings", std::move(settings)},
                 {"young_Pa", body_ ? Json(body_->setup().material.young_Pa) : Json()},
+                {"held_N_per_m", body_ ? Json(body_->setup().held_N_per_m) : Json()},
                 {"ended", text_of(course.end)},
                 {"broken_off_because", why.empty() ? Json() : Json(why)},
+                {"pauses", control_.pauses},
+                {"paused_s", control_.paused_s},
+                {"rests", control_.rests},
+                {"rested_s", control_.rested_s},
                 {"score", course.score},
                 {"time_s", course.time_s},
                 {"counts", std::move(counts)},
@@ -429,6 +501,7 @@ Json Rehab::report() const {
                 {"events", json_of(course, 0)}};
     if (const Json found = exercise_->findings(); !found.is_null()) report[exercise_->name()] = found;
     if (!fitted_.is_null()) report["fitted_by"] = fitted_;
+    report.update(told_);
     return report;
 }
 

@@ -7,6 +7,7 @@
 //   the body's changes, with the update that the frame takes -> its picture
 //   the turns until each finger has pressed once -> the start, with a glove that is worn
 //   its events, as they come -> the keeper, which writes them down (activities/rehab/progress/run_journal.hpp)
+//   start, pause, rest, stop (activities/rehab/exercise/run_control.hpp) -> whether its clock goes on, with force
 //   the turns from then on until the exercise ends -> measures of the hand; course and measures -> report()
 // Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once
@@ -14,6 +15,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "activities/grasp/grasp.hpp"
 #include "activities/rehab/exercise/exercise.hpp"
 #include "activities/rehab/exercise/person_range.hpp"
+#include "activities/rehab/exercise/run_control.hpp"
 #include "base/json.hpp"
 
 namespace burin::activities {
@@ -30,15 +33,13 @@ public:
     explicit Rehab(std::unique_ptr<Exercise> exercise);
 
     [[nodiscard]] std::string settings() const override;
+    [[nodiscard]] std::span<const session::Act> acts() const override;
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
     void write(session::ActivityRecord& record) override;
     [[nodiscard]] std::uint64_t check() const override;
     [[nodiscard]] bool is_running() const override { return true; }
-    void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override {
-        hand_.adjust(of, parameters);
-        exercise_->adjust(of.part, parameters);
-    }
+    void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     [[nodiscard]] bool draws_hands() const override { return true; }
     [[nodiscard]] std::optional<session::LedHand> led_hand() const override { return exercise_->led_hand(); }
     void stage(renderer::Scene& scene, std::size_t screen) const override;
@@ -58,10 +59,11 @@ public:
     // Has report and panel say by what assessment it is fitted to the person: an object with a "text". It changes
     // nothing: the settings have what came of it.
     void fitted_by(Json assessment) { fitted_ = std::move(assessment); }
-
+    // Adds what is told of the run besides, such as a comment, to its report.
+    void describe(Json told) { told_ = std::move(told); }
     // Returns settings, score, counts, measures and events.
     [[nodiscard]] Json report() const;
-    // Returns why it was broken off by itself, before its time began; empty: it was not.
+    // Returns why it was broken off: stopped, or by itself before its time began; empty: it was not.
     [[nodiscard]] std::string failure() const;
 
 private:
@@ -73,8 +75,21 @@ private:
     [[nodiscard]] bool has_started(const FingersTurn& fingers, session::ActivityOrders& orders);
     void follow_most_force(const FingersTurn& fingers);
     [[nodiscard]] Json person_range() const;
-    void turn(const ExerciseTurn& turn, session::ActivityOrders& orders);
     void tell_keeper(session::ActivityOrders& orders);
+    void turn(ExerciseTurn turn, session::ActivityOrders& orders);
+    // Carries out Start, Pause, Rest or Stop.
+    [[nodiscard]] Result<void> follow(RunOrder order, session::ActivityOrders& orders);
+    [[nodiscard]] Result<void> start_without_presses();
+    // Moves times of trials from `first` on to the loop's clock.
+    void on_loop_clock(std::vector<session::TrialMark>& trials, std::size_t first) const;
+    [[nodiscard]] bool is_asking() const { return asks_ && !start_.is_done(); }
+    // Returns whether the device is to give force: not before the start, in a break or when it was stopped.
+    [[nodiscard]] bool gives_force() const { return control_.gives_force(); }
+    // Of the panel (rehab_panel.cpp).
+    [[nodiscard]] std::string state_text() const;
+    [[nodiscard]] session::ActivityPanel::Task task() const;
+    [[nodiscard]] std::vector<session::ActivityPanel::Table> tables() const;
+    [[nodiscard]] std::vector<session::ActivityPanel::Button> buttons() const;
 
     static constexpr Nanoseconds kTells_ns = 5'000'000'000, kTriesAgain_ns = 1'000'000'000;
 
@@ -95,13 +110,17 @@ private:
     PersonRange range_;
     double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s
     HandMeasures measures_;
-    std::size_t written_ = 0;  // events
     Keeper keeper_;
     std::size_t kept_ = 0;  // events
     Nanoseconds told_keeper_ns_ = 0;
     bool keeper_fails_ = false;
     Json fitted_;  // null: by none
     std::vector<std::pair<std::string, std::string>> facts_;
+    RunControl control_;
+    Json told_ = Json::object();
+    FingersTurn shown_;                       // the last turn's, with forces that are slow enough to be read
+    std::vector<session::EventMark> orders_;  // that were followed and are not written yet
+    std::size_t written_ = 0;                 // events
 };
 
 }  // namespace burin::activities

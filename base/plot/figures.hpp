@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct PlotSeries {
     std::vector<PlotPoint> points;  // joined in this order
     double width = 0.0;             // of the line, in pixels; 0: as the plot's others
     std::string like = {};          // the name of the series whose colour and sign it shares; empty: it has its own
+    std::optional<std::size_t> style = {};  // of colours and signs, by number; none: by its place among the names
 };
 
 struct Plot {
@@ -32,8 +34,9 @@ struct Plot {
     bool markers = true;  // false: only lines, for curves of many points; each series is dashed in its own way
     // The least range that the y axis shows, so that plots side by side compare; equal values: as the series need.
     double y_lowest = 0, y_highest = 0;
-    bool same_scale = false;  // both axes, which are linear: ways in space, where a circle is to be round
-    bool x_whole = false;     // of a linear axis: days and the like, with no ticks between them
+    bool same_scale = false;    // both axes, which are linear: ways in space, where a circle is to be round
+    bool x_whole = false;       // of a linear axis: days and the like, with no ticks between them
+    std::string decimal = ".";  // sign of the ticks' numbers
 };
 
 // Draws the plots in rows of so many; 0: in one row.

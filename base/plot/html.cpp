@@ -28,10 +28,12 @@ pre { font-size: 0.8em; overflow-x: auto; background: #f4f4f4; padding: 0.8em; }
 
 }  // namespace
 
-std::string page_begin(std::string_view title) {
-    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+std::string page_begin(std::string_view title, std::string_view language, std::string_view style) {
+    const std::string own = style.empty() ? "" : "<style>\n" + std::string(style) + "</style>\n";
+    return "<!DOCTYPE html>\n<html lang=\"" + escaped(language) +
+           "\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-           escaped(title) + "</title>\n" + kStyle + "</head>\n<body>\n";
+           escaped(title) + "</title>\n" + kStyle + own + "</head>\n<body>\n";
 }
 
 std::string page_end() { return "</body>\n</html>\n"; }

@@ -10,7 +10,9 @@ namespace burin::plot {
 
 // Begins a page with its style, up to its body; page_end() ends it. Classes: "wide" scrolls what is wider than the
 // screen, "plots" puts figures side by side, "warning" marks a paragraph, "number" a cell.
-[[nodiscard]] std::string page_begin(std::string_view title);
+// language: by its code; style: rules of CSS besides.
+[[nodiscard]] std::string page_begin(std::string_view title, std::string_view language = "en",
+                                     std::string_view style = {});
 [[nodiscard]] std::string page_end();
 
 [[nodiscard]] std::string element(const char* name, std::string_view text);

@@ -58,7 +58,11 @@ struct Frame {
 };
 
 // Formats as 0.001, 0.2, 50, or 1e-05 where that is shorter.
-std::string tick_label(double value) { return formatted("%.12g", value); }
+std::string tick_label(double value, const std::string& decimal) {
+    std::string label = formatted("%.12g", value);
+    if (const std::size_t point = label.find('.'); point != std::string::npos) label.replace(point, 1, decimal);
+    return label;
+}
 
 // Calls draw(value, strong, labelled) at multiples of 1, 2 or 5 times a power of ten, about five to a linear axis.
 template <typename Draw>
@@ -70,7 +74,7 @@ void linear_ticks(const Axis& axis, Draw&& draw) {
         draw(i * step + 0.0, i == 0.0, true);  // + 0: no -0
 }
 
-std::string grid_of(const Frame& f) {
+std::string grid_of(const Frame& f, const std::string& decimal) {
     std::string text;
     const auto ticks = [](const Axis& axis, auto&& draw) {
         if (axis.linear) return linear_ticks(axis, draw);
@@ -85,12 +89,12 @@ std::string grid_of(const Frame& f) {
     ticks(f.x, [&](double value, bool strong, bool labelled) {
         const double x = f.at_x(value);
         text += line(x, f.top, x, f.top + kFrameHeight, strong ? "#bbbbbb" : "#e6e6e6");
-        if (labelled) text += write(x, f.top + kFrameHeight + 16, "text-anchor=\"middle\"", tick_label(value));
+        if (labelled) text += write(x, f.top + kFrameHeight + 16, "text-anchor=\"middle\"", tick_label(value, decimal));
     });
     ticks(f.y, [&](double value, bool strong, bool labelled) {
         const double y = f.at_y(value);
         text += line(f.left, y, f.left + kFrameWidth, y, strong ? "#bbbbbb" : "#e6e6e6");
-        if (labelled) text += write(f.left - 6, y + 4, "text-anchor=\"end\"", tick_label(value));
+        if (labelled) text += write(f.left - 6, y + 4, "text-anchor=\"end\"", tick_label(value, decimal));
     });
     return text + rectangle(f.left, f.top, kFrameWidth, kFrameHeight, "none", "#444444");
 }
@@ -134,7 +138,9 @@ std::vector<NamedStyle> styles_of(const std::vector<Plot>& plots) {
         for (const PlotSeries& s : plot.series) {
             if (std::ranges::find(styles, s.name, &NamedStyle::name) != styles.end()) continue;
             const auto like = std::ranges::find(styles, s.like, &NamedStyle::name);
-            styles.push_back({s.name, s.like.empty() || like == styles.end() ? next++ : like->style});
+            styles.push_back({s.name, s.style                                  ? *s.style
+                                      : s.like.empty() || like == styles.end() ? next++
+                                                                               : like->style});
         }
     }
     return styles;
@@ -200,7 +206,7 @@ std::string plot_text(const Plot& plot, double left, double top, const std::vect
         f.y.lengthen(per_pixel * kFrameHeight);
     }
     const double middle = f.left + kFrameWidth / 2, half_up = f.top + kFrameHeight / 2;
-    std::string text = grid_of(f);
+    std::string text = grid_of(f, plot.decimal);
     text += write(middle, f.top - 12, "text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\"", plot.title);
     text += write(middle, f.top + kFrameHeight + 38, "text-anchor=\"middle\"", plot.x_label);
     text += write_upright(left + 16, half_up, plot.y_label);

@@ -71,7 +71,7 @@ Result<BodyBenchFigures> measure_body(const BodyBenchTask& task) {
     if (!body) return std::unexpected(body.error());
     constexpr unsigned kLevel = 4;
     const bodies::EmbeddedSurface surface = bodies::ellipsoid_surface(body->rest(), Vec3(task.radius_m), kLevel);
-    BodyBenchFigures figures{task, body->rest().cells.size(), body->corners(), {}, {}, {}, {}, {}, {}, {}};
+    BodyBenchFigures figures{task, body->rest().cells.size(), body->corners(), {}, {}, {}, {}, {}, {}, {}, {}};
     for (const double closed : kSqueezes) figures.squeezes.push_back(pressed(task, *body, surface, closed, 4, 0.004));
     if (task.quick) return figures;
     for (const auto& [sweeps, dt_s] : kSweepsAndSteps)
@@ -80,6 +80,7 @@ Result<BodyBenchFigures> measure_body(const BodyBenchTask& task) {
     figures.kneaded = knead_putty(task.kneads);
     figures.grasps = grasp_at_random(task.grasps);
     figures.meeting = squeeze_until_they_meet();
+    figures.dented = dent_by_a_point();
     figures.felt = feel_between_steps();
     return figures;
 }
@@ -110,6 +111,10 @@ std::string table_of_trials(const BodyBenchFigures& figures) {
     for (const MeetingFingers& at : figures.meeting)
         text += formatted("%8.1f %9.3f %+8.2f %% %7.3f\n", at.share, at.force_N, 100.0 * (at.volume_share - 1.0),
                           at.least_share);
+    text += "dented by one point of 1 mm, 1632 elements, 100 kPa\n      mm         N  / Hertz    least     most\n";
+    for (const DentedByAPoint& dent : figures.dented)
+        text += formatted("%8.1f %9.3f %8.2f %8.2f %8.2f\n", 1e3 * dent.depth_m, dent.mean_N, dent.over_hertz,
+                          dent.least_over_hertz, dent.most_over_hertz);
     text += "felt between steps\n     kPa     Hz   most N  held off N  model off N  true step N  felt step N\n";
     for (const FeltBetweenSteps& felt : figures.felt)
         text += formatted("%8.0f %6.0f %8.2f %11.4f %12.4f %12.4f %12.4f\n", 1e-3 * felt.young_Pa, felt.hertz,
@@ -148,12 +153,19 @@ Json json_of_trials(const BodyBenchFigures& figures) {
                 {"limit_N", grasps.limit_N},
                 {"with_an_inverted_element_after", grasps.inverted_after}}},
               {"two_fingers_that_meet", Json::array()},
+              {"dented_by_a_point", Json::array()},
               {"felt_between_steps", Json::array()}};
     for (const MeetingFingers& at : figures.meeting)
         json["two_fingers_that_meet"].push_back({{"share_of_radius", at.share},
                                                  {"force_N", at.force_N},
                                                  {"volume_share", at.volume_share},
                                                  {"least_volume_share_of_an_element", at.least_share}});
+    for (const DentedByAPoint& dent : figures.dented)
+        json["dented_by_a_point"].push_back({{"depth_m", dent.depth_m},
+                                             {"mean_N", dent.mean_N},
+                                             {"over_hertz", dent.over_hertz},
+                                             {"least_over_hertz", dent.least_over_hertz},
+                                             {"most_over_hertz", dent.most_over_hertz}});
     for (const FeltBetweenSteps& felt : figures.felt)
         json["felt_between_steps"].push_back({{"young_Pa", felt.young_Pa},
                                               {"hertz", felt.hertz},

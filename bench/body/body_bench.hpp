@@ -38,6 +38,7 @@ struct BodyBenchFigures {
     KneadedPutty kneaded;
     RandomGrasps grasps;
     std::vector<MeetingFingers> meeting;
+    std::vector<DentedByAPoint> dented;
     std::vector<FeltBetweenSteps> felt;
 };
 // Fails on a ball that cannot be.

@@ -245,6 +245,36 @@ std::vector<MeetingFingers> squeeze_until_they_meet() {
     return all;
 }
 
+std::vector<DentedByAPoint> dent_by_a_point() {
+    bodies::SoftPartSetup setup = ball_of(100e3, 0.0);
+    setup.held_N_per_m = 1e7;  // what holds the ball gives nothing
+    const double radius_m = setup.point_radius_m * kBall_m / (setup.point_radius_m + kBall_m);
+    const double plane_Pa = setup.material.young_Pa / (1.0 - setup.material.poisson * setup.material.poisson);
+    constexpr std::array kFrom{Vec3(0.0, 1.0, 0.0), Vec3(0.6, 0.0, 0.8), Vec3(0.48, -0.6, 0.64),
+                               Vec3(-0.64, 0.48, 0.6)};
+    constexpr int kSteps = 100;
+    std::vector<DentedByAPoint> all;
+    for (const double depth_m : {0.0005, 0.001, 0.002, 0.004, 0.009}) {
+        DentedByAPoint dent{.depth_m = depth_m, .least_over_hertz = HUGE_VAL};
+        const double hertz_N = 4.0 / 3.0 * plane_Pa * std::sqrt(radius_m * depth_m) * depth_m;
+        for (const Vec3& from : kFrom) {
+            Pressed ball(setup);
+            haptics::TickRecord tick;
+            tick.contact.point_count = 1;
+            tick.contact.points[0].hip_object_m = (kBall_m + setup.point_radius_m - depth_m) * from;
+            ball.press(0, tick);
+            for (int i = 0; i < kSteps; ++i) ball.update();
+            const double force_N = glm::length(ball.felt_N(0, tick)), over = force_N / hertz_N;
+            dent.mean_N += force_N / kFrom.size();
+            dent.over_hertz += over / kFrom.size();
+            dent.least_over_hertz = std::min(dent.least_over_hertz, over);
+            dent.most_over_hertz = std::max(dent.most_over_hertz, over);
+        }
+        all.push_back(dent);
+    }
+    return all;
+}
+
 std::vector<FeltBetweenSteps> feel_between_steps() {
     std::vector<FeltBetweenSteps> all;
     for (const double young_Pa : {100e3, 300e3})

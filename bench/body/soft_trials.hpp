@@ -47,6 +47,13 @@ struct MeetingFingers {
 };
 [[nodiscard]] std::vector<MeetingFingers> squeeze_until_they_meet();
 
+// One point of 1 mm presses a ball so deep, from four directions. The force over that of Hertz, whose law is of dents
+// that are small beside both.
+struct DentedByAPoint {
+    double depth_m = 0.0, mean_N = 0.0, over_hertz = 0.0, least_over_hertz = 0.0, most_over_hertz = 0.0;
+};
+[[nodiscard]] std::vector<DentedByAPoint> dent_by_a_point();
+
 // A finger goes 4 mm in and out; the truth is the same body stepped each millisecond with 20 sweeps.
 struct FeltBetweenSteps {
     double young_Pa = 0.0, hertz = 0.0;

@@ -61,6 +61,7 @@ Lifted lift_out(const compute::ToolShape& tool, int resolution, double speed_m_p
         note(figures, record);
         figures.let_go += has(record, haptics::kTickLetGo) ? 1 : 0;
         const double given_N = glm::length(record.gate.given.force_device_N);
+        figures.way.push_back({up, given_N});
         if (at.y + up <= kClear_m) {
             figures.most_inside_N = std::max(figures.most_inside_N, asked_N(record));
             continue;

@@ -13,7 +13,11 @@ namespace burin::bench {
 
 // A groove of 10 mm, 3 mm deep, between upright walls; then the button comes up and the hand lifts the tool straight
 // up. Right is no force once the tool is 0.5 mm clear.
+struct LiftedTick {
+    double height_m = 0.0, given_N = 0.0;  // above the groove's floor; as given to the device
+};
 struct Lifted {
+    std::vector<LiftedTick> way;
     double most_inside_N = 0.0;  // before it is clear, as asked
     double most_clear_N = 0.0;   // as given
     std::uint64_t ticks = 0, limited = 0, held_clear = 0, let_go = 0;

@@ -120,10 +120,11 @@ struct ShapeTicks {
 };
 
 // What a tool feels in the groove that it cuts, and what is right: the most force once it is lifted clear, how fast it
-// sinks under one and a half times its yield, the mean force of a hand 0.7 mm below the groove.
+// sinks under one and a half times its yield, the mean force of a hand 0.7 mm below the groove, the least force while
+// a piece turns under the tool (turned_scene.hpp).
 struct CarvedFeel {
     std::string row, tool, unit;
-    int resolution = 0;  // cells along a block of 40 mm; 30 mm for the one that is pressed
+    int resolution = 0;  // cells along a block of 40 mm; 30 mm for the one that is pressed; 0: it is no lattice
     double right = 0.0, found = 0.0;
     std::uint64_t ticks = 0, limited = 0, let_go = 0;
 };

@@ -2,6 +2,7 @@
 // Measures what a tool feels in the groove that it cuts, against what is right (carving_scenes.hpp).
 #include "bench/haptics/carving_scenes.hpp"
 #include "bench/haptics/haptics.hpp"
+#include "bench/haptics/turned_scene.hpp"
 
 namespace burin::bench {
 namespace {
@@ -20,6 +21,15 @@ std::vector<CarvedFeel> carved_with(const CarvingTool& tool, int resolution) {
              again.let_go}};
 }
 
+// The piece stands, and is turned at the fastest of the speeds that a hand turns it at.
+CarvedFeel turned_under(const CarvingTool& tool) {
+    constexpr double kTurnedAt_deg_per_s = 180.0;
+    const TurnedUnder stands = turn_under(tool.shape, {});
+    const TurnedUnder turned = turn_under(tool.shape, {.speed_deg_per_s = kTurnedAt_deg_per_s});
+    return {"turned under", tool.name,      "N",          0, stands.mean_N, turned.least_N,
+            turned.ticks,   turned.limited, turned.let_go};
+}
+
 }  // namespace
 
 Result<void> measure_carved(Haptics& all, const Tell& notify) {
@@ -28,6 +38,11 @@ Result<void> measure_carved(Haptics& all, const Tell& notify) {
             notify("in the groove that it cuts, " + std::to_string(resolution) + " cells, " + tool.name);
             for (CarvedFeel& row : carved_with(tool, resolution)) all.carved.push_back(std::move(row));
         }
+    if (all.options.carved_resolutions.empty()) return {};
+    for (const CarvingTool& tool : carving_tools()) {
+        notify("on a piece that turns, " + tool.name);
+        all.carved.push_back(turned_under(tool));
+    }
     return {};
 }
 

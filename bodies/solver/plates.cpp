@@ -32,7 +32,7 @@ Plates plates_on(const SoftBody& body, const EmbeddedSurface& surface, double ha
             SoftContact contact;
             contact.add(surface.points[i], 1.0);
             contact.normal = {0.0, -side, 0.0};
-            contact.stiffness_N_per_m = pressure_per_m * surface.areas_m2[i];
+            contact.law.stiffest_N_per_m = pressure_per_m * surface.areas_m2[i];
             plates.contacts.push_back(contact);
         }
     return plates;

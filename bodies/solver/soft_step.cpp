@@ -101,12 +101,11 @@ void SoftSolver::move(const SoftBody& body, SoftState& state, const SoftStepInpu
     diagonal += damping * sum.of_spread_N_per_m;
     for (std::uint32_t i = first_[corner]; i < first_[corner + 1]; ++i) {
         const SoftContact& contact = input.contacts[at_[i].contact];
-        const double force_N = contact.force_N(places);
+        const auto [force_N, slope_N_per_m] = contact.law.at(contact.depth_m(places));
         if (force_N <= 0.0) continue;
         const double share = at_[i].share;
         sum.force_N += share * force_N * contact.normal;
-        sum.stiffness_N_per_m +=
-            share * share * contact.stiffness_N_per_m * glm::outerProduct(contact.normal, contact.normal);
+        sum.stiffness_N_per_m += share * share * slope_N_per_m * glm::outerProduct(contact.normal, contact.normal);
     }
     for (int axis = 0; axis < 3; ++axis) sum.stiffness_N_per_m[axis][axis] += diagonal;
     const Vec3 way = glm::inverse(sum.stiffness_N_per_m) * sum.force_N;
@@ -134,13 +133,13 @@ void SoftSolver::move_rigidly(const SoftBody& body, SoftState& state, const Soft
             sum.add(arm, input.holds_N_per_m[i], held_at[i] - places[i]);
     }
     for (const SoftContact& contact : input.contacts) {
-        const double depth_m = contact.depth_m(places);
-        if (!(depth_m > 0.0)) continue;
+        const auto [force_N, slope_N_per_m] = contact.law.at(contact.depth_m(places));
+        if (!(force_N > 0.0)) continue;
         Vec3 arm(0.0);
         for (std::uint32_t i = 0; i < contact.count; ++i)
             arm += contact.shares[i] * (places[contact.corners[i]] - middle);
         const Vec3 &n = contact.normal, turn = glm::cross(arm, n);
-        sum.add({n.x, n.y, n.z, turn.x, turn.y, turn.z}, contact.stiffness_N_per_m, depth_m);
+        sum.add({n.x, n.y, n.z, turn.x, turn.y, turn.z}, slope_N_per_m, force_N / slope_N_per_m);
     }
     const Motion motion = sum.solved();
     const Vec3 way(motion[0], motion[1], motion[2]), turn(motion[3], motion[4], motion[5]);

@@ -8,7 +8,8 @@
 // Corners that are moved one by one hardly move the body as a whole, the less the stiffer it is: a push from one side
 // would meet far too much inertia. So each sweep ends with a step of all corners together, a rigid motion, which leaves
 // W as it is: 6 x 6, by the inertia, contacts and holds alone.
-// A contact is a penalty between a point of the embedded surface and a plane: half stiffness times depth squared.
+// A contact is a penalty between a point of the embedded surface and a plane: half stiffness times depth squared, or
+// what a small dent lacks (dent_law.hpp).
 // Damping is viscous, of the part of the stress that goes with mu, over the step. A plastic body flows after it
 // (plastic_flow.hpp).
 // Units: SI; frame: the body's own. No threads; nothing random. A step allocates where there are more contacts than
@@ -21,6 +22,7 @@
 #include <vector>
 
 #include "bodies/mesh/embedded_surface.hpp"
+#include "bodies/solver/dent_law.hpp"
 #include "bodies/solver/soft_body.hpp"
 
 namespace burin::bodies {
@@ -32,15 +34,13 @@ struct SoftContact {
     std::array<double, kMostCorners> shares{};
     std::uint32_t count = 0;
     Vec3 normal{0.0};
-    double offset_m = 0.0, stiffness_N_per_m = 0.0;
+    double offset_m = 0.0;
+    DentLaw law;
 
     // Adds a share of an anchored point; of at most three.
     void add(const Anchor& anchor, double share);
     [[nodiscard]] double depth_m(std::span<const Vec3> places_m) const;
-    [[nodiscard]] double force_N(std::span<const Vec3> places_m) const {
-        const double depth = depth_m(places_m);
-        return depth > 0.0 ? stiffness_N_per_m * depth : 0.0;
-    }
+    [[nodiscard]] double force_N(std::span<const Vec3> places_m) const { return law.at(depth_m(places_m)).force_N; }
 };
 
 struct SoftStepInput {

@@ -11,7 +11,7 @@ namespace {
 struct WorkspaceTurn {
     const WorkspaceSettings& settings;
     WorkspaceInput input;  // clamped to finite, plausible values
-    bool went_down = false, went_up = false;
+    bool went_down = false, went_up = false, piece_moves = false;
     WorkspaceStep step;  // step.next is changed in place
 
     [[nodiscard]] WorkspaceState& state() { return step.next; }
@@ -183,27 +183,54 @@ bool same(const Similarity& a, const Similarity& b) {
     return a.position_m == b.position_m && a.orientation == b.orientation && a.scale == b.scale;
 }
 
-bool goes_on(const WorkspaceState& state, const WorkspaceSettings& settings) {
-    return state.begun && state.technique == settings.technique &&
-           same(state.settings_map, settings.object_from_device) && state.scaling_gain == settings.scaling_gain;
+bool goes_on(const WorkspaceState& state, const WorkspaceSettings& settings, const WorkspaceInput& input) {
+    if (!state.begun || state.technique != settings.technique || state.scaling_gain != settings.scaling_gain ||
+        state.placed != settings.placed)
+        return false;
+    return same(state.settings_map, settings.object_from_device) ||
+           (settings.placed > 0 && is_motion(state.piece, settings.object_from_device, input.position_device_m));
 }
 
 WorkspaceState begin(const WorkspaceSettings& settings, bool pressed) {
     WorkspaceState state;
     state.begun = true;
     state.technique = settings.technique;
-    state.settings_map = state.object_from_device = settings.object_from_device;
+    state.settings_map = state.object_from_device = state.piece.object_from_device = settings.object_from_device;
     state.scaling_gain = settings.scaling_gain;
+    state.placed = settings.placed;
     if (settings.technique == WorkspaceTechnique::scaling) state.object_from_device.scale *= settings.scaling_gain;
     state.pressed = pressed;  // a press that began before the technique does not count
     return state;
 }
 
-// Clamps the mapping to the reach, which may have changed since the last step.
+// Has the mapping follow the piece. What the technique has moved it by stays what it is as seen from the device.
+void follow_piece(WorkspaceTurn& turn) {
+    WorkspaceState& state = turn.state();
+    const Similarity& published = turn.settings.object_from_device;
+    if (!same(state.settings_map, published)) {
+        state.piece = led_to(state.piece, published, turn.input.position_device_m);
+        state.settings_map = published;
+    }
+    const Similarity before = state.piece.object_from_device;
+    state.piece = followed(state.piece, published, turn.input.dt_s);
+    if (same(state.piece.object_from_device, before)) return;
+    if (same(turn.map(), before)) {
+        turn.map() = state.piece.object_from_device;
+    } else {
+        const Similarity moved = state.piece.object_from_device * inverse(before);
+        turn.map() = moved * turn.map();
+        turn.map().orientation = glm::normalize(turn.map().orientation);
+        state.anchor_object_m = moved * state.anchor_object_m;
+    }
+    turn.piece_moves = true;
+}
+
+// Clamps the mapping to the reach, which may have changed since the last step. Where a piece that turns takes its reach
+// along, the mapping goes with it from tick to tick.
 void keep_within_reach(WorkspaceTurn& turn) {
     if (turn.settings.technique == WorkspaceTechnique::fixed) return;
     const Similarity kept = moved_to(turn.map(), turn.map().position_m, turn.settings);
-    if (!same(kept, turn.map())) turn.step.jumped = true;
+    if (!same(kept, turn.map()) && !turn.piece_moves) turn.step.jumped = true;
     turn.map() = kept;
 }
 
@@ -277,10 +304,12 @@ const char* text(WorkspacePhase phase) noexcept {
 
 WorkspaceStep step_workspace(const WorkspaceState& state, const WorkspaceSettings& settings,
                              const WorkspaceInput& input) noexcept {
-    WorkspaceTurn turn{settings, safe(input), false, false, {}};
-    turn.step.jumped = !goes_on(state, settings);
+    WorkspaceTurn turn{settings, safe(input), false, false, false, {}};
+    turn.step.jumped = !goes_on(state, settings, turn.input);
     turn.state() = turn.step.jumped ? begin(settings, (input.buttons & settings.button_mask) != 0) : state;
+    follow_piece(turn);
     keep_within_reach(turn);
+    if (turn.piece_moves) turn.step.piece = motion_of_piece(state.object_from_device, turn.map(), turn.input.dt_s);
     note_button(turn);
     take_step(turn);
     turn.step.object_from_device = turn.step.picture.object_from_device = turn.map();

@@ -42,12 +42,15 @@
 // force in.
 // Energy: a mapping that moves pushes the tool into what it touches without work of the hand. So in contact it moves at
 // most at max_speed_in_contact (0: not at all), and afterwards speeds up from rest by at most max_acceleration.
+// A piece that another hand or the mouse moves is no motion of the mapping in this sense: it is a body that moves, and
+// the work that it does on the hand is accounted for (WorkspaceStep::piece, piece_motion.hpp).
 // Output is finite for all finite input; device coordinates beyond 10 m are clamped to it.
 #pragma once
 
 #include <cstdint>
 
 #include "base/space.hpp"
+#include "haptics/workspace/piece_motion.hpp"
 
 namespace burin::haptics {
 
@@ -79,6 +82,9 @@ struct WorkspaceSettings {
     double max_speed_m_per_s = 1.0;
     double max_speed_in_contact_m_per_s = 0.0;
     double max_acceleration_m_per_s2 = 4.0;  // only when speeding up; slowing down is immediate
+    // How often the mapping has been set otherwise than by a motion of the piece. While it stays the same the tick
+    // follows the mapping as that of a body; 0: never, each change starts the technique and the contact afresh.
+    std::uint64_t placed = 0;
 };
 
 enum class WorkspacePhase : std::uint8_t {
@@ -102,10 +108,12 @@ struct WorkspaceInput {
 
 struct WorkspaceState {
     bool begun = false;  // false: the next step starts from the settings
-    // Settings of the last step; a change of any of the three restarts the technique.
+    // Settings of the last step; a change restarts the technique, unless it is a motion of the piece.
     WorkspaceTechnique technique = WorkspaceTechnique::fixed;
     Similarity settings_map;
     double scaling_gain = 1.0;
+    std::uint64_t placed = 0;
+    FollowedPiece piece;  // the settings' mapping, as far as this tick has it
     Similarity object_from_device;
     WorkspacePhase phase = WorkspacePhase::editing;
     double phase_s = 0.0;  // duration of the phase so far
@@ -128,6 +136,7 @@ struct WorkspacePicture {
 struct WorkspaceStep {
     WorkspaceState next;
     Similarity object_from_device;
+    PieceMotion piece;         // of the piece under the device, while it is followed
     Vec3 force_device_N{0.0};  // of the technique itself: the bubble's elastic surface
     bool paused = false;       // modelling pauses: nothing is touched or carved
     bool jumped = false;       // the mapping is not continuous with that of the last step

@@ -53,6 +53,17 @@ Result<HoldOrder> order_of(const HoldObject& wanted, const WorldObjects* world, 
 
 }  // namespace
 
+void ActivitySide::press_keys(std::span<const InputEvent> events, SessionOrders& orders) const {
+    if (!activity_) return;
+    for (const InputEvent& event : events) {
+        const auto* const key = std::get_if<KeyInput>(&event.input);
+        if (key == nullptr || key->motion != KeyMotion::press || key->modifiers != Modifiers{}) continue;
+        const ActivityPanel now = activity_->panel();
+        for (const ActivityPanel::Button& button : now.buttons)
+            if (button.key == key->key && button.enabled) orders.acts.push_back({button.act, event.line});
+    }
+}
+
 void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const SessionHands& hands,
                         std::span<const haptics::ToolState> tools) {
     ActivityOrders wanted;

@@ -15,6 +15,8 @@ constexpr double kStandingWidth = 0.34, kStandingTurn_rad = 0.3;
 // At most this share of the screen's width, since the workpiece stands in the middle.
 constexpr double kOfScreensWidth = 0.26;
 
+constexpr double kTaskWidth_px = 940.0;  // of a picture over which a task lies at scale 1
+
 // How long the panel tells that the hand has been let go.
 constexpr Nanoseconds kTold_ns = 5'000'000'000;
 
@@ -252,6 +254,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
         PanelModel model = model_of(context, log);
         model.visible = has_column;
         model.may_be_hidden = !in_window;
+        model.for_operator = in_window;
         add_devices(model, log.follows_recording());
         layout_ = &panel_->show(model, input.time_ns);
         if (told_notice_ != panel_->notice()) {
@@ -307,7 +310,19 @@ Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds ti
     model.page_alone = true;
     model.activity = ActivityPanel{};
     model.activity->page = context.activity->page;
-    const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
+    model.activity->task = context.activity->task;
+    const ImageSize eye = context.eye();
+    const bool has_task = model.activity->task.has_value();
+    // A task lies over the picture, and is read from farther away: its letters grow with the picture.
+    if (has_task && context.room.wall.desk && !is_empty(eye)) {
+        model.visible = false;
+        if (const auto opened = open(page_, eye, std::clamp(eye.width / kTaskWidth_px, 0.5, 4.0)); !opened)
+            return opened;
+        page_->lie_over(eye);
+        page_layout_ = &page_->show(model, time_ns);
+        return {};
+    }
+    const auto width = static_cast<std::uint32_t>(has_task ? kTaskWidth_px : kPanelWidth_px);
     const ImageSize size = page_ ? page_->size() : ImageSize{width, width};
     if (const auto opened = open(page_, size, 1.0); !opened) return opened;
     page_layout_ = &page_->show(model, time_ns);

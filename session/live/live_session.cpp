@@ -56,6 +56,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     // Before the parameters are published: else the hand would go on feeling the tool that was put down.
     if (const auto taken = take_up(state_); !taken) step.orders.messages.push_back({taken.error().line()});
     if (before) hold_governed(*before, step.orders);
+    if (!left.captured.keyboard) activity_.press_keys(left.events, step.orders);
     activity_.step(state_, step.orders, input.time_ns, hands(), tools_);
     for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
     scene_.news().frames_for_ticks(activity_.is_running());

@@ -122,6 +122,8 @@ public:
             for (const std::string* text : {&model.activity->title, &model.activity->aside, &model.activity->page})
                 learn(*text);
             for (const ActivityPanel::Row& row : model.activity->rows) learn(row.name + row.value);
+            if (model.activity->task) learn(model.activity->task->next + model.activity->task->state);
+            for (const std::string& paragraph : model.activity->help) learn(paragraph);
         }
         if (letters_.size() > before) static_cast<void>(load_letters(type_file_));  // the file was good before
     }
@@ -140,8 +142,8 @@ public:
         model_ = model;
         const Current current(context_);
         learn_letters(model);
-        const bool over_picture =
-            !is_empty(picture_) && (!model.notes.empty() || model.first_steps || model.opening || model.question);
+        const bool over_picture = !is_empty(picture_) && (!model.notes.empty() || model.first_steps || model.opening ||
+                                                          model.question || (model.activity && model.activity->task));
         const ImageSize size_before = frame_.size;
         frame_.parts.clear();
         frame_.changes_ns.reset();
@@ -252,7 +254,19 @@ private:
             const auto card = kit_.places.find("first-steps");
             if (card != kit_.places.end()) free.hi.y = static_cast<float>(card->second.y);
         }
-        panel::show_notes(kit_, model, free);
+        const bool is_task_here = model.activity && model.activity->task && !model.for_operator;
+        if (is_task_here && !is_empty(picture_)) {
+            panel::show_task(kit_, *model.activity->task, free);
+            const auto task = kit_.places.find("task");
+            if (task != kit_.places.end()) free.hi.y = static_cast<float>(task->second.y);
+        }
+        if (model.for_operator && has_tables(model)) {  // the log beside the tables has what is told
+            PanelModel conditions = model;
+            conditions.notes.clear();
+            panel::show_notes(kit_, conditions, free);
+        } else {
+            panel::show_notes(kit_, model, free);
+        }
         if (model.question) return panel::show_question(kit_, *model.question, free);
         kit_.memory.question.clear();
         if (kit_.hovered != tip_for_) {
@@ -295,10 +309,28 @@ private:
         kit_.visible_hi = to;
     }
 
+    [[nodiscard]] static bool has_tables(const PanelModel& model) {
+        return model.activity && !model.activity->tables.empty();
+    }
+
     void show_page(const PanelModel& model) {
+        if (model.activity && model.activity->task && !is_empty(picture_)) {
+            const ImVec2 screen = ImGui::GetIO().DisplaySize;
+            panel::show_task(kit_, *model.activity->task, {{0.0f, 0.0f}, screen});
+            return;
+        }
         const float margin = kit_.px(16.0f);
         begin_ground(margin, margin);
-        if (model.activity) kit_.paragraph(panel::kText, model.activity->page, kit_.type.text);
+        if (model.activity && model.activity->task) {
+            const ActivityPanel::Task& task = *model.activity->task;
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            const float width = static_cast<float>(size_.width) - 2.0f * margin;
+            const float height = panel::task_height(kit_, task, width);
+            panel::draw_task(kit_, task, at, {at.x + width, at.y + height});
+            ImGui::Dummy({width, height});
+        } else if (model.activity) {
+            kit_.paragraph(panel::kText, model.activity->page, kit_.type.text);
+        }
         page_height_ = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + margin;
         ImGui::End();
     }
@@ -309,7 +341,9 @@ private:
         begin_ground(margin, kit_.px(8.0f));
         panel::show_header(kit_, model);
         const bool governed = model.activity && model.activity->governs;
-        const float foot = kit_.px(26.0f + 56.0f + 8.0f + 14.0f);
+        // Ticks and frames are no matter of a person who does an exercise.
+        const bool has_plots = model.for_operator || !model.activity || !model.activity->hides_scene;
+        const float foot = kit_.px(26.0f + 8.0f + 14.0f + (has_plots ? 56.0f : -8.0f));
         const float footer = foot + (governed ? kit_.px(panel::acts_height(*model.activity)) : 0.0f);
         const ImVec2 top = ImGui::GetCursorScreenPos();
         const ImVec2 inside{ImGui::GetContentRegionAvail().x + 0.8f * margin,
@@ -333,7 +367,7 @@ private:
             panel::show_acts(kit_, *model.activity);
         }
         ImGui::SetCursorScreenPos({left() + margin, screen.y - foot + kit_.px(4.0f)});
-        panel::show_plots(kit_, model);
+        if (has_plots) panel::show_plots(kit_, model);
         ImGui::SetCursorScreenPos({left() + margin, screen.y - kit_.px(26.0f + 8.0f)});
         panel::show_footer(kit_, model);
         ImGui::End();
@@ -341,7 +375,7 @@ private:
 
     void show_inside(const PanelModel& model) {
         if (model.show_help) {
-            panel::show_help(kit_, model.mouse);
+            panel::show_help(kit_, model);
             return;
         }
         if (model.show_devices) {
@@ -350,7 +384,12 @@ private:
         }
         if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever turns them on wants to see them
         panel::show_activity(kit_, model);
-        const bool governed = model.activity && model.activity->governs;
+        const bool governed = model.activity && (model.activity->governs || model.activity->hides_scene);
+        const bool for_operator = model.for_operator && has_tables(model);
+        if (for_operator) {
+            panel::show_log(kit_, model);
+            panel::show_tables(kit_, *model.activity);
+        }
         if (!governed) {
             panel::show_hands(kit_, model);
             panel::show_tool(kit_, model);
@@ -366,7 +405,7 @@ private:
             if (!model.offers_mouse && model.carves) panel::show_history(kit_, model);
             panel::show_touch_of_others(kit_, model);
         }
-        panel::show_log(kit_, model);
+        if (!for_operator) panel::show_log(kit_, model);
         panel::show_state(kit_, model);
     }
 

@@ -65,7 +65,9 @@ void show_question(Kit& kit, const ActivityPanel& activity) {
     const std::optional<Question> asking = question_of(kit, activity);
     if (!asking) {
         kit.memory.asking.clear();
-        ImGui::Dummy({kit.width(), kit.px(kButtonHeight)});
+        const auto asks = [](const ActivityPanel::Button& button) { return !button.asks.empty(); };
+        if (activity.governs || std::ranges::any_of(activity.buttons, asks))
+            ImGui::Dummy({kit.width(), kit.px(kButtonHeight)});
         return;
     }
     const float each = kit.px(84.0f), space = kit.px(kBetweenButtons);

@@ -44,6 +44,21 @@ void show_lines(Kit& kit, const std::vector<HelpLine>& lines, float keys_width) 
     }
 }
 
+// Keys that have nothing to do with a scene.
+bool is_of_the_session(Action action) {
+    switch (action) {
+        case Action::put_away:
+        case Action::toggle_panel:
+        case Action::toggle_help:
+        case Action::toggle_frame_figures:
+        case Action::toggle_devices:
+        case Action::toggle_full_screen:
+        case Action::take_screenshot:
+        case Action::quit: return true;
+        default: return false;
+    }
+}
+
 void show_flight(Kit& kit) {
     if (kit.begin_card("Moving the head")) {
         std::vector<HelpLine> lines;
@@ -53,9 +68,28 @@ void show_flight(Kit& kit) {
     kit.end_card();
 }
 
+// What the activity is about, and the keys of its buttons.
+void show_activity_help(Kit& kit, const ActivityPanel& activity) {
+    if (activity.help.empty()) return;
+    if (kit.begin_card(activity.title.c_str())) {
+        for (const std::string& paragraph : activity.help) {
+            kit.paragraph(kText, paragraph);
+            kit.gap(6.0f);
+        }
+        std::vector<HelpLine> lines;
+        for (const ActivityPanel::Button& button : activity.buttons)
+            if (button.key) add_line(lines, label_of(ShortCut{*button.key, {}, {}, false, {}}), button.title);
+        show_lines(kit, lines, 104.0f);
+    }
+    kit.end_card();
+}
+
 }  // namespace
 
-void show_help(Kit& kit, MouseMode mouse) {
+void show_help(Kit& kit, const PanelModel& model) {
+    const MouseMode mouse = model.mouse;
+    const bool hides_scene = model.activity && model.activity->hides_scene;
+    if (model.activity) show_activity_help(kit, *model.activity);
     if (mouse == MouseMode::surface) {
         const float wide = ImGui::GetContentRegionAvail().x - kit.px(2.0f);
         if (kit.button("first-steps", "Show the first steps", wide)) kit.give(RunAction{Action::first_steps});
@@ -64,10 +98,12 @@ void show_help(Kit& kit, MouseMode mouse) {
     if (kit.begin_card("Keys")) {
         std::vector<HelpLine> lines;
         for (const ShortCut& cut : short_cuts())
-            if (!cut.only || *cut.only == mouse) add_line(lines, label_of(cut), cut.description);
+            if ((!cut.only || *cut.only == mouse) && (!hides_scene || is_of_the_session(cut.action)))
+                add_line(lines, label_of(cut), cut.description);
         show_lines(kit, lines, 104.0f);
     }
     kit.end_card();
+    if (hides_scene) return;
     if (mouse == MouseMode::free) show_flight(kit);
     if (kit.begin_card("Mouse")) {
         std::vector<HelpLine> lines;

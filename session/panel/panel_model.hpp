@@ -171,7 +171,8 @@ struct PanelModel {
     std::string devices_note;                                      // above them: "looking"
     std::vector<PanelDevice> devices;
     bool may_be_hidden = true;
-    bool page_alone = false;  // of the activity, for the person who is not to see the rest
+    bool for_operator = false;  // it has a window of its own, where the person does not look
+    bool page_alone = false;    // of the activity, for the person who is not to see the rest
     std::string title = "Burin";
     std::optional<PanelOpening> opening;  // in place of all else
     PanelWorkpiece workpiece;

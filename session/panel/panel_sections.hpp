@@ -13,6 +13,11 @@ void show_activity(Kit& kit, const PanelModel& model);
 // The activity's buttons, the line of their question, and its field; as high as acts_height() says, at scale 1.
 void show_acts(Kit& kit, const ActivityPanel& activity);
 [[nodiscard]] float acts_height(const ActivityPanel& activity);
+// The tables for who leads the session, a card each.
+void show_tables(Kit& kit, const ActivityPanel& activity);
+// What the person is doing now, drawn in an area of the current window; as high as task_height() says.
+[[nodiscard]] float task_height(const Kit& kit, const ActivityPanel::Task& task, float width);
+void draw_task(Kit& kit, const ActivityPanel::Task& task, ImVec2 lo, ImVec2 hi);
 void show_hands(Kit& kit, const PanelModel& model);
 void show_tool(Kit& kit, const PanelModel& model);
 void show_material(Kit& kit, const PanelModel& model);
@@ -30,7 +35,7 @@ void show_history(Kit& kit, const PanelModel& model);
 void show_state(Kit& kit, const PanelModel& model);
 void show_figures(Kit& kit, const PanelModel& model);
 void show_plots(Kit& kit, const PanelModel& model);  // side by side, always visible
-void show_help(Kit& kit, MouseMode mouse);
+void show_help(Kit& kit, const PanelModel& model);
 void show_devices(Kit& kit, const PanelModel& model);
 void show_footer(Kit& kit, const PanelModel& model);
 // The messages that are kept, in a card of one height, so that none of them moves anything.
@@ -43,6 +48,7 @@ struct Area {
 // What lies over all else: messages in the lower left corner of an area, the card of first steps in its middle, and
 // what a widget is for, beside the widget; left: of the panel, where there is room beside it.
 void show_notes(Kit& kit, const PanelModel& model, const Area& free);
+void show_task(Kit& kit, const ActivityPanel::Task& task, const Area& free);
 void show_first_steps(Kit& kit, const PanelModel& model, const Area& free);
 void show_tip(Kit& kit, const std::string& label, float left);
 // What is opened, how far that is, and for how long it goes on.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "sculpt/tool_mesh.hpp"
 #include "session/state/framed_world.hpp"
@@ -169,6 +170,24 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
 Pose read_pose(const haptics::ToolState& tool) {
     return {tool.position_device_m,
             glm::conjugate(tool.workspace.object_from_device.orientation) * tool.orientation_object};
+}
+
+// Returns how the device of a hand is mapped into the workpiece's frame.
+Similarity object_from_device(const SessionState& state, const Room& room, std::size_t number) {
+    const HandState& hand = hand_of(state, number);
+    Similarity world_from_device = hand.world_from_device;
+    world_from_device.scale *= hand.workspace_gain;
+    Similarity mapped = inverse(state.world_from_object) * world_from_device;
+    if (number == state.hand && state.mouse == MouseMode::surface) mapped = object_from_device_on_surface(room);
+    if (!hand.handle) return mapped;
+    return mapped * Similarity{hand.device_from_read.position_m, hand.device_from_read.orientation};
+}
+
+// Returns the mappings of all hands.
+std::vector<Similarity> mappings_of(const SessionState& state, const Room& room) {
+    std::vector<Similarity> all;
+    for (std::size_t hand = 0; hand < hands_of(state); ++hand) all.push_back(object_from_device(state, room, hand));
+    return all;
 }
 
 // Returns where a hand has its device in the world, in the tick of a tool.
@@ -348,6 +367,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
         if (const auto done = run_command(state, step.orders, command); !done)
             step.orders.messages.push_back({done.error().line(), line});
     };
+    const std::vector<Similarity> led = mappings_of(state, room);
     step.orders.line = events.empty() ? 0 : events.back().line;
     if (const auto done = follow_smooth_stroke(state, step.orders, desk.strokes, view); !done)
         step.orders.messages.push_back({done.error().line(), 0});
@@ -360,6 +380,8 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
         if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command, event.line);
         if (std::holds_alternative<WindowClose>(event.input)) ask_or_quit(state);
     }
+    // What a command has changed is no motion of the piece: the ticks do not follow it.
+    if (mappings_of(state, room) != led) ++state.placed;
     // Once a step; a tool that a command accepted can be made.
     if (const auto taken = take_up(state); !taken) step.orders.messages.push_back({taken.error().line(), 0});
     step.state = std::move(state);
@@ -370,18 +392,10 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     const HandState& hand = hand_of(state, number);
     haptics::TickParameters p;
     const double radius_m = tool_radius_m(hand);
-    p.workspace.technique = hand.technique;
-    Similarity world_from_device = hand.world_from_device;
-    world_from_device.scale *= hand.workspace_gain;
-    p.workspace.object_from_device = inverse(state.world_from_object) * world_from_device;
-    if (number == state.hand && state.mouse == MouseMode::surface) {
-        p.workspace.technique = haptics::WorkspaceTechnique::fixed;
-        p.workspace.object_from_device = object_from_device_on_surface(room);
-    }
-    if (hand.handle) {
-        const Pose& read = hand.device_from_read;
-        p.workspace.object_from_device = p.workspace.object_from_device * Similarity{read.position_m, read.orientation};
-    }
+    const bool on_surface = number == state.hand && state.mouse == MouseMode::surface;
+    p.workspace.technique = on_surface ? haptics::WorkspaceTechnique::fixed : hand.technique;
+    p.workspace.object_from_device = object_from_device(state, room, number);
+    p.workspace.placed = state.placed;
     p.workspace.workspace_device_m = room.of(number).workspace_device_m;
     p.workspace.reach_object = room.workpiece_object;
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
@@ -393,9 +407,9 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.tool = felt.surface;
     p.action = state.carves ? sculpt::action_of(hand.tool.operation) : haptics::ToolAction::touch;
     p.materials.fill(material_under_tool(state, hand));
-    if (number == state.hand && state.mouse == MouseMode::surface)
+    if (on_surface)
         for (haptics::TouchMaterial& material : p.materials) material.stiffness_N_per_m = kMouseStiffness_N_per_m;
-    p.touches_while_pressed = number == state.hand && state.mouse == MouseMode::surface;
+    p.touches_while_pressed = on_surface;
     p.fills = room.of(number).fills;
     if (p.touches_while_pressed || (p.fills == haptics::FillPlace::hand && !state.mouse_chosen))
         p.fills = haptics::FillPlace::surface;

@@ -4,6 +4,7 @@
 // orders. No clock, thread or window: the same events give the same states.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,6 +45,8 @@ struct SessionState : HandState {
     SessionHead head;
     WandState wands;
     Similarity world_from_object, home_world_from_object;
+    // How often a command has placed workpiece or workspace anew; between, the workpiece moves as it is led.
+    std::uint64_t placed = 1;
     Vec3 middle_object{0.0};  // of all that stands before the viewer
     double interpupillary_m = 0.063;
     std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none

@@ -74,6 +74,27 @@ TEST(Staircases, GoDownByAsMuchAsTheRateTakesOfStepsUp) {
     EXPECT_EQ(after_trial({0.5, 0.5, 8.0, 0.75}, false).target_N, 0.5);
 }
 
+// Pressed with more than half of what is asked, and interrupted: no success and no failure.
+TEST(Staircases, StayWhereABreakHasInterruptedASqueeze) {
+    Squeezed person{adapting(0.75, 4.0)};
+    person.press(0.75, 0.3);
+    ASSERT_TRUE(person.state.tried);
+    person.state = interrupted(std::move(person.state), person.now_ns).state;
+    person.press(0.0, 0.5);
+    EXPECT_EQ(person.state.too_weak, 0u);
+    EXPECT_EQ(target_N_of(person.state, person.settings), 4.0);
+    person.squeeze(0.75);
+    EXPECT_EQ(person.state.too_weak, 1u) << "the same without a break";
+    EXPECT_DOUBLE_EQ(target_N_of(person.state, person.settings), 4.0 / std::pow(1.05, 3.0));
+    const double begun_N = target_N_of(person.state, person.settings);
+    person.press(2.0, 0.1);
+    ASSERT_EQ(person.state.phase, BallPhase::holds);
+    person.state = interrupted(std::move(person.state), person.now_ns).state;
+    person.press(0.0, 0.5);
+    EXPECT_EQ(person.state.too_short, 0u);
+    EXPECT_EQ(target_N_of(person.state, person.settings), begun_N);
+}
+
 // A person who succeeds with a share that falls with the target, 1 / (1 + (t / 4 N)^6): the formula tells where that
 // is the rate.
 TEST(Staircases, ComeToRestWhereTheRateIsTheChosenOne) {

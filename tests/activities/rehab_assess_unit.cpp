@@ -11,6 +11,7 @@
 
 #include "activities/rehab/assess/assess.hpp"
 #include "activities/rehab/assess/scripted_fingers.hpp"
+#include "activities/rehab/exercise_kinds.hpp"
 #include "devices/gloves/finger_course.hpp"
 #include "geometry/hand/hand_joints.hpp"
 
@@ -132,6 +133,52 @@ TEST(Assessment, TellsNothingOfAFingerThatDoesNotMoveOrIsNotRead) {
     EXPECT_FALSE(unread.closed) << "the mean would be of fewer fingers";
     EXPECT_FALSE(unread.together_N);
     EXPECT_NEAR(unread.fingers[0].strength_N.value(), AssessedHand{}.holds_N[0], 1e-12);
+}
+
+// The second press begins at 26 s; what is pressed in its first second is forgotten, and it begins anew after 3 s.
+TEST(Assessment, BeginsAPartAnewThatABreakHasPutBack) {
+    AssessState state;
+    Nanoseconds now_ns = 1'000'000'000;
+    const auto go_on = [&](double for_s, double each_N) {
+        for (int i = 0; i < static_cast<int>(1000.0 * for_s + 0.5); ++i) {
+            ExerciseTurn turn;
+            turn.time_ns = now_ns += 1'000'000;
+            turn.fingers.dt_s = kAssessTurn_s;
+            for (auto& drive_N : turn.fingers.drive_N) drive_N = each_N;
+            state = step_assessment(std::move(state), turn).state;
+        }
+    };
+    go_on(24.0, 2.0);
+    go_on(3.0, 6.0);
+    ASSERT_NEAR(assessed(state).fingers[0].strength_N.value(), 6.0, 1e-12);
+    const AssessStep broken = interrupted(state, now_ns);
+    ASSERT_EQ(broken.events.size(), 1u);
+    EXPECT_EQ(broken.events[0].what, kPartInterrupted);
+    state = broken.state;
+    EXPECT_NEAR(assessed(state).fingers[0].strength_N.value(), 2.0, 1e-12) << "the first press stays";
+    EXPECT_NEAR(assessed(state).together_N.value(), 8.0, 1e-12);
+    EXPECT_TRUE(interrupted(state, now_ns).events.empty()) << "nothing is measured";
+    go_on(2.9, 0.0);
+    EXPECT_FALSE(state.measures);
+    go_on(0.2, 0.0);
+    EXPECT_TRUE(state.measures);
+    EXPECT_EQ(state.part, 2u);
+    go_on(80.0, 0.0);
+    EXPECT_EQ(state.end, ExerciseEnd::done);
+    EXPECT_NEAR(state.time_s(), 94.0 + 1.0 + 3.0, 0.0025);
+    EXPECT_NEAR(assessed(state).fingers[0].strength_N.value(), 2.0, 1e-12);
+}
+
+TEST(Assessment, IsNotBegunByPressesAndSaysHow) {
+    const ExerciseKind& kind = *exercise_named("assess");
+    SettingValues values(kind.settings);
+    ASSERT_TRUE(values.set("start", "pressed"));
+    const auto wrong = kind.conflict(values);
+    ASSERT_TRUE(wrong);
+    EXPECT_EQ(wrong->where, "start");
+    EXPECT_TRUE(wrong->remedy.contains("asked"));
+    ASSERT_TRUE(values.set("start", "asked"));
+    EXPECT_FALSE(kind.conflict(values));
 }
 
 TEST(FingerCourses, AreReadAsTheyAreWrittenAndGoOnStraightLines) {

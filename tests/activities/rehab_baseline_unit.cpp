@@ -9,7 +9,9 @@
 #include "activities/rehab/ball/ball.hpp"
 #include "activities/rehab/game/game.hpp"
 #include "activities/rehab/progress/baseline.hpp"
-#include "activities/rehab/progress/progress.hpp"
+#include "activities/rehab/progress/page_texts.hpp"
+#include "activities/rehab/progress/patient_page.hpp"
+#include "tests/activities/kept_runs.hpp"
 
 namespace burin::activities {
 namespace {
@@ -88,17 +90,25 @@ TEST(Baselines, LeaveOutWhatIsTooSmallToBeASetting) {
 TEST(Baselines, StandOnThePageBesideTheFirst) {
     KeptRuns kept;
     kept.runs = {assessment(7, "2026-11-01", 0.4, 3.0)};
-    const auto no_levels = [](std::string_view) { return 0u; };
-    EXPECT_TRUE(progress_page(kept, no_levels, "Burin").contains("<td>69</td>"));
+    const auto page_in = [&](const char* language) {
+        const auto no_levels = [](std::string_view) { return 0u; };
+        return patient_page(all_of(kept), no_levels, PageTexts::in(language).value(), "Burin");
+    };
+    EXPECT_TRUE(page_in("en").contains("<td class=\"number\">69</td>"));
     kept.runs.push_back(assessment(7, "2026-11-02", 0.5, 4.0));
-    const std::string page = progress_page(kept, no_levels, "Burin");
+    const std::string page = page_in("en");
     EXPECT_TRUE(
-        page.contains("Baseline: the assessment of 2026-11-02 10:15:00, all fingers together 4.00, at first 3.00"));
-    EXPECT_TRUE(page.contains("<td>86, at first 69</td><td>1.00, at first 0.75</td>")) << page;
-    EXPECT_TRUE(page.contains("<td>-, at first -</td>")) << "no fractionation was measured";
+        page.contains("the assessment of 2026-11-02 10:15:00. All fingers together pressed with 4.00, at first "
+                      "3.00 newtons"));
+    EXPECT_TRUE(page.contains("<td class=\"number\">86, at first 69</td><td class=\"number\">1.00, at first 0.75</td>"))
+        << page;
+    EXPECT_TRUE(page.contains("<td class=\"number\">-, at first -</td>")) << "no fractionation was measured";
+    EXPECT_TRUE(
+        page_in("de").contains("Messung vom 02.11.2026 10:15:00. Alle Finger zusammen drückten mit 4,00, "
+                               "zuerst 3,00 Newton"));
     const KeptRun broken = assessment(7, "2026-11-01", 0.4, 3.0, "broken off");
     const std::vector<const KeptRun*> none{&broken};
-    EXPECT_TRUE(baseline_table(none).contains("there is no baseline"));
+    EXPECT_TRUE(baseline_table(none, PageTexts::in("en").value()).contains("there is no baseline"));
 }
 
 // An assessment has no level, and is a run as the others are.

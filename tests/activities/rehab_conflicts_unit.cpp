@@ -36,6 +36,8 @@ TEST(RehabConflicts, AreRefusedWithTheirArithmetic) {
               "more time");
     EXPECT_EQ(conflict_of("putty", {{"kneads", 300}, {"time_limit_s", 60}}), "");
     EXPECT_NE(conflict_of("game", {{"throws", 1000}}), "");
+    EXPECT_EQ(conflict_of("game", {{"start", kStartsPressed}}),
+              "start: is pressed, and nobody presses in the game; give asked or at_once");
     for (const ExerciseKind& kind : exercise_kinds()) EXPECT_EQ(conflict_of(kind.name, {}), "") << "as it usually is";
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "activities/rehab/progress/run_journal.hpp"
+#include "activities/rehab/progress/withdrawal.hpp"
 
 namespace burin::activities {
 namespace {
@@ -118,6 +119,54 @@ TEST_F(RunJournals, AreThereFromTheBeginningOfARun) {
     EXPECT_EQ(take_up_left_runs(folder).kept.size(), 1u);
     EXPECT_EQ(only_run().report.at("time_s"), 0.0);
     EXPECT_EQ(only_run().report.at("events"), Json::array());
+}
+
+TEST_F(RunJournals, OfARunThatWaitedForItsStartLeaveNothing) {
+    for (const char* start : {"asked", "pressed"}) {
+        Json report = report_after(0);
+        report["settings"]["start"] = start;
+        ASSERT_TRUE(RunJournal::begin(folder, {7, "2026-11-03", "10:15:00", "glove:4", report}));
+        ASSERT_TRUE(fs::exists(journal));
+        EXPECT_TRUE(take_up_left_runs(folder).kept.empty());
+        EXPECT_FALSE(fs::exists(journal) || fs::exists(file)) << start;
+        report["broken_off_because"] = "it was stopped";
+        ASSERT_TRUE(RunJournal::begin(folder, {7, "2026-11-03", "10:15:00", "glove:4", report}));
+        EXPECT_EQ(take_up_left_runs(folder).kept.size(), 1u) << "somebody has stopped it";
+        fs::remove(file);
+    }
+}
+
+TEST_F(RunJournals, AndTheirRunsAreTheirOwnersAlone) {
+    const auto of_others = fs::perms::group_all | fs::perms::others_all;
+    const auto journal_of_run = begun(7);
+    EXPECT_EQ(fs::status(journal).permissions() & of_others, fs::perms::none);
+    const auto path = journal_of_run->keep(report_after(1, "done"));
+    ASSERT_TRUE(path);
+    EXPECT_EQ(fs::status(*path).permissions() & of_others, fs::perms::none);
+    EXPECT_EQ(fs::status(own).permissions() & of_others, fs::perms::none);
+}
+
+TEST_F(RunJournals, OfWhoHasWithdrawnAreTakenUpNoMoreAndErasedWithTheRest) {
+    leave(2);
+    ASSERT_TRUE(withdraw(folder, 7, "2026-11-04", false));
+    EXPECT_TRUE(take_up_left_runs(folder).kept.empty());
+    EXPECT_TRUE(fs::exists(journal)) << "it stays, as the runs do";
+    ASSERT_TRUE(withdraw(folder, 7, "2026-11-04", true));
+    EXPECT_FALSE(fs::exists(own)) << "with the journal and the note of who had the lock";
+    for (const auto& file : fs::recursive_directory_iterator(folder))
+        EXPECT_FALSE(file.path().string().contains("participant-007")) << file.path();
+}
+
+TEST_F(RunJournals, KeepTheirParticipantFromBeingErasedWhileTheRunGoesOn) {
+    auto running = begun(7);
+    const auto refused = withdraw(folder, 7, "2026-11-04", true);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().line().starts_with("participant 7: has a run under way: process "))
+        << refused.error().line();
+    EXPECT_TRUE(read_withdrawals(folder).value().empty()) << "and nothing is told of it";
+    ASSERT_TRUE(running->keep(report_after(1, "done")));
+    running.reset();
+    EXPECT_TRUE(withdraw(folder, 7, "2026-11-04", true));
 }
 
 TEST_F(RunJournals, GiveWayToTheWholeRunAndAreNoSecondOne) {

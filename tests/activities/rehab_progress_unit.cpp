@@ -8,37 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "activities/rehab/progress/progress.hpp"
+#include "activities/rehab/progress/patient_page.hpp"
+#include "tests/activities/kept_runs.hpp"
 
 namespace burin::activities {
 namespace {
 
 namespace fs = std::filesystem;
-
-KeptRun run_of(unsigned participant, const std::string& date, double score, double level = 1,
-               const std::string& ended = "done") {
-    const auto finger = [](const char* name, double force_N) {
-        return Json{{"finger", name},
-                    {"peak_force_N", force_N},
-                    {"mean_force_N", 0.5 * force_N},
-                    {"range_of_motion_rad", Json::array({0.1, 0.5, 0.4, 0.3})},
-                    {"mean_speed_rad_per_s", 1.0},
-                    {"fractionation", Json()}};
-    };
-    return {participant,
-            date,
-            "10:15:00",
-            "simulated-glove",
-            {{"exercise", "ball"},
-             {"settings", {{"colour", "red"}, {"level", level}}},
-             {"ended", ended},
-             {"score", score},
-             {"time_s", 31.5},
-             {"counts", {{"repetitions", 5}}},
-             {"fingers", Json::array({finger("thumb", 2.0), finger("index", 1.0)})}}};
-}
-
-unsigned levels_of_ball(std::string_view exercise) { return exercise == "ball" ? 3 : 0; }
 
 Proposal after(const std::vector<KeptRun>& runs) {
     std::vector<const KeptRun*> all;
@@ -46,17 +22,13 @@ Proposal after(const std::vector<KeptRun>& runs) {
     return proposed(all, 3);
 }
 
-class KeptRunsFolder : public testing::Test {
-protected:
-    void SetUp() override { fs::remove_all(folder); }
-    void TearDown() override { fs::remove_all(folder); }
-    void keep(const KeptRun& run) {
-        ASSERT_TRUE(prepare_results(folder, run.participant));
-        const auto path = keep_run(folder, run);
-        ASSERT_TRUE(path) << path.error().line();
-    }
-    const fs::path folder = fs::temp_directory_path() / "burin-kept-runs";
-};
+std::string page_of(unsigned participant) { return "p" + std::to_string(participant); }
+
+std::string page_of_all(const KeptRuns& kept) {
+    const Result<PageTexts> texts = PageTexts::in("en");
+    EXPECT_TRUE(texts);
+    return patient_page(all_of(kept), levels_of_ball, *texts, "a test");
+}
 
 }  // namespace
 
@@ -150,7 +122,7 @@ TEST_F(KeptRunsFolder, TellWhatCannotBeRead) {
     EXPECT_EQ(kept->runs.size(), 1u);
     ASSERT_EQ(kept->errors.size(), wrong);
     EXPECT_TRUE(kept->errors.front().line().contains("wrong0.json: is cut or damaged")) << kept->errors.front().line();
-    const std::string page = progress_page(*kept, levels_of_ball, "a test");
+    const std::string page = index_page(*kept, {}, "a test", page_of);
     EXPECT_TRUE(page.contains("Left out: ") && page.contains("wrong3.json"));
     EXPECT_FALSE(read_runs(folder / "nothing"));
 }
@@ -172,8 +144,8 @@ TEST_F(KeptRunsFolder, LeaveOutRunsWhoseExerciseFingersOrLevelAreNone) {
     ASSERT_TRUE(kept);
     EXPECT_EQ(kept->runs.size(), 1u);
     EXPECT_EQ(kept->errors.size(), 7u);
-    const std::string page = progress_page(*kept, levels_of_ball, "a test");
-    EXPECT_TRUE(page.contains("1 run. ") && page.contains("1 run from ")) << page;
+    const std::string page = page_of_all(*kept);
+    EXPECT_TRUE(page.contains("1 runs on 1 days")) << page;
 }
 
 TEST_F(KeptRunsFolder, KeepOlderRunsWhereANewOneCannotBeWritten) {
@@ -194,18 +166,18 @@ TEST(KeptRuns, HaveDatesOfTheCalendar) {
     EXPECT_EQ(day_of("2026-11-03") - day_of("2026-10-31"), 3);
 }
 
-TEST(ProgressPage, ShowsEachParticipantByNumberAndSaysWhatNoPersonDid) {
+TEST(ProgressPage, ShowsAParticipantByNumberAndSaysWhatNoPersonDid) {
     KeptRuns kept;
     for (int day = 1; day <= 5; ++day)
         kept.runs.push_back(run_of(7, "2026-11-0" + std::to_string(day), 80.0 + 4.0 * day));
-    kept.runs.push_back(run_of(8, "2026-11-01", 20));
+    kept.runs.push_back(run_of(7, "2026-11-06", 20));
     kept.runs.back().hand = "scripted, seed 4";
     kept.runs.back().report["settings"]["note"] = "<script>";
-    const std::string page = progress_page(kept, levels_of_ball, "a test");
-    for (const char* text :
-         {"<h2>Participant 7: Ball</h2>", "<h2>Participant 8: Ball</h2>", "5 runs from 2026-11-01 to 2026-11-05",
-          "Level 2 is proposed: the last three scores were 92, 96, 100.",
-          "1 of these runs were done by a simulated hand", "&lt;script&gt;", "</svg>"})
+    const std::string page = page_of_all(kept);
+    for (const char* text : {"<h1>Progress of participant 7</h1>", "<h2>Squeezing a ball</h2>",
+                             "6 runs on 6 days, from 2026-11-01 to 2026-11-06",
+                             "Level 1 stays: the last three runs had different settings.",
+                             "1 of these runs were done by a simulated hand", "&lt;script&gt;", "</svg>"})
         EXPECT_TRUE(page.contains(text)) << text;
     EXPECT_FALSE(page.contains("<script>"));
     EXPECT_FALSE(page.contains("nan"));
@@ -219,9 +191,9 @@ TEST(ProgressPage, HasAskedAndGivenForcesSideBySide) {
         fingers.push_back({{"finger", "index"}, {"peak_force_N", asked_N}, {"peak_measured_N", given_N}});
     fingers.push_back({{"finger", "ring"}, {"peak_force_N", 0.75}, {"peak_measured_N", nullptr}});
     kept.runs.back().report["fingers"] = fingers;
-    const std::string page = progress_page(kept, levels_of_ball, "a test");
+    const std::string page = page_of_all(kept);
     EXPECT_TRUE(page.contains("<th>asked, N</th><th>given, N</th>"));
-    EXPECT_TRUE(page.contains("<td>2.50, 1.00, 0.75</td><td>2.25, 0.00, -</td>"));
+    EXPECT_TRUE(page.contains("<td>2.50; 1.00; 0.75</td><td>2.25; 0.00; -</td>"));
 }
 
 // One run, and runs of a few days, once had ticks at fractions of a day, and before the first.
@@ -229,7 +201,7 @@ TEST(ProgressPage, MarksWholeDaysAlone) {
     for (const int last : {1, 3, 5}) {
         KeptRuns kept;
         for (int day = 1; day <= last; ++day) kept.runs.push_back(run_of(7, "2026-11-0" + std::to_string(day), 80));
-        const std::string page = progress_page(kept, levels_of_ball, "a test");
+        const std::string page = page_of_all(kept);
         const std::string at_axis = "\" text-anchor=\"middle\">";  // neither bold, as titles are, nor upright
         unsigned ticks = 0;
         for (std::size_t at = page.find(at_axis); at != std::string::npos; at = page.find(at_axis, at + 1)) {

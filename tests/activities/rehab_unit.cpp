@@ -228,7 +228,12 @@ TEST(Rehab, IsMadeAnewOfItsSettings) {
         EXPECT_STREQ((*again)->name(), kind.name);
     }
     const std::string ball = "rehab ball --colour green --level 2 --repetitions 7 --hold 0.5 --time-limit 33.5";
-    EXPECT_TRUE(exercise_of(ball)) << "the line of recordings that there are";
+    const std::string game = "rehab game --speed slow --level 1 --throws 1 --time-limit 120 --open 0 --closed 1";
+    for (const std::string& recorded : {ball, game}) {
+        auto made = exercise_of(recorded);
+        ASSERT_TRUE(made) << "the lines of recordings that there are: " << recorded;
+        EXPECT_EQ(Rehab(std::move(*made)).settings(), recorded) << "a replay compares it with what was recorded";
+    }
     for (const char* wrong : {"rehab", "rehab ball", "rehab balls --level 1", "rehab ball --colour red",
                               "rehab ball --colour red --level 4 --repetitions 5 --hold 1 --time-limit 60",
                               "rehab ball --colour pink --level 1 --repetitions 5 --hold 1 --time-limit 60"})

@@ -124,7 +124,8 @@ TEST_F(RehabSessions, WithAThrownBallAreDoneAgainToTheBit) {
                                            " --results " + path("results") + " --participant 4",
                                        "game"));
     ASSERT_EQ(recorded.status, 0) << recorded.output;
-    EXPECT_TRUE(at.read("results/report.html").contains("Participant 4: Game"));
+    EXPECT_TRUE(at.read("results/report.html").contains("Participant 4</a>"));
+    EXPECT_TRUE(at.read("results/participant-004/progress.html").contains("Throwing and catching"));
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("t.session"));
     EXPECT_EQ(replayed.status, 0) << replayed.output;
@@ -144,6 +145,29 @@ TEST_F(RehabSessions, WithPuttyAreDoneAgainToTheBit) {
     EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
     for (const std::string of : {"the hand pinches putty", "knead 1 of 1 counted"})
         EXPECT_EQ(replayed.output.contains(of), recorded.output.contains(of)) << of << replayed.output;
+}
+
+// The first squeeze is paused while it is held, by a command, and goes on by the key; the other two count.
+TEST_F(RehabSessions, PausedInTheMiddleOfASqueezeCountTheOthersAlone) {
+    std::string script = at.read(std::string(kSessionsFolder) + "/rehab-ball.txt");
+    const auto before = [&](const char* line, const char* more) { script.insert(script.find(line), more); };
+    before("6.250 button release", "4.700 command do pause\n6.000 key press f5\n6.010 key release f5\n");
+    at.write("paused.txt", script);
+    const std::string input = "--input " + path("paused.txt") + " --offscreen";
+    const auto done = at.run(rehab(input + " --hold 1.5 --repetitions 2 --report " + path("p.json")));
+    ASSERT_EQ(done.status, 0) << done.output;
+    EXPECT_TRUE(done.output.contains("Paused: no force, no clock")) << done.output;
+    const Json json = Json::parse(at.read("p.json"));
+    EXPECT_EQ(json.at("counts").at("repetitions"), 2) << done.output;
+    EXPECT_EQ(json.at("counts").at("held_too_short"), 0) << done.output;
+    EXPECT_EQ(json.at("score"), 100.0);
+    const auto interrupted =
+        std::ranges::count_if(json.at("events"), [](const Json& event) { return event.at("what") == "interrupted"; });
+    EXPECT_EQ(interrupted, 1) << done.output;
+    EXPECT_EQ(json.at("pauses"), 1);
+    EXPECT_NEAR(json.at("paused_s").get<double>(), 1.3, 0.05) << "to a frame or two";
+    const auto none = at.run(rehab(input + " --start asked --results " + path("none") + " --participant 1"));
+    EXPECT_NE(none.status, 0) << "do pause has no sense before the start: " << none.output;
 }
 
 TEST_F(RehabSessions, AreRecordedAndDoneAgainToTheBit) {
@@ -174,7 +198,7 @@ TEST_F(RehabSessions, RunOnAGloveAreRecordedAndDoneAgainToTheBit) {
     ASSERT_FALSE(json.at("events").empty()) << recorded.output;
     EXPECT_EQ(json.at("events").at(0).at("what"), "begun");
     EXPECT_GT(bent_index_rad(), 0.2) << recorded.output;
-    EXPECT_TRUE(at.read("results/report.html").contains("Participant 12: Ball"));
+    EXPECT_TRUE(at.read("results/participant-012/progress.html").contains("Squeezing a ball"));
     EXPECT_TRUE(recorded.output.contains("results/participant-012/")) << recorded.output;
     const auto replayed =
         at.run("cd " + std::string(kSessionsFolder) + "/../.. && " + kBurinCommand + " replay " + path("g.session"));
@@ -207,8 +231,8 @@ TEST_F(RehabSessions, KeepRunsOfAParticipantAndToldDays) {
         ASSERT_EQ(run.status, 0) << run.output;
         EXPECT_TRUE(run.output.contains("Level 1 stays")) << run.output;
     }
-    const std::string page = at.read("results/report.html");
-    EXPECT_TRUE(page.contains("2 runs from 2026-11-02 to 2026-11-04")) << page.substr(0, 2000);
+    const std::string page = at.read("results/participant-003/progress.html");
+    EXPECT_TRUE(page.contains("2 runs on 2 days, from 2026-11-02 to 2026-11-04")) << page.substr(0, 2000);
     EXPECT_TRUE(page.contains("2 of these runs were done by a simulated hand"));
     for (const char* wrong :
          {"--results r", "--participant 3", "--results r --participant 0",

@@ -147,6 +147,59 @@ TEST(SoftPart, IsStifferTheStifferItsMaterial) {
     }
 }
 
+// One ball that presses a larger one: Hertz 1881, with 1/r the sum of both curvatures.
+double hertz_N(double depth_m, double radius_m, const SoftMaterial& material) {
+    const double relative_m = radius_m * kPressedBall_m / (radius_m + kPressedBall_m);
+    const double plane_Pa = material.young_Pa / (1.0 - material.poisson * material.poisson);
+    return 4.0 / 3.0 * plane_Pa * std::sqrt(relative_m) * std::pow(depth_m, 1.5);
+}
+
+// The elements are 7.5 and 9 mm long, the dents from 0.5 mm on.
+TEST(SoftPart, IsDentedByOnePointAsHertzSays) {
+    struct Press {
+        double spacing_m, point_m, young_Pa, depth_m;
+        Vec3 from;
+    };
+    for (const Press& press :
+         {Press{0.0094, 0.001, 100e3, 0.0005, {0.0, 1.0, 0.0}}, Press{0.0094, 0.001, 100e3, 0.001, {0.6, 0.0, 0.8}},
+          Press{0.0094, 0.001, 100e3, 0.002, {0.48, -0.6, 0.64}},
+          Press{0.0094, 0.001, 100e3, 0.004, {-0.64, 0.48, 0.6}}, Press{0.0075, 0.001, 400e3, 0.001, {0.0, 0.6, -0.8}},
+          Press{0.0094, 0.003, 50e3, 0.002, {0.36, 0.48, 0.8}}}) {
+        SoftPartSetup setup;
+        setup.spacing_m = press.spacing_m;
+        setup.point_radius_m = press.point_m;
+        setup.material.young_Pa = press.young_Pa;
+        setup.held_N_per_m = 1e7;
+        Pressing body(setup);
+        haptics::TickRecord tick;
+        tick.contact.point_count = 1;
+        tick.contact.points[0].hip_object_m = (kPressedBall_m + press.point_m - press.depth_m) * press.from;
+        Nanoseconds now_ns = 0;
+        for (int i = 0; i < 80; ++i) body.press(tick, now_ns += 4 * kTick_ns);
+        const double ratio = body.felt_N(tick, now_ns) / hertz_N(press.depth_m, press.point_m, setup.material);
+        EXPECT_NEAR(ratio, 1.0, 0.1) << 1e3 * press.depth_m << " mm of " << press.young_Pa << " Pa";
+    }
+}
+
+// Five points of a fingertip, 0.05 and 0.1 of the radius deep: elements of 9 mm give as those of 5 mm do.
+TEST(SoftPart, IsPressedByAFingertipAsAFinerOneIs) {
+    for (const double depth_m : {0.0015, 0.003}) {
+        std::array<double, 2> felt_N{};
+        for (const bool fine : {false, true}) {
+            SoftPartSetup setup = coarse_setup();
+            if (fine) setup.spacing_m = 0.005;
+            setup.held_N_per_m = 1e7;
+            Pressing body(setup);
+            const auto tick = fingertip(depth_m - setup.point_radius_m, glm::normalize(Vec3(0.3, 0.8, -0.5)));
+            Nanoseconds now_ns = 0;
+            for (int i = 0; i < 80; ++i) body.press(tick, now_ns += 4 * kTick_ns);
+            felt_N[fine ? 1 : 0] = body.felt_N(tick, now_ns);
+        }
+        EXPECT_GT(felt_N[1], 0.5);
+        EXPECT_NEAR(felt_N[0] / felt_N[1], 1.0, 0.1) << 1e3 * depth_m << " mm";
+    }
+}
+
 TEST(SoftPart, StepsNoMoreThanAFewTimesWhenAnUpdateIsLate) {
     Pressing body(coarse_setup());
     const auto tick = fingertip(0.002);

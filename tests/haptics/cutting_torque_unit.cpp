@@ -87,6 +87,23 @@ Vec3 torque_by_pieces(const geometry::TriangleMesh& mesh, const Pose& before, co
     return torque_Nm;
 }
 
+TickParameters cutting_parameters(const sculpt::FeltTool& felt) {
+    TickParameters parameters;
+    parameters.probe = felt.probe;
+    parameters.shape = felt.shape;
+    parameters.tool = felt.surface;
+    parameters.action = ToolAction::cut;
+    parameters.clearance_ratio = 0.0;
+    parameters.limit_stiffness = false;
+    parameters.passivity.control = false;
+    parameters.max_surface_age_s = 0.0;
+    parameters.materials[0].hardness_Ns_per_m3 = kCutHardness_Ns_per_m3;
+    parameters.materials[0].cutting_yield_Pa = 0.0;
+    parameters.materials[0].stiffness_N_per_m = 600.0;
+    parameters.materials[0].damping_Ns_per_m = 0.0;
+    return parameters;
+}
+
 struct CutTorque {
     Vec3 told_Nm{0.0}, expected_Nm{0.0};  // in the device's axes
     double force_N = 0.0;
@@ -105,20 +122,8 @@ CutTorque press_over_the_edge(const sculpt::FeltTool& felt, const geometry::Tria
     const Quat tool_turn = slanted.orientation * glm::angleAxis(0.4, Vec3(0.0, 1.0, 0.0));
     double lowest_m = HUGE_VAL;
     for (const Vec3& p : mesh.positions_m) lowest_m = std::min(lowest_m, p.y);
-    TickParameters parameters;
+    TickParameters parameters = cutting_parameters(felt);
     parameters.workspace.object_from_device = map;
-    parameters.probe = felt.probe;
-    parameters.shape = felt.shape;
-    parameters.tool = felt.surface;
-    parameters.action = ToolAction::cut;
-    parameters.clearance_ratio = 0.0;
-    parameters.limit_stiffness = false;
-    parameters.passivity.control = false;
-    parameters.max_surface_age_s = 0.0;
-    parameters.materials[0].hardness_Ns_per_m3 = kCutHardness_Ns_per_m3;
-    parameters.materials[0].cutting_yield_Pa = 0.0;
-    parameters.materials[0].stiffness_N_per_m = 600.0;
-    parameters.materials[0].damping_Ns_per_m = 0.0;
     TickState state;
     TickRecord record;
     Pose now, before;
@@ -169,6 +174,46 @@ TEST(CuttingTorque, OfEveryKindOfToolIsThatOfTheMaterialOnItsPiecesAboutItsOrigi
                 EXPECT_GT(torque.force_N, 0.01) << what;
             }
     }
+}
+
+// By the law alone: half of a mill's face is over the edge of a block, so that the material presses on half a disc,
+// whose middle is 4 r / 3 pi beside the axis, with H v on each place. With a session's clearance nothing but what cuts
+// bears it.
+TEST(CuttingTorque, OfAMillThatCutsBesideItsAxisIsItsForceAtTheMiddleOfHalfADisc) {
+    constexpr double kRadius_m = 0.003, kFallsIn_m = 2e-5, kDeep_m = 0.0008;
+    const sculpt::FeltTool felt = sculpt::felt_tool(compute::CylinderTool{kRadius_m, 0.012});
+    const Pose bench{Vec3(0.0), Quat(1.0, 0.0, 0.0, 0.0)};
+    const test::Surface surface = half_plane(bench);
+    TickParameters parameters = cutting_parameters(felt);
+    parameters.clearance_ratio = TickParameters{}.clearance_ratio;
+    const double tip_m = sculpt::tip_m(compute::CylinderTool{kRadius_m, 0.012});
+    const double half_disc_m2 = 0.5 * std::numbers::pi * kRadius_m * kRadius_m;
+    const double lever_m = 4.0 * kRadius_m / (3.0 * std::numbers::pi);
+    TickState state;
+    double last_m = HUGE_VAL;
+    int judged = 0;
+    for (int i = 0; 0.001 - kFallsIn_m * i > -kDeep_m; ++i) {
+        devices::DeviceSample sample;
+        sample.time_ns = (i + 1) * 1'000'000;
+        sample.buttons = 1;
+        sample.position_device_m = Vec3(0.0, tip_m + 0.001 - kFallsIn_m * i, 0.0);
+        const Tick t = tick(state, sample, *surface, parameters, test::kStrongDevice, sample.time_ns, kCutTick_s);
+        state = t.next;
+        const double at_m = t.record.contact.cut_object_m.y;
+        const double speed_m_per_s = (last_m - at_m) / kCutTick_s;
+        last_m = at_m;
+        if (at_m > tip_m - 0.1 * kDeep_m) continue;
+        ++judged;
+        const double law_N = kCutHardness_Ns_per_m3 * speed_m_per_s * half_disc_m2;
+        EXPECT_GT(law_N, 0.05) << i;
+        const devices::DeviceWrench& wrench = t.record.contact.wrench;
+        EXPECT_NEAR(wrench.force_device_N.y, law_N, 0.05 * law_N) << i;
+        // The material is where x < 0: arm (-lever, 0, 0) times force (0, F, 0).
+        EXPECT_NEAR(wrench.torque_device_Nm.z, -lever_m * law_N, 0.05 * lever_m * law_N) << i;
+        EXPECT_NEAR(wrench.torque_device_Nm.x, 0.0, 0.05 * lever_m * law_N) << i;
+        EXPECT_NEAR(wrench.torque_device_Nm.y, 0.0, 0.05 * lever_m * law_N) << i;
+    }
+    EXPECT_GT(judged, 20);
 }
 
 }  // namespace burin::haptics

@@ -45,7 +45,7 @@ public:
                 .aside = "",
                 .page = page,
                 .rows = {{"Ticks", "many"}},
-                .buttons = {{"Calm", {"calm"}}},
+                .buttons = {{"Calm", {"calm"}, !calm, {}, Key::f6}},
                 .governs = governs_from_now && asked_++ % 2 == 1};
     }
     [[nodiscard]] Result<void> finish() override {
@@ -109,6 +109,22 @@ struct WatchedSession {
 };
 
 }  // namespace
+
+// By the key as by the button: alone, once for each press, and not where the button can do nothing.
+TEST(SessionActivity, IsToldByTheKeysOfItsButtons) {
+    const auto calm_after = [](const KeyInput& key) {
+        const auto watching = std::make_shared<Watching>();
+        WatchedSession watched(watching);
+        watched.frame({});
+        const std::string said = watched.send({Input{key}});
+        EXPECT_EQ(said, "");
+        return watching->calm;
+    };
+    EXPECT_TRUE(calm_after({Key::f6, KeyMotion::press, {}}));
+    EXPECT_FALSE(calm_after({Key::f7, KeyMotion::press, {}}));
+    EXPECT_FALSE(calm_after({Key::f6, KeyMotion::release, {}}));
+    EXPECT_FALSE(calm_after({Key::f6, KeyMotion::press, {.ctrl = true}}));
+}
 
 TEST(SessionActivity, SeesEveryTickOnceInOrder) {
     WatchedSession watched(std::make_shared<Watching>());

@@ -291,6 +291,29 @@ TEST(SessionState, TurningTheSceneTakesTheWorkpieceAndNotTheHand) {
     EXPECT_NEAR(std::abs(glm::dot(before.orientation, after.orientation)), 1.0, 1e-12);
 }
 
+// What is led is followed by the ticks as a body that moves, and what a command places is not.
+TEST(SessionState, ADragMovesTheWorkpieceAndACommandPlacesIt) {
+    const Room room = test_room();
+    const SessionState state = test_state(room);
+    const SessionView view{.dt_s = 0.02, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
+    const std::vector<InputEvent> drag{{0, MouseMove{{100, 100}}},
+                                       {0, MouseClick{MouseButton::middle, true, {}}},
+                                       {0, MouseMove{{104, 100}}},
+                                       {0, MouseClick{MouseButton::middle, false, {}}}};
+    const auto placed = [&](const SessionState& now) { return parameters_of(now, room).workspace.placed; };
+    EXPECT_GT(placed(state), 0u) << "0 would never be followed";
+    const SessionState dragged = step_session(state, room, drag, view).state;
+    ASSERT_NE(dragged.world_from_object, state.world_from_object);
+    EXPECT_EQ(placed(dragged), placed(state));
+    const std::vector<InputEvent> reset{{0, CommandInput{"reset-view", {}}}};
+    const SessionState back = step_session(dragged, room, reset, view).state;
+    ASSERT_EQ(back.world_from_object, state.world_from_object);
+    EXPECT_EQ(placed(back), placed(dragged) + 1);
+    EXPECT_EQ(placed(step_session(back, room, reset, view).state), placed(back)) << "it stood there already";
+    const std::vector<InputEvent> other{{0, CommandInput{"friction", {"0.3"}}}};
+    EXPECT_EQ(placed(step_session(back, room, other, view).state), placed(back));
+}
+
 // A log that says how the mouse flies is none from before it could be said.
 TEST(SessionState, FillsInFreeFlightOnceSomebodyHasChosenHowTheMouseFlies) {
     Room room = test_room();

@@ -26,11 +26,18 @@ std::span<const SettingKind> Assess::setting_kinds() {
                     .usual = 8.0,
                     .least = 1.0,
                     .most = 10.0},
+        start_setting(),
     };
     return kinds;
 }
 
 std::unique_ptr<Exercise> Assess::make(const SettingValues& values) { return std::make_unique<Assess>(values); }
+
+std::optional<Error> Assess::conflict(const SettingValues& values) {
+    if (values.number("start") != kStartsPressed) return std::nullopt;
+    return Error{"is pressed, and nothing is there to press on before the assessment", "start",
+                 "say asked, to begin with Start, or at_once"};
+}
 
 Assess::Assess(const SettingValues& values) : values_(values) {}
 
@@ -58,6 +65,36 @@ void Assess::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
         else if (event.what != "begun")
             orders.trials.push_back({event.time_ns, "", "measured"});
     }
+}
+
+void Assess::interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) {
+    const AssessStep step = interrupted(state_, time_ns);
+    state_ = step.state;
+    pressed_from_m_.reset();
+    for (const ExerciseEvent& event : step.events) {
+        events_.push_back(event);
+        orders.trials.push_back({event.time_ns, "", std::string(event.what)});
+    }
+}
+
+ExerciseGoal Assess::goal() const {
+    ExerciseGoal goal;
+    goal.progress = formatted("%zu of %zu", std::min(state_.part + 1, kAssessParts), kAssessParts);
+    goal.next = task();
+    if (!state_.measures) return goal;
+    const AssessPart& part = assess_parts()[state_.part];
+    goal.hold_s = part.lasts_s;
+    goal.held_s = std::clamp(state_.course_s() - assess_begins_s(state_.part), 0.0, part.lasts_s);
+    return goal;
+}
+
+std::vector<std::string> Assess::help() const {
+    return {
+        "The assessment measures what the hand can do: how far and how fast it opens and closes, with how much force "
+        "each finger presses, and how well each moves alone. The other exercises are fitted to it.",
+        formatted("Each of its %zu parts has a time, which the ring shows, and %.0f s before it to read what comes. "
+                  "A break puts back the part that is under way: it is measured anew.",
+                  kAssessParts, kReads_s)};
 }
 
 void Assess::adjust(std::size_t finger, haptics::TickParameters& parameters) const {
@@ -105,7 +142,7 @@ ExerciseCourse Assess::course() const {
 std::string Assess::task() const {
     if (state_.part == kAssessParts) return "Done.";
     const AssessPart& part = assess_parts()[state_.part];
-    const double in_s = assess_begins_s(state_.part) - state_.time_s();
+    const double in_s = assess_begins_s(state_.part) - state_.course_s();
     if (!state_.measures) return formatted("In %.0f s: ", std::max(in_s, 0.0)) + instruction_of(part);
     const std::string now =
         part.task == AssessTask::press ? "Press with all fingers as hard as you can." : instruction_of(part);

@@ -20,6 +20,7 @@ public:
 
     [[nodiscard]] static std::span<const SettingKind> setting_kinds();
     [[nodiscard]] static std::unique_ptr<Exercise> make(const SettingValues& values);
+    [[nodiscard]] static std::optional<Error> conflict(const SettingValues& values);
     // Requires sound values.
     explicit Assess(const SettingValues& values);
 
@@ -32,6 +33,9 @@ public:
     // Returns none: nothing is there to press on.
     [[nodiscard]] WhichFingers pressing_fingers() const override { return {}; }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    void interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseGoal goal() const override;
+    [[nodiscard]] std::vector<std::string> help() const override;
     void adjust(std::size_t finger, haptics::TickParameters& parameters) const override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "geometry/hand/hand_joints.hpp"
 
@@ -135,7 +136,7 @@ AssessStep step_assessment(AssessState state, const ExerciseTurn& turn) {
         tell("begun");
     }
     next.last_ns = turn.time_ns;
-    const double at_s = next.time_s();
+    const double at_s = next.course_s();
     if (next.measures && at_s >= assess_begins_s(next.part) + kParts[next.part].lasts_s) {
         next.measures = false;
         ++next.part;
@@ -150,9 +151,32 @@ AssessStep step_assessment(AssessState state, const ExerciseTurn& turn) {
         next.measures = true;
         for (HeldForce& held : next.strength) held = after_gap(held);
         next.together = after_gap(next.together);
+        next.strength_before = next.strength;
+        next.together_before = next.together;
         tell(kParts[next.part].begins);
     }
     if (next.measures) take_measure(next, kParts[next.part], turn.fingers);
+    return step;
+}
+
+AssessStep interrupted(AssessState state, Nanoseconds time_ns) {
+    AssessStep step{state, {}};
+    if (!state.begun || state.end != ExerciseEnd::not_yet) return step;
+    AssessState& next = step.state;
+    const double to_read_s = assess_begins_s(state.part) - kReads_s;
+    next.again_ns = state.last_ns - state.begun_ns - nanoseconds(to_read_s);
+    if (!std::exchange(next.measures, false)) return step;
+    step.events.push_back({kPartInterrupted, time_ns, 0.0});
+    const AssessPart& part = kParts[state.part];
+    switch (part.task) {
+        case AssessTask::range: next.range = {}; break;
+        case AssessTask::press:
+            next.strength = state.strength_before;
+            next.together = state.together_before;
+            break;
+        case AssessTask::speed: next.speed = {}; break;
+        case AssessTask::alone: next.alone[part.finger] = {}; break;
+    }
     return step;
 }
 

@@ -72,12 +72,17 @@ struct AssessState {
     ExerciseEnd end = ExerciseEnd::not_yet;
     bool begun = false;
     Nanoseconds begun_ns = 0, last_ns = 0;
+    Nanoseconds again_ns = 0;  // that parts took which a break has put back
     HandMeasures range, speed;
     std::array<HeldForce, devices::kGloveFingers> strength{};
     HeldForce together;
+    std::array<HeldForce, devices::kGloveFingers> strength_before{};  // this part, which may be put back
+    HeldForce together_before;
     std::array<AloneSums, devices::kGloveFingers> alone{};
 
     [[nodiscard]] double time_s() const { return seconds(last_ns - begun_ns); }
+    // Returns how far it has come in the order of its parts.
+    [[nodiscard]] double course_s() const { return seconds(last_ns - begun_ns - again_ns); }
     bool operator==(const AssessState&) const = default;
 };
 
@@ -87,6 +92,11 @@ struct AssessStep {
 };
 // Goes on by a turn. Requires a time that rises; an assessment that has ended stays as it is.
 [[nodiscard]] AssessStep step_assessment(AssessState state, const ExerciseTurn& turn);
+
+inline constexpr std::string_view kPartInterrupted = "interrupted";
+// Puts back the part that is under way, since the person pauses: it begins anew with the time to read, and what it has
+// measured is forgotten. What other parts have measured stays.
+[[nodiscard]] AssessStep interrupted(AssessState state, Nanoseconds time_ns);
 
 // What came of it; nothing of what could not be measured.
 struct AssessedFinger {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "activities/rehab/ball/ball.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,6 +108,30 @@ void Ball::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     follow_pressed_open(turn, orders);
 }
 
+void Ball::interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) {
+    BallStep step = interrupted(state_, time_ns);
+    state_ = step.state;
+    pressed_open_s_ = 0.0;
+    for (const ExerciseEvent& event : step.events) tell(event, orders);
+}
+
+ExerciseGoal Ball::goal() const {
+    ExerciseGoal goal{target_N(), state_.smooth_N, settings_.share * target_N(), settings_.hold_s, 0.0, {}, {}};
+    goal.progress = formatted("%u of %u", state_.repetitions, settings_.repetitions);
+    switch (state_.phase) {
+        case BallPhase::begins:
+        case BallPhase::waits: goal.next = state_.grasped ? "Squeeze the ball" : "Grasp the ball"; break;
+        case BallPhase::holds:
+            goal.held_s = std::min(seconds(state_.last_ns - state_.held_since_ns), settings_.hold_s);
+            goal.next = "Hold it so";
+            break;
+        case BallPhase::relaxes: goal.next = "Relax"; break;
+        case BallPhase::ended: goal.next = "Done: let go of the ball"; break;
+    }
+    if (state_.phase == BallPhase::relaxes) goal.held_s = goal.hold_s;
+    return goal;
+}
+
 // A hand that is not closed by the range that is set does not grasp, and its force does not count.
 void Ball::follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     const bool presses = !turn.grasped && state_.phase == BallPhase::waits && state_.smooth_N >= target_N();
@@ -124,9 +149,10 @@ void Ball::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
     events_.push_back(event);
     const unsigned number = state_.repetitions;
     const bool counted = event.what == ball_event::kCounted, too_short = event.what == ball_event::kTooShort;
+    const bool broken = event.what == ball_event::kInterrupted;
     if (event.what == ball_event::kReached)
         orders.trials.push_back({event.time_ns, formatted("squeeze %u", number + state_.too_short + 1)});
-    if (counted || too_short) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
+    if (counted || too_short || broken) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
     const std::string adapted = settings_.adapts ? formatted("; the next with %.2f N", target_N()) : "";
     if (counted)
         orders.messages.push_back(formatted("squeeze %u of %u counted", number, settings_.repetitions) + adapted);
@@ -164,6 +190,25 @@ ExerciseCourse Ball::course() const {
 Json Ball::findings() const {
     if (!settings_.adapts) return {};
     return {{"first_target_N", settings_.adapts->target_N}, {"next_target_N", target_N()}};
+}
+
+std::vector<std::string> Ball::help() const {
+    std::vector<std::string> help{
+        "The ball trains the strength of the grip and how long it is kept up: squeeze it until the forces reach their "
+        "marks, hold it so until the ring is full, and relax.",
+        formatted(
+            "A squeeze that sinks below %.0f %% of a mark before the ring is full is held too short, and the ring "
+            "begins anew. The next one counts after the force has been at half of the target or less for %.2f s, "
+            "or the ball was let go of.",
+            100.0 * BallState::kKept, BallState::kRelaxes_s)};
+    if (settings_.share > 0.0)
+        help.push_back(formatted("Each finger gives %.0f %% of the force or more: the others cannot do it for one.",
+                                 100.0 * settings_.share));
+    if (settings_.adapts)
+        help.push_back(
+            "The force that is asked for rises after each squeeze that counts, and falls after one that is "
+            "held too short or too weak. One that a break has interrupted changes nothing.");
+    return help;
 }
 
 std::string Ball::task() const {

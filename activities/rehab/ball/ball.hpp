@@ -30,9 +30,12 @@ public:
     [[nodiscard]] double target_N() const override { return target_N_of(state_, settings_); }
     [[nodiscard]] Json findings() const override;
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    void interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseGoal goal() const override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
     [[nodiscard]] std::string task() const override;
+    [[nodiscard]] std::vector<std::string> help() const override;
 
 private:
     void follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders);

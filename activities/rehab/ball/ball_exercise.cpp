@@ -122,6 +122,20 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
     return step;
 }
 
+BallStep interrupted(BallState state, Nanoseconds time_ns) {
+    BallStep step{state, {}};
+    if (state.phase == BallPhase::begins || state.phase == BallPhase::ended) return step;
+    BallState& next = step.state;
+    if (state.phase == BallPhase::holds) step.events.push_back({ball_event::kInterrupted, time_ns, state.smooth_N});
+    next.phase = BallPhase::waits;
+    next.smooth_N = 0.0;
+    next.smooth_each_N = {};
+    next.uneven_since_ns = 0;
+    next.told_uneven = false;
+    next.tried = next.spent = false;  // a force that adapts stays as it is
+    return step;
+}
+
 double score_of(const BallState& state, const BallSettings& settings) {
     const double counted = state.repetitions - 0.1 * state.too_short;
     return 100.0 * std::clamp(counted / settings.repetitions, 0.0, 1.0);

@@ -88,7 +88,7 @@ namespace ball_event {
 inline constexpr std::string_view kBegun = "begun", kGrasped = "grasped", kReached = "force reached",
                                   kCounted = "counted", kTooShort = "held too short", kTooWeak = "too weak",
                                   kUneven = "a finger gives too little", kLetGo = "let go", kDone = "done",
-                                  kTimeOver = "time over";
+                                  kTimeOver = "time over", kInterrupted = "interrupted";
 }  // namespace ball_event
 
 // Returns the force that is asked for now.
@@ -100,6 +100,9 @@ struct BallStep {
 };
 // Goes on by a turn. Requires sound settings and a time that rises; an exercise that has ended stays as it is.
 [[nodiscard]] BallStep step_ball(BallState state, const BallSettings& settings, const ExerciseTurn& turn);
+
+// Breaks off a squeeze that is under way, which counts for nothing; the next begins from no force.
+[[nodiscard]] BallStep interrupted(BallState state, Nanoseconds time_ns);
 
 // From 0 to 100: the share of the repetitions that were done, less a tenth of one for each that was held too short.
 [[nodiscard]] double score_of(const BallState& state, const BallSettings& settings);

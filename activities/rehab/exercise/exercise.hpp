@@ -34,6 +34,7 @@ struct ExerciseTurn {
     std::optional<Vec3> lies_in_palm_m = std::nullopt;  // of a held body's middle, by its newest shape
     // Each fingertip, the middle of its points, in the frame in which ticks touch.
     std::array<Vec3, devices::kGloveFingers> tips_object_m = {};
+    Nanoseconds away_ns = 0;  // for how long its clock has stood still: the loop's is time_ns + away_ns
 };
 
 enum class ExerciseEnd : std::uint8_t { not_yet, done, time_over };
@@ -60,6 +61,15 @@ struct ExerciseCourse {
     std::vector<Count> counts;
     std::vector<ExerciseEvent> events;
     std::vector<std::string> notes = {};  // what did not count and why, a sentence each
+};
+
+// What a person is to do now, for the screen.
+struct ExerciseGoal {
+    double together_N = 0.0, now_N = 0.0;  // of all fingers: asked, and as the rules see it; 0: none is asked
+    double of_each_N = 0.0;                // asked of each finger that presses; 0: none
+    double hold_s = 0.0, held_s = 0.0;
+    std::string next;      // "Squeeze"
+    std::string progress;  // "2 of 5"
 };
 
 class Exercise {
@@ -95,6 +105,10 @@ public:
 
     // Goes on by a turn; whatever comes after the end changes nothing.
     virtual void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) = 0;
+    // Breaks off what is under way, such as a squeeze, since the person pauses: it counts for nothing. What has been
+    // counted stays. time_ns: as turns have it.
+    virtual void interrupt(Nanoseconds /*time_ns*/, session::ActivityOrders& /*orders*/) {}
+    [[nodiscard]] virtual ExerciseGoal goal() const { return {}; }
     [[nodiscard]] virtual ExerciseEnd end() const = 0;
     [[nodiscard]] virtual ExerciseCourse course() const = 0;
     [[nodiscard]] virtual std::string task() const = 0;  // for the person: a sentence or two
@@ -102,6 +116,8 @@ public:
     [[nodiscard]] virtual Json findings() const { return {}; }
     // Returns the person's range (person_range.hpp) where the exercise measures it by itself.
     [[nodiscard]] virtual std::optional<Json> person_range() const { return std::nullopt; }
+    // Returns what it is for, what counts, and what does not: a paragraph each.
+    [[nodiscard]] virtual std::vector<std::string> help() const { return {}; }
 };
 
 }  // namespace burin::activities

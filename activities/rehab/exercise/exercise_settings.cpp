@@ -33,16 +33,6 @@ std::string known_words(const SettingKind& kind) {
     return text;
 }
 
-// The line of those settings that are wanted.
-template <typename Wanted>
-std::string line_with(const SettingValues& values, Wanted wanted) {
-    std::string line;
-    for (std::size_t i = 0; i < values.kinds().size(); ++i)
-        if (wanted(values.kinds()[i]))
-            line += (line.empty() ? "" : " ") + std::string(values.kinds()[i].option) + " " + values.text(i);
-    return line;
-}
-
 }  // namespace
 
 SettingKind level_setting(unsigned levels, const char* help, const char* remedy) {
@@ -69,7 +59,7 @@ SettingKind time_limit_setting(double usual_s) {
 SettingKind start_setting() {
     return {.key = "start",
             .option = "--start",
-            .help = "When the time begins: when each finger has pressed once, or at once",
+            .help = "When the time begins: when each finger has pressed once, at once, or when Start is pressed",
             .words = kStarts,
             .before = kStartsAtOnce};
 }
@@ -81,6 +71,10 @@ SettingValues::SettingValues(std::span<const SettingKind> kinds) : kinds_(kinds)
 
 bool SettingValues::has(std::string_view key) const {
     return std::ranges::find(kinds_, key, &SettingKind::key) != kinds_.end();
+}
+
+bool SettingValues::is_left_out(std::size_t kind) const {
+    return std::ranges::find(left_out_, kind) != left_out_.end();
 }
 
 std::size_t SettingValues::index_of(std::string_view key) const {
@@ -158,16 +152,19 @@ std::string table_text(std::string_view exercise, const SettingValues& values) {
 }
 
 std::string line_of(const SettingValues& values) {
-    return line_with(values, [](const SettingKind&) { return true; });
+    std::string line;
+    for (std::size_t i = 0; i < values.kinds().size(); ++i)
+        if (!values.is_left_out(i))
+            line += (line.empty() ? "" : " ") + std::string(values.kinds()[i].option) + " " + values.text(i);
+    return line;
 }
 
 Result<SettingValues> values_of(std::string_view line, std::span<const SettingKind> kinds) {
     SettingValues values(kinds);
-    std::vector<const SettingKind*> lacking;
     for (const SettingKind& kind : kinds)
         if (kind.before && !(" " + std::string(line)).contains(" " + std::string(kind.option) + " ")) {
-            lacking.push_back(&kind);
             values.set(kind.key, *kind.before);
+            values.leave_out(kind.key);
         }
     std::string_view rest = line;
     const auto next_word = [&rest] {
@@ -185,8 +182,7 @@ Result<SettingValues> values_of(std::string_view line, std::span<const SettingKi
         else if (std::from_chars(text.data(), text.data() + text.size(), number).ec == std::errc{})
             values.set(kind->key, number);
     }
-    const auto is_there = [&](const SettingKind& kind) { return std::ranges::find(lacking, &kind) == lacking.end(); };
-    if (problems(values).empty() && line_with(values, is_there) == line) return values;
+    if (problems(values).empty() && line_of(values) == line) return values;
     return fail(std::string(line), "are no settings of this exercise", "replay it with the program that recorded it");
 }
 

@@ -38,10 +38,10 @@ struct SettingKind {
 // Those that every exercise has: the level of difficulty, from 1 to `levels`, and when it ends, in seconds.
 [[nodiscard]] SettingKind level_setting(unsigned levels, const char* help, const char* remedy);
 [[nodiscard]] SettingKind time_limit_setting(double usual_s);
-// And that of those in which fingers press: when the clock begins. By the device: pressed with a glove on a line, at
-// once with a simulated one.
-inline constexpr std::array kStarts{"by_device", "pressed", "at_once"};
-inline constexpr double kStartsByDevice = 0.0, kStartsPressed = 1.0, kStartsAtOnce = 2.0;
+// And when the clock begins. By the device: pressed with a glove on a line, where fingers press; asked, by `do start`
+// or its button, where a person does it otherwise; at once where a script leads a simulated hand.
+inline constexpr std::array kStarts{"by_device", "pressed", "at_once", "asked"};
+inline constexpr double kStartsByDevice = 0.0, kStartsPressed = 1.0, kStartsAtOnce = 2.0, kStartsAsked = 3.0;
 [[nodiscard]] SettingKind start_setting();
 
 // The values of an exercise's settings. Equal where all of them are.
@@ -70,6 +70,11 @@ public:
     // Returns whether somebody has set it, be it to what is usual.
     [[nodiscard]] bool was_set(std::string_view key) const { return was_set_[index_of(key)]; }
 
+    // Leaves a setting out of line_of(), as in the recording that it comes from.
+    void leave_out(std::string_view key) { left_out_.push_back(index_of(key)); }
+    [[nodiscard]] bool is_left_out(std::size_t kind) const;
+
+    // Compares the values alone.
     bool operator==(const SettingValues& other) const { return values_ == other.values_; }
 
 private:
@@ -78,6 +83,7 @@ private:
     std::span<const SettingKind> kinds_;
     std::vector<double> values_;
     std::vector<bool> was_set_;
+    std::vector<std::size_t> left_out_;  // by their numbers
 };
 
 // Returns what nobody can do: each names its setting by its key. Empty: the values are sound.
@@ -94,7 +100,8 @@ private:
 // Writes such a table.
 [[nodiscard]] std::string table_text(std::string_view exercise, const SettingValues& values);
 
-// Writes the values as options on a line, "--level 2 --hold 1"; numbers to the last bit.
+// Writes the values as options on a line, "--level 2 --hold 1"; numbers to the last bit. Of values that values_of() has
+// read it is that line again: a replay compares the two.
 [[nodiscard]] std::string line_of(const SettingValues& values);
 // Reads what line_of() has written. Fails on anything else, and on values that cannot be.
 [[nodiscard]] Result<SettingValues> values_of(std::string_view line, std::span<const SettingKind> kinds);

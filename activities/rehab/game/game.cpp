@@ -43,6 +43,7 @@ std::span<const SettingKind> Game::setting_kinds() {
                     .most = 1000,
                     .whole = true},
         time_limit_setting(120.0),
+        start_setting(),
         open_setting(),
         closed_setting(),
     };
@@ -58,6 +59,8 @@ std::unique_ptr<Exercise> Game::make(const SettingValues& values) { return std::
 
 std::optional<Error> Game::conflict(const SettingValues& values) {
     if (auto wrong = too_short_a_way(values)) return wrong;
+    if (values.number("start") == kStartsPressed)
+        return Error{"is pressed, and nobody presses in the game", "start", "give asked or at_once"};
     // To open a hand and to close it again takes no less: ours, five times a second.
     constexpr double kThrows_s = 0.2;
     const unsigned throws = game_settings(values).throws;
@@ -91,10 +94,42 @@ void Game::begin(bodies::SoftPart& body, session::ActivityOrders& orders) {
 }
 
 void Game::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
+    away_ns_ = turn.away_ns;
     GameStep step = step_game(state_, settings_, room_, turn);
     const GameState before = std::exchange(state_, std::move(step.state));
     for (const ExerciseEvent& event : step.events) tell(event, orders);
     move_body(before, orders);
+}
+
+void Game::interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) {
+    GameStep step = interrupted(state_, time_ns);
+    state_ = std::move(step.state);
+    for (const ExerciseEvent& event : step.events) tell(event, orders);
+    if (state_.phase == GamePhase::resumes && body_ != nullptr)
+        orders.on_scene.push_back([body = body_, at = room_.serve_m] { body->frame().put(at); });
+}
+
+ExerciseGoal Game::goal() const {
+    ExerciseGoal goal;
+    goal.progress = formatted("%u of %u", state_.catches + state_.misses, settings_.throws);
+    switch (state_.phase) {
+        case GamePhase::begins:
+        case GamePhase::waits:
+        case GamePhase::resumes: goal.next = "Take the ball"; break;
+        case GamePhase::held: goal.next = "Throw it at the wall, above the line"; break;
+        case GamePhase::flies: goal.next = state_.hit_wall ? "Catch it" : "Watch where it hits"; break;
+    }
+    if (state_.end != ExerciseEnd::not_yet) goal.next = "Done";
+    return goal;
+}
+
+std::vector<std::string> Game::help() const {
+    return {
+        "Throwing and catching trains to open and to close the hand at the right time. The ball waits in the air: "
+        "close the hand on it, move it towards the wall, open the hand on the way, and close it again when the "
+        "ball comes back.",
+        "A throw that hits the wall below the line, a ball that bounces twice off the floor, and one that is caught "
+        "before it has been at the wall are misses."};
 }
 
 void Game::move_body(const GameState& before, session::ActivityOrders& orders) const {
@@ -108,8 +143,9 @@ void Game::move_body(const GameState& before, session::ActivityOrders& orders) c
             glm::conjugate(state_.last.palm.orientation) * (state_.last.grip_m - state_.last.palm.position_m);
         orders.on_scene.push_back([body, parts, seat_palm_m] { body->frame().take_hold(parts, seat_palm_m); });
     } else if (state_.phase == GamePhase::flies && before.phase != GamePhase::flies) {
-        orders.on_scene.push_back(
-            [body, ball = state_.ball, at_ns = state_.last.time_ns] { body->frame().fly(ball, at_ns, false); });
+        orders.on_scene.push_back([body, ball = state_.ball, at_ns = state_.last.time_ns + away_ns_] {
+            body->frame().fly(ball, at_ns, false);
+        });
     } else if (waits_anew) {
         orders.on_scene.push_back([body, at = state_.ball.place_m] { body->frame().put(at); });
     }
@@ -120,7 +156,8 @@ void Game::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
     events_.push_back(event);
     const bool caught = event.what == kCaught, missed = event.what == kMissed;
     if (event.what == kThrown) orders.trials.push_back({event.time_ns, formatted("throw %u", state_.throws)});
-    if (caught || missed) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
+    if (caught || missed || event.what == kInterrupted)
+        orders.trials.push_back({event.time_ns, "", std::string(event.what)});
     if (caught) orders.messages.push_back(formatted("caught: %u of %u throws", state_.catches, settings_.throws));
     if (event.what == kBelow) orders.messages.push_back("below the line");
     if (missed)

@@ -32,9 +32,12 @@ public:
     [[nodiscard]] std::optional<session::LedHand> led_hand() const override;
     void begin(bodies::SoftPart& body, session::ActivityOrders& orders) override;
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    void interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseGoal goal() const override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
     [[nodiscard]] std::string task() const override;
+    [[nodiscard]] std::vector<std::string> help() const override;
 
 private:
     void tell(const ExerciseEvent& event, session::ActivityOrders& orders);
@@ -46,6 +49,7 @@ private:
     GameRoom room_;
     GameState state_;
     bodies::SoftPart* body_ = nullptr;  // the scene's
+    Nanoseconds away_ns_ = 0;           // as the last turn has it
     std::vector<ExerciseEvent> events_;
 };
 

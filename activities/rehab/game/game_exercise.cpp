@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace burin::activities {
 namespace {
@@ -65,6 +66,10 @@ public:
     GameStep go_on() {
         if (state().end != ExerciseEnd::not_yet) return step_;
         if (state().phase == GamePhase::begins) begin();
+        if (state().phase == GamePhase::resumes) {
+            state().last = turn_;  // the hand has moved meanwhile, and met nothing on its way
+            serve();
+        }
         if (state().phase == GamePhase::waits) wait();
         if (state().phase == GamePhase::held)
             hold();
@@ -205,6 +210,19 @@ bodies::FlightRoom flight_room(const GameRoom& room, const GameSettings& setting
 
 GameStep step_game(GameState state, const GameSettings& settings, const GameRoom& room, const ExerciseTurn& turn) {
     return TurnOfGame(state, settings, room, turn).go_on();
+}
+
+GameStep interrupted(GameState state, Nanoseconds time_ns) {
+    GameStep step{std::move(state), {}};
+    GameState& next = step.state;
+    if (next.phase == GamePhase::begins || next.end != ExerciseEnd::not_yet) return step;
+    if (next.phase == GamePhase::flies) {
+        --next.throws;
+        step.events.push_back({game_event::kInterrupted, time_ns, 0.0});
+    }
+    next.phase = GamePhase::resumes;
+    next.recent.clear();
+    return step;
 }
 
 double score_of(const GameState& state, const GameSettings& settings) {

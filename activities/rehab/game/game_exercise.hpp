@@ -65,7 +65,8 @@ struct GameTurn {
 inline constexpr Vec3 kGrip_hand_m{-0.005, 0.053, -0.06};
 [[nodiscard]] GameTurn game_turn(const ExerciseTurn& turn);
 
-enum class GamePhase : std::uint8_t { begins, waits, held, flies };  // of the ball; it stays behind the end
+// Of the ball; it stays behind the end. resumes: it waits from the next turn on, after a break.
+enum class GamePhase : std::uint8_t { begins, waits, held, flies, resumes };
 
 struct GameState {
     static constexpr double kReach_m = 0.03;                            // from the grip
@@ -90,7 +91,8 @@ struct GameState {
 namespace game_event {
 inline constexpr std::string_view kBegun = "begun", kTaken = "taken", kThrown = "thrown", kHit = "hit above the line",
                                   kBelow = "hit below the line", kBounced = "bounced", kCaught = "caught",
-                                  kMissed = "missed", kDone = "done", kTimeOver = "time over";
+                                  kMissed = "missed", kDone = "done", kTimeOver = "time over",
+                                  kInterrupted = "interrupted";
 }
 struct GameStep {
     GameState state;
@@ -99,6 +101,9 @@ struct GameStep {
 // Goes on by a turn. Requires sound settings and a time that rises; a game that has ended stays as it is.
 [[nodiscard]] GameStep step_game(GameState state, const GameSettings& settings, const GameRoom& room,
                                  const ExerciseTurn& turn);
+
+// Breaks off a throw that is under way, which counts for nothing; the ball is back at its place with the next turn.
+[[nodiscard]] GameStep interrupted(GameState state, Nanoseconds time_ns);
 
 // From 0 to 100: the share of the throws that were caught.
 [[nodiscard]] double score_of(const GameState& state, const GameSettings& settings);

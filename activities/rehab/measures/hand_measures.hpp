@@ -21,6 +21,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "devices/gloves/glove_frame.hpp"
@@ -30,6 +31,9 @@ namespace burin::activities {
 
 using FingerForces = std::array<double, devices::kGloveFingers>;  // magnitudes
 inline constexpr std::array<const char*, devices::kGloveFingers> kFingerNames{"thumb", "index", "middle", "ring"};
+// A finger's colour on screen and page, 0xRRGGBB: of Okabe and Ito, which all can tell apart.
+inline constexpr std::array<std::uint32_t, devices::kGloveFingers> kFingerColours_srgb{0x0072b2, 0xd55e00, 0x009e73,
+                                                                                       0xcc79a7};
 
 // A turn of the haptic loop, as an exercise sees it.
 struct FingersTurn {

@@ -8,6 +8,7 @@
 
 #include "activities/rehab/exercise/person_range.hpp"
 #include "base/plot/html.hpp"
+#include "base/plot/svg.hpp"
 #include "base/text.hpp"
 
 namespace burin::activities {
@@ -50,10 +51,11 @@ std::optional<double> bending_of(const Json& finger) {
 
 // "48.0", or "48.0, at first 40.0" where the first assessment is another one.
 std::string measure_text(const std::optional<double>& now, const std::optional<double>& first, bool is_first,
-                         const char* form) {
-    std::string text = now ? formatted(form, *now) : "-";
-    if (!is_first) text += ", at first " + (first ? formatted(form, *first) : std::string("-"));
-    return text;
+                         int decimals, const PageTexts& texts) {
+    const auto number = [&](const std::optional<double>& value) {
+        return value ? texts.number(*value, decimals) : std::string("-");
+    };
+    return is_first ? number(now) : texts.filled("at_first", {{"now", number(now)}, {"first", number(first)}});
 }
 
 }  // namespace
@@ -115,13 +117,17 @@ std::string text_of(const Baseline& baseline, const FittedValues& fitted) {
     return "the assessment of " + baseline.date + " " + baseline.time + text;
 }
 
-std::string baseline_table(std::span<const KeptRun* const> all) {
+std::string baseline_table(std::span<const KeptRun* const> all, const PageTexts& texts) {
     std::vector<const KeptRun*> runs(all.begin(), all.end());
     std::erase_if(runs, [](const KeptRun* run) { return !is_carried_to_its_end(*run); });
-    if (runs.empty()) return plot::element("p", "No assessment was carried to its end: there is no baseline.");
+    const std::string title = plot::element("h3", texts.text("assessment"));
+    if (runs.empty()) return title + plot::element("p", texts.text("assessment_none"));
     const KeptRun &first = *runs.front(), &now = *runs.back();
     const bool is_first = runs.size() == 1;
-    std::string rows;
+    std::string rows = "<tr>";
+    for (const char* head : {"finger", "bending_head", "strength_head", "speed_head", "fractionation"})
+        rows += "<th>" + plot::escaped(texts.text(head)) + "</th>";
+    rows += "</tr>\n";
     for (const Json& measured : now.report.at("fingers")) {
         const Json name = measured.at("finger");
         const Json none = Json::object();
@@ -131,20 +137,23 @@ std::string baseline_table(std::span<const KeptRun* const> all) {
             const auto number = measure_in(one, std::string("/") + key);
             return number ? std::optional(*number * unit) : std::nullopt;
         };
-        const auto cell_of = [&](const char* key, double unit, const char* form) {
-            return plot::cell(measure_text(of(finger, key, unit), of(then, key, unit), is_first, form));
+        const auto cell_of = [&](const char* key, double unit, int decimals) {
+            return plot::number_cell(
+                measure_text(of(finger, key, unit), of(then, key, unit), is_first, decimals, texts));
         };
-        rows += "<tr>" + plot::cell(name.get<std::string>()) +
-                plot::cell(measure_text(bending_of(finger), bending_of(then), is_first, "%.0f")) +
-                cell_of("strength_N", 1.0, "%.2f") + cell_of("peak_speed_rad_per_s", kDegreesOfRad, "%.0f") +
-                cell_of("fractionation", 1.0, "%.2f") + "</tr>\n";
+        rows += "<tr>" + plot::cell(texts.named(name.get<std::string>())) +
+                plot::number_cell(measure_text(bending_of(finger), bending_of(then), is_first, 0, texts)) +
+                cell_of("strength_N", 1.0, 2) + cell_of("peak_speed_rad_per_s", kDegreesOfRad, 0) +
+                cell_of("fractionation", 1.0, 2) + "</tr>\n";
     }
     const auto together = [](const KeptRun& run) { return measure_in(run.report, "/assess/strength_together_N"); };
-    return plot::element("p", "Baseline: the assessment of " + now.date + " " + now.time + ", all fingers together " +
-                                  measure_text(together(now), together(first), is_first, "%.2f") + " N.") +
-           "<div class=\"wide\"><table>\n<tr><th>finger</th><th>bending, degrees</th><th>strength, N</th>"
-           "<th>speed, degrees a second</th><th>fractionation</th></tr>\n" +
-           rows + "</table></div>\n";
+    return title +
+           plot::element(
+               "p", texts.filled("assessment_baseline",
+                                 {{"date", texts.date(now.date)},
+                                  {"time", now.time},
+                                  {"strength", measure_text(together(now), together(first), is_first, 2, texts)}})) +
+           "<div class=\"wide\"><table>\n" + rows + "</table></div>\n";
 }
 
 }  // namespace burin::activities

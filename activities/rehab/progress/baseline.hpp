@@ -11,11 +11,12 @@
 
 #include "activities/rehab/exercise/exercise_settings.hpp"
 #include "activities/rehab/progress/kept_run.hpp"
+#include "activities/rehab/progress/page_texts.hpp"
 
 namespace burin::activities {
 
 inline constexpr std::string_view kUsualSide = "right";
-// Returns the side of the hand that a run was of.
+// Returns the side of the hand that a run was of; of before there was a side, a right one.
 [[nodiscard]] std::string side_of(const KeptRun& run);
 
 struct Baseline {
@@ -37,8 +38,8 @@ struct FittedValues {
 // Says so in a line: "the assessment of 2026-11-03 10:15:00: open 0.1, closed 0.45, most_N 3.2".
 [[nodiscard]] std::string text_of(const Baseline& baseline, const FittedValues& fitted);
 
-// Returns a participant's assessments as a table for the page: range, strength, speed and fractionation of each finger,
+// Returns a hand's assessments as a table for the page, in its language, under a title: range, strength, speed and fractionation of each finger,
 // of the first as of the newest. The runs are assessments, in order of time; at least one.
-[[nodiscard]] std::string baseline_table(std::span<const KeptRun* const> runs);
+[[nodiscard]] std::string baseline_table(std::span<const KeptRun* const> runs, const PageTexts& texts);
 
 }  // namespace burin::activities

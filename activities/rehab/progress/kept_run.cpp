@@ -12,6 +12,7 @@
 
 #include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/measures/hand_measures.hpp"
+#include "activities/rehab/progress/withdrawal.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 
@@ -172,7 +173,7 @@ Result<void> write_run(const fs::path& file, const KeptRun& run) {
                                         {"time", run.time},
                                         {"hand", run.hand},
                                         {"report", run.report}});
-    return write_file_atomically(file, std::as_bytes(std::span(text)));
+    return write_private(file, text);
 }
 
 Result<void> prepare_results(const fs::path& folder, unsigned participant) {
@@ -182,8 +183,13 @@ Result<void> prepare_results(const fs::path& folder, unsigned participant) {
     if (!fs::is_directory(folder, error) && !fs::is_directory(above, error))
         return fail(folder.string(), "would stand in " + above.string() + ", which is no folder",
                     "make that first, or see whether the name is right");
+    const bool is_new = !fs::exists(folder, error);
     fs::create_directories(own, error);
     if (error) return fail(own.string(), "cannot be made: " + error.message(), "name a folder that you may write to");
+    // A folder that there was stays as its owner wants it; the participant's is made for the results in any case.
+    if (is_new)
+        if (const auto alone = make_private(folder); !alone) return alone;
+    if (const auto alone = make_private(own); !alone) return alone;
     return check_writable(own / "a-run.json");
 }
 

@@ -73,25 +73,45 @@ Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
     std::vector<const KeptRun*> runs(all.begin(), all.end());
     std::erase_if(runs, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; });
     const unsigned level = level_of(runs.empty() ? *all.back() : *runs.back());
-    if (level == 0 || levels == 0) return {0, "The exercise has no levels that are known."};
-    const auto stays = [&](const std::string& reason) {
-        return Proposal{0, formatted("Level %u stays: ", level) + reason};
+    if (level == 0 || levels == 0) return {0, "The exercise has no levels that are known.", {}, 0, 0, {}};
+    std::vector<double> last_scores;
+    const auto made = [&](unsigned of, const std::string& reason, Proposal::Why why) {
+        return Proposal{of, reason, why, level, runs.size(), last_scores};
+    };
+    const auto stays = [&](const std::string& reason, Proposal::Why why) {
+        return made(0, formatted("Level %u stays: ", level) + reason, why);
     };
     if (runs.size() < Proposal::kRuns)
         return stays(formatted("a proposal takes %zu runs that were carried to an end, and there %s %zu.",
-                               Proposal::kRuns, runs.size() == 1 ? "is" : "are", runs.size()));
+                               Proposal::kRuns, runs.size() == 1 ? "is" : "are", runs.size()),
+                     Proposal::Why::few);
     const auto last = std::span(runs).last(Proposal::kRuns);
     const auto differs = [&](const KeptRun* run) { return !have_same_settings(*run, *runs.back()); };
-    if (std::ranges::any_of(last, differs)) return stays("the last three runs had different settings.");
+    if (std::ranges::any_of(last, differs))
+        return stays("the last three runs had different settings.", Proposal::Why::differ);
     std::string scores;
-    for (const KeptRun* run : last) scores += formatted(scores.empty() ? "%.0f" : ", %.0f", score_of(*run));
+    for (const KeptRun* run : last) {
+        scores += formatted(scores.empty() ? "%.0f" : ", %.0f", score_of(*run));
+        last_scores.push_back(score_of(*run));
+    }
     const bool well = std::ranges::all_of(last, [](const KeptRun* run) { return score_of(*run) >= Proposal::kWell; });
     const bool badly = std::ranges::all_of(last, [](const KeptRun* run) { return score_of(*run) <= Proposal::kBadly; });
     if (well && level < levels)
-        return {level + 1, formatted("Level %u is proposed: the last three scores were ", level + 1) + scores + "."};
+        return made(level + 1, formatted("Level %u is proposed: the last three scores were ", level + 1) + scores + ".",
+                    Proposal::Why::up);
     if (badly && level > 1)
-        return {level - 1, formatted("Level %u is proposed: the last three scores were ", level - 1) + scores + "."};
-    return stays("the last three scores were " + scores + ".");
+        return made(level - 1, formatted("Level %u is proposed: the last three scores were ", level - 1) + scores + ".",
+                    Proposal::Why::up);
+    return stays("the last three scores were " + scores + ".", Proposal::Why::scores);
+}
+
+std::vector<const KeptRun*> alike(std::span<const KeptRun* const> all) {
+    std::vector<const KeptRun*> runs(all.begin(), all.end());
+    std::erase_if(runs, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; });
+    if (runs.empty()) return runs;
+    const KeptRun* const newest = runs.back();
+    std::erase_if(runs, [&](const KeptRun* run) { return !have_same_settings(*run, *newest); });
+    return runs;
 }
 
 }  // namespace burin::activities

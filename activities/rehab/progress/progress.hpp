@@ -2,6 +2,7 @@
 // Proposes a level of difficulty by a participant's last runs of one exercise; it is never set. Pure; any thread.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,8 +19,14 @@ namespace burin::activities {
 struct Proposal {
     static constexpr std::size_t kRuns = 3;
     static constexpr double kWell = 90.0, kBadly = 40.0;
+    // Why, as the page says it in any language: up also for the next lower level.
+    enum class Why : std::uint8_t { none, few, differ, scores, up };
     unsigned level = 0;  // 0: none is proposed
     std::string reason;  // a sentence, always
+    Why why = Why::none;
+    unsigned stays = 0;               // the level of the last run
+    std::size_t ended = 0;            // how many runs were carried to an end
+    std::vector<double> scores = {};  // the last ones
 };
 // levels: how many the exercise has. The runs are one participant's, of one exercise, in order of time; at least one.
 [[nodiscard]] Proposal proposed(std::span<const KeptRun* const> runs, unsigned levels);
@@ -29,9 +36,8 @@ struct Proposal {
 [[nodiscard]] std::optional<double> adapted_target_N(std::span<const KeptRun> runs, unsigned participant,
                                                      std::string_view exercise);
 
-// Returns all runs as a page, participant by participant: its plots, its proposals, its table. `levels` as proposed()
-// takes it, by the exercise's name; `lost`: what could not be read, which the page says.
-[[nodiscard]] std::string progress_page(const KeptRuns& kept, unsigned (*levels)(std::string_view exercise),
-                                        const std::string& program);
+// Returns the runs that were carried to an end with the settings of the last of them, in order; a setting that a run
+// lacks counts as its default. Of one participant's runs of one exercise.
+[[nodiscard]] std::vector<const KeptRun*> alike(std::span<const KeptRun* const> runs);
 
 }  // namespace burin::activities

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "activities/rehab/exercise/exercise.hpp"
+#include "activities/rehab/progress/withdrawal.hpp"
 #include "base/append_file.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
@@ -26,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kJournalVersion = 1;
+constexpr const char* kProgramEnded = "the program ended before the run did";
 constexpr const char* kJournalExtension = ".journal";
 constexpr std::uint64_t kMostJournalBytes = 256 << 20;  // a thousand squeezes are some ten
 
@@ -37,15 +39,19 @@ Json without_events(Json report) {
 }
 
 // Takes a participant's folder for this process; returns who has it where that is another.
-std::optional<session::DocumentHolder> take_participant(session::DocumentLock& lock, const fs::path& own) {
+std::optional<session::DocumentHolder> take_folder(session::DocumentLock& lock, const fs::path& own) {
     return lock.take(own.string(), own.string());
 }
 
-Result<void> take_or_fail(session::DocumentLock& lock, const fs::path& own, unsigned participant) {
-    const auto holder = take_participant(lock, own);
-    if (!holder) return {};
-    return fail(formatted("participant %u", participant), "has a run under way: " + text_of(*holder),
-                "end that one first, or give another person's number");
+// A run that waited for its start has no events, and no reason that the person is to know.
+bool has_begun(const KeptRun& run) {
+    const Json *const events = find_value(run.report, "/events"),
+                      *const why = find_value(run.report, "/broken_off_because"),
+                      *const start = find_value(run.report, "/settings/start");
+    const bool waits = start != nullptr && (*start == kStarts[static_cast<std::size_t>(kStartsAsked)] ||
+                                            *start == kStarts[static_cast<std::size_t>(kStartsPressed)]);
+    const bool is_told = why != nullptr && why->is_string() && *why != kProgramEnded;
+    return !waits || is_told || events == nullptr || !events->empty();
 }
 
 fs::path made_of(const fs::path& journal) { return fs::path(journal).replace_extension(".json"); }
@@ -60,8 +66,10 @@ Result<std::optional<fs::path>> take_up(const fs::path& journal) {
         if (!text) return std::unexpected(text.error());
         const Result<KeptRun> run = run_in_journal(*text, journal.string());
         if (!run) return std::unexpected(run.error());
-        if (const auto written = write_run(file, *run); !written) return std::unexpected(written.error());
-        made = file;
+        if (has_begun(*run)) {
+            if (const auto written = write_run(file, *run); !written) return std::unexpected(written.error());
+            made = file;
+        }
     }
     if (::unlink(journal.c_str()) != 0)
         return fail(journal.string(), std::string("cannot be removed: ") + std::strerror(errno),
@@ -90,13 +98,20 @@ void take_up_of(const fs::path& own, LeftRuns& left) {
     }
 }
 
-// Takes up what participants have left who have no run now. except: one whose lock this process has.
+// Takes up what participants have left who have no run now and take part. except: one whose lock this process has.
 void take_up_others(const fs::path& folder, const fs::path& except, LeftRuns& left) {
+    const Result<Withdrawals> withdrawn = read_withdrawals(folder);
+    if (!withdrawn) {
+        left.errors.push_back(withdrawn.error());
+        return;
+    }
+    std::vector<fs::path> gone;
+    for (const Withdrawal& one : *withdrawn) gone.push_back(participant_folder(folder, one.participant));
     std::vector<fs::path> participants;
     std::error_code error;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
         if (at->path().filename().string().starts_with(kParticipantFolders) && at->is_directory(error) &&
-            at->path().filename() != except.filename())
+            at->path().filename() != except.filename() && std::ranges::find(gone, at->path()) == gone.end())
             participants.push_back(at->path());
     std::ranges::sort(participants);
     for (const fs::path& own : participants) {
@@ -105,11 +120,19 @@ void take_up_others(const fs::path& folder, const fs::path& except, LeftRuns& le
         });
         if (!any) continue;  // nothing is to be locked, and so nothing is written
         session::DocumentLock lock;
-        if (!take_participant(lock, own)) take_up_of(own, left);
+        if (!take_folder(lock, own)) take_up_of(own, left);
     }
 }
 
 }  // namespace
+
+Result<session::DocumentLock> take_participant(const fs::path& folder, unsigned participant) {
+    session::DocumentLock lock;
+    const auto holder = take_folder(lock, participant_folder(folder, participant));
+    if (!holder) return lock;
+    return fail(formatted("participant %u", participant), "has a run under way: " + text_of(*holder),
+                "end that one first, or give another person's number");
+}
 
 // Syncs the journal's file in a thread of its own, once for however many lines have come meanwhile.
 class RunJournal::Syncer {
@@ -159,8 +182,8 @@ RunJournal::~RunJournal() = default;
 
 Result<std::unique_ptr<RunJournal>> RunJournal::begin(const fs::path& folder, KeptRun run) {
     const fs::path own = participant_folder(folder, run.participant);
-    session::DocumentLock lock;
-    if (const auto taken = take_or_fail(lock, own, run.participant); !taken) return std::unexpected(taken.error());
+    Result<session::DocumentLock> lock = take_participant(folder, run.participant);
+    if (!lock) return std::unexpected(lock.error());
     LeftRuns left;
     take_up_of(own, left);
     take_up_others(folder, own, left);
@@ -173,14 +196,13 @@ Result<std::unique_ptr<RunJournal>> RunJournal::begin(const fs::path& folder, Ke
                      {"report", without_events(run.report)},
                      {"events", Json::array()}};
     const std::string text = line_of_run(first);
-    if (const auto written = write_file_atomically(journal, std::as_bytes(std::span(text))); !written)
-        return std::unexpected(written.error());
+    if (const auto written = write_private(journal, text); !written) return std::unexpected(written.error());
     const int file = ::open(journal.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (file < 0)
         return fail(journal.string(), std::string("cannot be opened: ") + std::strerror(errno),
                     "see to its folder's permissions");
     std::unique_ptr<RunJournal> made(
-        new RunJournal(std::move(journal), std::move(run), std::move(lock), std::move(left)));
+        new RunJournal(std::move(journal), std::move(run), std::move(*lock), std::move(left)));
     made->syncer_ = std::make_unique<Syncer>(file);
     return made;
 }
@@ -220,19 +242,22 @@ LeftRuns take_up_left_runs(const fs::path& folder) {
 
 Result<KeptAgain> keep_again(const fs::path& folder, const KeptRun& run, const std::string& name) {
     const fs::path own = participant_folder(folder, run.participant);
-    session::DocumentLock lock;
-    if (const auto taken = take_or_fail(lock, own, run.participant); !taken) return std::unexpected(taken.error());
+    const Result<session::DocumentLock> lock = take_participant(folder, run.participant);
+    if (!lock) return std::unexpected(lock.error());
     LeftRuns left;
     take_up_of(own, left);
     const fs::path file = own / ((name.empty() ? run_name(run) : name) + ".json");
+    KeptRun again = run;
     std::error_code ignored;
     if (fs::exists(file, ignored)) {
         const Result<KeptRun> kept = read_run(file);
         if (!kept) return std::unexpected(kept.error());
         if (kept->report.at("time_s").get<double>() >= run.report.at("time_s").get<double>())
             return KeptAgain{file, false};
+        for (const char* told : {"language", "comment"})  // no recording has them
+            if (kept->report.contains(told) && !again.report.contains(told)) again.report[told] = kept->report.at(told);
     }
-    if (const auto written = write_run(file, run); !written) return std::unexpected(written.error());
+    if (const auto written = write_run(file, again); !written) return std::unexpected(written.error());
     return KeptAgain{file, true};
 }
 
@@ -267,7 +292,7 @@ Result<KeptRun> run_in_journal(std::string_view text, const std::string& name) {
     Json report = std::move(whole["report"]);
     if (report.contains("ended") && report["ended"] == text_of(ExerciseEnd::not_yet)) {
         Json& why = report["broken_off_because"];
-        if (!why.is_string()) why = "the program ended before the run did";
+        if (!why.is_string()) why = kProgramEnded;
     }
     if (torn > 0 && report["notes"].is_array())
         report["notes"].push_back(

@@ -5,7 +5,8 @@
 //     {"run_journal": 1, participant, date, time, hand, "report": {...}, "events": []}    from the run's beginning
 //     {"report": {...}, "events": [those since the line before]}     with each event, and a line each few seconds
 //   the run ends       -> 2026-11-03T10-15-00-ball.json (kept_run.hpp) is written, then the journal is removed
-//   the program ends   -> who next starts a run or writes the page makes that file of the journal: "broken off"
+//   the program ends   -> who next starts a run or writes the page makes that file of the journal: "broken off";
+//                         none of a run that had not begun yet, nor of who has withdrawn
 // A journal whose run is there as a file is a remnant and is removed: no run is kept twice. The first line is there
 // whole or there is no journal; a torn line costs what it alone told.
 // A participant has one run at a time. The process that does it keeps a lock (session/document/document_lock.hpp);
@@ -31,6 +32,10 @@ struct LeftRuns {
     std::vector<std::filesystem::path> kept;  // the files that were made of them
     std::vector<Error> errors;
 };
+
+// Takes a participant for this process, who has no other run and is not erased as long as the lock is there. The
+// participant's folder must be there. Fails where another process has the participant.
+[[nodiscard]] Result<session::DocumentLock> take_participant(const std::filesystem::path& folder, unsigned participant);
 
 class RunJournal {
 public:

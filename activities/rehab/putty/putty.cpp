@@ -89,13 +89,55 @@ void Putty::turn(const ExerciseTurn& turn, session::ActivityOrders& orders) {
     for (const ExerciseEvent& event : step.events) tell(event, orders);
 }
 
+void Putty::interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) {
+    PuttyStep step = interrupted(state_, time_ns);
+    state_ = step.state;
+    for (const ExerciseEvent& event : step.events) tell(event, orders);
+}
+
+ExerciseGoal Putty::goal() const {
+    ExerciseGoal goal{
+        settings_.target_N(), state_.force_N, PuttyState::kTakesPart_N, PuttyState::kGrips_s, 0.0, {}, {}};
+    goal.progress = formatted("%u of %u", state_.kneads, settings_.kneads);
+    switch (state_.phase) {
+        case PuttyPhase::begins:
+        case PuttyPhase::waits:
+            goal.next = settings_.is_pinch() ? "Pinch with thumb and index" : "Knead with the whole hand";
+            break;
+        case PuttyPhase::presses:
+            goal.next = "Press harder";
+            goal.held_s = std::min(state_.right_s, PuttyState::kGrips_s);
+            break;
+        case PuttyPhase::relaxes:
+            goal.next = "Relax";
+            goal.held_s = goal.hold_s;
+            break;
+        case PuttyPhase::ended: goal.next = "Done: let go of the putty"; break;
+    }
+    return goal;
+}
+
+std::vector<std::string> Putty::help() const {
+    return {settings_.is_pinch()
+                ? "Pinching putty trains thumb and index: press it between them until the force reaches its mark, and "
+                  "relax. The dent stays."
+                : "Kneading putty trains the whole hand: press it until the force reaches its mark, and relax. The "
+                  "dents stay.",
+            formatted("A knead counts when the force has been at its mark for %.1f s in the right grip: each finger "
+                      "that takes part gives %.2f N or more%s. The next one counts after the force has sunk to a "
+                      "quarter of the target.",
+                      PuttyState::kGrips_s, PuttyState::kTakesPart_N,
+                      settings_.is_pinch() ? ", and no other finger does" : "")};
+}
+
 void Putty::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
     using namespace putty_event;
     events_.push_back(event);
     const unsigned number = state_.kneads, all = number + state_.too_weak + state_.wrong_grip;
     const bool kneaded = event.what == kKneaded, wrong = event.what == kWrongGrip, weak = event.what == kTooWeak;
     if (event.what == kPressed) orders.trials.push_back({event.time_ns, formatted("knead %u", all + 1)});
-    if (kneaded || wrong || weak) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
+    const bool broken = event.what == kInterrupted;
+    if (kneaded || wrong || weak || broken) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
     if (kneaded) orders.messages.push_back(formatted("knead %u of %u counted", number, settings_.kneads));
     if (weak) orders.messages.push_back("too weak; press harder");
     if (wrong)

@@ -33,9 +33,12 @@ public:
     }
     [[nodiscard]] double target_N() const override { return settings_.target_N(); }
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
+    void interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) override;
+    [[nodiscard]] ExerciseGoal goal() const override;
     [[nodiscard]] ExerciseEnd end() const override { return state_.end; }
     [[nodiscard]] ExerciseCourse course() const override;
     [[nodiscard]] std::string task() const override;
+    [[nodiscard]] std::vector<std::string> help() const override;
 
 private:
     void tell(const ExerciseEvent& event, session::ActivityOrders& orders);

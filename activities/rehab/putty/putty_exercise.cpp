@@ -37,6 +37,7 @@ PuttyStep step_putty(PuttyState state, const PuttySettings& settings, const Exer
         tell(putty_event::kBegun);
     }
     next.last_ns = turn.time_ns;
+    next.force_N = force_N;
     const bool relaxed = force_N <= PuttyState::kRelaxed * target_N;
     if (next.phase == PuttyPhase::relaxes && relaxed) next.phase = PuttyPhase::waits;
     if (next.phase == PuttyPhase::waits && force_N >= PuttyState::kTried * target_N) {
@@ -61,6 +62,16 @@ PuttyStep step_putty(PuttyState state, const PuttySettings& settings, const Exer
     next.phase = PuttyPhase::ended;
     next.end = done ? ExerciseEnd::done : ExerciseEnd::time_over;
     tell(done ? putty_event::kDone : putty_event::kTimeOver);
+    return step;
+}
+
+PuttyStep interrupted(PuttyState state, Nanoseconds time_ns) {
+    PuttyStep step{state, {}};
+    if (state.phase == PuttyPhase::begins || state.phase == PuttyPhase::ended) return step;
+    if (state.phase == PuttyPhase::presses) step.events.push_back({putty_event::kInterrupted, time_ns, state.force_N});
+    step.state.phase = PuttyPhase::waits;
+    step.state.reached = false;
+    step.state.right_s = step.state.force_N = 0.0;
     return step;
 }
 

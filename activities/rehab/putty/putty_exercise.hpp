@@ -62,6 +62,7 @@ struct PuttyState {
     unsigned kneads = 0, too_weak = 0, wrong_grip = 0;
     bool reached = false;  // the target, since it was pressed
     double right_s = 0.0;  // for how long it has been reached in the right grip
+    double force_N = 0.0;  // of all fingers, in the last turn
 
     [[nodiscard]] double time_s() const { return seconds(last_ns - begun_ns); }
     bool operator==(const PuttyState&) const = default;
@@ -70,7 +71,7 @@ struct PuttyState {
 namespace putty_event {
 inline constexpr std::string_view kBegun = "begun", kPressed = "pressed", kKneaded = "kneaded",
                                   kWrongGrip = "wrong grip", kTooWeak = "too weak", kDone = "done",
-                                  kTimeOver = "time over";
+                                  kTimeOver = "time over", kInterrupted = "interrupted";
 }
 
 struct PuttyStep {
@@ -79,6 +80,9 @@ struct PuttyStep {
 };
 // Goes on by a turn. Requires sound settings and a time that rises; an exercise that has ended stays as it is.
 [[nodiscard]] PuttyStep step_putty(PuttyState state, const PuttySettings& settings, const ExerciseTurn& turn);
+
+// Breaks off a knead that is under way, which counts for nothing.
+[[nodiscard]] PuttyStep interrupted(PuttyState state, Nanoseconds time_ns);
 
 // From 0 to 100: the share of the kneads that were done, less a tenth of one for each too weak or in a wrong grip.
 [[nodiscard]] double score_of(const PuttyState& state, const PuttySettings& settings);
