@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/progress/baseline.hpp"
 #include "activities/rehab/progress/page_texts.hpp"
 #include "activities/rehab/rehab.hpp"
 #include "app/live_options.hpp"
@@ -24,6 +25,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
+#include "session/record/session_log.hpp"
 
 namespace burin::app {
 namespace {
@@ -31,6 +33,8 @@ namespace {
 using activities::ExerciseKind;
 using activities::SettingKind;
 using activities::SettingValues;
+
+constexpr const char *kScriptedHand = "scripted", *kWeakHand = "weak";
 
 Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& kind) {
     if (path.empty()) return SettingValues(kind.settings);
@@ -73,10 +77,10 @@ double usual_start(const ExerciseKind& kind, bool is_simulated, bool led) {
 
 // Writes the script that a participant of that seed follows, and has the session follow it.
 Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const ExerciseKind& kind, const SettingValues& values,
-                                      std::uint64_t seed) {
-    if (!live.input.empty()) return fail("--hand scripted", "is led by no --input", "leave one of them out");
+                                      const std::string& hand, std::uint64_t seed) {
+    if (!live.input.empty()) return fail("--hand " + hand, "is led by no --input", "leave one of them out");
     if (live.device != devices::kSimulatedGlove)
-        return fail("--hand scripted", "is a simulated hand, and --device names " + live.device,
+        return fail("--hand " + hand, "is a simulated hand, and --device names " + live.device,
                     "leave one of them out");
     const Result<std::string> script = read_text_file(asset_path(kind.script));
     if (!script) return std::unexpected(script.error());
@@ -86,7 +90,44 @@ Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const Exercise
     if (live.outputs.empty()) live.outputs = "rehab-" + std::string(kind.name) + "-outputs";
     if (const auto written = write_text(live.input, kind.scripted(values, seed, *script)); !written)
         return std::unexpected(written.error());
+    if (kind.course == nullptr) return folder;
+    const std::string course = *folder / (std::string(kind.name) + devices::kFingerCourseFiles);
+    live.device += ":" + course;
+    const auto person = hand == kWeakHand ? activities::SimulatedPerson::weak : activities::SimulatedPerson::healthy;
+    if (const auto written = write_text(course, kind.course(person)); !written) return std::unexpected(written.error());
     return folder;
+}
+
+// Fits settings that nobody has given to the person by their baseline, and says so.
+Result<void> fit_to_person(SettingValues& values, const ResultsOptions& options,
+                           std::optional<Error> (*conflict)(const SettingValues&), Json& fitted_by) {
+    const Result<std::optional<activities::Baseline>> baseline = baseline_in(options);
+    if (!baseline) return std::unexpected(baseline.error());
+    if (!*baseline) return {};
+    activities::FittedValues fitted = activities::fitted_by(values, **baseline);
+    const std::string text = text_of(**baseline, fitted);
+    if (!fitted.left_out.empty())
+        std::fprintf(stderr, "burin: not taken of %s: %s\n", text.c_str(), fitted.left_out.c_str());
+    if (fitted.taken.empty()) return {};
+    if (const auto wrong = conflict(fitted.values)) {
+        std::fprintf(stderr, "burin: not taken: %s: %s\n", text.c_str(), wrong->what.c_str());
+        return {};
+    }
+    std::fprintf(stderr, "burin: fitted by %s\n", text.c_str());
+    fitted_by = {{"text", text}, {"date", (*baseline)->date}, {"time", (*baseline)->time}, {"settings", fitted.taken}};
+    values = std::move(fitted.values);
+    return {};
+}
+
+// Has a force that adapts begin where the participant's last run ended, and says so.
+Result<void> begin_where_it_ended(SettingValues& values, const ResultsOptions& options, const ExerciseKind& kind) {
+    if (!values.has("success") || values.number("success") == 0.0 || values.was_set("begin_N")) return {};
+    const Result<std::optional<double>> target_N = adapted_target_in(options, kind.name);
+    if (!target_N) return std::unexpected(target_N.error());
+    if (!*target_N) return {};
+    values.set("begin_N", **target_N);
+    std::fprintf(stderr, "burin: begins with %.2f N, where the last run that adapted ended\n", **target_N);
+    return {};
 }
 
 void print_score(const activities::Rehab& rehab) {
@@ -187,7 +228,15 @@ RehabCommand::RehabCommand(Command app)
                 command.option(setting.option, of.words[i], setting.help).one_of(setting.words);
         }
         command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
-        command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well").one_of({"scripted"});
+        if (kind.course == nullptr)
+            command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well")
+                .one_of({kScriptedHand});
+        else
+            command
+                .option("--hand", of.hand,
+                        "scripted: a simulated hand does it; weak: one that goes half as far, whose index does not "
+                        "press and whose fingers follow each other")
+                .one_of({kScriptedHand, kWeakHand});
         command.option("--seed", of.seed, "Of the scripted hand").show_default();
         command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
         add_results_options(command, of.results);
@@ -221,8 +270,16 @@ Result<void> RehabCommand::run(const Of& of) const {
     Result<SettingValues> values = of.values();
     if (!values) return std::unexpected(values.error());
     const bool scripted = !of.hand.empty();
-    if (const auto ok = check_results(of.results, scripted); !ok) return ok;
+    // A recording is done again, and is whose it was; any other input is a script.
+    const bool is_again = session::is_database(of.session.live.input);
+    const std::string recording = is_again ? of.session.live.input : "";
+    if (const auto ok = check_results(of.results, scripted, recording); !ok) return ok;
     if (const auto ok = check_remarks(of.remarks, !of.results.folder.empty()); !ok) return ok;
+    Json fitted;
+    if (!is_again)
+        if (const auto fits = fit_to_person(*values, of.results, of.kind.conflict, fitted); !fits) return fits;
+    if (!is_again)
+        if (const auto begins = begin_where_it_ended(*values, of.results, of.kind); !begins) return begins;
     if (of.print_config) {
         std::fputs(activities::table_text(of.kind.name, *values).c_str(), stdout);
         return {};
@@ -232,37 +289,46 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto glove = check_glove(live); !glove) return glove;
     std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
-    if (values->number("start") == activities::kStartsByDevice)
+    if (values->has("start") && values->number("start") == activities::kStartsByDevice)
         values->set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
     if (scripted) {
-        Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.seed);
+        Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.hand, of.seed);
         if (!made) return std::unexpected(made.error());
         folder.emplace(std::move(*made));
     }
     if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
     if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
-    if (const auto ready = prepare_results(of.results); !ready) return ready;
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
     if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
     exercise->describe(json_of(of.remarks));
+    if (!fitted.is_null()) exercise->fitted_by(std::move(fitted));
+    // What a script has done, no person has.
+    const std::string hand = of.hand == kWeakHand ? "scripted, a weak hand"
+                             : scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed))
+                             : !live.input.empty() ? "scripted, " + live.input
+                                                   : live.device;
+    Result<ResultsOfRun> results =
+        is_again ? ResultsOfRun::again(of.results, recording) : ResultsOfRun::begin(of.results, hand, exercise);
+    if (!results) return std::unexpected(results.error());
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
     // What the person has done is kept, even where the session missed something else; one that never began leaves an
     // older report alone.
-    if (!done && exercise->exercise().course().events.empty()) return done;
+    // A replay that went another way than its recording is nobody's run.
+    if (!done && (is_again || exercise->exercise().course().events.empty())) {
+        results->discard();
+        return done;
+    }
     if (exercise->exercise().course().events.empty() && exercise->failure().empty()) {
         std::printf("%s: it was never begun, and nothing is kept of it\n", of.kind.name);
+        results->discard();
         return done;
     }
     print_score(*exercise);
     const Json report = exercise->report();
     const Result<void> written = write_output(of.report, json_text(report));
-    // What a script has done, no person has.
-    const std::string hand = scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed))
-                             : !live.input.empty() ? "scripted, " + live.input
-                                                   : live.device;
-    const Result<void> kept = keep_results(of.results, hand, report);
+    const Result<void> kept = results->keep(report);
     return !done ? done : !written ? written : kept;
 }
 

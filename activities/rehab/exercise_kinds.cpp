@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "activities/rehab/assess/assess.hpp"
+#include "activities/rehab/assess/scripted_fingers.hpp"
 #include "activities/rehab/ball/ball.hpp"
 #include "activities/rehab/ball/scripted_squeezes.hpp"
 #include "activities/rehab/game/game.hpp"
@@ -18,6 +20,9 @@ constexpr std::string_view kPrefix = "rehab ";
 
 std::span<const ExerciseKind> all_kinds() {
     static const std::array kinds{
+        ExerciseKind{"assess", "Measure what a hand can do: range, strength, speed, each finger alone",
+                     "worlds/assess.toml", "sessions/rehab-assess.txt", Assess::setting_kinds(), Assess::make,
+                     scripted_assess, Assess::conflict, nullptr, assess_course},
         ExerciseKind{"ball", "Squeeze a ball, hold it so, and relax, again and again", "worlds/hand.toml",
                      "sessions/rehab-ball.txt", Ball::setting_kinds(), Ball::make, scripted_ball, Ball::conflict},
         ExerciseKind{"game", "Throw a ball at a wall above a line, and catch it", "worlds/game.toml",

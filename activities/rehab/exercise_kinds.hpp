@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "activities/rehab/exercise/exercise.hpp"
+#include "activities/rehab/exercise/simulated_person.hpp"
 
 namespace burin::activities {
 
@@ -30,6 +31,9 @@ struct ExerciseKind {
     std::optional<Error> (*conflict)(const SettingValues& values) = nullptr;
     // Returns how a simulated glove has to close for it (devices/gloves/grip_shape.hpp); null: as it usually does.
     std::string_view (*grip)(const SettingValues& values) = nullptr;
+    // Returns how a simulated glove leads each finger of a person (devices/gloves/finger_course.hpp), as the text of a
+    // file; null: a button closes the hand.
+    std::string (*course)(SimulatedPerson person) = nullptr;
 };
 [[nodiscard]] std::span<const ExerciseKind> exercise_kinds();
 // Returns null where there is none of that name.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/text.hpp"
@@ -80,9 +81,24 @@ FingersTurn fingers_of(const FingerTicks& ticks, std::uint32_t body, const std::
         std::copy_n(ticks[i]->sample.joints.begin(), turn.joints_rad[i].size(), turn.joints_rad[i].begin());
         turn.has_fault[i] = ticks[i]->sample.fault != devices::DeviceFault::none;
         const devices::OneWayDrive& drive = ticks[i]->sample.drive;
-        if ((drive.state & devices::kDriveMeasured) != 0) turn.measured_N[i] = share * drive.measured_N;
+        if ((drive.state & devices::kDriveMeasured) != 0) {
+            turn.measured_N[i] = share * drive.measured_N;
+            turn.drive_N[i] = drive.measured_N;
+        }
     }
     return turn;
+}
+
+constexpr std::uint32_t kNoObject = 0xffffffffu;
+
+std::array<Vec3, kFelt> tips_of(const FingerTicks& ticks) {
+    std::array<Vec3, kFelt> tips_m{};
+    for (std::size_t i = 0; i < kFelt; ++i) {
+        const auto points = std::span(ticks[i]->contact.points).first(ticks[i]->contact.point_count);
+        for (const haptics::PointRecord& point : points)
+            tips_m[i] += point.hip_object_m / static_cast<double>(points.size());
+    }
+    return tips_m;
 }
 
 // The little finger has no piston and is not read.
@@ -133,13 +149,24 @@ Json json_of(const FingerMeasures& finger, const char* name, std::optional<bool>
             {"fractionation", fractionation ? Json(*fractionation) : Json()}};
 }
 
+// Returns the events from one of that number on.
+Json json_of(const ExerciseCourse& course, std::size_t from) {
+    Json events = Json::array();
+    for (const ExerciseEvent& event : std::span(course.events).subspan(from))
+        events.push_back(
+            {{"what", event.what}, {"time_s", seconds(event.time_ns - course.begun_ns)}, {"force_N", event.force_N}});
+    return events;
+}
+
 }  // namespace
 
 Rehab::Rehab(std::unique_ptr<Exercise> exercise)
     : exercise_(std::move(exercise)), hand_(options_of(exercise_->settings())) {
-    auto made = bodies::SoftPart::create(exercise_->body());
-    BURIN_CHECK(made.has_value());
-    if (made) body_ = std::move(*made);
+    if (exercise_->has_body()) {
+        auto made = bodies::SoftPart::create(exercise_->body());
+        BURIN_CHECK(made.has_value());
+        if (made) body_ = std::move(*made);
+    }
     const SettingValues& values = exercise_->settings();
     range_ = range_of(values);
     asks_ = values.has("start") && values.number("start") == kStartsPressed;
@@ -206,11 +233,13 @@ void Rehab::on_loop_clock(std::vector<session::TrialMark>& trials, std::size_t f
 // In a break the hand holds what it would touch: what force there was fades out by the loop's own ramp.
 void Rehab::adjust(session::PartOfHand of, haptics::TickParameters& parameters) const {
     hand_.adjust(of, parameters);
+    exercise_->adjust(of.part, parameters);
     if (!gives_force()) parameters.holds = true;
 }
 
 // Has the world's own object give way to the body.
 void Rehab::take_over(const session::ActivityView& view, session::ActivityOrders& orders) {
+    if (!body_) return;
     const scene::SceneObject* own = view.world != nullptr ? view.world->find(body_->setup().object) : nullptr;
     if (own != nullptr && object_.empty()) {
         object_ = own->name;
@@ -246,6 +275,7 @@ void Rehab::carry(std::span<const session::HoldObject> holds, session::ActivityO
 }
 
 void Rehab::take_shape(const session::ActivityView& view) {
+    if (!body_) return;
     for (const auto& change : view.drawn)
         if (const auto* const shape = dynamic_cast<const bodies::SoftShape*>(change.get())) {
             drawn_ = renderer::smooth_mesh(shape->places_m, body_->triangles());
@@ -265,17 +295,43 @@ void Rehab::step(const session::ActivityView& view, session::ActivityOrders& ord
     const auto parts = view.hands.front().parts;
     if (parts.size() < kFelt) return;
     const bool holds = hand_.gesture().grasps() && !hand_.grasps().empty() && hand_.grasps().back().object == object_;
+    const std::uint32_t object = body_ ? body_->setup().object : kNoObject;
     each_turn(parts, [&](const FingerTicks& ticks) {
         const Nanoseconds now_ns = ticks[0]->time_ns;
         const double dt_s = turn_ns_ > 0 ? seconds(now_ns - turn_ns_) : 0.0;
         turn_ns_ = now_ns;
         const HandReading hand = reading_of(ticks);
-        const FingersTurn fingers = fingers_of(ticks, body_->setup().object, body_shares_, dt_s);
+        const FingersTurn fingers = fingers_of(ticks, object, body_shares_, dt_s);
         body_shares_ = fingers.body_shares;
         shown_ = shown_after(shown_, fingers);
-        turn({now_ns, holds, fingers, hand.scene_from_hand, range_.share_of(closure_of(hand)), lies_in_palm_m_},
+        turn({.time_ns = now_ns,
+              .grasped = holds,
+              .fingers = fingers,
+              .scene_from_hand = hand.scene_from_hand,
+              .closure = range_.share_of(closure_of(hand)),
+              .lies_in_palm_m = lies_in_palm_m_,
+              .tips_object_m = tips_of(ticks),
+              .away_ns = 0},
              orders);
     });
+    tell_keeper(orders);
+}
+
+void Rehab::tell_keeper(session::ActivityOrders& orders) {
+    if (!keeper_ || turn_ns_ == 0) return;
+    const ExerciseCourse course = exercise_->course();
+    const bool is_new = course.events.size() > kept_;
+    const bool goes_on = course.end == ExerciseEnd::not_yet;
+    const Nanoseconds since_ns = turn_ns_ - told_keeper_ns_;
+    const bool due = keeper_fails_ ? since_ns >= kTriesAgain_ns : is_new || (goes_on && since_ns >= kTells_ns);
+    if (!due) return;
+    told_keeper_ns_ = turn_ns_;
+    const Result<void> kept = keeper_(report(), json_of(course, kept_));
+    if (kept)
+        kept_ = course.events.size();
+    else if (!keeper_fails_)
+        orders.messages.push_back("the run is not kept as it goes: " + kept.error().line());
+    keeper_fails_ = !kept;
 }
 
 void Rehab::follow_most_force(const FingersTurn& fingers) {
@@ -399,8 +455,8 @@ std::uint64_t Rehab::check() const {
 
 // The body is put where the world's own object was among the others: so the hand's shadows find one there.
 void Rehab::stage(renderer::Scene& scene, std::size_t screen) const {
-    const std::size_t place = body_->setup().object - 1;
-    if (has_given_way_ && drawn_ && scene.objects.size() >= place) {
+    const std::size_t place = body_ ? body_->setup().object - 1 : 0;
+    if (body_ && has_given_way_ && drawn_ && scene.objects.size() >= place) {
         const auto srgb = exercise_->srgb();
         scene.objects.insert(
             scene.objects.begin() + static_cast<std::ptrdiff_t>(place),
@@ -414,7 +470,7 @@ void Rehab::stage(renderer::Scene& scene, std::size_t screen) const {
 Json Rehab::report() const {
     const ExerciseCourse course = exercise_->course();
     const SettingValues& values = exercise_->settings();
-    Json settings = Json::object(), counts = Json::object(), fingers = Json::array(), events = Json::array();
+    Json settings = Json::object(), counts = Json::object(), fingers = Json::array();
     for (const SettingKind& kind : values.kinds())
         if (kind.words.empty())
             settings[kind.key] = values.number(kind.key);
@@ -424,14 +480,11 @@ Json Rehab::report() const {
     for (std::size_t i = 0; i < kFingerNames.size(); ++i)
         fingers.push_back(json_of(measures_.fingers[i], kFingerNames[i],
                                   start_.asks[i] ? std::optional(start_.gave[i]) : std::nullopt));
-    for (const ExerciseEvent& event : course.events)
-        events.push_back(
-            {{"what", event.what}, {"time_s", seconds(event.time_ns - course.begun_ns)}, {"force_N", event.force_N}});
     const std::string why = failure();
     Json report{{"exercise", exercise_->name()},
                 {"settings", std::move(settings)},
-                {"young_Pa", body_->setup().material.young_Pa},
-                {"held_N_per_m", body_->setup().held_N_per_m},
+                {"young_Pa", body_ ? Json(body_->setup().material.young_Pa) : Json()},
+                {"held_N_per_m", body_ ? Json(body_->setup().held_N_per_m) : Json()},
                 {"ended", text_of(course.end)},
                 {"broken_off_because", why.empty() ? Json() : Json(why)},
                 {"pauses", control_.pauses},
@@ -442,10 +495,12 @@ Json Rehab::report() const {
                 {"time_s", course.time_s},
                 {"counts", std::move(counts)},
                 {"notes", course.notes},
-                {"person_range", person_range()},
+                {"person_range", exercise_->person_range().value_or(person_range())},
                 {"rejected_sets", hand_.rejected_sets()},
                 {"fingers", std::move(fingers)},
-                {"events", std::move(events)}};
+                {"events", json_of(course, 0)}};
+    if (const Json found = exercise_->findings(); !found.is_null()) report[exercise_->name()] = found;
+    if (!fitted_.is_null()) report["fitted_by"] = fitted_;
     report.update(told_);
     return report;
 }

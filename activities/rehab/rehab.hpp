@@ -6,12 +6,14 @@
 //                        -> the soft body, a part of the scene (bodies/soft_part.hpp) -> what the fingers feel of it
 //   the body's changes, with the update that the frame takes -> its picture
 //   the turns until each finger has pressed once -> the start, with a glove that is worn
+//   its events, as they come -> the keeper, which writes them down (activities/rehab/progress/run_journal.hpp)
 //   start, pause, rest, stop (activities/rehab/exercise/run_control.hpp) -> whether its clock goes on, with force
 //   the turns from then on until the exercise ends -> measures of the hand; course and measures -> report()
 // Frame: the scene's. One thread, the frame's; the body is the scene's.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -46,6 +48,17 @@ public:
 
     [[nodiscard]] const Exercise& exercise() const { return *exercise_; }
     [[nodiscard]] const HandMeasures& measures() const { return measures_; }
+    // Has a keeper told how far the run has come: with each event and, while it goes on, each kTells_ns besides, the
+    // report and the events since. What it cannot keep is told to the person, once, and tried again.
+    using Keeper = std::function<Result<void>(const Json& report, const Json& new_events)>;
+    void keep_with(Keeper keeper) { keeper_ = std::move(keeper); }
+    // Adds a fact of the run, which does not depend on it, to what a session file keeps of it.
+    void add_fact(std::string name, std::string value) { facts_.emplace_back(std::move(name), std::move(value)); }
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts() const override { return facts_; }
+
+    // Has report and panel say by what assessment it is fitted to the person: an object with a "text". It changes
+    // nothing: the settings have what came of it.
+    void fitted_by(Json assessment) { fitted_ = std::move(assessment); }
     // Adds what is told of the run besides, such as a comment, to its report.
     void describe(Json told) { told_ = std::move(told); }
     // Returns settings, score, counts, measures and events.
@@ -62,6 +75,7 @@ private:
     [[nodiscard]] bool has_started(const FingersTurn& fingers, session::ActivityOrders& orders);
     void follow_most_force(const FingersTurn& fingers);
     [[nodiscard]] Json person_range() const;
+    void tell_keeper(session::ActivityOrders& orders);
     void turn(ExerciseTurn turn, session::ActivityOrders& orders);
     // Carries out Start, Pause, Rest or Stop.
     [[nodiscard]] Result<void> follow(RunOrder order, session::ActivityOrders& orders);
@@ -76,6 +90,8 @@ private:
     [[nodiscard]] session::ActivityPanel::Task task() const;
     [[nodiscard]] std::vector<session::ActivityPanel::Table> tables() const;
     [[nodiscard]] std::vector<session::ActivityPanel::Button> buttons() const;
+
+    static constexpr Nanoseconds kTells_ns = 5'000'000'000, kTriesAgain_ns = 1'000'000'000;
 
     std::unique_ptr<Exercise> exercise_;
     Grasp hand_;
@@ -94,6 +110,12 @@ private:
     PersonRange range_;
     double smooth_sum_N_ = 0.0, most_together_N_ = 0.0;  // of all fingers, as measured, over kMostForce_s
     HandMeasures measures_;
+    Keeper keeper_;
+    std::size_t kept_ = 0;  // events
+    Nanoseconds told_keeper_ns_ = 0;
+    bool keeper_fails_ = false;
+    Json fitted_;  // null: by none
+    std::vector<std::pair<std::string, std::string>> facts_;
     RunControl control_;
     Json told_ = Json::object();
     FingersTurn shown_;                       // the last turn's, with forces that are slow enough to be read

@@ -121,14 +121,17 @@ ActivityPanel::Task Rehab::task() const {
 
 std::vector<ActivityPanel::Table> Rehab::tables() const {
     const ExerciseCourse course = exercise_->course();
-    const double limit_s = exercise_->settings().number("time_limit_s");
+    const SettingValues& values = exercise_->settings();
     ActivityPanel::Table run{"Course", {"", ""}, {}};
-    run.rows.push_back({"remaining", formatted("%.0f s", std::max(limit_s - course.time_s, 0.0))});
+    if (values.has("time_limit_s"))
+        run.rows.push_back(
+            {"remaining", formatted("%.0f s", std::max(values.number("time_limit_s") - course.time_s, 0.0))});
     run.rows.push_back({"score so far", formatted("%.0f of 100", course.score)});
     run.rows.push_back({"pauses", formatted("%u, %.0f s", control_.pauses, control_.paused_s)});
     run.rows.push_back({"rests", formatted("%u, %.0f s", control_.rests, control_.rested_s)});
     if (asks_) run.rows.push_back({"gave nothing at the start", start_.missing().empty() ? "none" : start_.missing()});
-    return {std::move(run), measures_table(measures_), device_table(shown_), settings_table(exercise_->settings())};
+    if (fitted_.is_object()) run.rows.push_back({"fitted by", fitted_.at("text").get<std::string>()});
+    return {std::move(run), measures_table(measures_), device_table(shown_), settings_table(values)};
 }
 
 std::vector<ActivityPanel::Button> Rehab::buttons() const {
@@ -156,8 +159,11 @@ ActivityPanel Rehab::panel() const {
             panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
         else if (count.number > 0)
             panel.rows.push_back({count.name, formatted("%u", count.number)});
-    panel.rows.push_back(
-        {"Time", formatted("%.0f of %.0f s", course.time_s, exercise_->settings().number("time_limit_s"))});
+    const SettingValues& values = exercise_->settings();
+    panel.rows.push_back({"Time", values.has("time_limit_s")
+                                      ? formatted("%.0f of %.0f s", course.time_s, values.number("time_limit_s"))
+                                      : formatted("%.0f s", course.time_s)});
+    if (fitted_.is_object()) panel.rows.push_back({"Fitted by", fitted_.at("text").get<std::string>()});
     if (course.end != ExerciseEnd::not_yet) panel.rows.push_back({"Score", formatted("%.0f of 100", course.score)});
     panel.buttons = buttons();
     panel.hides_scene = true;

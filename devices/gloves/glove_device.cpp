@@ -40,9 +40,11 @@ DeviceDescription glove_description(bool on_a_line) {
 
 class GloveParts {
 public:
-    GloveParts(std::unique_ptr<GloveLink> link, std::optional<GripShape> simulated, AnyHand hand, Clock& clock)
+    GloveParts(std::unique_ptr<GloveLink> link, std::optional<GripShape> simulated, AnyHand hand, Clock& clock,
+               std::optional<FingerCourse> course = std::nullopt)
         : link_(std::move(link)),
           simulated_(simulated),
+          course_(std::move(course)),
           hand_(std::move(hand)),
           clock_(clock),
           start_ns_(clock.now_ns()) {}
@@ -134,7 +136,8 @@ private:
     // Takes the simulated fingers on by so long.
     void close(double time_s) noexcept {
         expect(time_s);
-        grip_ = stepped(grip_, (buttons_ & 1u) != 0 ? 1.0 : 0.0, given_N_, time_s);
+        grip_ = course_ ? stepped(grip_, *course_, seconds(now_ns_ - start_ns_), given_N_, time_s)
+                        : stepped(grip_, (buttons_ & 1u) != 0 ? 1.0 : 0.0, given_N_, time_s);
         for (std::size_t i = 0; i < kGloveFingers; ++i) joints_[i] = bent_in(*simulated_, i, grip_.closed[i]);
         state_ = kDriveOn | kDriveMeasured;
         measured_N_ = given_N_;
@@ -242,6 +245,7 @@ private:
     const GloveHand& shape_ = usual_hand();
     std::unique_ptr<GloveLink> link_;     // null: there is no glove
     std::optional<GripShape> simulated_;  // none: it is no simulated one
+    std::optional<FingerCourse> course_;  // of a simulated one; none: its button closes it
     AnyHand hand_;
     Clock& clock_;
     Nanoseconds start_ns_, now_ns_ = 0;
@@ -269,6 +273,11 @@ private:
 
 OpenedDevice simulated_glove(GripShape shape, AnyHand hand, Clock& clock) {
     const auto all = std::make_shared<GloveParts>(nullptr, shape, std::move(hand), clock);
+    return of_parts(all, glove_description(false), kPistonNames);
+}
+
+OpenedDevice simulated_glove(FingerCourse course, AnyHand hand, Clock& clock) {
+    const auto all = std::make_shared<GloveParts>(nullptr, GripShape::whole, std::move(hand), clock, std::move(course));
     return of_parts(all, glove_description(false), kPistonNames);
 }
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/clock.hpp"
+#include "devices/gloves/finger_course.hpp"
 #include "devices/gloves/glove_hand.hpp"
 #include "devices/gloves/grip_shape.hpp"
 #include "devices/haptic/opened_device.hpp"
@@ -41,5 +42,7 @@ static_assert(kDriveSetRejected > kDriveLocal);
 // Looks for serial lines on which a glove may be. Opens none: that alone resets some controllers.
 [[nodiscard]] std::vector<DevicePresence> look_for_gloves();
 [[nodiscard]] OpenedDevice simulated_glove(GripShape shape, AnyHand hand, Clock& clock);
+// Its fingers follow a course from when it is opened, and no button.
+[[nodiscard]] OpenedDevice simulated_glove(FingerCourse course, AnyHand hand, Clock& clock);
 
 }  // namespace burin::devices

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "devices/drivers/dhd_device.hpp"
 #include "devices/drivers/omni_device.hpp"
@@ -74,9 +75,18 @@ Result<OpenedDevice> open_glove_at(HapticHost host, const std::string& port) {
 
 Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& shape) {
     const auto grip = shape.empty() ? GripShape::whole : grip_named(shape);
+    if (!grip && shape.ends_with(kFingerCourseFiles)) {
+        if (host.stands_in) return simulated_glove(GripShape::whole, std::move(host.hand), host.clock);
+        const Result<std::string> text = read_text_file(shape, kMostFingerCourseBytes);
+        if (!text) return std::unexpected(text.error());
+        Result<FingerCourse> course = parse_finger_course(*text, shape);
+        if (!course) return std::unexpected(course.error());
+        return simulated_glove(std::move(*course), std::move(host.hand), host.clock);
+    }
     if (!grip)
-        return fail("haptic device " + std::string(kSimulatedGlove), "closes in no way that is called " + shape,
-                    "write one of " + joined(kGripNames));
+        return fail(
+            "haptic device " + std::string(kSimulatedGlove), "closes in no way that is called " + shape,
+            "write one of " + joined(kGripNames) + ", or a file of its fingers' course, FILE" + kFingerCourseFiles);
     return simulated_glove(*grip, std::move(host.hand), host.clock);
 }
 
@@ -207,8 +217,10 @@ constexpr std::array kHapticKinds{
                .open = open_glove_at,
                .look = look_for_gloves},
     HapticKind{.name = kSimulatedGlove,
-               .usage = "the same without a line, in a simulated hand that the first button closes; "
-                        "simulated-glove:pinch or simulated-glove:point as it closes",
+               .usage =
+                   "the same without a line, in a simulated hand that the first button closes; "
+                   "simulated-glove:pinch or simulated-glove:point as it closes, simulated-glove:FILE.fingers as a "
+                   "file leads each finger",
                .parts = kGloveFingers,
                .is_upright = true,
                .is_worn = true,

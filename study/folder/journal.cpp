@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "base/append_file.hpp"
 #include "base/flush_folder.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
@@ -221,15 +222,10 @@ Result<void> append(const std::filesystem::path& file, Journal& journal, Json va
     const int handle = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
     if (handle < 0) return failed("cannot be opened");
     Result<void> done;
-    for (std::string_view rest = bytes; !rest.empty() && done;) {
-        const ssize_t written = ::write(handle, rest.data(), rest.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) {
-            journal.ends_within_line = journal.ends_within_line || rest.size() < bytes.size();
-            done = failed("cannot be written");
-        } else {
-            rest.remove_prefix(static_cast<std::size_t>(written));
-        }
+    if (const Appended appended = append_whole(handle, bytes); appended.error != 0) {
+        journal.ends_within_line = journal.ends_within_line || appended.has_begun;
+        errno = appended.error;
+        done = failed("cannot be written");
     }
     if (done && ::fdatasync(handle) != 0) done = failed("cannot be synced to the disk");
     ::close(handle);

@@ -91,6 +91,7 @@ TEST(PersonRange, LinesOfRecordingsThatLackItAreOfTheUsualHand) {
 TEST(PersonRange, OneThatLeavesNoWayIsRefusedWithTheArithmetic) {
     for (const ExerciseKind& kind : exercise_kinds()) {
         SettingValues values(kind.settings);
+        if (!values.has("open")) continue;  // an assessment measures it
         values.set("open", 0.5);
         values.set("closed", 0.625);
         const auto conflict = kind.conflict(values);

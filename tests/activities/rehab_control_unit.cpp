@@ -3,6 +3,7 @@
 // was under way counts for nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -182,6 +183,30 @@ TEST(RunControl, OfTheGameTakesBackAThrowThatIsInTheAir) {
     EXPECT_EQ(next.phase, GamePhase::waits);
     EXPECT_EQ(next.ball.place_m, room.serve_m);
     EXPECT_EQ(next.misses, 1u);
+}
+
+TEST(RehabRun, OfAnAssessmentHasNoBodyNorTimeLimitAndWaitsForStartAsTheOthersDo) {
+    const ExerciseKind& kind = *exercise_named("assess");
+    SettingValues values(kind.settings);
+    ASSERT_TRUE(values.set("start", "asked"));
+    Rehab rehab(kind.make(values));
+    rehab.fitted_by({{"text", "an assessment of before"}});
+    ActedHand hand;
+    hand.go_on(rehab, 100);
+    const Json report = rehab.report();
+    EXPECT_TRUE(report.at("young_Pa").is_null() && report.at("held_N_per_m").is_null());
+    EXPECT_EQ(report.at("pauses"), 0);
+    EXPECT_EQ(report.at("fitted_by").at("text"), "an assessment of before");
+    EXPECT_TRUE(report.at("assess").at("fingers").is_array());
+    EXPECT_EQ(report.at("time_s"), 0.0);
+    const session::ActivityPanel panel = rehab.panel();
+    EXPECT_EQ(panel.task->progress, "1 of 9");
+    const auto has_fitted = [](const auto& row) { return row.front() == "fitted by"; };
+    EXPECT_TRUE(std::ranges::any_of(panel.tables.front().rows, has_fitted));
+    session::ActivityOrders orders;
+    ASSERT_TRUE(rehab.act(std::vector<std::string>{"start"}, orders));
+    hand.go_on(rehab, 1001);
+    EXPECT_NEAR(rehab.report().at("time_s").get<double>(), 1.0, 1e-9);
 }
 
 TEST(RehabRun, WaitsForStartAndGivesNoForceBefore) {

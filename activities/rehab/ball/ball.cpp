@@ -57,24 +57,29 @@ std::span<const SettingKind> Ball::setting_kinds() {
         most_force_setting(),
         open_setting(),
         closed_setting(),
+        success_setting(),
+        begin_force_setting(),
     };
     return kinds;
 }
 
 BallSettings ball_settings(const SettingValues& values) {
-    return {static_cast<BallColour>(values.count("colour")),
-            values.count("level"),
-            values.count("repetitions"),
-            values.number("hold_s"),
-            values.number("time_limit_s"),
-            values.number("share"),
-            values.number("most_N")};
+    BallSettings settings{static_cast<BallColour>(values.count("colour")),
+                          values.count("level"),
+                          values.count("repetitions"),
+                          values.number("hold_s"),
+                          values.number("time_limit_s"),
+                          values.number("share"),
+                          values.number("most_N")};
+    if (values.number("success") > 0.0) settings.adapts = staircase_of(values, settings.target_N(), settings.most_N);
+    return settings;
 }
 
 std::unique_ptr<Exercise> Ball::make(const SettingValues& values) { return std::make_unique<Ball>(values); }
 
 std::optional<Error> Ball::conflict(const SettingValues& values) {
     if (auto wrong = too_short_a_way(values)) return wrong;
+    if (auto wrong = no_staircase(values)) return wrong;
     if (auto wrong = too_low_a_target(BallSettings::kOfMost[values.count("level") - 1], values.number("most_N")))
         return wrong;
     const BallSettings settings = ball_settings(values);
@@ -111,7 +116,7 @@ void Ball::interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) {
 }
 
 ExerciseGoal Ball::goal() const {
-    ExerciseGoal goal{settings_.target_N(), state_.smooth_N, settings_.of_each_N(), settings_.hold_s, 0.0, {}, {}};
+    ExerciseGoal goal{target_N(), state_.smooth_N, settings_.share * target_N(), settings_.hold_s, 0.0, {}, {}};
     goal.progress = formatted("%u of %u", state_.repetitions, settings_.repetitions);
     switch (state_.phase) {
         case BallPhase::begins:
@@ -129,7 +134,7 @@ ExerciseGoal Ball::goal() const {
 
 // A hand that is not closed by the range that is set does not grasp, and its force does not count.
 void Ball::follow_pressed_open(const ExerciseTurn& turn, session::ActivityOrders& orders) {
-    const bool presses = !turn.grasped && state_.phase == BallPhase::waits && state_.smooth_N >= settings_.target_N();
+    const bool presses = !turn.grasped && state_.phase == BallPhase::waits && state_.smooth_N >= target_N();
     const double before_s = pressed_open_s_;
     pressed_open_s_ = presses ? before_s + turn.fingers.dt_s : 0.0;
     if (before_s >= kPressedOpen_s || pressed_open_s_ < kPressedOpen_s) return;
@@ -148,13 +153,17 @@ void Ball::tell(const ExerciseEvent& event, session::ActivityOrders& orders) {
     if (event.what == ball_event::kReached)
         orders.trials.push_back({event.time_ns, formatted("squeeze %u", number + state_.too_short + 1)});
     if (counted || too_short || broken) orders.trials.push_back({event.time_ns, "", std::string(event.what)});
-    if (counted) orders.messages.push_back(formatted("squeeze %u of %u counted", number, settings_.repetitions));
+    const std::string adapted = settings_.adapts ? formatted("; the next with %.2f N", target_N()) : "";
+    if (counted)
+        orders.messages.push_back(formatted("squeeze %u of %u counted", number, settings_.repetitions) + adapted);
+    if (event.what == ball_event::kTooWeak) orders.messages.push_back("too weak" + adapted);
     if (event.what == ball_event::kUneven) {
         const std::size_t finger = state_.weakest_finger();
         orders.messages.push_back(formatted("the %s presses with %.2f N, and %.2f N is asked of each finger",
-                                            kFingerNames[finger], state_.smooth_each_N[finger], settings_.of_each_N()));
+                                            kFingerNames[finger], state_.smooth_each_N[finger],
+                                            settings_.share * target_N()));
     }
-    if (too_short) orders.messages.push_back("held too short; squeeze again");
+    if (too_short) orders.messages.push_back("held too short; squeeze again" + adapted);
 }
 
 ExerciseCourse Ball::course() const {
@@ -165,15 +174,22 @@ ExerciseCourse Ball::course() const {
                       "ball: it was not closed as open %g and closed %g have it, or not around the ball",
                       pressed_open_ == 1 ? "once" : formatted("%u times", pressed_open_).c_str(),
                       values_.number("open"), values_.number("closed")));
-    return {state_.end,
-            state_.begun_ns,
-            state_.time_s(),
-            score_of(state_, settings_),
-            {{"repetitions", "Squeezes", state_.repetitions, settings_.repetitions},
-             {"held_too_short", "Held too short", state_.too_short, 0},
-             {"grasps", "Grasps", state_.grasps, 0}},
-            events_,
-            std::move(notes)};
+    ExerciseCourse course{state_.end,
+                          state_.begun_ns,
+                          state_.time_s(),
+                          score_of(state_, settings_),
+                          {{"repetitions", "Squeezes", state_.repetitions, settings_.repetitions},
+                           {"held_too_short", "Held too short", state_.too_short, 0},
+                           {"grasps", "Grasps", state_.grasps, 0}},
+                          events_,
+                          std::move(notes)};
+    if (settings_.adapts) course.counts.push_back({"too_weak", "Too weak", state_.too_weak, 0});
+    return course;
+}
+
+Json Ball::findings() const {
+    if (!settings_.adapts) return {};
+    return {{"first_target_N", settings_.adapts->target_N}, {"next_target_N", target_N()}};
 }
 
 std::vector<std::string> Ball::help() const {
@@ -188,14 +204,18 @@ std::vector<std::string> Ball::help() const {
     if (settings_.share > 0.0)
         help.push_back(formatted("Each finger gives %.0f %% of the force or more: the others cannot do it for one.",
                                  100.0 * settings_.share));
+    if (settings_.adapts)
+        help.push_back(
+            "The force that is asked for rises after each squeeze that counts, and falls after one that is "
+            "held too short or too weak. One that a break has interrupted changes nothing.");
     return help;
 }
 
 std::string Ball::task() const {
     const std::string of_each =
-        settings_.share > 0.0 ? formatted(", %.1f N or more in each,", settings_.of_each_N()) : "";
-    return formatted("Squeeze the ball with %.3g N in all fingers together%s for %.1f s, then relax.",
-                     settings_.target_N(), of_each.c_str(), settings_.hold_s);
+        settings_.share > 0.0 ? formatted(", %.1f N or more in each,", settings_.share * target_N()) : "";
+    return formatted("Squeeze the ball with %.3g N in all fingers together%s for %.1f s, then relax.", target_N(),
+                     of_each.c_str(), settings_.hold_s);
 }
 
 }  // namespace burin::activities

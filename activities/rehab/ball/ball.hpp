@@ -27,7 +27,8 @@ public:
     [[nodiscard]] bodies::SoftPartSetup body() const override;
     [[nodiscard]] bool is_carried() const override { return true; }
     [[nodiscard]] std::array<double, 3> srgb() const override { return kind_of(settings_.colour).srgb; }
-    [[nodiscard]] double target_N() const override { return settings_.target_N(); }
+    [[nodiscard]] double target_N() const override { return target_N_of(state_, settings_); }
+    [[nodiscard]] Json findings() const override;
     void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) override;
     void interrupt(Nanoseconds time_ns, session::ActivityOrders& orders) override;
     [[nodiscard]] ExerciseGoal goal() const override;

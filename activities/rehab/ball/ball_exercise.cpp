@@ -18,7 +18,16 @@ constexpr std::array kBallKinds{
 
 double sum_of(const FingerForces& forces_N) { return std::accumulate(forces_N.begin(), forces_N.end(), 0.0); }
 
+void adapt(BallState& state, bool succeeded) {
+    if (state.staircase) state.staircase = after_trial(*state.staircase, succeeded);
+}
+
 }  // namespace
+
+double target_N_of(const BallState& state, const BallSettings& settings) {
+    if (state.staircase) return state.staircase->target_N;
+    return settings.adapts ? settings.adapts->target_N : settings.target_N();
+}
 
 std::array<BallKind, 4> ball_kinds() { return kBallKinds; }
 
@@ -37,7 +46,8 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
     BallStep step{state, {}};
     BallState& next = step.state;
     if (state.phase == BallPhase::ended) return step;
-    const double sum_N = sum_of(turn.fingers.forces_N), target_N = settings.target_N();
+    const double sum_N = sum_of(turn.fingers.forces_N), target_N = target_N_of(state, settings),
+                 of_each_N = settings.share * target_N;
     const double follows = 1.0 - std::exp(-turn.fingers.dt_s / BallState::kSmooths_s);
     next.smooth_N += (sum_N - state.smooth_N) * follows;
     for (std::size_t i = 0; i < next.smooth_each_N.size(); ++i)
@@ -48,6 +58,7 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
     if (state.phase == BallPhase::begins) {
         next.begun_ns = turn.time_ns;
         next.phase = BallPhase::waits;
+        next.staircase = settings.adapts;
         tell(ball_event::kBegun);
     }
     next.last_ns = turn.time_ns;
@@ -56,13 +67,12 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
         next.grasps += turn.grasped ? 1 : 0;
         tell(turn.grasped ? ball_event::kGrasped : ball_event::kLetGo);
     }
-    const bool kept =
-        turn.grasped && force_N >= BallState::kKept * target_N && least_N >= BallState::kKept * settings.of_each_N();
+    const bool kept = turn.grasped && force_N >= BallState::kKept * target_N && least_N >= BallState::kKept * of_each_N;
     if (force_N > BallState::kRelaxed * target_N) next.pressed_ns = turn.time_ns;
     const bool relaxed = seconds(turn.time_ns - next.pressed_ns) >= BallState::kRelaxes_s;
     if (next.phase == BallPhase::relaxes && (!turn.grasped || relaxed)) next.phase = BallPhase::waits;
     const bool reaches = next.phase == BallPhase::waits && turn.grasped && force_N >= target_N;
-    const bool uneven = reaches && least_N < settings.of_each_N();
+    const bool uneven = reaches && least_N < of_each_N;
     if (!uneven)
         next.uneven_since_ns = 0;
     else if (state.uneven_since_ns == 0)
@@ -80,12 +90,29 @@ BallStep step_ball(BallState state, const BallSettings& settings, const Exercise
     if (next.phase == BallPhase::holds && !kept) {
         next.phase = BallPhase::waits;
         ++next.too_short;
+        next.spent = true;
+        adapt(next, false);
         tell(ball_event::kTooShort);
     }
     if (next.phase == BallPhase::holds && seconds(turn.time_ns - next.held_since_ns) >= settings.hold_s) {
         next.phase = BallPhase::relaxes;
         ++next.repetitions;
+        adapt(next, true);
         tell(ball_event::kCounted);
+    }
+    if (next.staircase) {
+        const bool lets_off = relaxed || !turn.grasped;
+        if (next.phase != BallPhase::waits)
+            next.tried = false;
+        else if (turn.grasped && !next.spent && force_N > BallState::kRelaxed * target_N)
+            next.tried = true;
+        if (next.tried && lets_off) {
+            next.tried = false;
+            ++next.too_weak;
+            adapt(next, false);
+            tell(ball_event::kTooWeak);
+        }
+        if (lets_off) next.spent = false;
     }
     const bool done = next.repetitions >= settings.repetitions;
     if (!done && next.time_s() < settings.time_limit_s) return step;
@@ -105,6 +132,7 @@ BallStep interrupted(BallState state, Nanoseconds time_ns) {
     next.smooth_each_N = {};
     next.uneven_since_ns = 0;
     next.told_uneven = false;
+    next.tried = next.spent = false;  // a force that adapts stays as it is
     return step;
 }
 

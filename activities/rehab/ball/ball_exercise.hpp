@@ -8,6 +8,8 @@
 // Who lets the force, or a finger's share, sink below kKept of that before hold_s has passed has held too short: that
 // is counted too, and the time begins anew. Where a finger has kept the target from counting for kUneven_s, that is
 // told once a squeeze. It ends with the last repetition, or with the time limit.
+// A force may adapt (activities/rehab/adapt/staircase.hpp): a repetition is a trial that has succeeded, one held too
+// short has failed, and so has who presses with more than kRelaxed of the target and relaxes without having reached it.
 // Units: newtons, seconds; times of the loop's clock in nanoseconds. No heap but for the events; any thread.
 #pragma once
 
@@ -17,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "activities/rehab/adapt/staircase.hpp"
 #include "activities/rehab/exercise/exercise.hpp"
 #include "activities/rehab/exercise/person_range.hpp"
 #include "base/clock.hpp"
@@ -47,6 +50,8 @@ struct BallSettings {
 
     double most_N = 0.0;  // that the person presses with; 0: not known
 
+    std::optional<Staircase> adapts = std::nullopt;  // as it begins; none: the force stays
+
     [[nodiscard]] double target_N() const { return fitted_target_N(kTargets_N[level - 1], kOfMost[level - 1], most_N); }
     [[nodiscard]] double of_each_N() const { return share * target_N(); }
     bool operator==(const BallSettings&) const = default;
@@ -69,6 +74,9 @@ struct BallState {
     FingerForces smooth_each_N{};     // each finger's, likewise
     Nanoseconds uneven_since_ns = 0;  // the sum has reached the target, and a finger its share not; 0: it is not so
     bool told_uneven = false;         // in this squeeze
+    std::optional<Staircase> staircase = std::nullopt;  // of a force that adapts
+    bool tried = false, spent = false;  // in this squeeze: pressed with kRelaxed of the target; has failed already
+    unsigned too_weak = 0;              // where it adapts
 
     [[nodiscard]] double time_s() const { return seconds(last_ns - begun_ns); }
     [[nodiscard]] std::size_t weakest_finger() const;
@@ -78,10 +86,13 @@ struct BallState {
 // Names of the events of a ball exercise (ExerciseEvent::what).
 namespace ball_event {
 inline constexpr std::string_view kBegun = "begun", kGrasped = "grasped", kReached = "force reached",
-                                  kCounted = "counted", kTooShort = "held too short",
+                                  kCounted = "counted", kTooShort = "held too short", kTooWeak = "too weak",
                                   kUneven = "a finger gives too little", kLetGo = "let go", kDone = "done",
                                   kTimeOver = "time over", kInterrupted = "interrupted";
 }  // namespace ball_event
+
+// Returns the force that is asked for now.
+[[nodiscard]] double target_N_of(const BallState& state, const BallSettings& settings);
 
 struct BallStep {
     BallState state;

@@ -17,7 +17,9 @@
 #include "activities/rehab/measures/hand_measures.hpp"
 #include "activities/rehab/measures/start_check.hpp"
 #include "base/clock.hpp"
+#include "base/json.hpp"
 #include "bodies/soft_part.hpp"
+#include "haptics/channels.hpp"
 #include "session/state/activity.hpp"
 
 namespace burin::activities {
@@ -30,6 +32,8 @@ struct ExerciseTurn {
     Similarity scene_from_hand = {};  // of the hand that the joints tell
     double closure = 0.0;             // the mean of the fingers', as a share of the person's way (PersonRange)
     std::optional<Vec3> lies_in_palm_m = std::nullopt;  // of a held body's middle, by its newest shape
+    // Each fingertip, the middle of its points, in the frame in which ticks touch.
+    std::array<Vec3, devices::kGloveFingers> tips_object_m = {};
     Nanoseconds away_ns = 0;  // for how long its clock has stood still: the loop's is time_ns + away_ns
 };
 
@@ -78,6 +82,8 @@ public:
     [[nodiscard]] virtual const char* name() const = 0;  // "ball", as its kind has it
     [[nodiscard]] virtual const SettingValues& settings() const = 0;
 
+    // Returns whether it has a body at all; then what follows of one is not asked.
+    [[nodiscard]] virtual bool has_body() const { return true; }
     // The body that takes the place of the world's object of that number, and its colour.
     [[nodiscard]] virtual bodies::SoftPartSetup body() const = 0;
     [[nodiscard]] virtual std::array<double, 3> srgb() const = 0;
@@ -94,6 +100,9 @@ public:
     // keeps it, and orders what becomes of it by orders.on_scene alone: the body is the scene's thread's.
     virtual void begin(bodies::SoftPart& /*body*/, session::ActivityOrders& /*orders*/) {}
 
+    // Changes the parameters of a fingertip's next ticks. Asked again after a turn that orders so.
+    virtual void adjust(std::size_t /*finger*/, haptics::TickParameters& /*parameters*/) const {}
+
     // Goes on by a turn; whatever comes after the end changes nothing.
     virtual void turn(const ExerciseTurn& turn, session::ActivityOrders& orders) = 0;
     // Breaks off what is under way, such as a squeeze, since the person pauses: it counts for nothing. What has been
@@ -103,6 +112,10 @@ public:
     [[nodiscard]] virtual ExerciseEnd end() const = 0;
     [[nodiscard]] virtual ExerciseCourse course() const = 0;
     [[nodiscard]] virtual std::string task() const = 0;  // for the person: a sentence or two
+    // Returns what it has found besides, for the report, under its name; null: nothing.
+    [[nodiscard]] virtual Json findings() const { return {}; }
+    // Returns the person's range (person_range.hpp) where the exercise measures it by itself.
+    [[nodiscard]] virtual std::optional<Json> person_range() const { return std::nullopt; }
     // Returns what it is for, what counts, and what does not: a paragraph each.
     [[nodiscard]] virtual std::vector<std::string> help() const { return {}; }
 };

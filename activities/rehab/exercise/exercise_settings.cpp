@@ -66,6 +66,7 @@ SettingKind start_setting() {
 
 SettingValues::SettingValues(std::span<const SettingKind> kinds) : kinds_(kinds) {
     for (const SettingKind& kind : kinds) values_.push_back(kind.usual);
+    was_set_.resize(values_.size());
 }
 
 bool SettingValues::has(std::string_view key) const {
@@ -97,6 +98,7 @@ Result<void> SettingValues::set(std::string_view key, std::string_view word) {
     const auto known = std::ranges::find(kind.words, word);
     if (known == kind.words.end()) return fail(kind.key, "is " + std::string(word), "there are " + known_words(kind));
     values_[index] = static_cast<double>(known - kind.words.begin());
+    was_set_[index] = true;
     return {};
 }
 

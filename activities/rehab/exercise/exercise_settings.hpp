@@ -60,9 +60,15 @@ public:
     [[nodiscard]] std::string text(std::size_t kind) const;
 
     // Sets a value of any size. problems() says what cannot be.
-    void set(std::string_view key, double value) { values_[index_of(key)] = value == 0.0 ? 0.0 : value; }  // no -0
+    void set(std::string_view key, double value) {
+        values_[index_of(key)] = value == 0.0 ? 0.0 : value;  // no -0
+        was_set_[index_of(key)] = true;
+    }
     // Fails on a word that there is not.
     [[nodiscard]] Result<void> set(std::string_view key, std::string_view word);
+
+    // Returns whether somebody has set it, be it to what is usual.
+    [[nodiscard]] bool was_set(std::string_view key) const { return was_set_[index_of(key)]; }
 
     // Leaves a setting out of line_of(), as in the recording that it comes from.
     void leave_out(std::string_view key) { left_out_.push_back(index_of(key)); }
@@ -76,6 +82,7 @@ private:
 
     std::span<const SettingKind> kinds_;
     std::vector<double> values_;
+    std::vector<bool> was_set_;
     std::vector<std::size_t> left_out_;  // by their numbers
 };
 

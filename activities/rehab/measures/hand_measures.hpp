@@ -45,6 +45,8 @@ struct FingersTurn {
         measured_N{};                                          // that it gives of these, where it measures that
     FingerForces elsewhere_N{};                                // that it was told to give of anything else
     std::array<double, devices::kGloveFingers> body_shares{};  // of what it was told, that is the body's
+    // All that it gives, where it measures that, whoever's it is.
+    std::array<std::optional<double>, devices::kGloveFingers> drive_N{};
 };
 
 // A mean force is over the time in which the finger was told to be pushed at all: by more than kPushed_N; the measured

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int kVersion = 1;
 constexpr std::uint64_t kMostBytes = 8 << 20;  // hours of events
 
-std::string folder_name(unsigned participant) { return formatted("participant-%03u", participant); }
+std::string folder_name(unsigned participant) { return kParticipantFolders + formatted("%03u", participant); }
 
 fs::path folder_of(const fs::path& folder, unsigned participant) { return folder / folder_name(participant); }
 
@@ -71,9 +71,12 @@ bool is_report(const Json& report) {
     if (!(score >= 0.0 && score <= 100.0) || !(time_s >= 0.0 && time_s < 1e6)) return false;
     const ExerciseKind* const kind = exercise_named(report.at("exercise").get<std::string>());
     const Json* const level = find_value(report, "/settings/level");
-    if (kind == nullptr || level == nullptr || !level->is_number()) return false;
-    const double number = level->get<double>();
-    if (!(number >= 1.0 && number <= levels_of(kind->name)) || number != std::floor(number)) return false;
+    if (kind == nullptr) return false;
+    if (levels_of(kind->name) > 0) {
+        if (level == nullptr || !level->is_number()) return false;
+        const double number = level->get<double>();
+        if (!(number >= 1.0 && number <= levels_of(kind->name)) || number != std::floor(number)) return false;
+    }
     const Json* const fingers = find_value(report, "/fingers");
     return fingers != nullptr && fingers->is_array() && !fingers->empty() &&
            std::ranges::all_of(*fingers, [](const Json& finger) {
@@ -81,37 +84,6 @@ bool is_report(const Json& report) {
                return name != nullptr &&
                       std::ranges::find(kFingerNames, name->get<std::string>()) != kFingerNames.end();
            });
-}
-
-Result<KeptRun> run_of(const fs::path& path) {
-    const Result<std::string> text = read_text_file(path, kMostBytes);
-    if (!text) return std::unexpected(text.error());
-    const Json json = Json::parse(*text, nullptr, false);
-    if (json.is_discarded())
-        return fail(path.string(), "is cut or damaged: it is not whole JSON", "mend it, or take it out of the folder");
-    const auto other = [&](const char* what) {
-        return fail(path.string(), std::string("is no run of an exercise: ") + what, "take it out of the folder");
-    };
-    if (!json.is_object()) return other("it is no object");
-    const auto version = json.find("run");
-    if (version == json.end() || !version->is_number_integer()) return other("it has no number \"run\"");
-    if (*version != kVersion) return other("it is of another version");
-    const auto participant = json.find("participant");
-    if (participant == json.end() || !participant->is_number_unsigned() || *participant < 1u ||
-        *participant > KeptRun::kMostParticipants)
-        return other("its participant is none");
-    const Json *const date = text_at(json, "date"), *const time = text_at(json, "time"),
-                      *const hand = text_at(json, "hand");
-    if (date == nullptr || time == nullptr || hand == nullptr) return other("date, time or hand are missing");
-    KeptRun run{
-        participant->get<unsigned>(), date->get<std::string>(), time->get<std::string>(), hand->get<std::string>(), {}};
-    if (!calendar_day(run.date) || !is_time(run.time)) return other("its date or its time is none");
-    const auto report = json.find("report");
-    if (report == json.end() || !is_report(*report)) return other("its report is not whole");
-    run.report = *report;
-    if (path.parent_path().filename().string() != folder_name(run.participant))
-        return other("it is of a participant whose folder is another");
-    return run;
 }
 
 }  // namespace
@@ -125,6 +97,83 @@ int day_of(const std::string& date) {
     const auto day = calendar_day(date);
     BURIN_CHECK(day.has_value());
     return day ? static_cast<int>(day->time_since_epoch().count()) : 0;
+}
+
+std::unexpected<Error> written_by_newer(const std::string& name, const char* key, int version, int known) {
+    return fail(name,
+                formatted("was written by a newer version of this program: \"%s\" is %d, and this one reads %d", key,
+                          version, known),
+                "open the folder with that version; here it stays as it is");
+}
+
+Result<KeptRun> run_of_json(const Json& json, const std::string& name) {
+    const auto other = [&](const char* what) {
+        return fail(name, std::string("is no run of an exercise: ") + what, "take it out of the folder");
+    };
+    if (!json.is_object()) return other("it is no object");
+    const auto participant = json.find("participant");
+    if (participant == json.end() || !participant->is_number_unsigned() || *participant < 1u ||
+        *participant > KeptRun::kMostParticipants)
+        return other("its participant is none");
+    const Json *const date = text_at(json, "date"), *const time = text_at(json, "time"),
+                      *const hand = text_at(json, "hand");
+    if (date == nullptr || time == nullptr || hand == nullptr) return other("date, time or hand are missing");
+    KeptRun run{
+        participant->get<unsigned>(), date->get<std::string>(), time->get<std::string>(), hand->get<std::string>(), {}};
+    if (!calendar_day(run.date) || !is_time(run.time)) return other("its date or its time is none");
+    const auto report = json.find("report");
+    if (report == json.end() || !is_report(*report)) return other("its report is not whole");
+    run.report = *report;
+    return run;
+}
+
+Result<KeptRun> read_run(const fs::path& path) {
+    const Result<std::string> text = read_text_file(path, kMostBytes);
+    if (!text) return std::unexpected(text.error());
+    const Json json = Json::parse(*text, nullptr, false);
+    if (json.is_discarded())
+        return fail(path.string(), "is cut or damaged: it is not whole JSON", "mend it, or take it out of the folder");
+    const auto version = json.is_object() ? json.find("run") : json.end();
+    if (version != json.end() && version->is_number_integer() && *version > kVersion)
+        return written_by_newer(path.string(), "run", version->get<int>(), kVersion);
+    if (json.is_object() && (version == json.end() || !version->is_number_integer() || *version != kVersion))
+        return fail(path.string(), "is no run of an exercise: it has no number \"run\" that is 1",
+                    "take it out of the folder");
+    Result<KeptRun> run = run_of_json(json, path.string());
+    if (run && path.parent_path().filename().string() != folder_name(run->participant))
+        return fail(path.string(), "is no run of an exercise: it is of a participant whose folder is another",
+                    "take it out of the folder");
+    return run;
+}
+
+fs::path participant_folder(const fs::path& folder, unsigned participant) { return folder_of(folder, participant); }
+
+std::string run_name(const KeptRun& run) {
+    std::string moment = run.date + "T" + run.time;
+    std::ranges::replace(moment, ':', '-');
+    return moment + "-" + run.report.at("exercise").get<std::string>();
+}
+
+fs::path free_run_file(const fs::path& folder, const KeptRun& run) {
+    const std::string name = run_name(run);
+    const fs::path own = folder_of(folder, run.participant);
+    fs::path path = own / (name + ".json");
+    std::error_code ignored;
+    const auto is_taken = [&] {
+        return fs::exists(path, ignored) || fs::exists(fs::path(path).replace_extension(".journal"), ignored);
+    };
+    for (int n = 2; is_taken(); ++n) path = own / formatted("%s-%d.json", name.c_str(), n);
+    return path;
+}
+
+Result<void> write_run(const fs::path& file, const KeptRun& run) {
+    const std::string text = json_text({{"run", kVersion},
+                                        {"participant", run.participant},
+                                        {"date", run.date},
+                                        {"time", run.time},
+                                        {"hand", run.hand},
+                                        {"report", run.report}});
+    return write_private(file, text);
 }
 
 Result<void> prepare_results(const fs::path& folder, unsigned participant) {
@@ -145,20 +194,8 @@ Result<void> prepare_results(const fs::path& folder, unsigned participant) {
 }
 
 Result<fs::path> keep_run(const fs::path& folder, const KeptRun& run) {
-    std::string moment = run.date + "T" + run.time;
-    std::ranges::replace(moment, ':', '-');
-    const std::string name = moment + "-" + run.report.at("exercise").get<std::string>();
-    fs::path path = folder_of(folder, run.participant) / (name + ".json");
-    std::error_code ignored;
-    for (int n = 2; fs::exists(path, ignored); ++n)
-        path = folder_of(folder, run.participant) / formatted("%s-%d.json", name.c_str(), n);
-    const std::string text = json_text({{"run", kVersion},
-                                        {"participant", run.participant},
-                                        {"date", run.date},
-                                        {"time", run.time},
-                                        {"hand", run.hand},
-                                        {"report", run.report}});
-    if (const auto written = write_private(path, text); !written) return std::unexpected(written.error());
+    fs::path path = free_run_file(folder, run);
+    if (const auto written = write_run(path, run); !written) return std::unexpected(written.error());
     return path;
 }
 
@@ -171,7 +208,7 @@ Result<KeptRuns> read_runs(const fs::path& folder) {
          !error && at != end; at.increment(error)) {
         if (at.depth() >= 1) at.disable_recursion_pending();
         if (at.depth() == 1 && at->path().extension() == ".json" &&
-            at->path().parent_path().filename().string().starts_with("participant-"))
+            at->path().parent_path().filename().string().starts_with(kParticipantFolders))
             files.push_back(at->path());
     }
     if (error) return fail(folder.string(), "cannot be read: " + error.message(), "see to its permissions");
@@ -182,7 +219,7 @@ Result<KeptRuns> read_runs(const fs::path& folder) {
     });
     KeptRuns kept;
     for (const fs::path& file : files) {
-        Result<KeptRun> run = run_of(file);
+        Result<KeptRun> run = read_run(file);
         const auto is_same = [&](const KeptRun& other) {
             return run && other.participant == run->participant && other.date == run->date && other.time == run->time &&
                    other.report == run->report;

@@ -36,6 +36,21 @@ struct KeptRun {
 // Writes the run into a file of its own; returns its path. Overwrites nothing.
 [[nodiscard]] Result<std::filesystem::path> keep_run(const std::filesystem::path& folder, const KeptRun& run);
 
+// For the journal of a run that is under way (run_journal.hpp), which is a file of the same name.
+inline constexpr const char* kParticipantFolders = "participant-";  // how their names begin
+[[nodiscard]] std::filesystem::path participant_folder(const std::filesystem::path& folder, unsigned participant);
+// Returns the name of its file by date, time and exercise, without what tells runs of one second apart.
+[[nodiscard]] std::string run_name(const KeptRun& run);
+// Returns a file for the run, beside which there is none of that name but for the extension.
+[[nodiscard]] std::filesystem::path free_run_file(const std::filesystem::path& folder, const KeptRun& run);
+// Writes the run into that file, all of it or nothing.
+[[nodiscard]] Result<void> write_run(const std::filesystem::path& file, const KeptRun& run);
+[[nodiscard]] Result<KeptRun> read_run(const std::filesystem::path& file);
+// Returns the run that a file holds, but for its version; name: the file's, for messages.
+[[nodiscard]] Result<KeptRun> run_of_json(const Json& json, const std::string& name);
+// The failure of a file that a newer version has written: of the number at a key, and the one that this version has.
+[[nodiscard]] std::unexpected<Error> written_by_newer(const std::string& name, const char* key, int version, int known);
+
 // All runs of a folder that can be read, by participant and then in order of time; and what is wrong with the others.
 struct KeptRuns {
     std::vector<KeptRun> runs;

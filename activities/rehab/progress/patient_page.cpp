@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "activities/rehab/measures/hand_measures.hpp"
+#include "activities/rehab/progress/baseline.hpp"
 #include "activities/rehab/progress/line_fit.hpp"
 #include "base/plot/figures.hpp"
 #include "base/plot/html.hpp"
@@ -41,12 +42,6 @@ double number_at(const Json& json, const char* key) {
 std::string text_of(const Json& json, const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-// Runs of before there was a side were a right hand's.
-std::string side_of(const KeptRun& run) {
-    const std::string side = text_of(run.report, "side");
-    return side.empty() ? "right" : side;
 }
 
 // Returns the range of motion of a finger: the sum of its three joints that bend, in degrees.
@@ -288,6 +283,7 @@ std::string section_of(const std::string& exercise, const Runs& runs, LevelsOf l
         html += "<p class=\"warning\">" +
                 plot::escaped(texts.filled("scripted", {{"count", std::to_string(scripted)}})) + "</p>\n";
     html += element("p", proposal_text(proposed(runs, levels(exercise)), texts) + " " + texts.text("settings_stay"));
+    if (exercise == "assess") html += baseline_table(runs, texts);
     return html + figures_of(runs, texts) + dose_of(runs, texts) + change_of(runs, texts) + table_of(runs, texts);
 }
 

@@ -2,6 +2,7 @@
 #include "activities/rehab/progress/progress.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -47,12 +48,26 @@ bool have_same_settings(const KeptRun& one, const KeptRun& other) {
         first.erase("start");
         second.erase("start");
     }
+    // A limit that was not reached, and where a force that adapts begins, make no other exercise.
+    for (const char* key : {"time_limit_s", "begin_N"}) {
+        first.erase(key);
+        second.erase(key);
+    }
     return first.size() == second.size() && std::ranges::all_of(first.items(), [&](const auto& setting) {
                return find_value(second, "/" + setting.key()) != nullptr && second.at(setting.key()) == setting.value();
            });
 }
 
 }  // namespace
+
+std::optional<double> adapted_target_N(std::span<const KeptRun> runs, unsigned participant, std::string_view exercise) {
+    for (const KeptRun& run : runs | std::views::reverse) {
+        if (run.participant != participant || run.report.at("exercise") != std::string(exercise)) continue;
+        const Json* const next = find_value(run.report, "/" + std::string(exercise) + "/next_target_N");
+        if (next != nullptr && next->is_number()) return next->get<double>();
+    }
+    return std::nullopt;
+}
 
 Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
     std::vector<const KeptRun*> runs(all.begin(), all.end());

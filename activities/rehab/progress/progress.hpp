@@ -3,15 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "activities/rehab/progress/kept_run.hpp"
 
 namespace burin::activities {
 
-// A level is proposed where the last kRuns runs that were carried to an end, all with the same settings, agree: the
+// A level is proposed where the last kRuns runs that were carried to an end, all with the same settings but for their
+// time limits and where a force that adapts began, agree: the
 // next higher where each scored kWell or more, the next lower where none scored more than kBadly.
 struct Proposal {
     static constexpr std::size_t kRuns = 3;
@@ -27,6 +30,11 @@ struct Proposal {
 };
 // levels: how many the exercise has. The runs are one participant's, of one exercise, in order of time; at least one.
 [[nodiscard]] Proposal proposed(std::span<const KeptRun* const> runs, unsigned levels);
+
+// Returns the force with which the last of a participant's runs of an exercise, in order of time, would have gone on,
+// whether it was carried to its end or not; nothing where none has adapted it.
+[[nodiscard]] std::optional<double> adapted_target_N(std::span<const KeptRun> runs, unsigned participant,
+                                                     std::string_view exercise);
 
 // Returns the runs that were carried to an end with the settings of the last of them, in order; a setting that a run
 // lacks counts as its default. Of one participant's runs of one exercise.

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "activities/rehab/progress/withdrawal.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <span>
 #include <system_error>
 
 #include "activities/rehab/progress/kept_run.hpp"
+#include "activities/rehab/progress/run_journal.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "base/text.hpp"
@@ -28,6 +32,14 @@ Result<void> write_list(const fs::path& folder, const Withdrawals& withdrawals) 
     return write_private(list_of(folder), json_text({{"withdrawn", std::move(list)}}));
 }
 
+// Brings a folder's names to the disk. One that cannot be opened has been written to all the same.
+void flush_to_disk(const fs::path& folder) {
+    const int opened = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0) return;
+    ::fsync(opened);
+    ::close(opened);
+}
+
 }  // namespace
 
 Result<void> make_private(const fs::path& place) {
@@ -40,13 +52,32 @@ Result<void> make_private(const fs::path& place) {
                 "keep results in a folder of your own, on a disk that knows owners");
 }
 
-// An existing file keeps its permissions when it is written anew: so it is made, empty, before there is anything in it.
+// An existing file keeps its permissions when it is written anew. A new one is made, empty, under a name that nobody
+// reads, before there is anything in it; so it is never found without its text.
 Result<void> write_private(const fs::path& file, const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
     std::error_code error;
-    if (!fs::exists(file, error))
-        if (const auto made = write_file_atomically(file, {}); !made) return made;
-    if (const auto own = make_private(file); !own) return own;
-    return write_file_atomically(file, std::as_bytes(std::span(text)));
+    if (fs::exists(file, error)) {
+        if (const auto own = make_private(file); !own) return own;
+        return write_file_atomically(file, bytes);
+    }
+    if (const auto possible = check_writable(file); !possible) return possible;
+    const fs::path part =
+        file.parent_path() / formatted(".%s.%ld.part", file.filename().c_str(), static_cast<long>(::getpid()));
+    auto written = write_file_atomically(part, {});
+    if (written) written = make_private(part);
+    if (written) written = write_file_atomically(part, bytes);
+    if (written) {
+        fs::rename(part, file, error);
+        if (error)
+            written = fail(file.string(), "cannot be written: " + error.message(), "see to its folder's permissions");
+    }
+    if (!written) {
+        fs::remove(part, error);
+        return fail(file.string(), written.error().what, written.error().remedy);
+    }
+    flush_to_disk(file.parent_path());
+    return {};
 }
 
 Result<Withdrawals> read_withdrawals(const fs::path& folder) {
@@ -94,6 +125,9 @@ Result<void> withdraw(const fs::path& folder, unsigned participant, const std::s
     if (erase && fs::is_symlink(own, error))
         return fail(own.string(), "is a link, so that the runs themselves would stay",
                     "put the folder in the link's place, or erase it by hand where it is");
+    Result<session::DocumentLock> lock;  // whoever does an exercise now would write it down after this
+    if (is_there) lock = take_participant(folder, participant);
+    if (!lock) return std::unexpected(lock.error());
     if (told == withdrawals->end())
         withdrawals->push_back({participant, date, erase});
     else

@@ -3,6 +3,7 @@
 // `erase` nothing of the runs is left either. That a number has withdrawn, and when, stays: it is given to nobody else.
 //
 //   FOLDER/withdrawn.json: {"withdrawn": [{"participant": 7, "date": "2026-11-03", "erased": true}]}
+// Nobody withdraws while an exercise is under way. A run that was killed (run_journal.hpp) is taken up no more.
 // It is told before it is done, so that what a power cut leaves is erased when it is asked for again.
 // Failure: an Error that names the file. One at a time in a folder.
 #pragma once
