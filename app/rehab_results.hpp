@@ -24,7 +24,8 @@ struct ResultsOptions {
 };
 void add_results_options(Command command, ResultsOptions& options);
 
-// Checks the options, and that the participant has not withdrawn. scripted: no person does it. recording: it is done again by one, which says whose it is.
+// Checks the options, and that the participant has not withdrawn. scripted: no person does it.
+// recording: it is done again by one, which says whose it is.
 [[nodiscard]] Result<void> check_results(const ResultsOptions& options, bool scripted, const std::string& recording);
 // Returns the baseline of the participant in the folder of results; nothing where there is none, or no folder yet.
 [[nodiscard]] Result<std::optional<activities::Baseline>> baseline_in(const ResultsOptions& options);

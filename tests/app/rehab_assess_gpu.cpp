@@ -78,9 +78,12 @@ TEST_F(RehabAssessments, MeasureAWeakHandAsItsCourseForetellsAndFitTheExercisesT
     EXPECT_NEAR(report.at("assess").at("strength_together_N").get<double>(), together_N, 0.06);
 
     const Json& range = report.at("person_range");
-    const std::string page = at.read("results/report.html");
-    EXPECT_TRUE(page.contains("Participant 7: Assess"));
-    EXPECT_TRUE(page.contains("Baseline: the assessment of")) << page.substr(0, 3000);
+    EXPECT_TRUE(at.read("results/report.html").contains("participant-007/progress.html"));
+    const std::string page = at.read("results/participant-007/progress.html");
+    EXPECT_TRUE(page.contains("<h2>Assessment</h2>"));
+    EXPECT_TRUE(page.contains("go by the assessment of")) << page.substr(0, 3000);
+    EXPECT_EQ(report.at("side"), "right");
+    EXPECT_TRUE(report.at("held_N_per_m").is_null());
 
     const std::string ball = "ball --hand scripted --repetitions 1 --hold 0.1 --time-limit 6 --level 1 --share 0";
     const Json fitted = report_of(ball + kept_for(7));

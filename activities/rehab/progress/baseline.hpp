@@ -38,8 +38,9 @@ struct FittedValues {
 // Says so in a line: "the assessment of 2026-11-03 10:15:00: open 0.1, closed 0.45, most_N 3.2".
 [[nodiscard]] std::string text_of(const Baseline& baseline, const FittedValues& fitted);
 
-// Returns a hand's assessments as a table for the page, in its language, under a title: range, strength, speed and fractionation of each finger,
-// of the first as of the newest. The runs are assessments, in order of time; at least one.
+// Returns a hand's assessments as a table for the page, in its language, under a title: range, strength, speed and
+// fractionation of each finger, of the first as of the newest. The runs are assessments, in order of time; at least
+// one.
 [[nodiscard]] std::string baseline_table(std::span<const KeptRun* const> runs, const PageTexts& texts);
 
 }  // namespace burin::activities
