@@ -282,8 +282,8 @@ std::string section_of(const std::string& exercise, const Runs& runs, LevelsOf l
     if (scripted > 0)
         html += "<p class=\"warning\">" +
                 plot::escaped(texts.filled("scripted", {{"count", std::to_string(scripted)}})) + "</p>\n";
-    if (levels(exercise) > 0)
-        html += element("p", proposal_text(proposed(runs, levels(exercise)), texts) + " " + texts.text("settings_stay"));
+    if (const unsigned known = levels(exercise); known > 0)
+        html += element("p", proposal_text(proposed(runs, known), texts) + " " + texts.text("settings_stay"));
     if (exercise == "assess") html += baseline_table(runs, texts);
     return html + figures_of(runs, texts) + dose_of(runs, texts) + change_of(runs, texts) + table_of(runs, texts);
 }
