@@ -67,7 +67,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     watch(input.time_ns);
     if (input.time_ns - edits_noted_ns_ >= kEditsNoted_ns) {
         edits_noted_ns_ = input.time_ns;
-        note_edits(state_.world.get());
+        note_edits(state_.world.get(), give);
     }
     if (state_.world) tell_work();
     watch_journal(give);
@@ -172,7 +172,7 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
 void LiveSession::save(const AskedSave& wanted, const Give& give) {
     if (!files_.write()) return;
     news_of_document_.save_ordered();
-    note_edits(wanted.world.get());  // so that a save that fails leaves them in the journal
+    note_edits(wanted.world.get(), give);  // so that a save that fails leaves them in the journal
     document::SaveRequest request = document_.request(wanted, files_, options_, saved_content());
     if (wanted.world && !request.refused)
         request.content.parts.push_back(saved_world_.save(*wanted.world, !request.changed_alone));
@@ -203,20 +203,22 @@ void LiveSession::keep_journal(const std::string& folder) {
         });
 }
 
-// Notes for the journal what was done to objects.
-void LiveSession::note_edits(const WorldObjects* world) {
+// Notes for the journal what was done to objects. By way of the scene's thread, as saves go: one that was asked for
+// before would take the place of what was noted since.
+void LiveSession::note_edits(const WorldObjects* world, const Give& give) {
     if (world == nullptr || !state_.saves || options_.live.journal.empty()) return;
     std::optional<scene::Pages> change = saved_world_.take_change(*world);
     if (!change) return;
     if (std::exchange(begins_journal_, false)) keep_journal(options_.live.journal);
-    document_.writer().note({.part = state_.carves ? 1 : 0, .pages = std::move(*change)});
+    give(scene_.noting({.part = state_.carves ? 1 : 0, .pages = std::move(*change)}, document_.writer()));
 }
 
 // What was done to objects and is not noted yet will be the next change.
 void LiveSession::tell_work() {
     if (!news_of_document_.tells()) return;
-    const bool waits = state_.world && saved_world_.has_change(*state_.world);
-    news_of_document_.work_is(work_state(), undoable_ + state_.edits.undoable(), document_.noted() + (waits ? 1 : 0));
+    std::int64_t not_noted = scene_.to_be_noted();  // before those that are: one more is told of later, none too early
+    if (state_.world && saved_world_.has_change(*state_.world)) ++not_noted;
+    news_of_document_.work_is(work_state(), undoable_ + state_.edits.undoable(), document_.noted() + not_noted);
 }
 
 std::vector<CommandInput> LiveSession::take_told() {
@@ -320,7 +322,7 @@ void LiveSession::stand_on_plinth(renderer::Scene& scene) const {
 
 void LiveSession::finish_scene() {
     scene_.service().finish();
-    note_edits(state_.world.get());
+    note_edits(state_.world.get(), [](const SceneSide::Order& order) { order(); });
     document_.finish();
     for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
     if (const std::string kept = document_.end_journal(state_.discards); !kept.empty())

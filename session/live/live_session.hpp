@@ -182,7 +182,7 @@ private:
     [[nodiscard]] document::Content saved_content() const;
     [[nodiscard]] std::uint64_t work_state() const;
     void keep_journal(const std::string& folder);
-    void note_edits(const WorldObjects* world);
+    void note_edits(const WorldObjects* world, const Give& give);
     void tell_work();
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void switch_amplifiers(const AskedAmplifiers& asked);

@@ -4,6 +4,8 @@
 // Threads: opened and asked by the frame's; orders are carried out, and collect() is called, by the scene's.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -50,6 +52,10 @@ public:
     // Adds the pages of the workpiece, before those of the request, and has all saved; where that cannot be, nothing
     // is.
     [[nodiscard]] Order saving(document::SaveRequest request, document::DocumentWriter& writer);
+    // Notes a change for the journal, in its turn among the saves.
+    [[nodiscard]] Order noting(document::Change change, document::DocumentWriter& writer);
+    // Returns how many changes have been ordered so and are not noted yet.
+    [[nodiscard]] std::int64_t to_be_noted() const { return to_be_noted_.load(std::memory_order_relaxed); }
     // Has a journal begin anew with the workpiece as it is then, before what is in the content, unless a stroke goes
     // on.
     [[nodiscard]] Order journalling(document::Content content, document::DocumentWriter& writer);
@@ -79,7 +85,8 @@ private:
     std::unique_ptr<WorldSide> world_;
     std::optional<scene::SceneService> service_;
     SceneNews news_;
-    std::vector<double> spreads_m_;       // of each hand, as the scene's thread has been told
+    std::vector<double> spreads_m_;  // of each hand, as the scene's thread has been told
+    std::atomic<std::int64_t> to_be_noted_ = 0;
     std::vector<double> tools_around_m_;  // of each hand's tool; the scene's thread's
 };
 
