@@ -303,7 +303,7 @@ Result<void> RehabCommand::run(const Of& of) const {
     if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
     exercise->describe(json_of(of.remarks));
     if (!fitted.is_null()) exercise->fitted_by(std::move(fitted));
-    // What a script has done, no person has.
+    // A run that a script led is kept as the script's, so that it never counts as a person's.
     const std::string hand = of.hand == kWeakHand ? "scripted, a weak hand"
                              : scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed))
                              : !live.input.empty() ? "scripted, " + live.input

@@ -85,7 +85,7 @@ private:
     [[nodiscard]] bool is_asking() const { return asks_ && !start_.is_done(); }
     // Returns whether the device is to give force: not before the start, in a break or when it was stopped.
     [[nodiscard]] bool gives_force() const { return control_.gives_force(); }
-    // Of the panel (rehab_panel.cpp).
+    // Make the parts of the panel (rehab_panel.cpp).
     [[nodiscard]] std::string state_text() const;
     [[nodiscard]] session::ActivityPanel::Task task() const;
     [[nodiscard]] std::vector<session::ActivityPanel::Table> tables() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an exercise shows: to the person the forces against what is asked, to who leads it measures, settings and the
-// device's state.
+// Fills the screens of an exercise: the person's with forces against what is asked, the therapist's with measures,
+// settings and the device's state.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

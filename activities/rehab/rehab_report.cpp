@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is told of a run: its report, what of it the keeper gets while it goes on, and what the hand has shown.
+// Writes the report of a run, the part of it that is kept while the run goes on, and the range that the hand showed.
 #include <optional>
 #include <span>
 #include <string>

@@ -145,7 +145,7 @@ TEST_F(KeptRunsFolder, LeaveOutRunsWhoseExerciseFingersOrLevelAreNone) {
     EXPECT_EQ(kept->runs.size(), 1u);
     EXPECT_EQ(kept->errors.size(), 7u);
     const std::string page = page_of_all(*kept);
-    EXPECT_TRUE(page.contains("1 runs on 1 days")) << page;
+    EXPECT_TRUE(page.contains("Runs: 1, on days: 1")) << page;
 }
 
 TEST_F(KeptRunsFolder, KeepOlderRunsWhereANewOneCannotBeWritten) {
@@ -175,7 +175,7 @@ TEST(ProgressPage, ShowsAParticipantByNumberAndSaysWhatNoPersonDid) {
     kept.runs.back().report["settings"]["note"] = "<script>";
     const std::string page = page_of_all(kept);
     for (const char* text : {"<h1>Progress of participant 7</h1>", "<h2>Squeezing a ball</h2>",
-                             "6 runs on 6 days, from 2026-11-01 to 2026-11-06",
+                             "Runs: 6, on days: 6, from 2026-11-01 to 2026-11-06",
                              "Level 1 stays: the last three runs had different settings.",
                              "1 of these runs were done by a simulated hand", "&lt;script&gt;", "</svg>"})
         EXPECT_TRUE(page.contains(text)) << text;

@@ -232,7 +232,7 @@ TEST_F(RehabSessions, KeepRunsOfAParticipantAndToldDays) {
         EXPECT_TRUE(run.output.contains("Level 1 stays")) << run.output;
     }
     const std::string page = at.read("results/participant-003/progress.html");
-    EXPECT_TRUE(page.contains("2 runs on 2 days, from 2026-11-02 to 2026-11-04")) << page.substr(0, 2000);
+    EXPECT_TRUE(page.contains("Runs: 2, on days: 2, from 2026-11-02 to 2026-11-04")) << page.substr(0, 2000);
     EXPECT_TRUE(page.contains("2 of these runs were done by a simulated hand"));
     for (const char* wrong :
          {"--results r", "--participant 3", "--results r --participant 0",

@@ -98,7 +98,7 @@ inline constexpr std::string_view kPartInterrupted = "interrupted";
 // measured is forgotten. What other parts have measured stays.
 [[nodiscard]] AssessStep interrupted(AssessState state, Nanoseconds time_ns);
 
-// What came of it; nothing of what could not be measured.
+// Holds the measures of one finger; a measure that could not be taken is empty.
 struct AssessedFinger {
     std::array<std::optional<double>, devices::kFingerJoints> range_rad{};
     std::optional<double> open, closed;  // closures

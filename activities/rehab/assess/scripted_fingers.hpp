@@ -14,8 +14,8 @@
 
 namespace burin::activities {
 
-// How far it closes (1: a grasp of the whole hand), how far the other fingers go with one that moves alone, how long
-// one opening or closing takes where it is to be fast, and with what force each finger presses.
+// Describes a simulated hand: how far it closes (1: a grasp of the whole hand), how far the other fingers follow one
+// that moves alone, how long a fast opening or closing takes, and with what force each finger presses.
 struct AssessedHand {
     double closes = 1.0, others_follow = 0.1, stroke_s = 0.25;
     std::array<double, devices::kGloveFingers> holds_N{2.5, 2.0, 2.0, 1.5};
@@ -23,7 +23,7 @@ struct AssessedHand {
 [[nodiscard]] AssessedHand assessed_hand(SimulatedPerson person);
 [[nodiscard]] devices::FingerCourse assess_course_of(const AssessedHand& hand);
 
-// As exercise_kinds.hpp has them: the course, and the session's script, which ends it and takes pictures of its parts.
+// Make the fingers' course, and the script that ends the session and takes pictures of its parts (exercise_kinds.hpp).
 [[nodiscard]] std::string assess_course(SimulatedPerson person);
 [[nodiscard]] std::string scripted_assess(const SettingValues& values, std::uint64_t seed, std::string_view script);
 

@@ -91,7 +91,7 @@ inline constexpr std::string_view kBegun = "begun", kGrasped = "grasped", kReach
                                   kTimeOver = "time over", kInterrupted = "interrupted";
 }  // namespace ball_event
 
-// Returns the force that is asked for now.
+// Returns the force that is asked of all fingers together: the level's, or where it has adapted to.
 [[nodiscard]] double target_N_of(const BallState& state, const BallSettings& settings);
 
 struct BallStep {

@@ -63,7 +63,7 @@ struct ExerciseCourse {
     std::vector<std::string> notes = {};  // what did not count and why, a sentence each
 };
 
-// What a person is to do now, for the screen.
+// Tells the screen what the person is to do next, and how far that is done.
 struct ExerciseGoal {
     double together_N = 0.0, now_N = 0.0;  // of all fingers: asked, and as the rules see it; 0: none is asked
     double of_each_N = 0.0;                // asked of each finger that presses; 0: none

@@ -65,7 +65,7 @@ struct GameTurn {
 inline constexpr Vec3 kGrip_hand_m{-0.005, 0.053, -0.06};
 [[nodiscard]] GameTurn game_turn(const ExerciseTurn& turn);
 
-// Of the ball; it stays behind the end. resumes: it waits from the next turn on, after a break.
+// Phases of the ball, which go on after the game's end. resumes: after a break, it waits from the next turn on.
 enum class GamePhase : std::uint8_t { begins, waits, held, flies, resumes };
 
 struct GameState {

@@ -134,7 +134,7 @@ std::string iso_date(int day) {
 // Returns the Monday of a day's week; 1970-01-01, day 0, was a Thursday.
 int monday_of(int day) { return day - ((day + 3) % 7 + 7) % 7; }
 
-// What counts as one of an exercise's repetitions.
+// Returns how often a run did what its exercise repeats: squeezes, kneads or catches; else 0.
 double repetitions_of(const KeptRun& run) {
     const Json& counts = run.report.at("counts");
     for (const char* key : {"repetitions", "kneads", "catches"})

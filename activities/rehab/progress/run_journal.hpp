@@ -27,7 +27,7 @@
 
 namespace burin::activities {
 
-// What runs that nobody does any more have left.
+// Tells what became of the journals of runs whose programs have ended.
 struct LeftRuns {
     std::vector<std::filesystem::path> kept;  // the files that were made of them
     std::vector<Error> errors;
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] const KeptRun& run() const { return run_; }
     // Returns the name of its files, without their extension.
     [[nodiscard]] std::string name() const { return journal_.stem().string(); }
-    // What was taken up at the beginning, and what could not be.
+    // Returns the journals that were made kept runs at the beginning, and the errors of those that could not be.
     [[nodiscard]] const LeftRuns& left() const { return left_; }
 
 private:
