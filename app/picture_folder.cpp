@@ -27,7 +27,7 @@ Result<PictureFolder> PictureFolder::create(const std::string& folder, const std
     return PictureFolder(folder, std::move(*device), std::move(*renderer));
 }
 
-Result<void> PictureFolder::take(const renderer::Scene& scene, const std::string& name) {
+Result<void> PictureFolder::take(const picture::Picture& scene, const std::string& name) {
     const auto image = renderer_.render(scene);
     if (!image) return std::unexpected(image.error());
     const std::filesystem::path path = std::filesystem::path(folder_) / name;

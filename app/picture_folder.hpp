@@ -17,7 +17,7 @@ public:
     [[nodiscard]] static Result<PictureFolder> create(const std::string& folder, const std::string& option);
 
     // Writes one picture, as seen from the middle between the eyes.
-    [[nodiscard]] Result<void> take(const renderer::Scene& scene, const std::string& name);
+    [[nodiscard]] Result<void> take(const picture::Picture& scene, const std::string& name);
 
 private:
     PictureFolder(std::string folder, gpu::Device device, renderer::Renderer renderer)

@@ -59,12 +59,12 @@ public:
     }
 
     // Writes one picture, as seen from the middle between the eyes.
-    Result<void> take(const renderer::Scene& scene, const std::string& name) {
+    Result<void> take(const picture::Picture& scene, const std::string& name) {
         const auto image = renderer_.render(scene);
         if (!image) return std::unexpected(image.error());
         return write(name, image->left);
     }
-    Result<void> take_both_eyes(const renderer::Scene& scene, const std::string& name) {
+    Result<void> take_both_eyes(const picture::Picture& scene, const std::string& name) {
         const auto image = renderer_.render(scene);
         if (!image) return std::unexpected(image.error());
         return write(name, side_by_side(*image));

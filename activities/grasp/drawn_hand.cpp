@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "picture/frame_setup.hpp"
 #include "renderer/frame/redraw.hpp"
-#include "renderer/scene/frame_setup.hpp"
 
 namespace burin::activities {
 namespace {
@@ -57,7 +57,7 @@ double hidden_by(const geometry::BoneCapsule& capsule, const Vec3& place, const 
     const double s = std::clamp(-glm::dot(beside, flat) / std::max(glm::dot(flat, flat), 1e-12), 0.0, 1.0);
     along += s * rise;
     const double r = capsule.radius_m, miss = glm::length(beside + s * flat);
-    const double soft = std::max(renderer::kLightHalfAngleTangent * std::max(along, 0.0), 0.25 * r);
+    const double soft = std::max(picture::kLightHalfAngleTangent * std::max(along, 0.0), 0.25 * r);
     const double full = std::min(1.0, r * r / (soft * soft));
     return full * (1.0 - smooth_between(r - soft, r + soft, miss)) * smooth_between(0.0, 0.8 * r, along);
 }
@@ -105,7 +105,7 @@ Box end_of(const geometry::HandModel& hand) {
 constexpr double kSleeve_m = 0.004, kForearm_m = 0.11;  // its thickness beyond the skin; its length
 
 // A sleeve: rings of an ellipse around the forearm, from inside its hem to its closed end.
-std::shared_ptr<const renderer::DrawnMesh> sleeve_around(const Box& wrist) {
+std::shared_ptr<const picture::DrawnMesh> sleeve_around(const Box& wrist) {
     struct Ring {
         double back_m, wider_m;
     };
@@ -139,7 +139,7 @@ std::shared_ptr<const renderer::DrawnMesh> sleeve_around(const Box& wrist) {
             triangles.push_back({a, b, a + kAround});
             triangles.push_back({b, b + kAround, a + kAround});
         }
-    return renderer::smooth_mesh(places, triangles);
+    return picture::smooth_mesh(places, triangles);
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ geometry::VertexLight DrawnHand::light_at(std::size_t vertex, const Vec3& place,
     return {byte(1.0 - dark), byte(open)};
 }
 
-void DrawnHand::add_to(renderer::Scene& scene, const geometry::HandBend& bend,
+void DrawnHand::add_to(picture::Picture& scene, const geometry::HandBend& bend,
                        const Similarity& world_from_hand) const {
     const geometry::HandSkeleton skeleton = geometry::pose_of(hand_, bend, {});
     const std::vector<Vec3> skin = geometry::skinned(hand_, skeleton);
@@ -181,21 +181,21 @@ void DrawnHand::add_to(renderer::Scene& scene, const geometry::HandBend& bend,
         const Vec3 area = glm::cross(skin[b] - skin[a], skin[c] - skin[a]);
         for (const std::uint32_t corner : {a, b, c}) normals[corner] += area;
     }
-    const Vec3 to_light = glm::conjugate(world_from_hand.orientation) * renderer::direction_to_light();
+    const Vec3 to_light = glm::conjugate(world_from_hand.orientation) * picture::direction_to_light();
     std::vector<geometry::VertexLight> lights;
     lights.reserve(skin.size());
     for (std::size_t i = 0; i < skin.size(); ++i)
         lights.push_back(light_at(i, skin[i], glm::normalize(normals[i]), capsules, to_light));
-    renderer::DrawnObject object{renderer::smooth_mesh(skin, hand_.triangles, colours_, std::move(lights)),
-                                 world_from_hand, kSkin};
+    picture::DrawnObject object{picture::smooth_mesh(skin, hand_.triangles, colours_, std::move(lights)),
+                                world_from_hand, kSkin};
     object.roughness = 0.55;
     object.gloss = 0.5;
-    object.own_capsule = renderer::kAllCapsules;
+    object.own_capsule = picture::kAllCapsules;
     scene.objects.push_back(std::move(object));
-    renderer::DrawnObject sleeve{sleeve_, world_from_hand, kSleeve};
+    picture::DrawnObject sleeve{sleeve_, world_from_hand, kSleeve};
     sleeve.roughness = 0.9;
     sleeve.gloss = 0.15;
-    sleeve.own_capsule = renderer::kAllCapsules;
+    sleeve.own_capsule = picture::kAllCapsules;
     scene.objects.push_back(std::move(sleeve));
     const auto cast_by = [&](const geometry::BoneCapsule& bone) {
         scene.capsules.push_back(

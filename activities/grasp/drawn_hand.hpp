@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "geometry/hand/hand_model.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 
 namespace burin::activities {
 
@@ -22,7 +22,7 @@ public:
 
     // Adds the hand to a scene. The hand's frame (geometry/hand/hand_model.hpp) is in the world as world_from_hand has
     // it, at a scale if it has one.
-    void add_to(renderer::Scene& scene, const geometry::HandBend& bend, const Similarity& world_from_hand) const;
+    void add_to(picture::Picture& scene, const geometry::HandBend& bend, const Similarity& world_from_hand) const;
 
     [[nodiscard]] const geometry::HandModel& model() const { return hand_; }
 
@@ -32,7 +32,7 @@ private:
                                                  const Capsules& capsules, const Vec3& to_light) const;
 
     geometry::HandModel hand_;
-    std::shared_ptr<const renderer::DrawnMesh> sleeve_;  // over the skin's end at the wrist
+    std::shared_ptr<const picture::DrawnMesh> sleeve_;  // over the skin's end at the wrist
     geometry::BoneCapsule forearm_;
     std::vector<std::uint32_t> colours_;  // of each place of the skin
     std::vector<std::uint32_t> others_;   // for each place a bit for each capsule that keeps light off it

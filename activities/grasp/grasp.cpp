@@ -326,10 +326,10 @@ void Grasp::point_at(const HandReading& hand, const session::WorldObjects& world
 }
 
 // The shadows of balls are closed forms as a hand's are.
-void Grasp::cast_balls(renderer::Scene& scene) const {
+void Grasp::cast_balls(picture::Picture& scene) const {
     constexpr std::size_t kHands = geometry::kBoneCapsules + 1;
     for (std::size_t i = 0; i < scene.objects.size() && i < is_ball_.size(); ++i) {
-        renderer::DrawnObject& object = scene.objects[i];
+        picture::DrawnObject& object = scene.objects[i];
         if (!is_ball_[i] || scene.capsules.size() + kHands >= shared::kMostCapsules) continue;
         const Vec3 middle = object.world_from_mesh * object.mesh->bounds.center();
         const double radius_m = 0.5 * object.world_from_mesh.scale * object.mesh->bounds.extent().x;
@@ -338,7 +338,7 @@ void Grasp::cast_balls(renderer::Scene& scene) const {
     }
 }
 
-void Grasp::stage(renderer::Scene& scene, std::size_t /*screen*/) const {
+void Grasp::stage(picture::Picture& scene, std::size_t /*screen*/) const {
     scene.box.visible = scene.proposed_box.visible = false;
     if (!hand_) return;
     cast_balls(scene);

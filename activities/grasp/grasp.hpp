@@ -44,7 +44,7 @@ public:
     [[nodiscard]] bool is_running() const override { return true; }
     void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     [[nodiscard]] bool draws_hands() const override { return true; }
-    void stage(renderer::Scene& scene, std::size_t screen) const override;
+    void stage(picture::Picture& scene, std::size_t screen) const override;
     [[nodiscard]] session::ActivityPanel panel() const override;
 
     // Returns all grasps that were begun, in their order.
@@ -67,7 +67,7 @@ private:
     [[nodiscard]] Vec3 grip_scene_m() const;
     void begin_grasp(const session::WorldObjects& world, session::ActivityOrders& orders);
     void end_grasp(Nanoseconds time_ns, session::ActivityOrders& orders);
-    void cast_balls(renderer::Scene& scene) const;
+    void cast_balls(picture::Picture& scene) const;
     void point_at(const HandReading& hand, const session::WorldObjects& world, session::ActivityOrders& orders);
 
     GraspOptions options_;

@@ -250,7 +250,7 @@ void Rehab::take_shape(const session::ActivityView& view) {
     if (!body_) return;
     for (const auto& change : view.drawn)
         if (const auto* const shape = dynamic_cast<const bodies::SoftShape*>(change.get())) {
-            drawn_ = renderer::smooth_mesh(shape->places_m, body_->triangles());
+            drawn_ = picture::smooth_mesh(shape->places_m, body_->triangles());
             scene_from_drawn_ = shape->scene_from_body;
             lies_in_palm_m_.reset();
             if (shape->palm_from_body) lies_in_palm_m_ = shape->palm_from_body->position_m;
@@ -375,7 +375,7 @@ std::uint64_t Rehab::check() const {
 }
 
 // The body is put where the world's own object was among the others: so the hand's shadows find one there.
-void Rehab::stage(renderer::Scene& scene, std::size_t screen) const {
+void Rehab::stage(picture::Picture& scene, std::size_t screen) const {
     const std::size_t place = body_ ? body_->setup().object - 1 : 0;
     if (body_ && has_given_way_ && drawn_ && scene.objects.size() >= place) {
         const auto srgb = exercise_->srgb();

@@ -42,7 +42,7 @@ public:
     void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     [[nodiscard]] bool draws_hands() const override { return true; }
     [[nodiscard]] std::optional<session::LedHand> led_hand() const override { return exercise_->led_hand(); }
-    void stage(renderer::Scene& scene, std::size_t screen) const override;
+    void stage(picture::Picture& scene, std::size_t screen) const override;
     [[nodiscard]] scene::ScenePart* scene_part() override { return body_.get(); }
     [[nodiscard]] session::ActivityPanel panel() const override;
 
@@ -96,9 +96,9 @@ private:
     std::unique_ptr<Exercise> exercise_;
     Grasp hand_;
     std::unique_ptr<bodies::SoftPart> body_;
-    std::string object_;                                // the world's, whose place it takes; empty: not known yet
-    bool has_given_way_ = false;                        // the world's own
-    std::shared_ptr<const renderer::DrawnMesh> drawn_;  // the body, as of the update that the frame has taken
+    std::string object_;                               // the world's, whose place it takes; empty: not known yet
+    bool has_given_way_ = false;                       // the world's own
+    std::shared_ptr<const picture::DrawnMesh> drawn_;  // the body, as of the update that the frame has taken
     Pose scene_from_drawn_;
     std::optional<Vec3> lies_in_palm_m_;  // by that update
     bool is_lost_ = false;                // the body has fallen so deep that nobody reaches it

@@ -16,7 +16,7 @@ const Vec3 kRed{0.80, 0.12, 0.10}, kGreen{0.10, 0.60, 0.18}, kRodGrey{0.25, 0.25
 constexpr std::uint32_t kRound = 24;
 
 // A surface of revolution about y: rings at heights with radii, from the bottom to the top; poles are rings of 0.
-std::shared_ptr<const renderer::DrawnMesh> turned(const std::vector<Vec2>& radius_height_m) {
+std::shared_ptr<const picture::DrawnMesh> turned(const std::vector<Vec2>& radius_height_m) {
     geometry::TriangleMesh mesh;
     for (const Vec2& at : radius_height_m) {
         for (std::uint32_t k = 0; k < kRound; ++k) {
@@ -32,7 +32,7 @@ std::shared_ptr<const renderer::DrawnMesh> turned(const std::vector<Vec2>& radiu
             mesh.triangles.push_back({first + k, second + next, second + k});
         }
     }
-    return renderer::drawn_mesh(mesh);
+    return picture::drawn_mesh(mesh);
 }
 
 // The place after so much way along the spine, to its end, back to its start, and so on.
@@ -49,7 +49,7 @@ Vec3 place_on_path(const std::vector<Vec3>& spine_m, double way_m) {
 }
 
 // From as far as shows the whole world, and a wand that is held above it.
-void stand_back(renderer::Scene& scene) {
+void stand_back(picture::Picture& scene) {
     constexpr double kFarther = 1.45;
     wall::Screen& screen = scene.screen;
     const Vec3 middle = 0.5 * (screen.lower_right_world + screen.upper_left_world);
@@ -61,7 +61,7 @@ void stand_back(renderer::Scene& scene) {
 
 }  // namespace
 
-std::shared_ptr<const renderer::DrawnMesh> point_ball() {
+std::shared_ptr<const picture::DrawnMesh> point_ball() {
     std::vector<Vec2> rings;
     constexpr int kRings = 12;
     for (int i = 0; i <= kRings; ++i) {
@@ -86,7 +86,7 @@ StageView::StageView(const study::FeltWorld& world, const study::Protocol& proto
                    {kStageRod_m, point_offset_m_},
                    {0.0, point_offset_m_}})) {}
 
-renderer::Scene StageView::scene(StageMoment moment) {
+picture::Picture StageView::scene(StageMoment moment) {
     if (shows_path_) {
         const Vec3 place = place_on_path(world_.world().spine_m, lead_m_per_s_ * moment.time_s);
         const Vec3 up{0.0, point_offset_m_, 0.0};
@@ -104,7 +104,7 @@ renderer::Scene StageView::scene(StageMoment moment) {
                                                     one.opacity}};
         view_.take(update);
     }
-    renderer::Scene scene = view_.close_scene({});
+    picture::Picture scene = view_.close_scene({});
     scene.pedestal.visible = false;
     scene.workpiece_object = {};  // no shadow on the floor: it would tell of a tube that is not seen
     stand_back(scene);
@@ -112,7 +112,7 @@ renderer::Scene StageView::scene(StageMoment moment) {
     return scene;
 }
 
-void StageView::add_wand(renderer::Scene& scene, const StageMoment& moment) const {
+void StageView::add_wand(picture::Picture& scene, const StageMoment& moment) const {
     const Similarity& to_world = view_.world_from_scene();
     const Vec3 middle = 0.5 * (moment.points_m[0] + moment.points_m[1]);
     scene.objects.push_back({rod_, to_world * Similarity{middle, moment.orientation, 1.0}, kRodGrey});

@@ -15,7 +15,7 @@
 namespace burin::activities {
 
 // A ball about the origin, as the wand's points are drawn.
-[[nodiscard]] std::shared_ptr<const renderer::DrawnMesh> point_ball();
+[[nodiscard]] std::shared_ptr<const picture::DrawnMesh> point_ball();
 
 class StageView {
 public:
@@ -23,10 +23,10 @@ public:
     StageView(const study::FeltWorld& world, const study::Protocol& protocol, const study::Stage& stage,
               const study::Group& group);
 
-    [[nodiscard]] renderer::Scene scene(StageMoment moment);
+    [[nodiscard]] picture::Picture scene(StageMoment moment);
 
 private:
-    void add_wand(renderer::Scene& scene, const StageMoment& moment) const;
+    void add_wand(picture::Picture& scene, const StageMoment& moment) const;
 
     const study::FeltWorld& world_;
     const study::Stage& stage_;
@@ -34,7 +34,7 @@ private:
     bool shows_path_ = false;
     double lead_m_per_s_ = 0.0, point_offset_m_ = 0.0;
     WorldView view_;
-    std::shared_ptr<const renderer::DrawnMesh> ball_, rod_;
+    std::shared_ptr<const picture::DrawnMesh> ball_, rod_;
 };
 
 }  // namespace burin::activities

@@ -230,7 +230,7 @@ void StudyActivity::show(const std::vector<ShownObject>& objects, session::Activ
     }
 }
 
-void StudyActivity::stage(renderer::Scene& scene, std::size_t /*screen*/) const {
+void StudyActivity::stage(picture::Picture& scene, std::size_t /*screen*/) const {
     // Shows nothing but the study's own, as its pictures do: a shadow would tell where the tube is that nobody may see.
     scene.pedestal.visible = scene.box.visible = false;
     scene.workpiece_object = {};

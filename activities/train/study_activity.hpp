@@ -60,7 +60,7 @@ public:
     [[nodiscard]] bool is_running() const override { return run_.phase() == TrainingRun::Phase::in_stage; }
     void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     // The wand's two points, top red and bottom green, over what the session draws of it; no wand where none is seen.
-    void stage(renderer::Scene& scene, std::size_t screen) const override;
+    void stage(picture::Picture& scene, std::size_t screen) const override;
     [[nodiscard]] session::ActivityPanel panel() const override;
     [[nodiscard]] Result<void> finish() override;
 

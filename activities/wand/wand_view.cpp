@@ -14,7 +14,7 @@ const Vec3 kMiddle_world{0.0, 1.3, -0.5};
 WandView::WandView(const devices::WandDescription& wand, double scale, double radius_m)
     : drawn_(wand), scale_(scale), radius_m_(radius_m) {}
 
-void WandView::add_to(renderer::Scene& scene, const WandPose& pose, const Similarity& world_from_scene) const {
+void WandView::add_to(picture::Picture& scene, const WandPose& pose, const Similarity& world_from_scene) const {
     const Similarity scene_from_tool{pose.scene_from_tool.position_m, pose.scene_from_tool.orientation, scale_};
     session::DrawnHandle::Place place{world_from_scene * scene_from_tool, {}, world_from_scene.scale * radius_m_};
     for (const Vec3& point_scene : pose.points_scene) place.points_world.push_back(world_from_scene * point_scene);
@@ -25,8 +25,8 @@ void WandView::add_to(renderer::Scene& scene, const WandPose& pose, const Simila
     scene.contact.force_N = world_from_scene.orientation * pose.force_N;
 }
 
-renderer::Scene WandView::close_scene(const WorldView& world, const WandPose& pose, const WandCamera& camera) const {
-    renderer::Scene scene = world.wall_scene({});
+picture::Picture WandView::close_scene(const WorldView& world, const WandPose& pose, const WandCamera& camera) const {
+    picture::Picture scene = world.wall_scene({});
     scene.pedestal.visible = false;
     scene.show_wall_frame = false;
     // Scales and moves the world to where a picture is taken: in the middle of the room, in full light.
@@ -34,7 +34,7 @@ renderer::Scene WandView::close_scene(const WorldView& world, const WandPose& po
     const Similarity world_from_scene{kMiddle_world - scale * camera.middle_scene, {1, 0, 0, 0}, scale};
     const Similarity again = world_from_scene * inverse(world.world_from_scene());
     scene.world_from_object = world_from_scene;
-    for (renderer::DrawnObject& object : scene.objects) object.world_from_mesh = again * object.world_from_mesh;
+    for (picture::DrawnObject& object : scene.objects) object.world_from_mesh = again * object.world_from_mesh;
     add_to(scene, pose, world_from_scene);
     const Vec3 towards_eye = glm::normalize(camera.towards_eye);
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye)), up = glm::cross(towards_eye, right);

@@ -29,10 +29,10 @@ public:
     WandView(const devices::WandDescription& wand, double scale, double radius_m);
 
     // Adds the wand to a picture of the world.
-    void add_to(renderer::Scene& scene, const WandPose& pose, const Similarity& world_from_scene) const;
+    void add_to(picture::Picture& scene, const WandPose& pose, const Similarity& world_from_scene) const;
     // Returns the world with the wand, from nearby.
-    [[nodiscard]] renderer::Scene close_scene(const WorldView& world, const WandPose& pose,
-                                              const WandCamera& camera) const;
+    [[nodiscard]] picture::Picture close_scene(const WorldView& world, const WandPose& pose,
+                                               const WandCamera& camera) const;
 
 private:
     session::DrawnHandle drawn_;

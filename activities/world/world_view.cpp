@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 #include "session/state/staging.hpp"
 
 namespace burin::activities {
@@ -30,8 +30,8 @@ WorldView::WorldView(const scene::MeshPart& part, std::span<const scene::ObjectI
     world_from_scene_.position_m = kPlace_world - world_from_scene_.scale * bounds_scene_.center();
 }
 
-renderer::Scene WorldView::wall_scene(const haptics::ToolState& tool) const {
-    renderer::Scene scene;
+picture::Picture WorldView::wall_scene(const haptics::ToolState& tool) const {
+    picture::Picture scene;
     scene.viewer.head_world.position_m = kHead_world;
     scene.world_from_object = world_from_scene_;
     scene.workpiece_object = bounds_scene_;
@@ -48,8 +48,8 @@ renderer::Scene WorldView::wall_scene(const haptics::ToolState& tool) const {
     return scene;
 }
 
-renderer::Scene WorldView::close_scene(const haptics::ToolState& tool) const {
-    renderer::Scene scene = wall_scene(tool);
+picture::Picture WorldView::close_scene(const haptics::ToolState& tool) const {
+    picture::Picture scene = wall_scene(tool);
     const Vec3 towards_eye = glm::normalize(Vec3(0.25, 0.75, 1.0));
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye)), up = glm::cross(towards_eye, right);
     const double half_width = 0.62 * kLongestOnWall_m, half_height = 0.75 * half_width;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "haptics/channels.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "scene/mesh_part.hpp"
 #include "session/picture/drawn_world.hpp"
 
@@ -22,9 +22,9 @@ public:
     // Takes over what has changed.
     void take(std::span<const scene::ObjectUpdate> updates) { drawn_.take(updates); }
     // Returns the picture of the world with the tool as it is now, seen from the middle between the eyes, from nearby.
-    [[nodiscard]] renderer::Scene close_scene(const haptics::ToolState& tool) const;
+    [[nodiscard]] picture::Picture close_scene(const haptics::ToolState& tool) const;
     // Returns the world on the wall, for a tracked viewer with two eyes.
-    [[nodiscard]] renderer::Scene wall_scene(const haptics::ToolState& tool) const;
+    [[nodiscard]] picture::Picture wall_scene(const haptics::ToolState& tool) const;
 
     [[nodiscard]] const Similarity& world_from_scene() const { return world_from_scene_; }
     // Returns the bounds of all that is seen at the beginning.

@@ -4,8 +4,8 @@
 #include "bench/frame/frame.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "gpu/device.hpp"
+#include "picture/frame_setup.hpp"
 #include "renderer/frame/renderer.hpp"
-#include "renderer/scene/frame_setup.hpp"
 #include "shaders/shared/srgb.h"
 
 namespace burin::bench {
@@ -87,7 +87,7 @@ private:
     std::uint32_t colour_;
     gpu::Device device_;
     renderer::Renderer renderer_;
-    renderer::Scene drawn_;
+    picture::Picture drawn_;
 };
 
 }  // namespace
@@ -106,9 +106,9 @@ Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options
 }
 
 BurinsLight burins_light(const FrameLook& look) {
-    const renderer::Scene scene;
-    const shared::FrameUniforms frame = renderer::frame_uniforms(scene, {});
-    const shared::DrawConstants draw = renderer::surface_constants(scene);
+    const picture::Picture scene;
+    const shared::FrameUniforms frame = picture::frame_uniforms(scene, {});
+    const shared::DrawConstants draw = picture::surface_constants(scene);
     return {Vec3(frame.light),
             Vec3(frame.light_colour),
             Vec3(frame.sky_colour),

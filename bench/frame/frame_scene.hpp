@@ -16,7 +16,7 @@
 
 #include "base/image.hpp"
 #include "base/space.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 
 namespace burin::bench {
 

@@ -8,7 +8,7 @@
 
 #include "bench/measure/timing.hpp"
 #include "compute/repair/self_intersections.hpp"
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 #include "sculpt/carved_part.hpp"
 #include "sculpt/workpiece.hpp"
 
@@ -174,7 +174,7 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     if (options.with_light) {
         const auto sculpture = start(*uncut, options, pool, run);
         if (!sculpture) return std::unexpected(sculpture.error());
-        const compute::Lamp lamp{renderer::direction_to_light(), renderer::kLightHalfAngleTangent};
+        const compute::Lamp lamp{picture::direction_to_light(), picture::kLightHalfAngleTangent};
         if (const auto kept = (*sculpture)->keep_light(lamp); !kept) return std::unexpected(kept.error());
         Result<Carved> carved = carve(**sculpture, sweeps);
         if (!carved) return std::unexpected(carved.error());

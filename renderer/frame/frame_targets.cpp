@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
 namespace burin::renderer {
 
@@ -217,7 +217,7 @@ Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, s
 
 VkViewport viewport_of(ImageSize size) {
     const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
-    constexpr auto kTimes = static_cast<float>(kGuard);
+    constexpr auto kTimes = static_cast<float>(picture::kGuard);
     return {
         -0.5f * (kTimes - 1.0f) * width, -0.5f * (kTimes - 1.0f) * height, kTimes * width, kTimes * height, 0.0f, 1.0f};
 }

@@ -16,7 +16,7 @@ constexpr std::uint64_t kVertexBytes = sizeof(shared::SurfaceVertex), kLightByte
 }  // namespace
 
 // Whether all that are not there yet fit beside the others.
-bool MeshStore::fit(std::span<const std::shared_ptr<const DrawnMesh>> meshes) const {
+bool MeshStore::fit(std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes) const {
     std::uint64_t vertices = used_vertices_, indices = used_indices_;
     for (const auto& mesh : meshes) {
         if (stored_.contains(mesh.get())) continue;
@@ -27,7 +27,7 @@ bool MeshStore::fit(std::span<const std::shared_ptr<const DrawnMesh>> meshes) co
 }
 
 Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
-                            std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
+                            std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes) {
     const auto is_there = [&](const auto& mesh) { return stored_.contains(mesh.get()); };
     if (std::ranges::all_of(meshes, is_there)) return {};
     std::vector<Replaced> replaced;
@@ -46,7 +46,8 @@ Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
     return {};
 }
 
-Result<void> MeshStore::begin_anew(gpu::Device& device, std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
+Result<void> MeshStore::begin_anew(gpu::Device& device,
+                                   std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes) {
     std::uint64_t vertices = 0, indices = 0;
     for (const auto& mesh : meshes) {
         vertices += mesh->vertices.size();
@@ -69,10 +70,10 @@ Result<void> MeshStore::begin_anew(gpu::Device& device, std::span<const std::sha
     return {};
 }
 
-std::optional<bool> MeshStore::take_place(const std::shared_ptr<const DrawnMesh>& mesh,
-                                          std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
+std::optional<bool> MeshStore::take_place(const std::shared_ptr<const picture::DrawnMesh>& mesh,
+                                          std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes) {
     const auto gone = std::ranges::find_if(stored_, [&](const auto& entry) {
-        const DrawnMesh& old = *entry.second.mesh;
+        const picture::DrawnMesh& old = *entry.second.mesh;
         return old.vertices.size() == mesh->vertices.size() && old.indices.size() == mesh->indices.size() &&
                std::ranges::find(meshes, entry.second.mesh) == meshes.end();
     });
@@ -83,7 +84,8 @@ std::optional<bool> MeshStore::take_place(const std::shared_ptr<const DrawnMesh>
     return old.mesh->indices != mesh->indices;
 }
 
-void MeshStore::write(gpu::Commands& commands, const DrawnMesh& mesh, const StoredMesh& place, bool with_indices) {
+void MeshStore::write(gpu::Commands& commands, const picture::DrawnMesh& mesh, const StoredMesh& place,
+                      bool with_indices) {
     if (mesh.indices.empty()) return;
     const std::vector<geometry::VertexLight> full(mesh.lights.empty() ? mesh.vertices.size() : 0);
     const std::span<const geometry::VertexLight> lights = mesh.lights.empty() ? full : mesh.lights;
@@ -94,7 +96,7 @@ void MeshStore::write(gpu::Commands& commands, const DrawnMesh& mesh, const Stor
         commands.upload(indices_, place.first_index * kIndexBytes, std::as_bytes(std::span(mesh.indices)));
 }
 
-void MeshStore::append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh) {
+void MeshStore::append(gpu::Commands& commands, const std::shared_ptr<const picture::DrawnMesh>& mesh) {
     const StoredMesh place{static_cast<std::uint32_t>(used_indices_), static_cast<std::uint32_t>(mesh->indices.size()),
                            static_cast<std::int32_t>(used_vertices_)};
     write(commands, *mesh, place, true);

@@ -15,7 +15,7 @@
 #include "base/error.hpp"
 #include "gpu/commands.hpp"
 #include "gpu/device.hpp"
-#include "renderer/scene/drawn_mesh.hpp"
+#include "picture/drawn_mesh.hpp"
 
 namespace burin::renderer {
 
@@ -30,9 +30,9 @@ public:
     // Puts the meshes that are not there yet, by commands that come before those that draw. Fails without memory; then
     // what was there is still there.
     [[nodiscard]] Result<void> put(gpu::Device& device, gpu::Commands& commands,
-                                   std::span<const std::shared_ptr<const DrawnMesh>> meshes);
+                                   std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes);
     // Returns where a mesh lies that was put.
-    [[nodiscard]] const StoredMesh& at(const DrawnMesh& mesh) const { return stored_.at(&mesh).place; }
+    [[nodiscard]] const StoredMesh& at(const picture::DrawnMesh& mesh) const { return stored_.at(&mesh).place; }
     [[nodiscard]] std::size_t meshes() const { return stored_.size(); }
 
     [[nodiscard]] const gpu::Buffer& vertices() const { return vertices_; }
@@ -41,26 +41,26 @@ public:
 
 private:
     struct Kept {
-        std::shared_ptr<const DrawnMesh> mesh;  // so that no other mesh can have its address
+        std::shared_ptr<const picture::DrawnMesh> mesh;  // so that no other mesh can have its address
         StoredMesh place;
     };
-    [[nodiscard]] bool fit(std::span<const std::shared_ptr<const DrawnMesh>> meshes) const;
+    [[nodiscard]] bool fit(std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes) const;
     struct Replaced {
-        const DrawnMesh* mesh = nullptr;
+        const picture::DrawnMesh* mesh = nullptr;
         bool with_indices = false;
     };
     // Gives a mesh the place of one of its size that is not among `meshes`. Returns whether its indices are others;
     // none where there is no such place.
-    [[nodiscard]] std::optional<bool> take_place(const std::shared_ptr<const DrawnMesh>& mesh,
-                                                 std::span<const std::shared_ptr<const DrawnMesh>> meshes);
-    void write(gpu::Commands& commands, const DrawnMesh& mesh, const StoredMesh& place, bool with_indices);
-    void append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh);
+    [[nodiscard]] std::optional<bool> take_place(const std::shared_ptr<const picture::DrawnMesh>& mesh,
+                                                 std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes);
+    void write(gpu::Commands& commands, const picture::DrawnMesh& mesh, const StoredMesh& place, bool with_indices);
+    void append(gpu::Commands& commands, const std::shared_ptr<const picture::DrawnMesh>& mesh);
     [[nodiscard]] Result<void> begin_anew(gpu::Device& device,
-                                          std::span<const std::shared_ptr<const DrawnMesh>> meshes);
+                                          std::span<const std::shared_ptr<const picture::DrawnMesh>> meshes);
 
     gpu::Buffer vertices_, lights_, indices_;
     std::uint64_t used_vertices_ = 0, used_indices_ = 0;
-    std::unordered_map<const DrawnMesh*, Kept> stored_;
+    std::unordered_map<const picture::DrawnMesh*, Kept> stored_;
 };
 
 }  // namespace burin::renderer

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/scene/contact_marks.hpp"
+#include "picture/contact_marks.hpp"
 #include "wall/projection.hpp"
 
 namespace burin::renderer {
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNearest_m = 0.02;  // nothing nearer than this to an eye's plane is projected
 
-Box box_around(const Ball& ball) {
+Box box_around(const picture::Ball& ball) {
     return {ball.center_world - Vec3(ball.radius_m), ball.center_world + Vec3(ball.radius_m)};
 }
 
@@ -26,32 +26,32 @@ Vec3 corner_of(const Box& box, int corner) {
             (corner & 4) != 0 ? box.hi.z : box.lo.z};
 }
 
-Box world_box(const Scene& scene, const Box& patch) {
+Box world_box(const picture::Picture& picture, const Box& patch) {
     Box world;
     for (int i = 0; i < 8; ++i)
-        world.include(scene.world_from_object * (scene.lattice_origin_object + corner_of(patch, i)));
+        world.include(picture.world_from_object * (picture.lattice_origin_object + corner_of(patch, i)));
     return world;
 }
 
 // Returns the bounds of the solid shapes, on which the tool's shadow may fall besides the workpiece. Room, glass and
 // panel receive no shadow of the tool.
 std::vector<Box> lit_things(const Shown& in) {
-    const Scene& scene = in.scene;
+    const picture::Picture& picture = in.picture;
     std::vector<Box> things;
-    for (const SceneBox* box : {&scene.box, &scene.proposed_box})
-        if (box->visible) things.push_back(box_around(ball_of(*box)));
-    for (const Box& mark : boxes_of(contact_marks(scene)))
+    for (const picture::PictureBox* box : {&picture.box, &picture.proposed_box})
+        if (box->visible) things.push_back(box_around(picture::ball_of(*box)));
+    for (const Box& mark : picture::boxes_of(picture::contact_marks(picture)))
         if (!mark.empty()) things.push_back(mark);
-    for (const DrawnObject& object : scene.objects) things.push_back(bounds_world(object));
-    if (scene.pedestal.visible) {
-        const ScenePedestal& p = scene.pedestal;
+    for (const picture::DrawnObject& object : picture.objects) things.push_back(picture::bounds_world(object));
+    if (picture.pedestal.visible) {
+        const picture::PicturePedestal& p = picture.pedestal;
         const double height_m = std::max(p.top_center_world.y, 0.001);
         things.push_back({p.top_center_world - Vec3(p.radius_m, height_m, p.radius_m),
                           p.top_center_world + Vec3(p.radius_m, 0.0, p.radius_m)});
     }
-    if (scene.show_wall_frame) {
+    if (picture.show_wall_frame) {
         constexpr double kFrame_m = 0.06;  // the depth and width of the frame's bars
-        const wall::Screen& s = scene.screen;
+        const wall::Screen& s = picture.screen;
         const Vec3 upper_right = s.upper_left_world + (s.lower_right_world - s.lower_left_world);
         for (const auto& [a, b] :
              {std::pair(s.lower_left_world, s.lower_right_world), std::pair(s.lower_left_world, s.upper_left_world),
@@ -63,18 +63,18 @@ std::vector<Box> lit_things(const Shown& in) {
 
 // Returns the shadow of one ball of the tool, from the ball on, in slices:
 // one box around the whole shadow would hold much that is not in it.
-std::array<Box, 12> shadow_of(const Ball& ball, double tool_radius_m) {
+std::array<Box, 12> shadow_of(const picture::Ball& ball, double tool_radius_m) {
     std::array<Box, 12> slices;
     const double length_m = double{shared::kToolShades} * tool_radius_m;
     const auto at = [&](double along_m, double radius_m) {
-        return box_around({ball.center_world - along_m * direction_to_light(), radius_m});
+        return box_around({ball.center_world - along_m * picture::direction_to_light(), radius_m});
     };
     for (std::size_t i = 0; i < slices.size(); ++i) {
         const double from_m = length_m * static_cast<double>(i) / slices.size(),
                      to_m = length_m * static_cast<double>(i + 1) / slices.size();
         // The penumbra is as wide as the lamp appears from there, or a fiftieth of the ball (hidden_share in
         // shaders/lighting.glsl); twice the ball's radius accounts for what lies behind the ball's own middle.
-        const double edge_m = kLightHalfAngleTangent * (to_m + 2.0 * ball.radius_m) + 0.02 * tool_radius_m;
+        const double edge_m = picture::kLightHalfAngleTangent * (to_m + 2.0 * ball.radius_m) + 0.02 * tool_radius_m;
         const Box a = at(from_m, ball.radius_m + edge_m), b = at(to_m, ball.radius_m + edge_m);
         slices[i] = {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
     }
@@ -84,15 +84,15 @@ std::array<Box, 12> shadow_of(const Ball& ball, double tool_radius_m) {
 // Collects rectangles of objects at their positions in one scene.
 class Parts {
 public:
-    Parts(const Scene& scene, ImageSize size) : scene_(scene), size_(size) {}
+    Parts(const picture::Picture& picture, ImageSize size) : picture_(picture), size_(size) {}
 
-    void add(const Box& box_world) { rects.push_back(seen_part(scene_, size_, std::span(&box_world, 1))); }
-    void add(const Ball& ball) {
+    void add(const Box& box_world) { rects.push_back(seen_part(picture_, size_, std::span(&box_world, 1))); }
+    void add(const picture::Ball& ball) {
         if (ball.radius_m > 0.0) add(box_around(ball));
     }
     // Adds all that the tool affects around it, except the workpiece.
     void add_tool(const Shown& in) {
-        const SceneTool& tool = in.scene.tool;
+        const picture::PictureTool& tool = in.picture.tool;
         if (!tool.visible) return;
         const std::vector<Box> lit = lit_things(in);
         Box darkened = box_around({tool.center_world, double{shared::kToolDarkens} * tool.radius_m});
@@ -101,25 +101,25 @@ public:
         darkened.include(other_end.lo);
         darkened.include(other_end.hi);
         add_where(darkened, lit);
-        add(head_of(tool));
-        for (const Ball& ball : balls_of(tool)) {
+        add(picture::head_of(tool));
+        for (const picture::Ball& ball : balls_of(tool)) {
             if (ball.radius_m <= 0.0) continue;
             add(ball);
             for (const Box& slice : shadow_of(ball, tool.radius_m)) add_where(slice, lit);
         }
     }
-    void add(const ContactMarks& marks) {
-        for (const Box& box : boxes_of(marks))
+    void add(const picture::ContactMarks& marks) {
+        for (const Box& box : picture::boxes_of(marks))
             if (!box.empty()) add(box);
     }
-    void add(const std::optional<ScenePanel>& panel) {
+    void add(const std::optional<picture::PicturePanel>& panel) {
         if (!panel) return;
         std::array<Box, 4> corners;
-        const std::array places = corners_world(panel->stand);
+        const std::array places = picture::corners_world(panel->stand);
         for (std::size_t i = 0; i < 4; ++i) corners[i].include(places[i]);
-        rects.push_back(seen_part(scene_, size_, corners));
+        rects.push_back(seen_part(picture_, size_, corners));
     }
-    void add_patch(const Box& box) { add(world_box(scene_, box)); }
+    void add_patch(const Box& box) { add(world_box(picture_, box)); }
 
     std::vector<PixelRect> rects;
 
@@ -131,7 +131,7 @@ private:
         }
     }
 
-    const Scene& scene_;
+    const picture::Picture& picture_;
     ImageSize size_;
 };
 
@@ -216,11 +216,11 @@ PixelRect within(const PixelRect& part, std::span<const PixelRect> rects) {
 }  // namespace
 
 bool same_room(const Shown& a, const Shown& b) {
-    return same_room(a.scene, b.scene) && a.workpiece == b.workpiece && a.depth == b.depth;
+    return same_room(a.picture, b.picture) && a.workpiece == b.workpiece && a.depth == b.depth;
 }
 
-bool same_room(const Scene& a, const Scene& b) {
-    Scene s = a;
+bool same_room(const picture::Picture& a, const picture::Picture& b) {
+    picture::Picture s = a;
     s.tool = b.tool;
     s.contact = b.contact;
     s.box = b.box;
@@ -230,17 +230,17 @@ bool same_room(const Scene& a, const Scene& b) {
     return s == b;
 }
 
-PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world) {
-    const wall::Screen& screen = scene.screen;
+PixelRect seen_part(const picture::Picture& picture, ImageSize size, std::span<const Box> boxes_world) {
+    const wall::Screen& screen = picture.screen;
     const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
     const double height_m = glm::length(screen.upper_left_world - screen.lower_left_world);
-    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(picture.viewer);
     const wall::ScreenPlane plane(screen);
     Vec2 lo(HUGE_VAL), hi(-HUGE_VAL);
     // With the fade a point is drawn between its positions as seen
     // by the eye and from the middle, which lies between the eyes.
     for (const Vec3& eye :
-         {eyes.left_world, eyes.right_world, scene.edge_fade > 0.0 ? middle_of(eyes) : eyes.left_world}) {
+         {eyes.left_world, eyes.right_world, picture.edge_fade > 0.0 ? middle_of(eyes) : eyes.left_world}) {
         const double eye_m = plane.distance_in_front(eye);
         for (std::size_t i = 0; i < 8 * boxes_world.size(); ++i) {
             const Vec3 p = corner_of(boxes_world[i / 8], static_cast<int>(i % 8));
@@ -264,20 +264,20 @@ PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> box
 
 std::vector<PixelRect> changed_rects(const Shown& shown, const Shown& wanted, ImageSize size,
                                      std::span<const Box> changed) {
-    Parts parts(wanted.scene, size);
+    Parts parts(wanted.picture, size);
     const auto if_changed = [&](const auto& before, const auto& now, const auto& place) {
         if (before == now) return;
         parts.add(place(before));
         parts.add(place(now));
     };
     const auto itself = [](const auto& thing) { return thing; };
-    const auto ball = [](const auto& thing) { return ball_of(thing); };
-    const Scene &before = shown.scene, &now = wanted.scene;
+    const auto ball = [](const auto& thing) { return picture::ball_of(thing); };
+    const picture::Picture &before = shown.picture, &now = wanted.picture;
     if (before.tool != now.tool) {
         parts.add_tool(shown);
         parts.add_tool(wanted);
     }
-    if_changed(contact_marks(before), contact_marks(now), itself);
+    if_changed(picture::contact_marks(before), picture::contact_marks(now), itself);
     if_changed(before.box, now.box, ball);
     if_changed(before.proposed_box, now.proposed_box, ball);
     if_changed(before.bubble, now.bubble, ball);

@@ -14,26 +14,26 @@
 #include <vector>
 
 #include "base/image.hpp"
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
 namespace burin::renderer {
 
 // The inputs that a picture was drawn from, except the patches.
 struct Shown {
-    Scene scene;
-    Workpiece workpiece;
-    DepthRange depth;
+    picture::Picture picture;
+    picture::Workpiece workpiece;
+    picture::DepthRange depth;
     std::uint64_t panel_pictures = 0;  // how many pictures the renderer was given for the standing panel
 };
 
 // Returns a rectangle around all that either eye may see of the given boxes and of what lies between them; the whole
 // picture where they come too near to an eye.
-[[nodiscard]] PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world);
+[[nodiscard]] PixelRect seen_part(const picture::Picture& picture, ImageSize size, std::span<const Box> boxes_world);
 
 // Returns whether the two differ at most in what can be redrawn in part. If not, the whole picture must be redrawn.
 [[nodiscard]] bool same_room(const Shown& shown, const Shown& wanted);
 // The part of it that two scenes tell.
-[[nodiscard]] bool same_room(const Scene& shown, const Scene& wanted);
+[[nodiscard]] bool same_room(const picture::Picture& shown, const picture::Picture& wanted);
 // Returns the damaged rectangles, given that same_room() holds; some may be empty. changed: boxes around changed
 // patches and parts of patches, in the patches' frame, including patches that look different because the tool moved
 // (changed_near_tool in renderer/surface/patch_choice.hpp).

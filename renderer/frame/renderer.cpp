@@ -6,6 +6,9 @@
 #include <numeric>
 
 #include "gpu/commands.hpp"
+#include "picture/frame_setup.hpp"
+#include "picture/lamp_view.hpp"
+#include "picture/primitives.hpp"
 #include "renderer/frame/draw_calls.hpp"
 #include "renderer/frame/frame_targets.hpp"
 #include "renderer/frame/magnify.hpp"
@@ -14,9 +17,6 @@
 #include "renderer/frame/redraw.hpp"
 #include "renderer/frame/scene_choice.hpp"
 #include "renderer/panel/panel_quad.hpp"
-#include "renderer/scene/frame_setup.hpp"
-#include "renderer/scene/lamp_view.hpp"
-#include "renderer/scene/primitives.hpp"
 #include "renderer/surface/drawn_patches.hpp"
 #include "wall/projection.hpp"
 
@@ -27,9 +27,9 @@ namespace {
 using gpu::structure;
 
 // Returns the pipeline for what is lit at every pixel.
-PipelineKind solid_of(const Scene& scene, bool shaded) {
+PipelineKind solid_of(const picture::Picture& picture, bool shaded) {
     if (shaded) return PipelineKind::solid_shaded;
-    return scene.capsules.empty() ? PipelineKind::solid : PipelineKind::solid_beside_capsules;
+    return picture.capsules.empty() ? PipelineKind::solid : PipelineKind::solid_beside_capsules;
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ class Renderer::Implementation {
 public:
     static Result<std::unique_ptr<Implementation>> create(gpu::Device& device, ImageSize size,
                                                           const RendererOptions& options);
-    Result<RenderStats> record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel);
-    Result<StereoImage> render(const Scene& scene, std::uint32_t pixel);
+    Result<RenderStats> record(gpu::Commands& commands, const picture::Picture& picture, std::uint32_t pixel);
+    Result<StereoImage> render(const picture::Picture& picture, std::uint32_t pixel);
     void show_panel(VkImageView panel) {
         if (panel == panel_) return;
         panel_ = panel;
@@ -65,12 +65,12 @@ private:
     struct Recording {
         gpu::Commands& commands;
         DrawCalls calls;
-        const Scene& scene;
+        const picture::Picture& picture;
         bool shaded = false;  // objects cast shadows
         PixelRect part;
-        Shapes shapes;
+        picture::Shapes shapes;
         PatchDraws surface;
-        Workpiece workpiece{};
+        picture::Workpiece workpiece{};
     };
     struct StandingPanel {
         std::optional<PanelQuad> quad;
@@ -84,7 +84,7 @@ private:
     Result<void> draw_views(Recording& r);
     void begin_pass(Recording& r);
     void begin_glass_pass(Recording& r);
-    Result<void> draw_shapes(Recording& r, PipelineKind kind, std::span<const Shape> shapes);
+    Result<void> draw_shapes(Recording& r, PipelineKind kind, std::span<const picture::Shape> shapes);
     Result<void> draw_surface(Recording& r);
     Result<void> draw_surface(Recording& r, PipelineKind kind, std::span<const DrawRange> ranges);
     Result<void> draw_room(Recording& r);
@@ -92,10 +92,10 @@ private:
     Result<void> make_ready(StandingPanel& panel, bool fades);
     Result<void> draw_glass(Recording& r);
     Result<void> draw_clear_objects(Recording& r);
-    void draw_primitives(Recording& r, std::span<const Shape> shapes);
-    void draw_meshes(Recording& r, std::span<const Shape> shapes);
+    void draw_primitives(Recording& r, std::span<const picture::Shape> shapes);
+    void draw_meshes(Recording& r, std::span<const picture::Shape> shapes);
     Result<void> use(Recording& r, PipelineKind kind);
-    static void draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants);
+    static void draw(Recording& r, const picture::PrimitiveRange& range, const shared::DrawConstants& constants);
     void bind_primitives(Recording& r) { r.calls.bind(primitive_vertices_, primitive_lights_, primitive_indices_); }
     std::uint32_t pipelines_created() const {
         std::uint32_t created = pipelines_.created();
@@ -114,7 +114,7 @@ private:
     std::optional<FrameTargets> fewer_;  // of so many fewer pixels, once there have been any
     DrawnPatches drawn_;
     Pipelines pipelines_;
-    Primitives primitives_;
+    picture::Primitives primitives_;
     MeshStore meshes_;
     gpu::Buffer primitive_vertices_, primitive_lights_, primitive_indices_;
     Readback readback_;  // allocated at first use
@@ -175,7 +175,7 @@ Result<void> Renderer::Implementation::draw_with(std::uint32_t pixel) {
 }
 
 Result<void> Renderer::Implementation::upload_primitives() {
-    primitives_ = make_primitives();
+    primitives_ = picture::make_primitives();
     const std::vector<geometry::VertexLight> lights(primitives_.vertices.size());
     const auto put = [&](gpu::Buffer& buffer, gpu::BufferUse use, std::span<const std::byte> bytes) -> Result<void> {
         auto made = gpu::Buffer::create(device_, use, bytes.size(), "shapes");
@@ -189,12 +189,13 @@ Result<void> Renderer::Implementation::upload_primitives() {
     return done;
 }
 
-Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel) {
-    if (!wall::can_be_seen(scene.screen, wall::eyes_of(scene.viewer))) {
+Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, const picture::Picture& picture,
+                                                     std::uint32_t pixel) {
+    if (!wall::can_be_seen(picture.screen, wall::eyes_of(picture.viewer))) {
         return fail("viewer", "the eyes are behind the screen, or the screen is not a rectangle",
                     "check the wall's corners and the head pose");
     }
-    if (!(scene.edge_fade >= 0.0 && scene.edge_fade <= 1.0 && scene.edge_fade_band >= 0.0)) {
+    if (!(picture.edge_fade >= 0.0 && picture.edge_fade <= 1.0 && picture.edge_fade_band >= 0.0)) {
         return fail("fade of parallax", "is not from 0 to 1, or its band is below 0",
                     "choose 0 to 1, and a band of 0.2");
     }
@@ -203,8 +204,8 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
     const auto uploaded = owns_surface_ ? surface->flush(commands) : Result<std::uint64_t>(0);
     if (!uploaded) return std::unexpected(uploaded.error());
     const PatchStore& patches = surface->patches();
-    Shown wanted{scene, place_workpiece(scene, patches.bounds(), patches.reach_m()), {}, panel_pictures_};
-    wanted.depth = depth_range(scene, wanted.workpiece);
+    Shown wanted{picture, picture::place_workpiece(picture, patches.bounds(), patches.reach_m()), {}, panel_pictures_};
+    wanted.depth = picture::depth_range(picture, wanted.workpiece);
     stats = {.part = {},
              .parts = parts_to_draw(wanted),
              .whole = false,
@@ -216,9 +217,9 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .draws = 0,
              .uploaded_bytes = *uploaded,
              .pipelines = pipelines_created()};
-    const std::optional<LampView> lamp = lamp_view(scene);
+    const std::optional<picture::LampView> lamp = picture::lamp_view(picture);
     if (!stats.parts.empty()) {
-        if (const auto put = meshes_.put(device_, commands, meshes_of(scene)); !put)
+        if (const auto put = meshes_.put(device_, commands, picture::meshes_of(picture)); !put)
             return std::unexpected(put.error());
         upload_uniforms(commands, wanted);
         commands.barrier();
@@ -249,14 +250,14 @@ std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& want
     if (savings.parts_only && shown && same_room(*shown, wanted)) {
         std::vector<Box>& changed = changes.boxes;
         const auto add = [&](const std::vector<Box>& more) { changed.insert(changed.end(), more.begin(), more.end()); };
-        add(changed_near_tool(drawn_.patches(), shown->scene, wanted.scene, drawn_into().size, occluders));
-        add(choose_rates(drawn_, wanted.scene, drawn_into().size, savings));
+        add(changed_near_tool(drawn_.patches(), shown->picture, wanted.picture, drawn_into().size, occluders));
+        add(choose_rates(drawn_, wanted.picture, drawn_into().size, savings));
         parts = damage_rectangles(changed_rects(*shown, wanted, drawn_into().size, changed), drawn_into().size);
         if (!savings.parts_apart && !parts.empty())
             parts = {std::accumulate(parts.begin(), parts.end(), PixelRect{}, around)};
     }
     if (std::ranges::find(parts, all) != parts.end()) {
-        choose_levels(drawn_, wanted.scene, drawn_into().size, savings, occluders);
+        choose_levels(drawn_, wanted.picture, drawn_into().size, savings, occluders);
         parts = {all};
     }
     return parts;
@@ -264,12 +265,12 @@ std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& want
 
 Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part,
                                                  bool shaded) {
-    const Scene& scene = wanted.scene;
-    ShownShapes shapes = shapes_in(part, scene, primitives_, drawn_into().size, savings);
+    const picture::Picture& picture = wanted.picture;
+    ShownShapes shapes = shapes_in(part, picture, primitives_, drawn_into().size, savings);
     const DrawCalls calls(device_, commands, pipelines_.layout());
-    Recording r{commands, calls, scene, shaded, part, std::move(shapes.shapes), {}};
+    Recording r{commands, calls, picture, shaded, part, std::move(shapes.shapes), {}};
     r.workpiece = wanted.workpiece;
-    r.surface = choose_draws(drawn_, scene, drawn_into().size, part, savings, surface->occluders(), pixel_ > 1);
+    r.surface = choose_draws(drawn_, picture, drawn_into().size, part, savings, surface->occluders(), pixel_ > 1);
     const auto done = draw_views(r);
     stats.part = around(stats.part, part);
     stats.shapes_left_out += shapes.left_out;
@@ -279,18 +280,18 @@ Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const 
 }
 
 void Renderer::Implementation::upload_uniforms(gpu::Commands& commands, const Shown& wanted) {
-    const shared::FrameUniforms uniforms = frame_uniforms(wanted.scene, wanted.workpiece);
+    const shared::FrameUniforms uniforms = picture::frame_uniforms(wanted.picture, wanted.workpiece);
     commands.upload(pipelines_.uniforms(), 0, gpu::bytes_of(uniforms));
 }
 
 Result<void> Renderer::Implementation::draw_views(Recording& r) {
     begin_pass(r);
     // Front to back as far as the order is known: hidden fragments that come later cost little.
-    auto done = draw_shapes(r, solid_of(r.scene, r.shaded), r.shapes.solid);
+    auto done = draw_shapes(r, solid_of(r.picture, r.shaded), r.shapes.solid);
     if (done) done = draw_surface(r);
     // Whatever is before it: what is seen of the tool covers it afterwards, and the room where nothing is before it.
     if (done) done = draw_shapes(r, PipelineKind::hidden, r.shapes.hidden);
-    if (done) done = draw_shapes(r, solid_of(r.scene, r.shaded), r.shapes.tool);
+    if (done) done = draw_shapes(r, solid_of(r.picture, r.shaded), r.shapes.tool);
     if (done) done = draw_room(r);
     if (done) done = draw_panel(r);
     if (done) done = draw_glass(r);
@@ -299,7 +300,7 @@ Result<void> Renderer::Implementation::draw_views(Recording& r) {
 }
 
 void Renderer::Implementation::begin_pass(Recording& r) {
-    const Vec3 background = targets.encodes ? r.scene.background : linear_of(r.scene.background);
+    const Vec3 background = targets.encodes ? r.picture.background : picture::linear_of(r.picture.background);
     std::array<VkClearValue, 3> clears{};  // the resolved picture's entry counts only where it is drawn into directly
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         clears[i].color = {{static_cast<float>(background.x), static_cast<float>(background.y),
@@ -322,7 +323,8 @@ void Renderer::Implementation::begin_glass_pass(Recording& r) {
     r.calls.begin(info, r.part, drawn_into().size, pipelines_.set());
 }
 
-Result<void> Renderer::Implementation::draw_shapes(Recording& r, PipelineKind kind, std::span<const Shape> shapes) {
+Result<void> Renderer::Implementation::draw_shapes(Recording& r, PipelineKind kind,
+                                                   std::span<const picture::Shape> shapes) {
     if (shapes.empty()) return {};
     if (const auto done = use(r, kind); !done) return done;
     draw_primitives(r, shapes);
@@ -330,22 +332,22 @@ Result<void> Renderer::Implementation::draw_shapes(Recording& r, PipelineKind ki
     return {};
 }
 
-void Renderer::Implementation::draw_primitives(Recording& r, std::span<const Shape> shapes) {
+void Renderer::Implementation::draw_primitives(Recording& r, std::span<const picture::Shape> shapes) {
     bind_primitives(r);
-    for (const Shape& shape : shapes)
+    for (const picture::Shape& shape : shapes)
         if (!shape.mesh) draw(r, shape.range, shape.constants);
 }
 
-void Renderer::Implementation::draw_meshes(Recording& r, std::span<const Shape> shapes) {
-    if (std::ranges::none_of(shapes, [](const Shape& shape) { return shape.mesh != nullptr; })) return;
+void Renderer::Implementation::draw_meshes(Recording& r, std::span<const picture::Shape> shapes) {
+    if (std::ranges::none_of(shapes, [](const picture::Shape& shape) { return shape.mesh != nullptr; })) return;
     r.calls.bind(meshes_);
-    for (const Shape& shape : shapes)
+    for (const picture::Shape& shape : shapes)
         if (shape.mesh) r.calls.draw(meshes_.at(*shape.mesh), shape.constants);
 }
 
 Result<void> Renderer::Implementation::draw_surface(Recording& r) {
     // Shadows of capsules and objects are finer than any vertices.
-    const PipelineKind solid = solid_of(r.scene, r.shaded),
+    const PipelineKind solid = solid_of(r.picture, r.shaded),
                        fine = solid == PipelineKind::solid ? PipelineKind::fine : solid;
     if (const auto done = draw_surface(r, fine, r.surface.fine); !done) return done;
     return draw_surface(r, solid, r.surface.solid);
@@ -357,15 +359,15 @@ Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind k
     if (const auto done = use(r, kind); !done) return done;
     const PatchStore& patches = surface->patches();
     r.calls.bind(patches.vertex_buffer(), patches.light_buffer(), patches.index_buffer());
-    r.calls.push(surface_constants(r.scene));
+    r.calls.push(picture::surface_constants(r.picture));
     for (const DrawRange& range : ranges) r.calls.draw(range.index_count, range.first_index);
     return {};
 }
 
 Result<void> Renderer::Implementation::draw_room(Recording& r) {
-    if (!r.scene.show_grid) return {};
+    if (!r.picture.show_grid) return {};
     std::vector<RoomPart> parts{{r.part, RoomLook::full}};
-    if (savings.plain_room) parts = room_parts(r.scene, r.workpiece, drawn_into().size, r.part);
+    if (savings.plain_room) parts = room_parts(r.picture, r.workpiece, drawn_into().size, r.part);
     bind_primitives(r);
     const PipelineKind full = r.shaded ? PipelineKind::backdrop_shaded : PipelineKind::backdrop;
     for (const auto& [look, kind] :
@@ -375,7 +377,7 @@ Result<void> Renderer::Implementation::draw_room(Recording& r) {
             if (part.look != look) continue;
             if (const auto done = use(r, kind); !done) return done;
             r.calls.clip(part.rect);
-            draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
+            draw(r, primitives_.screen_quad, picture::screen_constants(r.picture.screen));
             if (look != RoomLook::full) stats.plain_room += std::uint64_t{part.rect.width} * part.rect.height;
         }
     }
@@ -384,11 +386,11 @@ Result<void> Renderer::Implementation::draw_room(Recording& r) {
 }
 
 Result<void> Renderer::Implementation::draw_panel(Recording& r) {
-    if (!r.scene.panel || panel_ == VK_NULL_HANDLE) return {};
-    const bool fades = r.scene.edge_fade > 0.0;
+    if (!r.picture.panel || panel_ == VK_NULL_HANDLE) return {};
+    const bool fades = r.picture.edge_fade > 0.0;
     StandingPanel& panel = panels_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
     if (const auto ready = make_ready(panel, fades); !ready) return ready;
-    panel.quad->record(r.commands.raw(), r.scene.panel->stand, pipelines_.set());
+    panel.quad->record(r.commands.raw(), r.picture.panel->stand, pipelines_.set());
     ++stats.draws;
     return {};
 }
@@ -423,7 +425,7 @@ Result<void> Renderer::Implementation::draw_glass(Recording& r) {
 
 // Draws the far and the near faces of one object after another, the farthest object first: what is nearer lies over it.
 Result<void> Renderer::Implementation::draw_clear_objects(Recording& r) {
-    for (const Shape& shape : r.shapes.glass) {
+    for (const picture::Shape& shape : r.shapes.glass) {
         if (!shape.mesh) continue;
         for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
             if (const auto done = use(r, faces); !done) return done;
@@ -435,24 +437,25 @@ Result<void> Renderer::Implementation::draw_clear_objects(Recording& r) {
 }
 
 Result<void> Renderer::Implementation::use(Recording& r, PipelineKind kind) {
-    const auto pipeline = pipelines_.pipeline(device_, kind, r.scene.edge_fade > 0.0, targets);
+    const auto pipeline = pipelines_.pipeline(device_, kind, r.picture.edge_fade > 0.0, targets);
     if (!pipeline) return std::unexpected(pipeline.error());
     r.calls.use(*pipeline);
     return {};
 }
 
-void Renderer::Implementation::draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants) {
+void Renderer::Implementation::draw(Recording& r, const picture::PrimitiveRange& range,
+                                    const shared::DrawConstants& constants) {
     r.calls.push(constants);
     r.calls.draw(range.index_count, range.first_index);
 }
 
 // ---- Reading back
 
-Result<StereoImage> Renderer::Implementation::render(const Scene& scene, std::uint32_t pixel) {
+Result<StereoImage> Renderer::Implementation::render(const picture::Picture& picture, std::uint32_t pixel) {
     if (const auto ready = readback_.fit(device_, targets.size); !ready) return std::unexpected(ready.error());
     auto commands = gpu::Commands::begin(device_);
     if (!commands) return std::unexpected(commands.error());
-    if (const auto recorded = record(*commands, scene, pixel); !recorded) return std::unexpected(recorded.error());
+    if (const auto recorded = record(*commands, picture, pixel); !recorded) return std::unexpected(recorded.error());
     readback_.copy(device_, *commands, targets.picture.raw());
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
@@ -475,8 +478,8 @@ Renderer::~Renderer() = default;
 
 SurfaceStore& Renderer::surface() { return *implementation_->surface; }
 void Renderer::show_panel(VkImageView panel) { implementation_->show_panel(panel); }
-Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel) {
-    return implementation_->record(commands, scene, pixel);
+Result<RenderStats> Renderer::record(gpu::Commands& commands, const picture::Picture& picture, std::uint32_t pixel) {
+    return implementation_->record(commands, picture, pixel);
 }
 VkImageView Renderer::both_eyes() const { return implementation_->targets.both_eyes.raw(); }
 ImageSize Renderer::size() const { return implementation_->targets.size; }
@@ -486,8 +489,8 @@ void Renderer::set_savings(const Savings& savings) {
     implementation_->savings = savings;
     forget_picture();
 }
-Result<StereoImage> Renderer::render(const Scene& scene, std::uint32_t pixel) {
-    return implementation_->render(scene, pixel);
+Result<StereoImage> Renderer::render(const picture::Picture& picture, std::uint32_t pixel) {
+    return implementation_->render(picture, pixel);
 }
 const RenderStats& Renderer::stats() const { return implementation_->stats; }
 

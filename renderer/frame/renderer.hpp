@@ -7,7 +7,7 @@
 // Light: one directional light from above and slightly in front, hemispheric ambient. The workpiece's self-occlusion
 // comes with its vertices; the tool's occlusion is added in closed form, with shadows that sharpen towards contact and
 // a thin ring of the tool's colour where the surface comes near it.
-// A panel may stand in the scene (Scene::panel, show_panel).
+// A panel may stand in the scene (Picture::panel, show_panel).
 // What is left out, and why that does not show, is described in renderer/surface/patch_choice.hpp and redraw.hpp.
 //
 // Ownership: the renderer shares the device's core; the device's
@@ -25,8 +25,8 @@
 #include "base/image.hpp"
 #include "gpu/commands.hpp"
 #include "gpu/device.hpp"
+#include "picture/picture.hpp"
 #include "renderer/png.hpp"
-#include "renderer/scene/scene.hpp"
 #include "renderer/surface/patch_choice.hpp"
 #include "renderer/surface/surface_store.hpp"
 
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] SurfaceStore& surface();
     // Sets the picture of the standing panel, if the scene has one: sRGB values, premultiplied
     // (PanelPainter::view()), in layout SHADER_READ_ONLY_OPTIMAL when the GPU reads it. It must live
-    // as long as frames show it. Setting the same view again does nothing (ScenePanel::version
+    // as long as frames show it. Setting the same view again does nothing (PicturePanel::version
     // signals repainting). After each PanelPainter::resize() the new view must be set before the next
     // resize, since a driver may reuse an earlier view's handle. VK_NULL_HANDLE: no panel is drawn.
     void show_panel(VkImageView panel);
@@ -83,7 +83,8 @@ public:
     // scene to this one. Later commands may sample the picture.
     // pixel: side of what is drawn as one pixel and magnified, in pixels of the picture; 1: the full picture. A frame
     // with another than the frame before is a full redraw, so that full pictures do not depend on others before them.
-    [[nodiscard]] Result<RenderStats> record(gpu::Commands& commands, const Scene& scene, std::uint32_t pixel = 1);
+    [[nodiscard]] Result<RenderStats> record(gpu::Commands& commands, const picture::Picture& picture,
+                                             std::uint32_t pixel = 1);
     // Returns the two views: an array of two layers that yields linear
     // light, in layout SHADER_READ_ONLY_OPTIMAL after the first frame.
     [[nodiscard]] VkImageView both_eyes() const;
@@ -97,7 +98,7 @@ public:
     void set_savings(const Savings& savings);
 
     // Records, waits, and reads the picture back.
-    [[nodiscard]] Result<StereoImage> render(const Scene& scene, std::uint32_t pixel = 1);
+    [[nodiscard]] Result<StereoImage> render(const picture::Picture& picture, std::uint32_t pixel = 1);
     [[nodiscard]] const RenderStats& stats() const;  // of the last frame
 
 private:

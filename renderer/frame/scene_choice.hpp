@@ -8,23 +8,23 @@
 #include <vector>
 
 #include "base/image.hpp"
-#include "renderer/scene/frame_setup.hpp"
-#include "renderer/scene/primitives.hpp"
+#include "picture/frame_setup.hpp"
+#include "picture/primitives.hpp"
 #include "renderer/surface/patch_choice.hpp"
 
 namespace burin::renderer {
 
 struct ShownShapes {
-    Shapes shapes;
+    picture::Shapes shapes;
     std::uint32_t left_out = 0;  // shapes outside the part
 };
 // Returns the shapes whose bounds are not outside the part for both eyes. Balls are tessellated for their size in the
 // picture, which does not depend on the part.
-[[nodiscard]] ShownShapes shapes_in(const PixelRect& part, const Scene& scene, const Primitives& primitives,
-                                    ImageSize size, const Savings& savings);
+[[nodiscard]] ShownShapes shapes_in(const PixelRect& part, const picture::Picture& picture,
+                                    const picture::Primitives& primitives, ImageSize size, const Savings& savings);
 
 // Returns the coarsest ball whose error is at most a quarter of a pixel.
-[[nodiscard]] const PrimitiveRange& ball_for(const Primitives& primitives, double radius_px);
+[[nodiscard]] const picture::PrimitiveRange& ball_for(const picture::Primitives& primitives, double radius_px);
 
 // The shaders of the room. A software driver executes all of a shader at every pixel, so pixels with neither the
 // floor's grid nor a shadow get a shader with neither. Which pixels these are depends on the room and the eyes alone,
@@ -36,13 +36,14 @@ struct RoomPart {
     RoomLook look = RoomLook::full;
 };
 // Returns parts that together cover `part`, each of its pixels once.
-[[nodiscard]] std::vector<RoomPart> room_parts(const Scene& scene, const Workpiece& workpiece, ImageSize size,
-                                               const PixelRect& part);
+[[nodiscard]] std::vector<RoomPart> room_parts(const picture::Picture& picture, const picture::Workpiece& workpiece,
+                                               ImageSize size, const PixelRect& part);
 
 // Returns a rectangle around all that either eye may see of the
 // workpiece's, the plinth's and the objects' shadows on the floor (shaders/backdrop_stage.glsl).
-[[nodiscard]] PixelRect shadows_on_floor(const Scene& scene, const Workpiece& workpiece, ImageSize size);
+[[nodiscard]] PixelRect shadows_on_floor(const picture::Picture& picture, const picture::Workpiece& workpiece,
+                                         ImageSize size);
 // Returns the number of rows, from the picture's top, in which neither eye sees the floor's grid.
-[[nodiscard]] std::uint32_t rows_above_grid(const Scene& scene, ImageSize size);
+[[nodiscard]] std::uint32_t rows_above_grid(const picture::Picture& picture, ImageSize size);
 
 }  // namespace burin::renderer

@@ -48,8 +48,8 @@ Result<ShadowMap> ShadowMap::create(gpu::Device& device, VkPipelineLayout layout
     ShadowMap map;
     map.layout_ = layout;
     auto depth =
-        gpu::Image::create(device, {.width = kShadowMapSide,
-                                    .height = kShadowMapSide,
+        gpu::Image::create(device, {.width = picture::kShadowMapSide,
+                                    .height = picture::kShadowMapSide,
                                     .format = kMapFormat,
                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                                     .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
@@ -108,7 +108,7 @@ Result<void> ShadowMap::create_pass(gpu::Device& device) {
     frame.renderPass = pass;
     frame.attachmentCount = 1;
     frame.pAttachments = &view;
-    frame.width = frame.height = kShadowMapSide;
+    frame.width = frame.height = picture::kShadowMapSide;
     frame.layers = 1;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateFramebuffer(core->device, &frame, nullptr, &framebuffer); r != VK_SUCCESS)
@@ -134,10 +134,10 @@ Result<void> ShadowMap::create_pipeline(gpu::Device& device) {
     return {};
 }
 
-Result<bool> ShadowMap::record(gpu::Device& device, gpu::Commands& commands, const LampView& view,
+Result<bool> ShadowMap::record(gpu::Device& device, gpu::Commands& commands, const picture::LampView& view,
                                const MeshStore& meshes) {
     std::vector<Shown> now;
-    for (const DrawnObject* object : view.casters) now.push_back({object->mesh, object->world_from_mesh});
+    for (const picture::DrawnObject* object : view.casters) now.push_back({object->mesh, object->world_from_mesh});
     if (now == shown_) return false;
     if (const auto ready = create_pipeline(device); !ready) return std::unexpected(ready.error());
     shown_ = std::move(now);
@@ -147,15 +147,15 @@ Result<bool> ShadowMap::record(gpu::Device& device, gpu::Commands& commands, con
     auto info = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     info.renderPass = pass_.raw();
     info.framebuffer = framebuffer_.raw();
-    info.renderArea = {{0, 0}, {kShadowMapSide, kShadowMapSide}};
+    info.renderArea = {{0, 0}, {picture::kShadowMapSide, picture::kShadowMapSide}};
     info.clearValueCount = 1;
     info.pClearValues = &clear;
     vk.vkCmdBeginRenderPass(commands.raw(), &info, VK_SUBPASS_CONTENTS_INLINE);
-    constexpr auto kSide = static_cast<float>(kShadowMapSide);
+    constexpr auto kSide = static_cast<float>(picture::kShadowMapSide);
     const VkViewport viewport{0.0f, 0.0f, kSide, kSide, 0.0f, 1.0f};
     vk.vkCmdSetViewport(commands.raw(), 0, 1, &viewport);
     DrawCalls calls(device, commands, layout_);
-    calls.clip({0, 0, kShadowMapSide, kShadowMapSide});
+    calls.clip({0, 0, picture::kShadowMapSide, picture::kShadowMapSide});
     calls.use(pipeline_.raw());
     calls.bind(meshes);
     shared::DrawConstants constants{};

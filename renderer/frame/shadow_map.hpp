@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shadow map: the depths of the objects that cast shadows, as the lamp sees them (renderer/scene/lamp_view.hpp).
+// The shadow map: the depths of the objects that cast shadows, as the lamp sees them (picture/lamp_view.hpp).
 // Drawn only when one of these objects has moved, come or gone; by a device's rasterizer, software or hardware.
 // Between frames it is in a layout to be sampled. Ownership: move-only. Thread: that of the device.
 #pragma once
@@ -9,8 +9,8 @@
 
 #include "gpu/commands.hpp"
 #include "gpu/image.hpp"
+#include "picture/lamp_view.hpp"
 #include "renderer/frame/mesh_store.hpp"
-#include "renderer/scene/lamp_view.hpp"
 
 namespace burin::renderer {
 
@@ -21,7 +21,7 @@ public:
 
     // Draws the map where the objects are not those that it shows. `meshes` has those of the objects. Returns whether
     // it was drawn.
-    [[nodiscard]] Result<bool> record(gpu::Device& device, gpu::Commands& commands, const LampView& view,
+    [[nodiscard]] Result<bool> record(gpu::Device& device, gpu::Commands& commands, const picture::LampView& view,
                                       const MeshStore& meshes);
 
     // For descriptors: what compares depths, 1 where the reference is nearer to the lamp or beside the map; and what
@@ -38,7 +38,7 @@ private:
     [[nodiscard]] Result<void> create_pipeline(gpu::Device& device);
 
     struct Shown {
-        std::shared_ptr<const DrawnMesh> mesh;
+        std::shared_ptr<const picture::DrawnMesh> mesh;
         Similarity world_from_mesh;
         bool operator==(const Shown&) const = default;
     };

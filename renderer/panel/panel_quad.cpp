@@ -14,7 +14,7 @@ namespace {
 // The same stages as in the renderer's other pipelines, so that the frame's set stays bound from one to the next.
 constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-Mat4 world_from_local(const PanelStand& stand) {
+Mat4 world_from_local(const picture::PanelStand& stand) {
     Mat4 m = matrix(Similarity{stand.world_from_panel.position_m, stand.world_from_panel.orientation, 1.0});
     m[0] *= stand.size_m.x;
     m[1] *= stand.size_m.y;
@@ -59,7 +59,7 @@ Result<void> PanelQuad::show(VkImageView panel) {
     return {};
 }
 
-void PanelQuad::record(VkCommandBuffer commands, const PanelStand& stand, VkDescriptorSet frame) const {
+void PanelQuad::record(VkCommandBuffer commands, const picture::PanelStand& stand, VkDescriptorSet frame) const {
     if (!picture_) return;
     shared::DrawConstants constants{};
     constants.world_from_local = glm::mat4(world_from_local(stand));

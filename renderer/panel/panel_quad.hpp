@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "gpu/commands.hpp"
-#include "renderer/panel/panel_stand.hpp"
+#include "picture/panel_stand.hpp"
 #include "renderer/panel/panel_vulkan.hpp"
 
 namespace burin::renderer {
@@ -37,7 +37,7 @@ public:
     // Sets the picture to show: premultiplied sRGB values, in layout SHADER_READ_ONLY_OPTIMAL when the GPU reads it.
     [[nodiscard]] Result<void> show(VkImageView panel);
     // Binds a pipeline of its own, the frame's set and its own set behind it. Does nothing before the first show().
-    void record(VkCommandBuffer commands, const PanelStand& stand, VkDescriptorSet frame) const;
+    void record(VkCommandBuffer commands, const picture::PanelStand& stand, VkDescriptorSet frame) const;
 
 private:
     explicit PanelQuad(const gpu::Device& device) : device_(device) {}

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "renderer/scene/frame_setup.hpp"
-#include "renderer/scene/pixel_length.hpp"
+#include "picture/frame_setup.hpp"
+#include "picture/pixel_length.hpp"
 
 namespace burin::renderer {
 namespace {
@@ -21,46 +21,47 @@ constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 64.0;
 // Computes the length of a pixel, in the patches' frame, at a patch's point nearest to an eye.
 class PatchPixel {
 public:
-    PatchPixel(const Scene& scene, ImageSize size) : scene_(scene), pixel_(scene, size) {}
+    PatchPixel(const picture::Picture& picture, ImageSize size) : picture_(picture), pixel_(picture, size) {}
     [[nodiscard]] double at(const PatchShape& patch) const {
-        const double scale = scene_.world_from_object.scale;
-        return pixel_.at(scene_.world_from_object * (scene_.lattice_origin_object + patch.center),
+        const double scale = picture_.world_from_object.scale;
+        return pixel_.at(picture_.world_from_object * (picture_.lattice_origin_object + patch.center),
                          patch.radius_m * scale) /
                scale;
     }
 
 private:
-    const Scene& scene_;
-    PixelLength pixel_;
+    const picture::Picture& picture_;
+    picture::PixelLength pixel_;
 };
 
 // The region of the tool's ring and shadow, which are finer than any vertices: a ball, and balls swept along the light.
 class ToolZone {
 public:
-    explicit ToolZone(const Scene& scene) {
-        const SceneTool& tool = scene.tool;
+    explicit ToolZone(const picture::Picture& picture) {
+        const picture::PictureTool& tool = picture.tool;
         if (!tool.visible) return;
         there_ = true;
-        const Similarity object_from_world = inverse(scene.world_from_object);
+        const Similarity object_from_world = inverse(picture.world_from_object);
         const double scale = object_from_world.scale;
-        const auto local = [&](const Vec3& p) { return object_from_world * p - scene.lattice_origin_object; };
+        const auto local = [&](const Vec3& p) { return object_from_world * p - picture.lattice_origin_object; };
         const double reach_m = double{shared::kToolShades} * tool.radius_m;
-        const Ball all = ball_of(tool);
+        const picture::Ball all = picture::ball_of(tool);
         center_ = local(tool.center_world);
         spine_ = local(tool.center_world + tool.spine_m) - center_;
         radius_m_ = double{shared::kToolNears} * tool.radius_m * scale;
         darkens_m_ = double{shared::kToolDarkens} * tool.radius_m * scale;
         from_ = local(all.center_world);
-        to_ = local(all.center_world - (reach_m + all.radius_m) * direction_to_light());
-        shadow_radius_m_ = (all.radius_m + kLightHalfAngleTangent * reach_m) * scale;
+        to_ = local(all.center_world - (reach_m + all.radius_m) * picture::direction_to_light());
+        shadow_radius_m_ = (all.radius_m + picture::kLightHalfAngleTangent * reach_m) * scale;
         const std::array balls = balls_of(tool);
         for (std::size_t i = 0; i < balls.size(); ++i) {
             if (balls[i].radius_m <= 0.0) continue;
             // Twice the ball's radius: its points lie before and behind its middle, as seen from the lamp.
-            const double edge_m = kLightHalfAngleTangent * (reach_m + 2.0 * balls[i].radius_m) + 0.02 * tool.radius_m;
+            const double edge_m =
+                picture::kLightHalfAngleTangent * (reach_m + 2.0 * balls[i].radius_m) + 0.02 * tool.radius_m;
             shadows_[i] = {local(balls[i].center_world), (balls[i].radius_m + edge_m) * scale};
         }
-        along_ = local(tool.center_world - reach_m * direction_to_light()) - center_;
+        along_ = local(tool.center_world - reach_m * picture::direction_to_light()) - center_;
     }
     // Returns whether the tool touches() the patch or occludes ambient light on it.
     [[nodiscard]] bool changes(const PatchShape& patch) const {
@@ -96,7 +97,7 @@ private:
     bool there_ = false;
     Vec3 center_{0.0}, spine_{0.0}, from_{0.0}, to_{0.0}, along_{0.0};
     double radius_m_ = 0.0, darkens_m_ = 0.0, shadow_radius_m_ = 0.0;
-    std::array<Shadow, kSpineBalls + kStylusBalls> shadows_;  // of the tool's balls
+    std::array<Shadow, picture::kSpineBalls + picture::kStylusBalls> shadows_;  // of the tool's balls
 };
 
 ShadingRate rate_of(const PatchStore::Patch& patch, const PatchPixel& pixel, const ToolZone& zone,
@@ -179,11 +180,11 @@ bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
 }
 
 // Draws the groups that have a level for the purpose. Returns them, hidden ones too, in the order of their addresses.
-std::vector<const PatchGroup*> draw_groups(PatchDraws& draws, const DrawnPatches& drawn, const Scene& scene,
-                                           ImageSize size, const EyePair& eyes, std::span<const Box> occluders,
-                                           const Savings& savings) {
-    const PatchPixel pixel(scene, size);
-    const ToolZone zone(scene);
+std::vector<const PatchGroup*> draw_groups(PatchDraws& draws, const DrawnPatches& drawn,
+                                           const picture::Picture& picture, ImageSize size, const EyePair& eyes,
+                                           std::span<const Box> occluders, const Savings& savings) {
+    const PatchPixel pixel(picture, size);
+    const ToolZone zone(picture);
     std::vector<const PatchGroup*> groups;
     for (const auto& [place, group] : drawn.groups()) {
         const PatchGroup::Level* const level = level_of(group, pixel);
@@ -200,12 +201,12 @@ std::vector<const PatchGroup*> draw_groups(PatchDraws& draws, const DrawnPatches
 
 }  // namespace
 
-void choose_levels(DrawnPatches& drawn, const Scene& scene, ImageSize size, const Savings& savings,
+void choose_levels(DrawnPatches& drawn, const picture::Picture& picture, ImageSize size, const Savings& savings,
                    std::span<const Box> occluders) {
-    const PatchPixel pixel(scene, size);
-    const ToolZone zone(scene);
+    const PatchPixel pixel(picture, size);
+    const ToolZone zone(picture);
     const std::span<PatchStore::Patch* const> patches = drawn.patches();
-    const Sight sight(eye_frusta(scene, size, all_of(size)), occluders, patches);
+    const Sight sight(eye_frusta(picture, size, all_of(size)), occluders, patches);
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const PatchStore::Patch& patch = *patches[i];
         // The fade is computed at vertices, so where it bends the picture all of them are needed.
@@ -217,9 +218,10 @@ void choose_levels(DrawnPatches& drawn, const Scene& scene, ImageSize size, cons
     drawn.levels_chosen();
 }
 
-std::vector<Box> choose_rates(DrawnPatches& drawn, const Scene& scene, ImageSize size, const Savings& savings) {
-    const PatchPixel pixel(scene, size);
-    const ToolZone zone(scene);
+std::vector<Box> choose_rates(DrawnPatches& drawn, const picture::Picture& picture, ImageSize size,
+                              const Savings& savings) {
+    const PatchPixel pixel(picture, size);
+    const ToolZone zone(picture);
     std::vector<Box> changed;
     for (const PatchStore::Patch* patch : drawn.patches()) {
         const ShadingRate rate = rate_of(*patch, pixel, zone, savings);
@@ -229,8 +231,8 @@ std::vector<Box> choose_rates(DrawnPatches& drawn, const Scene& scene, ImageSize
     return changed;
 }
 
-std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, const Scene& before, const Scene& now,
-                                   ImageSize size, std::span<const Box> occluders) {
+std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, const picture::Picture& before,
+                                   const picture::Picture& now, ImageSize size, std::span<const Box> occluders) {
     std::vector<Box> changed;
     if (before.tool == now.tool) return changed;
     const ToolZone was(before), is(now);
@@ -243,14 +245,14 @@ std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, 
     return changed;
 }
 
-PatchDraws choose_draws(const DrawnPatches& drawn, const Scene& scene, ImageSize size, const PixelRect& part,
-                        const Savings& savings, std::span<const Box> occluders, bool moving) {
+PatchDraws choose_draws(const DrawnPatches& drawn, const picture::Picture& picture, ImageSize size,
+                        const PixelRect& part, const Savings& savings, std::span<const Box> occluders, bool moving) {
     PatchDraws draws;
     const std::span<PatchStore::Patch* const> patches = drawn.patches();
-    const EyePair eyes = eye_frusta(scene, size, part);
+    const EyePair eyes = eye_frusta(picture, size, part);
     const Sight sight(eyes, occluders, patches);
     std::vector<const PatchGroup*> groups;
-    if (moving && !eyes.fade) groups = draw_groups(draws, drawn, scene, size, eyes, occluders, savings);
+    if (moving && !eyes.fade) groups = draw_groups(draws, drawn, picture, size, eyes, occluders, savings);
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const PatchStore::Patch& patch = *patches[i];
         if (std::ranges::binary_search(groups, static_cast<const PatchGroup*>(patch.group))) continue;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/image.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "renderer/surface/drawn_patches.hpp"
 
 namespace burin::renderer {
@@ -54,18 +54,19 @@ struct PatchDraws {
 };
 
 // Chooses the level and shading rate of every patch for a full redraw; marks patches in view as wanted.
-void choose_levels(DrawnPatches& drawn, const Scene& scene, ImageSize size, const Savings& savings,
+void choose_levels(DrawnPatches& drawn, const picture::Picture& picture, ImageSize size, const Savings& savings,
                    std::span<const Box> occluders);
 // Chooses the shading rate alone, which depends on the tool too. Returns the bounds of the patches whose rate changed.
-[[nodiscard]] std::vector<Box> choose_rates(DrawnPatches& drawn, const Scene& scene, ImageSize size,
+[[nodiscard]] std::vector<Box> choose_rates(DrawnPatches& drawn, const picture::Picture& picture, ImageSize size,
                                             const Savings& savings);
 // Returns the bounds of the patches in view that may look different because the tool changed: those near its old or new
 // position, or in its shadow.
-[[nodiscard]] std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, const Scene& before,
-                                                 const Scene& now, ImageSize size, std::span<const Box> occluders);
+[[nodiscard]] std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches,
+                                                 const picture::Picture& before, const picture::Picture& now,
+                                                 ImageSize size, std::span<const Box> occluders);
 // Returns what has to be drawn for this part of the picture. moving: groups of patches are drawn as one, with few
 // triangles, where they have any (patch_groups.hpp).
-[[nodiscard]] PatchDraws choose_draws(const DrawnPatches& drawn, const Scene& scene, ImageSize size,
+[[nodiscard]] PatchDraws choose_draws(const DrawnPatches& drawn, const picture::Picture& picture, ImageSize size,
                                       const PixelRect& part, const Savings& savings, std::span<const Box> occluders,
                                       bool moving = false);
 

@@ -53,17 +53,17 @@ Vec3 box_corner(const Box& box, int corner) {
             (corner & 4) != 0 ? box.hi.z : box.lo.z};
 }
 
-FadedEdges faded_edges(const Scene& scene, const EyeFrustum& middle) {
-    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+FadedEdges faded_edges(const picture::Picture& picture, const EyeFrustum& middle) {
+    const wall::Eyes eyes = wall::eyes_of(picture.viewer);
     const Vec3 middle_world = middle_of(eyes);
     const Mat4 world_from_patch =
-        matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
-    FadedEdges fade{middle, {}, {}, wall::distance_in_front(scene.screen, middle_world), scene.edge_fade_band};
+        matrix(picture.world_from_object) * glm::translate(Mat4(1.0), picture.lattice_origin_object);
+    FadedEdges fade{middle, {}, {}, wall::distance_in_front(picture.screen, middle_world), picture.edge_fade_band};
     const std::array from{eyes.left_world, eyes.right_world, middle_world};
     // The near and far planes do not matter.
     for (std::size_t i = 0; i < 3; ++i) {
         const Mat4& clip = fade.clip_from_patch[i] =
-            off_axis_projection(scene.screen, from[i], 0.01, 100.0) * world_from_patch;
+            off_axis_projection(picture.screen, from[i], 0.01, 100.0) * world_from_patch;
         for (const auto& [row, of] : {std::pair{0, 0}, {1, 1}, {2, 3}})
             fade.rows[i][row] = {clip[0][of], clip[1][of], clip[2][of], clip[3][of]};
     }
@@ -102,16 +102,16 @@ PatchShape shape_of(std::span<const shared::SurfaceVertex> vertices, std::span<c
     return shape;
 }
 
-EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
-    const wall::Screen& s = scene.screen;
+EyePair eye_frusta(const picture::Picture& picture, ImageSize size, const PixelRect& part) {
+    const wall::Screen& s = picture.screen;
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const auto at = [&](double x_px, double y_px) {
         return s.lower_left_world + across * (x_px / size.width) + upright * (1.0 - y_px / size.height);
     };
     const double x0 = part.x - kPad_px, x1 = part.x + (part.width + kPad_px);
     const double y0 = part.y - kPad_px, y1 = part.y + (part.height + kPad_px);
-    const Similarity object_from_world = inverse(scene.world_from_object);
-    const auto local = [&](const Vec3& p) { return object_from_world * p - scene.lattice_origin_object; };
+    const Similarity object_from_world = inverse(picture.world_from_object);
+    const auto local = [&](const Vec3& p) { return object_from_world * p - picture.lattice_origin_object; };
     const Vec3 lower_left = local(at(x0, y1)), lower_right = local(at(x1, y1)), upper_left = local(at(x0, y0)),
                upper_right = local(at(x1, y0));
     const auto frustum = [&](const Vec3& eye_world) {
@@ -122,9 +122,9 @@ EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
                            plane_through(eye, lower_left, lower_right, upper_left),
                            plane_through(eye, upper_left, upper_right, lower_left)}};
     };
-    const wall::Eyes world = wall::eyes_of(scene.viewer);
+    const wall::Eyes world = wall::eyes_of(picture.viewer);
     EyePair pair{{frustum(world.left_world), frustum(world.right_world)}};
-    if (scene.edge_fade > 0.0) pair.fade = faded_edges(scene, frustum(middle_of(world)));
+    if (picture.edge_fade > 0.0) pair.fade = faded_edges(picture, frustum(middle_of(world)));
     return pair;
 }
 

@@ -14,7 +14,7 @@
 
 #include "base/image.hpp"
 #include "base/space.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "shaders/shared/surface_vertex.h"
 
 namespace burin::renderer {
@@ -53,7 +53,7 @@ struct EyePair {
     std::optional<FadedEdges> fade = std::nullopt;  // present if parallax fades
 };
 // Returns the frusta through the pixels of `part`, with a margin of kPad_px on each side for what touches them.
-[[nodiscard]] EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part);
+[[nodiscard]] EyePair eye_frusta(const picture::Picture& picture, ImageSize size, const PixelRect& part);
 
 // Returns whether the fade may move something in the box; false without a fade.
 [[nodiscard]] bool bent(const EyePair& eyes, const Box& box);

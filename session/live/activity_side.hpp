@@ -48,7 +48,7 @@ public:
         if (activity_) activity_->adjust(of, parameters);
     }
     [[nodiscard]] bool draws_hands() const { return activity_ && activity_->draws_hands(); }
-    void stage(renderer::Scene& scene, std::size_t screen) const {
+    void stage(picture::Picture& scene, std::size_t screen) const {
         if (activity_) activity_->stage(scene, screen);
     }
     // Returns its section of the panel; none without an activity.

@@ -37,13 +37,13 @@ PanelSource tracker_source(const wall::TrackerReport& report) {
 }
 
 // Places the panel at the right of the screen that the viewer faces, turned towards the viewer.
-renderer::PanelStand stand_in(const Room& room, ImageSize size) {
+picture::PanelStand stand_in(const Room& room, ImageSize size) {
     const wall::Screen s = room.screen();
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const double width_m = std::min(kStandingWidth * glm::length(upright), kOfScreensWidth * glm::length(across));
     const Vec3 place = s.lower_right_world - (0.6 * width_m) * glm::normalize(across) + 0.55 * upright;
     const Quat turned = world_from_screen(s) * glm::angleAxis(-kStandingTurn_rad, Vec3(0.0, 1.0, 0.0));
-    return renderer::stand_of_width({place, turned}, width_m, size);
+    return picture::stand_of_width({place, turned}, width_m, size);
 }
 
 // Describes the chosen object; the first where none is.

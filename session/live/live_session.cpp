@@ -287,9 +287,9 @@ void LiveSession::take_news(std::uint64_t updates) {
     if (news.materials) publish_parameters();
 }
 
-std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
+std::optional<picture::Picture> LiveSession::scene_on(std::size_t screen) const {
     if (room_.wall.is_panel(screen)) return std::nullopt;
-    std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
+    std::optional<picture::Picture> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
     if (scene && state_.mouse == MouseMode::surface) stand_on_plinth(*scene);
     for (std::size_t part = 0; scene && !activity_.draws_hands() && part < hands().parts(); ++part)
         if (part != hands().first_part(state_.hand))
@@ -304,12 +304,12 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (scene) activity_.stage(*scene, screen);
     // What an activity shows is its own: a shadow would tell of a study's tube that nobody may see.
     if (scene && (!options_.live.shadows || options_.activity != nullptr))
-        for (renderer::DrawnObject& object : scene->objects) object.casts_shadow = false;
+        for (picture::DrawnObject& object : scene->objects) object.casts_shadow = false;
     return scene;
 }
 
 // A part that was turned or cut touches its plinth with what is lowest of it now, and not with its box's corner.
-void LiveSession::stand_on_plinth(renderer::Scene& scene) const {
+void LiveSession::stand_on_plinth(picture::Picture& scene) const {
     const Similarity& pose = state_.world_from_object;
     const auto lowest_m = seen_.lowest_along_m(glm::conjugate(pose.orientation) * Vec3(0.0, 1.0, 0.0));
     if (!lowest_m) return;

@@ -76,7 +76,7 @@ public:
     [[nodiscard]] std::vector<sculpt::SurfaceUpdate> take_surface_updates() { return std::exchange(updates_, {}); }
     [[nodiscard]] Vec3 lattice_origin_object() const { return scene_.lattice_origin_object(); }
     // Returns the scene of a screen; nothing where it stays dark.
-    [[nodiscard]] std::optional<renderer::Scene> scene_on(std::size_t screen) const;
+    [[nodiscard]] std::optional<picture::Picture> scene_on(std::size_t screen) const;
     // Returns the panel's picture on a screen, valid until the next step; nothing where it is not shown.
     [[nodiscard]] std::optional<PanelPicture> panel_on(std::size_t screen) const {
         return panel_.picture_on(screen, room_);
@@ -174,7 +174,7 @@ private:
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands().first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
-    void stand_on_plinth(renderer::Scene& scene) const;
+    void stand_on_plinth(picture::Picture& scene) const;
     void fit_into_mode(wall::StereoMode mode, SessionOrders& orders);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
 namespace burin::session {
 namespace {
@@ -174,7 +174,7 @@ std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& setting
 }
 
 std::optional<compute::Lamp> LampWatch::look(const SessionState& state, Nanoseconds time_ns) {
-    const Vec3 direction = inverse(state.world_from_object.orientation) * renderer::direction_to_light();
+    const Vec3 direction = inverse(state.world_from_object.orientation) * picture::direction_to_light();
     const bool first = direction_object_ == Vec3(0.0);
     const bool turns = glm::length(direction - seen_object_) > kSame;
     if (turns) turned_ns_ = time_ns;
@@ -184,7 +184,7 @@ std::optional<compute::Lamp> LampWatch::look(const SessionState& state, Nanoseco
     const Nanoseconds rests_ns = turns || state.desk.drag ? kShadowsFollow_ns : 0;
     if (!first && time_ns - turned_ns_ < rests_ns) return std::nullopt;
     direction_object_ = direction;
-    return compute::Lamp{direction, renderer::kLightHalfAngleTangent};
+    return compute::Lamp{direction, picture::kLightHalfAngleTangent};
 }
 
 }  // namespace burin::session

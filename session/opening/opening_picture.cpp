@@ -42,11 +42,11 @@ void OpeningPicture::take(FirstLook look) {
 }
 
 // The scene as the session begins it, with the mesh in the workpiece's place.
-renderer::Scene OpeningPicture::scene() const {
+picture::Picture OpeningPicture::scene() const {
     const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
     const auto tool = sculpt::parse_tool_settings(sculpt::with_tool({}, longest_m));
     const SessionState state = begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {}, output_);
-    auto scene = scene_of(state, room_, room_.wall.main, Vec3(0.0), {}).value_or(renderer::Scene{});
+    auto scene = scene_of(state, room_, room_.wall.main, Vec3(0.0), {}).value_or(picture::Picture{});
     scene.pedestal.visible = scene.pedestal.visible && look_.has_value();
     if (!look_) return scene;
     constexpr double kPlain = 200.0 / 255.0;  // a material's colour where the file has none

@@ -26,7 +26,7 @@ public:
 
 private:
     OpeningPicture(const SculptOptions& options, Room room, wall::OutputSettings output);
-    [[nodiscard]] renderer::Scene scene() const;
+    [[nodiscard]] picture::Picture scene() const;
 
     SculptOptions options_;
     Room room_;

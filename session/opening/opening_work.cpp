@@ -76,7 +76,7 @@ Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& work
                                             unsigned threads, OpeningSight& sight) {
     sculpt::LoadWatch watch{&sight.work()};
     watch.look = [&sight](const geometry::TriangleMesh& mesh) {
-        auto drawn = renderer::drawn_mesh(geometry::coarse_copy(mesh, kMostLookedAt, kLookCells));
+        auto drawn = picture::drawn_mesh(geometry::coarse_copy(mesh, kMostLookedAt, kLookCells));
         const Box bounds = drawn->bounds;
         sight.show({std::move(drawn), bounds});
     };

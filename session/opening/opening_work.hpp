@@ -11,14 +11,14 @@
 #include <optional>
 #include <thread>
 
-#include "renderer/scene/drawn_mesh.hpp"
+#include "picture/drawn_mesh.hpp"
 #include "sculpt/made_workpiece.hpp"
 
 namespace burin::session {
 
 // The mesh of a file before its solid is there; a coarse copy where it is large.
 struct FirstLook {
-    std::shared_ptr<const renderer::DrawnMesh> mesh;
+    std::shared_ptr<const picture::DrawnMesh> mesh;
     Box bounds_object;
 };
 

@@ -89,7 +89,7 @@ public:
 
     // Feeds mouse, keys and text; ignores all other events.
     void feed(std::span<const InputEvent> events, const PanelPlace& place = {});
-    // Feeds a wand's ray in place of the mouse (renderer/panel/panel_stand.hpp): the point where it meets the panel, in
+    // Feeds a wand's ray in place of the mouse (picture/panel_stand.hpp): the point where it meets the panel, in
     // panel pixels, and its trigger.
     void point(const std::optional<Vec2>& at_px, bool pressed);
 

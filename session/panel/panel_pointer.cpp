@@ -32,13 +32,13 @@ void follow(PanelPointer& pointer, const Input& input) {
 }
 
 struct Pointing {
-    const renderer::PanelStand& stand;
+    const picture::PanelStand& stand;
     ImageSize panel;
     const MouseView& mouse;
     Pointed pointed;
 
     void point(Nanoseconds time_ns, const std::optional<Pose>& along) {
-        const auto at = along ? renderer::panel_ray(stand, panel, *along) : std::nullopt;
+        const auto at = along ? picture::panel_ray(stand, panel, *along) : std::nullopt;
         const bool was_over = pointed.pointer.over;
         pointed.pointer.over = at.has_value();
         if (at) pointed.panel.push_back({time_ns, MouseMove{*at}});
@@ -106,7 +106,7 @@ struct Pointing {
 
 }  // namespace
 
-Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events, const renderer::PanelStand& stand,
+Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events, const picture::PanelStand& stand,
                        ImageSize panel, const MouseView& mouse) {
     Pointing pointing{stand, panel, mouse, {pointer, {}, {}}};
     for (const InputEvent& event : events)

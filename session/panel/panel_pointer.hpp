@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/panel/panel_stand.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/panel_stand.hpp"
+#include "picture/picture.hpp"
 #include "session/input/input_event.hpp"
 #include "wall/seen_place.hpp"
 
@@ -35,7 +35,7 @@ struct Pointed {
     std::vector<InputEvent> panel, rest;
 };
 [[nodiscard]] Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events,
-                                     const renderer::PanelStand& stand, ImageSize panel, const MouseView& mouse);
+                                     const picture::PanelStand& stand, ImageSize panel, const MouseView& mouse);
 
 // Converts the mouse's positions to pixels of an eye's picture, whichever of the two it is seen on.
 struct OnPicture {

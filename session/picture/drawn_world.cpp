@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
 namespace burin::session {
 namespace {
@@ -13,8 +13,8 @@ Vec3 srgb_of(const scene::Colour& c) { return Vec3(c[0], c[1], c[2]) / 255.0; }
 
 // What is felt from both sides is a sheet, and is seen from both: each of its triangles is there the other way round as
 // well.
-std::shared_ptr<const renderer::DrawnMesh> mesh_of(const scene::SceneObject& object,
-                                                   const scene::CornerColours* own_colours) {
+std::shared_ptr<const picture::DrawnMesh> mesh_of(const scene::SceneObject& object,
+                                                  const scene::CornerColours* own_colours) {
     geometry::TriangleMesh plain{object.mesh->positions_m, object.mesh->triangles, {}, {}, {}};
     scene::CornerColours colours = own_colours != nullptr ? *own_colours : scene::CornerColours();
     if (object.both_sides) {
@@ -22,7 +22,7 @@ std::shared_ptr<const renderer::DrawnMesh> mesh_of(const scene::SceneObject& obj
         for (std::size_t i = 0, count = colours.size(); i < count; ++i)
             colours.push_back({colours[i][0], colours[i][2], colours[i][1]});
     }
-    return renderer::drawn_mesh(plain, colours);
+    return picture::drawn_mesh(plain, colours);
 }
 
 Pose pose_at_the_beginning(const scene::SceneObject& object) {
@@ -34,7 +34,7 @@ Pose pose_at_the_beginning(const scene::SceneObject& object) {
 
 DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects) {
     std::map<std::tuple<const geometry::TriangleMesh*, const scene::CornerColours*, bool>,
-             std::shared_ptr<const renderer::DrawnMesh>>
+             std::shared_ptr<const picture::DrawnMesh>>
         drawn;
     for (const scene::SceneObject& object : objects) {
         const auto drawn_with = [&](const scene::CornerColours* colours) {
@@ -53,7 +53,7 @@ DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects) {
                                object.seen,
                                srgb_of(object.colour),
                                object.opacity};
-        const Box bounds = renderer::placed_box(mesh->bounds, scene_from_mesh);
+        const Box bounds = picture::placed_box(mesh->bounds, scene_from_mesh);
         if (!object.seen || bounds.empty()) continue;
         bounds_scene_.include(bounds.lo);
         bounds_scene_.include(bounds.hi);
@@ -69,8 +69,8 @@ void DrawnWorld::take(std::span<const scene::ObjectUpdate> updates) {
     }
 }
 
-std::vector<renderer::DrawnObject> DrawnWorld::in_world(const Similarity& world_from_scene) const {
-    std::vector<renderer::DrawnObject> list;
+std::vector<picture::DrawnObject> DrawnWorld::in_world(const Similarity& world_from_scene) const {
+    std::vector<picture::DrawnObject> list;
     for (const auto& [id, object] : objects_) {
         if (!object.seen) continue;
         const Similarity placed = world_from_scene * object.scene_from_mesh;

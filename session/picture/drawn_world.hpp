@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "scene/mesh_part.hpp"
 
 namespace burin::session {
@@ -22,14 +22,14 @@ public:
     // Takes over what has changed.
     void take(std::span<const scene::ObjectUpdate> updates);
     // Returns the objects that are seen, where the scene is in the world.
-    [[nodiscard]] std::vector<renderer::DrawnObject> in_world(const Similarity& world_from_scene) const;
+    [[nodiscard]] std::vector<picture::DrawnObject> in_world(const Similarity& world_from_scene) const;
     // Returns the bounds of all that was seen at the beginning, in the scene; empty where nothing was.
     [[nodiscard]] const Box& bounds_scene() const { return bounds_scene_; }
 
 private:
     struct Seen {
-        std::shared_ptr<const renderer::DrawnMesh> mesh, coloured;  // white, to be tinted; in its file's colours
-        bool has_own_colours = false;                               // those of its file
+        std::shared_ptr<const picture::DrawnMesh> mesh, coloured;  // white, to be tinted; in its file's colours
+        bool has_own_colours = false;                              // those of its file
         Similarity scene_from_mesh;
         bool seen = true;
         Vec3 colour{};

@@ -2,7 +2,7 @@
 #include "session/picture/pictures.hpp"
 
 #include "base/file_io.hpp"
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,8 +68,8 @@ Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box
 
 // Updates the renderer's surface. Pictures are not urgent: all light is computed before one is taken.
 Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
-    const Vec3 to_light_object = inverse(world_from_object_.orientation) * renderer::direction_to_light();
-    if (const auto kept = carving.keep_light({to_light_object, renderer::kLightHalfAngleTangent}); !kept) return kept;
+    const Vec3 to_light_object = inverse(world_from_object_.orientation) * picture::direction_to_light();
+    if (const auto kept = carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}); !kept) return kept;
     while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
     }
     for (const std::uint32_t tile : carving.take_changed_tiles()) {
@@ -84,8 +84,8 @@ Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
     return {};
 }
 
-renderer::Scene Pictures::wall_scene(const sculpt::Sculpture& carving) const {
-    renderer::Scene scene;
+picture::Picture Pictures::wall_scene(const sculpt::Sculpture& carving) const {
+    picture::Picture scene;
     scene.viewer.head_world.position_m = kHead_world;
     scene.world_from_object = world_from_object_;
     scene.lattice_origin_object = carving.surface().lattice().origin_object;
@@ -96,8 +96,8 @@ renderer::Scene Pictures::wall_scene(const sculpt::Sculpture& carving) const {
 }
 
 // Shows the same scene through a smaller screen that stands around the workpiece, square to the line of sight.
-renderer::Scene Pictures::close_scene(const sculpt::Sculpture& carving) const {
-    renderer::Scene scene = wall_scene(carving);
+picture::Picture Pictures::close_scene(const sculpt::Sculpture& carving) const {
+    picture::Picture scene = wall_scene(carving);
     const Vec3 towards_eye = glm::normalize(Vec3(0.18, 0.22, 1.0));
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
     const Vec3 up = glm::cross(towards_eye, right);
@@ -126,7 +126,7 @@ Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& sta
     if (!close) return std::unexpected(close.error());
     if (const auto done = renderer::write_png(folder_ / kAfter, close->left); !done) return done;
 
-    renderer::Scene scene = wall_scene(carving);
+    picture::Picture scene = wall_scene(carving);
     stage(scene, staging, world_from_object_);
 
     const auto stereo = renderer_.render(scene);
@@ -138,7 +138,7 @@ Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& sta
 
 Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& staging) {
     if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
-    renderer::Scene scene = wall_scene(carving);
+    picture::Picture scene = wall_scene(carving);
     scene.viewer.interpupillary_m = 0.0;
     stage(scene, staging, world_from_object_);
     auto views = renderer_.render(scene);

@@ -34,8 +34,8 @@ public:
 private:
     Pictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer, const Box& bounds_object);
     [[nodiscard]] Result<void> bring_up_to_date(sculpt::Sculpture& carving);
-    [[nodiscard]] renderer::Scene wall_scene(const sculpt::Sculpture& carving) const;
-    [[nodiscard]] renderer::Scene close_scene(const sculpt::Sculpture& carving) const;
+    [[nodiscard]] picture::Picture wall_scene(const sculpt::Sculpture& carving) const;
+    [[nodiscard]] picture::Picture close_scene(const sculpt::Sculpture& carving) const;
 
     std::filesystem::path folder_;
     gpu::Device device_;

@@ -54,7 +54,7 @@ Result<void> SessionPicture::fit_eye(ImageSize eye, Views views) {
     return {};
 }
 
-Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<renderer::Scene> scene, ImageSize output,
+Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<picture::Picture> scene, ImageSize output,
                                   const wall::OutputSettings& settings, std::uint32_t pixel) {
     if (const auto fits = fit(output, settings); !fits) return fits;
     const bool was_dark = std::exchange(dark_, !scene.has_value());
@@ -75,7 +75,7 @@ Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<rendere
     return {};
 }
 
-PictureChange SessionPicture::change_to(const std::optional<renderer::Scene>& scene) const {
+PictureChange SessionPicture::change_to(const std::optional<picture::Picture>& scene) const {
     if (!scene_ || !scene) return {};
     return {.room = !renderer::same_room(*scene_, *scene), .tool = scene_->tool != scene->tool};
 }
@@ -103,7 +103,7 @@ Result<void> SessionPicture::paint(gpu::Commands& commands, const std::optional<
     if (!painted) return std::unexpected(painted.error());
     panel_changed_ = panel_changed_ || *painted;
     if (*painted) ++paintings_;
-    if (panel->stand) standing_ = renderer::ScenePanel{*panel->stand, paintings_};
+    if (panel->stand) standing_ = picture::PicturePanel{*panel->stand, paintings_};
     return {};
 }
 

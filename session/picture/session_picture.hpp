@@ -20,9 +20,9 @@ struct PanelPicture {
     const renderer::PanelMesh& mesh;
     const renderer::PanelAtlas& atlas;
     ImageSize size;
-    std::uint64_t atlases = 0;                                 // counts them: a change is another atlas
-    std::vector<PixelRect> parts = {};                         // where anything is painted
-    std::optional<renderer::PanelStand> stand = std::nullopt;  // in the scene; none: at the right of each eye's picture
+    std::uint64_t atlases = 0;                                // counts them: a change is another atlas
+    std::vector<PixelRect> parts = {};                        // where anything is painted
+    std::optional<picture::PanelStand> stand = std::nullopt;  // in the scene; none: at the right of each eye's picture
 };
 
 // What moved between two scenes: all of the picture, or the tool before it.
@@ -44,10 +44,10 @@ public:
     // Records the scene for an output of this size and mode; without a scene it is dark. stats().parts says what of the
     // eyes' pictures changed.
     // pixel: see Renderer::record.
-    [[nodiscard]] Result<void> draw(gpu::Commands& commands, std::optional<renderer::Scene> scene, ImageSize output,
+    [[nodiscard]] Result<void> draw(gpu::Commands& commands, std::optional<picture::Picture> scene, ImageSize output,
                                     const wall::OutputSettings& settings, std::uint32_t pixel = 1);
     // Returns how the scene differs from that of the last picture, before draw().
-    [[nodiscard]] PictureChange change_to(const std::optional<renderer::Scene>& scene) const;
+    [[nodiscard]] PictureChange change_to(const std::optional<picture::Picture>& scene) const;
     // Paints the panel of the next picture, or hides it where there is none; before draw().
     [[nodiscard]] Result<void> paint(gpu::Commands& commands, const std::optional<PanelPicture>& panel);
     // Returns what the last draw() and paint() changed of a target; one rectangle with everything where that is
@@ -81,7 +81,7 @@ private:
     std::vector<PixelRect> panel_parts_, panel_parts_before_;
     std::uint64_t atlases_ = 0;    // whose letters the painter has
     std::uint64_t paintings_ = 0;  // number of times the panel was painted
-    std::optional<renderer::ScenePanel> standing_;
+    std::optional<picture::PicturePanel> standing_;
     std::optional<gpu::Image> pattern_;              // a test pattern, or darkness
     std::optional<wall::TestPattern> pattern_kind_;  // none: darkness
     bool dark_ = false;
@@ -90,7 +90,7 @@ private:
     ImageSize eye_;
     Views views_ = Views::both;  // which the renderer draws
     renderer::RenderStats stats_;
-    std::optional<renderer::Scene> scene_;  // of the last picture; none: it was dark
+    std::optional<picture::Picture> scene_;  // of the last picture; none: it was dark
 };
 
 }  // namespace burin::session

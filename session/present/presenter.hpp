@@ -28,7 +28,7 @@ namespace burin::session {
 
 // The main screen's picture where there is no session yet.
 struct StillPicture {
-    std::optional<renderer::Scene> scene;  // none: it is dark
+    std::optional<picture::Picture> scene;  // none: it is dark
     wall::OutputSettings output;
     std::optional<PanelPicture> panel;
 };
@@ -145,8 +145,8 @@ private:
     [[nodiscard]] Result<void> fit_outputs(std::size_t screen, wall::StereoMode mode);
     [[nodiscard]] Result<bool> draw_screens(LiveSession& session);
     [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, LiveSession& session,
-                                           std::optional<renderer::Scene> scene);
-    void choose_detail(LiveSession& session, std::span<const std::optional<renderer::Scene>> scenes);
+                                           std::optional<picture::Picture> scene);
+    void choose_detail(LiveSession& session, std::span<const std::optional<picture::Picture>> scenes);
     static bool note_changes(ScreenStage& screen);
     [[nodiscard]] Result<void> show_screens(Nanoseconds frame_ns);
     [[nodiscard]] Result<void> show(ScreenStage& screen, Nanoseconds frame_ns);

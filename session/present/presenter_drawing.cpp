@@ -104,7 +104,7 @@ Result<bool> Presenter::draw_screens(LiveSession& session) {
     if (!commands) return std::unexpected(commands.error());
     const auto uploaded = surface_.upload(*commands);
     if (!uploaded) return std::unexpected(uploaded.error());
-    std::vector<std::optional<renderer::Scene>> scenes(screens_.size());
+    std::vector<std::optional<picture::Picture>> scenes(screens_.size());
     for (std::size_t i = 0; i < screens_.size(); ++i)
         if (!is_empty(screens_[i].place.size)) scenes[i] = session.scene_on(i);
     choose_detail(session, scenes);
@@ -125,7 +125,7 @@ Result<bool> Presenter::draw_screens(LiveSession& session) {
 }
 
 // Decides with how many pixels all screens are drawn, and notes what moves.
-void Presenter::choose_detail(LiveSession& session, std::span<const std::optional<renderer::Scene>> scenes) {
+void Presenter::choose_detail(LiveSession& session, std::span<const std::optional<picture::Picture>> scenes) {
     PictureChange change;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const PictureChange one = screens_[i].picture->change_to(scenes[i]);
@@ -141,7 +141,7 @@ void Presenter::choose_detail(LiveSession& session, std::span<const std::optiona
 }
 
 Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, LiveSession& session,
-                                    std::optional<renderer::Scene> scene) {
+                                    std::optional<picture::Picture> scene) {
     ScreenStage& screen = screens_[i];
     SessionPicture& picture = *screen.picture;
     if (const auto painted = picture.paint(commands, session.panel_on(i)); !painted) return painted;

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "haptics/channels.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "scene/contact_events.hpp"
 #include "scene/scene_changes.hpp"
 #include "scene/scene_part.hpp"
@@ -213,7 +213,7 @@ public:
     // Returns whether stage() draws the hands, so that no tools are drawn for them.
     [[nodiscard]] virtual bool draws_hands() const { return false; }
     // Changes what a screen shows.
-    virtual void stage(renderer::Scene& /*scene*/, std::size_t /*screen*/) const {}
+    virtual void stage(picture::Picture& /*scene*/, std::size_t /*screen*/) const {}
     [[nodiscard]] virtual ActivityPanel panel() const = 0;
     // Called when the session has ended and no tick comes any more: writes what it leaves.
     [[nodiscard]] virtual Result<void> finish() { return {}; }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 #include "sculpt/tool_mesh.hpp"
 
 namespace burin::session {
@@ -20,13 +20,13 @@ const Vec3 kRodColour{0.75, 0.76, 0.80}, kTopBall{0.86, 0.12, 0.10}, kBottomBall
 }  // namespace
 
 DrawnHandle::DrawnHandle(const devices::WandDescription& description)
-    : rod_(renderer::drawn_mesh(
+    : rod_(picture::drawn_mesh(
           sculpt::drawing_of(compute::CylinderTool{kRodRadius * description.handle_m, description.handle_m}))),
-      ball_(renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}))),
+      ball_(picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}))),
       tool_from_handle_(description.device_tool_from_handle),
       half_length_m_(0.5 * description.handle_m) {}
 
-void DrawnHandle::add_to(std::vector<renderer::DrawnObject>& objects, const Place& place) const {
+void DrawnHandle::add_to(std::vector<picture::DrawnObject>& objects, const Place& place) const {
     // A cylinder stands on its origin.
     const Similarity tool_from_rod = Similarity{tool_from_handle_.position_m, tool_from_handle_.orientation, 1.0} *
                                      Similarity{{0.0, -half_length_m_, 0.0}, {1.0, 0.0, 0.0, 0.0}, 1.0};
@@ -70,7 +70,7 @@ Similarity object_from_device(const HeldHandle& held, const Box& touched_object)
     constexpr double kCovers = 1.1;  // of what is touched, where the description does not say
     const Similarity described = devices::scene_from_device(held.description);
     const Vec3 half = 0.5 * devices::device_of(held.description).workspace_m;
-    const Box reached = renderer::placed_box({-half, half}, described);
+    const Box reached = picture::placed_box({-half, half}, described);
     const Vec3 overlap = glm::min(reached.hi, touched_object.hi) - glm::max(reached.lo, touched_object.lo);
     if (std::min({overlap.x, overlap.y, overlap.z}) >= 0.0) return described;
     const Vec3 needed = kCovers * touched_object.extent() / (reached.extent() / described.scale);
@@ -99,7 +99,7 @@ Result<HandleCalibrated> calibrated(const devices::WandDescription& description,
                             "calibrated: the wand read " + off};
 }
 
-void add_handle(renderer::Scene& scene, const HeldHandle& held, const haptics::ToolState& tool, double radius_object_m,
+void add_handle(picture::Picture& scene, const HeldHandle& held, const haptics::ToolState& tool, double radius_object_m,
                 const Similarity& world_from_object) {
     if (tool.tick == 0) return;
     const Similarity& object_from_device = tool.workspace.object_from_device;

@@ -14,7 +14,7 @@
 #include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "haptics/channels.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 
 namespace burin::session {
 
@@ -30,10 +30,10 @@ public:
         std::vector<Vec3> points_world;
         double radius_m = 0.0;  // of the balls, in the world
     };
-    void add_to(std::vector<renderer::DrawnObject>& objects, const Place& place) const;
+    void add_to(std::vector<picture::DrawnObject>& objects, const Place& place) const;
 
 private:
-    std::shared_ptr<const renderer::DrawnMesh> rod_, ball_;  // the ball's radius is a metre
+    std::shared_ptr<const picture::DrawnMesh> rod_, ball_;  // the ball's radius is a metre
     Pose tool_from_handle_;
     double half_length_m_;
 };
@@ -70,7 +70,7 @@ struct HandleCalibrated {
 [[nodiscard]] Result<HandleCalibrated> calibrated(const devices::WandDescription& description, const Pose& read_device);
 
 // Adds the handle to a picture, where the tick has it.
-void add_handle(renderer::Scene& scene, const HeldHandle& held, const haptics::ToolState& tool, double radius_object_m,
+void add_handle(picture::Picture& scene, const HeldHandle& held, const haptics::ToolState& tool, double radius_object_m,
                 const Similarity& world_from_object);
 
 }  // namespace burin::session

@@ -31,8 +31,7 @@ std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::T
     auto held = std::make_shared<HeldTool>();
     held->spec = tool;
     held->felt = sculpt::felt_tool(shape);
-    if (!std::holds_alternative<compute::BallTool>(shape))
-        held->drawn = renderer::drawn_mesh(sculpt::drawing_of(shape));
+    if (!std::holds_alternative<compute::BallTool>(shape)) held->drawn = picture::drawn_mesh(sculpt::drawing_of(shape));
     held->spine = sculpt::spine_of(shape);
     held->shaft_height_m = sculpt::shaft_height_m(shape);
     held->shape = std::move(shape);

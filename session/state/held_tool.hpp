@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "renderer/scene/drawn_mesh.hpp"
+#include "picture/drawn_mesh.hpp"
 #include "sculpt/felt_tool.hpp"
 #include "sculpt/tool_kinds.hpp"
 #include "sculpt/tool_mesh.hpp"
@@ -32,7 +32,7 @@ struct HeldTool {
     sculpt::ToolSpec spec;
     compute::ToolShape shape;
     sculpt::FeltTool felt;
-    std::shared_ptr<const renderer::DrawnMesh> drawn;  // null: a ball
+    std::shared_ptr<const picture::DrawnMesh> drawn;  // null: a ball
     sculpt::Spine spine;
     double shaft_height_m = 0.0;
 

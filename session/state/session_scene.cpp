@@ -16,18 +16,18 @@ constexpr double kBoxOpacity = 0.04;
 
 // Returns the colour of what the tool leaves behind; a cutting tool has its own.
 Vec3 tool_colour(const HandState& hand) {
-    if (hand.tool.operation == compute::Operation::cut) return renderer::SceneTool{}.colour;
+    if (hand.tool.operation == compute::Operation::cut) return picture::PictureTool{}.colour;
     const auto c = sculpt::material_of(hand.tool).colour;
     return Vec3(c[0], c[1], c[2]) / 255.0;
 }
 
 }  // namespace
 
-std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
-                                        const Vec3& lattice_origin_object, const haptics::ToolState& tool) {
+std::optional<picture::Picture> scene_of(const SessionState& state, const Room& room, std::size_t screen,
+                                         const Vec3& lattice_origin_object, const haptics::ToolState& tool) {
     const View sight = view_of(room.wall.setup, screen, state.head, state.interpupillary_m);
     if (!sight.visible) return std::nullopt;
-    renderer::Scene scene;
+    picture::Picture scene;
     scene.screen = sight.screen;
     scene.viewer = sight.viewer;
     const bool one_eye = wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
@@ -59,18 +59,18 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     return scene;
 }
 
-void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t number, const haptics::ToolState& tool) {
+void add_tool(picture::Picture& scene, const SessionState& state, std::size_t number, const haptics::ToolState& tool) {
     if (tool.tick == 0) return;
     const HandState& hand = hand_of(state, number);
     if (hand.handle) return add_handle(scene, *hand.handle, tool, hand.held->half_width_m(), state.world_from_object);
-    static const auto kBall = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
+    static const auto kBall = picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
     Similarity object_from_tool{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
     const bool is_ball = !hand.held->drawn;
     if (is_ball) object_from_tool.scale = hand.held->half_width_m();
     scene.objects.push_back(
         {is_ball ? kBall : hand.held->drawn, state.world_from_object * object_from_tool, tool_colour(hand)});
     // A shaft as the tool in use has one, along the tool's +Y.
-    static const auto kShaft = renderer::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{0.12, 3.2}));
+    static const auto kShaft = picture::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{0.12, 3.2}));
     const double from_m = is_ball ? 0.8 * hand.held->half_width_m() : hand.held->shaft_height_m;
     Similarity object_from_shaft = object_from_tool;
     object_from_shaft.position_m += object_from_tool.orientation * Vec3(0.0, from_m, 0.0);

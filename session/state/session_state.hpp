@@ -13,7 +13,7 @@
 
 #include "devices/haptic/haptic_device.hpp"
 #include "haptics/channels.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "sculpt/carved_part.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/tool_options.hpp"
@@ -229,11 +229,11 @@ struct SessionStep {
 [[nodiscard]] Result<sculpt::UseTool> tool_of(const SessionState& state);
 // Returns the scene that one screen shows, with the tool of the hand in use; nothing where an eye is not in front of
 // it.
-[[nodiscard]] std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
-                                                      const Vec3& lattice_origin_object,
-                                                      const haptics::ToolState& tool);
+[[nodiscard]] std::optional<picture::Picture> scene_of(const SessionState& state, const Room& room, std::size_t screen,
+                                                       const Vec3& lattice_origin_object,
+                                                       const haptics::ToolState& tool);
 // Adds the tool of another part of the hands to a picture: the tool of a hand, where a part of it has it.
-void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t hand, const haptics::ToolState& tool);
+void add_tool(picture::Picture& scene, const SessionState& state, std::size_t hand, const haptics::ToolState& tool);
 // Returns whether the screens are such that parallax could fade towards an edge: a lone one, which both eyes see their
 // own pictures on. Adjoining screens have no edge that could cut off what stands in front, and a fade would break the
 // picture apart there.

@@ -16,8 +16,8 @@ constexpr double kPaneOpacity = 0.22, kImageOpacity = 0.55;
 // Of the axes x, y and z, as they are coloured everywhere.
 constexpr std::array<Vec3, 3> kColours{{{0.80, 0.30, 0.28}, {0.36, 0.66, 0.32}, {0.28, 0.46, 0.82}}};
 
-std::shared_ptr<const renderer::DrawnMesh> ball() {
-    static const auto mesh = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
+std::shared_ptr<const picture::DrawnMesh> ball() {
+    static const auto mesh = picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
     return mesh;
 }
 
@@ -54,7 +54,7 @@ MirrorPanes mirror_panes(const Box& workpiece_object) {
         half[axis] = kThickness * longest_m;
         const auto placed = [&](geometry::TriangleMesh mesh) {
             for (Vec3& place_m : mesh.positions_m) place_m += workpiece_object.center();
-            return renderer::drawn_mesh(mesh);
+            return picture::drawn_mesh(mesh);
         };
         panes.at(static_cast<std::size_t>(axis)) = {placed(sculpt::drawing_of(compute::BoxTool{half})),
                                                     placed(frame_of(axis, half, kFrame * longest_m))};
@@ -62,7 +62,7 @@ MirrorPanes mirror_panes(const Box& workpiece_object) {
     return panes;
 }
 
-void add_mirror(renderer::Scene& scene, const SessionState& state, const haptics::ToolState& tool) {
+void add_mirror(picture::Picture& scene, const SessionState& state, const haptics::ToolState& tool) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const MirrorPane& plane = state.mirror_panes.at(axis);
         if (!state.mirror.across.at(axis) || !plane.pane) continue;
@@ -83,7 +83,7 @@ void add_mirror(renderer::Scene& scene, const SessionState& state, const haptics
     }
 }
 
-void add_border(renderer::Scene& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool) {
+void add_border(picture::Picture& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool) {
     const Box& border = room.lattice_object;
     if (border.empty() || !state.held || state.tool.operation != compute::Operation::fill || tool.tick == 0) return;
     const Vec3& at = tool.proxy_object_m;

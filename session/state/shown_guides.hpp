@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "haptics/channels.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 
 namespace burin::session {
 
@@ -17,7 +17,7 @@ struct SessionState;
 
 // A plane, and the frame around it by which it is seen from its own edge as well. Null: the session carves nothing.
 struct MirrorPane {
-    std::shared_ptr<const renderer::DrawnMesh> pane, frame;
+    std::shared_ptr<const picture::DrawnMesh> pane, frame;
 };
 // Across x, y and z.
 using MirrorPanes = std::array<MirrorPane, 3>;
@@ -26,9 +26,9 @@ using MirrorPanes = std::array<MirrorPane, 3>;
 
 // Adds panes and images to a picture. Of a tool that is a mesh, images that reverse it are left out: they are carved by
 // a mesh of their own, which is not drawn.
-void add_mirror(renderer::Scene& scene, const SessionState& state, const haptics::ToolState& tool);
+void add_mirror(picture::Picture& scene, const SessionState& state, const haptics::ToolState& tool);
 
 // Shows the border of the room as a box of lines where the tool in use adds material within its own width of it.
-void add_border(renderer::Scene& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool);
+void add_border(picture::Picture& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool);
 
 }  // namespace burin::session

@@ -9,7 +9,7 @@ namespace {
 // The shaft of a tool leaves it along +Y (compute/tools/tool.hpp); a drawn stylus has it along +Z.
 const Quat kToolFromStylus = glm::angleAxis(-0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
 
-void stage_tool(renderer::SceneTool& tool, const Staging& staging, const Similarity& world_from_object) {
+void stage_tool(picture::PictureTool& tool, const Staging& staging, const Similarity& world_from_object) {
     tool.visible = staging.tool_visible;
     const Similarity world_from_tool =
         world_from_object * Similarity{staging.tool_center_object, staging.tool_orientation_object, 1.0};
@@ -28,7 +28,7 @@ void stage_tool(renderer::SceneTool& tool, const Staging& staging, const Similar
 
 // Draws ring and arrow. The arrow's length scales with the screen's height, so that a newton looks the same on a
 // desktop display and on a wall.
-void stage_contact(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+void stage_contact(picture::Picture& scene, const Staging& staging, const Similarity& world_from_object) {
     constexpr double kScreenHeightsPerN = 1.0 / 25.0;
     const Quat world_from_device = world_from_object.orientation * staging.object_from_device.orientation;
     scene.contact.visible = staging.contact_shown && staging.in_contact;
@@ -39,7 +39,7 @@ void stage_contact(renderer::Scene& scene, const Staging& staging, const Similar
         kScreenHeightsPerN * glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world);
 }
 
-void stage_workspace(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+void stage_workspace(picture::Picture& scene, const Staging& staging, const Similarity& world_from_object) {
     const Similarity world_from_device = world_from_object * staging.object_from_device;
     scene.box.visible = staging.box_visible;
     scene.box.center_world = {world_from_device.position_m, world_from_device.orientation};
@@ -78,7 +78,7 @@ Staging staging_of(const haptics::ToolState& tool, double tool_radius_object_m, 
     return staging;
 }
 
-void stage(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+void stage(picture::Picture& scene, const Staging& staging, const Similarity& world_from_object) {
     stage_tool(scene.tool, staging, world_from_object);
     stage_contact(scene, staging, world_from_object);
     stage_workspace(scene, staging, world_from_object);

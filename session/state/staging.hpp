@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "haptics/channels.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "session/state/held_tool.hpp"
 
 namespace burin::session {
@@ -35,6 +35,6 @@ struct Staging {
 
 // Adds the overlays to the scene. While a box is proposed the present one is drawn as edges alone, to tell the two
 // apart.
-void stage(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object);
+void stage(picture::Picture& scene, const Staging& staging, const Similarity& world_from_object);
 
 }  // namespace burin::session

@@ -90,27 +90,27 @@ void write_on(geometry::TriangleMesh& mesh, const Face& face) {
     }
 }
 
-std::shared_ptr<const renderer::DrawnMesh> letters() {
+std::shared_ptr<const picture::DrawnMesh> letters() {
     static const auto mesh = [] {
         geometry::TriangleMesh all;
         for (const Face& face : faces()) write_on(all, face);
-        return renderer::drawn_mesh(all);
+        return picture::drawn_mesh(all);
     }();
     return mesh;
 }
 
-std::shared_ptr<const renderer::DrawnMesh> cube() {
-    static const auto mesh = renderer::drawn_mesh(sculpt::drawing_of(compute::BoxTool{Vec3(0.5)}));
+std::shared_ptr<const picture::DrawnMesh> cube() {
+    static const auto mesh = picture::drawn_mesh(sculpt::drawing_of(compute::BoxTool{Vec3(0.5)}));
     return mesh;
 }
 
-std::shared_ptr<const renderer::DrawnMesh> plate(std::size_t face) {
+std::shared_ptr<const picture::DrawnMesh> plate(std::size_t face) {
     static const auto plates = [] {
-        std::array<std::shared_ptr<const renderer::DrawnMesh>, 6> all;
+        std::array<std::shared_ptr<const picture::DrawnMesh>, 6> all;
         for (std::size_t i = 0; i < all.size(); ++i) {
             geometry::TriangleMesh mesh;
             add_rectangle(mesh, faces().at(i), Vec2(-0.5), Vec2(0.5), 0.002);
-            all.at(i) = renderer::drawn_mesh(mesh);
+            all.at(i) = picture::drawn_mesh(mesh);
         }
         return all;
     }();
@@ -203,7 +203,7 @@ BesideCube take_presses(SessionState& state, const Room& room, std::span<const I
     return left;
 }
 
-void add_view_cube(renderer::Scene& scene, const SessionState& state, const Room& room) {
+void add_view_cube(picture::Picture& scene, const SessionState& state, const Room& room) {
     const std::optional<Similarity> place = view_cube(state, room);
     if (!place) return;
     constexpr Vec3 kBody{0.95, 0.95, 0.94}, kInk{0.16, 0.17, 0.18}, kLit{0.93, 0.67, 0.25};

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
 
@@ -36,6 +36,6 @@ struct BesideCube {
                                       const SessionView& view);
 
 // Adds the cube to the main screen's picture.
-void add_view_cube(renderer::Scene& scene, const SessionState& state, const Room& room);
+void add_view_cube(picture::Picture& scene, const SessionState& state, const Room& room);
 
 }  // namespace burin::session

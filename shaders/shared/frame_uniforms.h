@@ -12,7 +12,7 @@ BURIN_SHARED_BEGIN
 const int kMostCapsules = 24;
 
 struct FrameUniforms {
-    // left eye, right eye; with a guard band around the picture (renderer/scene/frame_setup.hpp)
+    // left eye, right eye; with a guard band around the picture (picture/frame_setup.hpp)
     mat4 clip_from_world[2];
     vec4 eye_world[2];     // xyz
     vec4 light;            // xyz: unit direction towards the lamp; w: tangent of its half angle

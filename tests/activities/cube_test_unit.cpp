@@ -186,7 +186,7 @@ TEST(WandView, DrawsARodAndABallForEachPoint) {
     WandPose pose;
     pose.scene_from_tool = {{0.0, 0.2, -0.11}, {1, 0, 0, 0}};
     pose.points_scene = {{0.0, 0.28, -0.11}, {0.0, 0.2, -0.11}, {0.0, 0.12, -0.11}};
-    const renderer::Scene drawn = avatar.close_scene(world, pose, {{0, 0.5, -1}, {0.0, 0.2, 0.0}, 0.2});
+    const picture::Picture drawn = avatar.close_scene(world, pose, {{0, 0.5, -1}, {0.0, 0.2, 0.0}, 0.2});
     ASSERT_EQ(drawn.objects.size(), 1u + 1u + 3u) << "cube, rod, balls";
     const double scale = drawn.objects[1].world_from_mesh.scale;
     // The rod's foot is half a handle below its middle, and the first ball half of 160 mm above it.

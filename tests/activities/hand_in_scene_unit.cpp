@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/scene/drawn_mesh.hpp"
+#include "picture/drawn_mesh.hpp"
 #include "shaders/shared/frame_uniforms.h"
 #include "tests/activities/acted_hand.hpp"
 #include "tests/support/uneven_poses.hpp"
@@ -254,8 +254,8 @@ TEST(HandInAScene, OfAnyScaleIsDrawnWithItsTipsOnTheSurface) {
 
 namespace {
 
-renderer::DrawnObject drawn_of(const scene::SceneObject& object) {
-    auto mesh = std::make_shared<renderer::DrawnMesh>();
+picture::DrawnObject drawn_of(const scene::SceneObject& object) {
+    auto mesh = std::make_shared<picture::DrawnMesh>();
     for (const Vec3& p : object.mesh->positions_m) mesh->bounds.include(p);
     return {mesh, Similarity{object.pose.position_m, object.pose.orientation, object.scale}};
 }
@@ -265,7 +265,7 @@ renderer::DrawnObject drawn_of(const scene::SceneObject& object) {
 TEST(HandInAScene, SparesEachBallTheShadowOfItsOwn) {
     for (const std::size_t unseen : {4u, 0u, 1u, 2u, 3u}) {
         session::WorldObjects world = things_in({}, 4);  // 0 and 2 are balls
-        renderer::Scene scene;
+        picture::Picture scene;
         scene.world_from_object = {uneven_offset(3), uneven_turn(3), 2.3};
         scene.capsules.push_back({Vec3(1.0), Vec3(2.0), 0.1});  // of something else
         std::vector<std::size_t> seen;
@@ -283,15 +283,15 @@ TEST(HandInAScene, SparesEachBallTheShadowOfItsOwn) {
         activity.stage(scene, 0);
         std::set<std::int32_t> taken;
         for (std::size_t i = 0; i < seen.size(); ++i) {
-            const renderer::DrawnObject& object = scene.objects[i];
+            const picture::DrawnObject& object = scene.objects[i];
             if (seen[i] % 2 != 0) {
-                EXPECT_EQ(object.own_capsule, renderer::kNoCapsule) << "a block has none";
+                EXPECT_EQ(object.own_capsule, picture::kNoCapsule) << "a block has none";
                 continue;
             }
             ASSERT_GE(object.own_capsule, 0) << seen[i];
             ASSERT_LT(static_cast<std::size_t>(object.own_capsule), scene.capsules.size());
             EXPECT_TRUE(taken.insert(object.own_capsule).second) << "each has its own";
-            const renderer::SceneCapsule& own = scene.capsules[static_cast<std::size_t>(object.own_capsule)];
+            const picture::PictureCapsule& own = scene.capsules[static_cast<std::size_t>(object.own_capsule)];
             EXPECT_LT(glm::distance(own.from_world, object.world_from_mesh * object.mesh->bounds.center()), 1e-12)
                 << seen[i];
             EXPECT_EQ(own.from_world, own.to_world);
@@ -303,7 +303,7 @@ TEST(HandInAScene, SparesEachBallTheShadowOfItsOwn) {
 
 TEST(HandInAScene, KeepsRoomForTheShadowsOfTheHandAmongManyBalls) {
     session::WorldObjects world;
-    renderer::Scene scene;
+    picture::Picture scene;
     for (std::size_t i = 0; i < 2 * shared::kMostCapsules; ++i) {
         scene::SceneObject object;
         object.id = static_cast<scene::ObjectId>(i + 1);
@@ -320,7 +320,7 @@ TEST(HandInAScene, KeepsRoomForTheShadowsOfTheHandAmongManyBalls) {
     activity.stage(scene, 0);
     EXPECT_LE(scene.capsules.size(), static_cast<std::size_t>(shared::kMostCapsules));
     std::size_t without = 0;
-    for (const renderer::DrawnObject& object : scene.objects) {
+    for (const picture::DrawnObject& object : scene.objects) {
         if (object.own_capsule < 0) {
             ++without;
             continue;

@@ -454,7 +454,7 @@ TEST_F(StudyActivities, ShowTheTubeToWhoSeesItAndItsTouchInRed) {
     frame({spine[10] + Vec3(0.0, 0.02, 0.0)});
     ASSERT_NE(edit("seen tube", ObjectProperty::colour), nullptr);
     EXPECT_GT(edit("seen tube", ObjectProperty::colour)->value[0], 0.7);
-    renderer::Scene scene;
+    picture::Picture scene;
     scene.pedestal.visible = scene.box.visible = true;
     scene.workpiece_object = {Vec3(0.0), Vec3(1.0)};
     activity_->stage(scene, 0);

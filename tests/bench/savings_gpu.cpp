@@ -107,8 +107,8 @@ Workpiece grooved_plate(double step_m) {
     return made;
 }
 
-renderer::Scene scene_of() {
-    renderer::Scene scene;
+picture::Picture scene_of() {
+    picture::Picture scene;
     scene.wall = {0.4, 0.3};
     scene.screen = wall::screen_of(scene.wall);
     scene.show_wall_frame = false;
@@ -152,11 +152,11 @@ protected:
     }
 
     Outcome compare(const Workpiece& workpiece, const renderer::Savings& savings, int heads, double scale = 1.0) {
-        renderer::Scene scene = scene_of();
+        picture::Picture scene = scene_of();
         scene.world_from_object.scale = scale;
         return compare(workpiece, savings, heads, scene);
     }
-    Outcome compare(const Workpiece& workpiece, const renderer::Savings& savings, int heads, renderer::Scene scene) {
+    Outcome compare(const Workpiece& workpiece, const renderer::Savings& savings, int heads, picture::Picture scene) {
         for (auto* renderer : {&*tried_, &*plain_}) {
             renderer->surface().clear_patches();
             for (std::uint32_t id = 0; id < workpiece.patches.size(); ++id) {
@@ -231,7 +231,7 @@ TEST_F(SavingsTest, CullingAloneChangesNoPixel) {
 
 // Before the screen and cut by its edge, where the fade of parallax bends what is drawn.
 TEST_F(SavingsTest, NoneShowsWhereParallaxFades) {
-    renderer::Scene scene = scene_of();
+    picture::Picture scene = scene_of();
     scene.world_from_object.position_m = {0.13, 0.15, 0.08};
     scene.edge_fade = 1.0;
     scene.edge_fade_band = 0.4;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Objects through which one sees: light adds up as linear light, whatever the format it is drawn in and however many
 // samples a pixel has, and what is nearer lies over what is farther.
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 #include "tests/renderer/test_scene.hpp"
 
 namespace burin::renderer {
@@ -10,24 +10,24 @@ namespace {
 
 constexpr Vec3 kMiddle{0.0, 0.15, 0.0};
 
-std::shared_ptr<const DrawnMesh> block(const Vec3& half_m) {
+std::shared_ptr<const picture::DrawnMesh> block(const Vec3& half_m) {
     geometry::TriangleMesh mesh;
     for (const double z : {-1.0, 1.0})
         for (const double y : {-1.0, 1.0})
             for (const double x : {-1.0, 1.0}) mesh.positions_m.push_back(Vec3(x, y, z) * half_m);
     mesh.triangles = {{4, 5, 7}, {4, 7, 6}, {1, 0, 2}, {1, 2, 3}, {5, 1, 3}, {5, 3, 7},
                       {0, 4, 6}, {0, 6, 2}, {6, 7, 3}, {6, 3, 2}, {0, 1, 5}, {0, 5, 4}};
-    return drawn_mesh(mesh);
+    return picture::drawn_mesh(mesh);
 }
 
-DrawnObject plate(const Vec3& center, double turn_rad, const Vec3& colour, double opacity) {
+picture::DrawnObject plate(const Vec3& center, double turn_rad, const Vec3& colour, double opacity) {
     static const auto kPlate = block({0.03, 0.05, 0.003});
     const Quat turned{std::cos(0.5 * turn_rad), 0, std::sin(0.5 * turn_rad), 0};
     return {kPlate, {center, turned, 1.0}, colour, opacity};
 }
 
 // A board that fills the middle of the picture, behind all plates.
-DrawnObject board(const Vec3& colour) {
+picture::DrawnObject board(const Vec3& colour) {
     static const auto kBoard = block({0.25, 0.2, 0.001});
     return {kBoard, {kMiddle - Vec3(0, 0, 0.12), {1, 0, 0, 0}, 1.0}, colour};
 }
@@ -36,36 +36,36 @@ DrawnObject board(const Vec3& colour) {
 
 class Glass : public PictureTest {
 protected:
-    Image shown_with(std::uint32_t samples, const Scene& scene) {
+    Image shown_with(std::uint32_t samples, const picture::Picture& picture) {
         auto renderer = Renderer::create(device(), kTestSize, {.samples = samples});
         EXPECT_TRUE(renderer) << renderer.error().line();
         if (!renderer) return {};
-        auto shown = renderer->render(scene);
+        auto shown = renderer->render(picture);
         EXPECT_TRUE(shown) << shown.error().line();
         return shown ? std::move(shown->left) : Image{};
     }
     // Returns the linear light in the middle of the picture of these objects, drawn with one sample a pixel.
-    Vec3 light_of(std::vector<DrawnObject> objects) {
-        Scene scene = bare_scene();
-        scene.viewer.interpupillary_m = 0.0;
-        scene.objects = std::move(objects);
-        const Image shown = shown_with(1, scene);
+    Vec3 light_of(std::vector<picture::DrawnObject> objects) {
+        picture::Picture picture = bare_scene();
+        picture.viewer.interpupillary_m = 0.0;
+        picture.objects = std::move(objects);
+        const Image shown = shown_with(1, picture);
         if (shown.rgba.empty()) return {};
         const std::uint8_t* at = &shown.rgba[4 * (kTestSize.height / 2 * kTestSize.width + kTestSize.width / 2)];
-        return linear_of(Vec3(at[0], at[1], at[2]) / 255.0);
+        return picture::linear_of(Vec3(at[0], at[1], at[2]) / 255.0);
     }
 };
 
 // Pixels at an edge are mixed of several samples, and left out.
 TEST_F(Glass, LooksWithOneSampleAPixelAsItDoesWithSeveral) {
-    Scene scene = bare_scene();
-    scene.objects = {board({0.5, 0.5, 0.5}), plate(kMiddle - Vec3(0.1, 0, 0), 0.9, {0.6, 0.4, 0.2}, 0.4),
-                     plate(kMiddle, 0.0, {0.6, 0.4, 0.2}, 0.4),
-                     plate(kMiddle + Vec3(0.1, 0, 0), -0.9, {0.2, 0.9, 0.3}, 0.7)};
-    scene.box.visible = true;
-    scene.box.center_world = {kMiddle, {1, 0, 0, 0}};
-    scene.box.size_m = {0.3, 0.2, 0.15};
-    const Image one = shown_with(1, scene), several = shown_with(0, scene);
+    picture::Picture picture = bare_scene();
+    picture.objects = {board({0.5, 0.5, 0.5}), plate(kMiddle - Vec3(0.1, 0, 0), 0.9, {0.6, 0.4, 0.2}, 0.4),
+                       plate(kMiddle, 0.0, {0.6, 0.4, 0.2}, 0.4),
+                       plate(kMiddle + Vec3(0.1, 0, 0), -0.9, {0.2, 0.9, 0.3}, 0.7)};
+    picture.box.visible = true;
+    picture.box.center_world = {kMiddle, {1, 0, 0, 0}};
+    picture.box.size_m = {0.3, 0.2, 0.15};
+    const Image one = shown_with(1, picture), several = shown_with(0, picture);
     ASSERT_EQ(one.rgba.size(), several.rgba.size());
     ASSERT_FALSE(one.rgba.empty());
     std::size_t judged = 0;
@@ -90,7 +90,7 @@ TEST_F(Glass, LooksWithOneSampleAPixelAsItDoesWithSeveral) {
 // What shines through is a fixed share of the light behind: the same one between black and grey as between grey and
 // white. Of sRGB values the shares would be 20 % apart.
 TEST_F(Glass, LetsThroughTheSameShareOfAnyLight) {
-    const DrawnObject clear = plate(kMiddle, 0.0, {0.6, 0.4, 0.2}, 0.4);
+    const picture::DrawnObject clear = plate(kMiddle, 0.0, {0.6, 0.4, 0.2}, 0.4);
     const auto behind = [&](double grey) { return light_of({board(Vec3(grey))}); };
     const auto through = [&](double grey) { return light_of({board(Vec3(grey)), clear}); };
     const Vec3 dark = behind(0.0), middle = behind(0.6), light = behind(0.9);
@@ -107,10 +107,10 @@ TEST_F(Glass, LetsThroughTheSameShareOfAnyLight) {
 // The near plate adds its light and lets a share of what is behind it through, and so does the far one: as each of them
 // does alone before a black and before a white board.
 TEST_F(Glass, OfANearerObjectLiesOverAFartherOne) {
-    const DrawnObject near = plate(kMiddle + Vec3(0, 0, 0.04), 0.0, {0.1, 0.2, 0.9}, 0.6),
-                      far = plate(kMiddle - Vec3(0, 0, 0.04), 0.0, {0.9, 0.2, 0.1}, 0.6);
+    const picture::DrawnObject near = plate(kMiddle + Vec3(0, 0, 0.04), 0.0, {0.1, 0.2, 0.9}, 0.6),
+                               far = plate(kMiddle - Vec3(0, 0, 0.04), 0.0, {0.9, 0.2, 0.1}, 0.6);
     const Vec3 black = light_of({board(Vec3(0.0))}), white = light_of({board(Vec3(0.9))});
-    const auto alone = [&](const DrawnObject& object) {
+    const auto alone = [&](const picture::DrawnObject& object) {
         const Vec3 over_black = light_of({board(Vec3(0.0)), object}), over_white = light_of({board(Vec3(0.9)), object});
         const Vec3 share = (over_white - over_black) / (white - black);
         return std::pair(share, over_black - share * black);

@@ -42,14 +42,14 @@ std::vector<Surface> bumpy_patches(int side) {
     return patches;
 }
 
-Scene turned_scene(double angle_rad) {
-    Scene scene = bare_scene();
-    scene.show_grid = true;
-    scene.world_from_object.orientation = glm::angleAxis(angle_rad, Vec3(0.0, 0.0, 1.0));
-    scene.tool.visible = true;
-    scene.tool.radius_m = 0.004;
-    scene.tool.center_world = {0.01, 0.16, -0.09};
-    return scene;
+picture::Picture turned_scene(double angle_rad) {
+    picture::Picture picture = bare_scene();
+    picture.show_grid = true;
+    picture.world_from_object.orientation = glm::angleAxis(angle_rad, Vec3(0.0, 0.0, 1.0));
+    picture.tool.visible = true;
+    picture.tool.radius_m = 0.004;
+    picture.tool.center_world = {0.01, 0.16, -0.09};
+    return picture;
 }
 
 class MovingPicture : public gpu::DeviceTest {
@@ -62,18 +62,18 @@ protected:
             made->surface().set_patch(i, patches[i].vertices, patches[i].indices);
         return std::move(*made);
     }
-    RenderStats draw(Renderer& renderer, const Scene& scene, std::uint32_t pixel) {
+    RenderStats draw(Renderer& renderer, const picture::Picture& picture, std::uint32_t pixel) {
         auto commands = gpu::Commands::begin(device());
-        const auto drawn = renderer.record(*commands, scene, pixel);
+        const auto drawn = renderer.record(*commands, picture, pixel);
         EXPECT_TRUE(drawn) << drawn.error().line();
         auto submission = std::move(*commands).submit();
         EXPECT_TRUE(submission && submission->wait());
         return *drawn;
     }
     // Draws until the groups of patches are worked out, on their thread.
-    void wait_for_groups(Renderer& renderer, const Scene& scene) {
+    void wait_for_groups(Renderer& renderer, const picture::Picture& picture) {
         for (bool all = false; !all; std::this_thread::yield()) {
-            draw(renderer, scene, 1);
+            draw(renderer, picture, 1);
             renderer.surface().refine_beside(true);
             const auto& groups = renderer.surface().patches().groups();
             all = std::ranges::all_of(groups, [](const auto& one) { return !one.second.levels.empty(); });
@@ -113,13 +113,13 @@ TEST_F(MovingPicture, NothingIsDrawnWhereNothingMovesBetweenTwoOfItsFrames) {
 
 TEST_F(MovingPicture, ShowsWhatTheFullOneShowsWithAFractionOfItsTriangles) {
     Renderer moved = renderer();
-    const Scene scene = turned_scene(0.2);
-    wait_for_groups(moved, scene);
-    const RenderStats full = draw(moved, scene, 1);
+    const picture::Picture picture = turned_scene(0.2);
+    wait_for_groups(moved, picture);
+    const RenderStats full = draw(moved, picture, 1);
     EXPECT_EQ(full.patch_counts.groups, 0u) << "a full picture has its patches' own triangles";
     moved.set_savings({.coarser_levels = false});
-    const auto all = moved.render(scene);
-    const auto shown = moved.render(scene, 2);
+    const auto all = moved.render(picture);
+    const auto shown = moved.render(picture, 2);
     const RenderStats& coarse = moved.stats();
     EXPECT_GT(coarse.patch_counts.groups, 0u);
     EXPECT_EQ(coarse.patch_counts.drawn, 0u);
@@ -132,14 +132,14 @@ TEST_F(MovingPicture, ShowsWhatTheFullOneShowsWithAFractionOfItsTriangles) {
 
 TEST_F(MovingPicture, AGroupThatIsCutIsDrawnByItsPatchesUntilItIsWorkedOutAgain) {
     Renderer moved = renderer();
-    const Scene scene = turned_scene(0.2);
-    wait_for_groups(moved, scene);
+    const picture::Picture picture = turned_scene(0.2);
+    wait_for_groups(moved, picture);
     moved.surface().remove_patch(0);
-    const RenderStats cut = draw(moved, scene, 2);
+    const RenderStats cut = draw(moved, picture, 2);
     EXPECT_GT(cut.patch_counts.drawn, 0u);
     EXPECT_GT(cut.patch_counts.groups, 0u) << "the others stay as they are";
-    wait_for_groups(moved, scene);
-    EXPECT_EQ(draw(moved, scene, 3).patch_counts.drawn, 0u);
+    wait_for_groups(moved, picture);
+    EXPECT_EQ(draw(moved, picture, 3).patch_counts.drawn, 0u);
 }
 
 }  // namespace burin::renderer

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Objects come into a scene, more than the buffers hold: the picture is that of a renderer that has never seen others.
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 #include "tests/renderer/test_scene.hpp"
 
 namespace burin::renderer {
@@ -10,7 +10,7 @@ using Objects = PictureTest;
 namespace {
 
 // A strip of so many squares across the picture's middle.
-std::shared_ptr<const DrawnMesh> strip(int squares, double height_m) {
+std::shared_ptr<const picture::DrawnMesh> strip(int squares, double height_m) {
     geometry::TriangleMesh mesh;
     for (int i = 0; i <= squares; ++i)
         for (const double y : {height_m, height_m + 0.02})
@@ -20,17 +20,17 @@ std::shared_ptr<const DrawnMesh> strip(int squares, double height_m) {
         mesh.triangles.push_back({at, at + 2, at + 1});
         mesh.triangles.push_back({at + 1, at + 2, at + 3});
     }
-    return drawn_mesh(mesh);
+    return picture::drawn_mesh(mesh);
 }
 
 }  // namespace
 
 TEST_F(Objects, AFewThatFitAndOneThatDoesNotComeTogether) {
     const auto first = strip(4, 0.05), small = strip(6, 0.1), large = strip(9000, 0.15);
-    const auto show = [&](const std::vector<std::shared_ptr<const DrawnMesh>>& meshes) {
-        Scene scene = bare_scene();
-        for (const auto& mesh : meshes) scene.objects.push_back({mesh, {}, {0.8, 0.3, 0.2}});
-        return render(scene).left.rgba;
+    const auto show = [&](const std::vector<std::shared_ptr<const picture::DrawnMesh>>& meshes) {
+        picture::Picture picture = bare_scene();
+        for (const auto& mesh : meshes) picture.objects.push_back({mesh, {}, {0.8, 0.3, 0.2}});
+        return render(picture).left.rgba;
     };
     const auto alone = show({first});
     // The small one fits into the buffers there are; the large one needs others.
@@ -45,13 +45,13 @@ TEST_F(Objects, AFewThatFitAndOneThatDoesNotComeTogether) {
 TEST_F(Objects, BehindClearOnesOthersAreSeen) {
     const auto strips = strip(1, 0.1);
     const auto show = [&](double opacity, bool clear_first) {
-        Scene scene = bare_scene();
-        const DrawnObject red{strips, {{0.0, 0.0, -0.03}, {1, 0, 0, 0}, 1.0}, {0.9, 0.1, 0.1}};
-        const DrawnObject blue{strips, {{0.0, 0.0, 0.03}, {1, 0, 0, 0}, 1.0}, {0.1, 0.1, 0.9}, opacity};
-        if (opacity > 0.0 && clear_first) scene.objects = {blue, red};
-        if (opacity > 0.0 && !clear_first) scene.objects = {red, blue};
-        if (opacity == 0.0) scene.objects = {red};
-        return render(scene).left;
+        picture::Picture picture = bare_scene();
+        const picture::DrawnObject red{strips, {{0.0, 0.0, -0.03}, {1, 0, 0, 0}, 1.0}, {0.9, 0.1, 0.1}};
+        const picture::DrawnObject blue{strips, {{0.0, 0.0, 0.03}, {1, 0, 0, 0}, 1.0}, {0.1, 0.1, 0.9}, opacity};
+        if (opacity > 0.0 && clear_first) picture.objects = {blue, red};
+        if (opacity > 0.0 && !clear_first) picture.objects = {red, blue};
+        if (opacity == 0.0) picture.objects = {red};
+        return render(picture).left;
     };
     const Image hidden = show(1.0, true), through = show(0.4, true), bare = show(0.0, true);
     EXPECT_TRUE(show(0.4, false).rgba == through.rgba);
@@ -72,9 +72,9 @@ TEST_F(Objects, BehindClearOnesOthersAreSeen) {
 TEST_F(Objects, AMeshThatChangesIsDrawnAsItIsNow) {
     const auto still = strip(5, 0.02);
     const auto show = [&](double height_m) {
-        Scene scene = bare_scene();
-        scene.objects = {{still, {}, {0.2, 0.3, 0.8}}, {strip(7, height_m), {}, {0.8, 0.3, 0.2}}};
-        return render(scene).left.rgba;
+        picture::Picture picture = bare_scene();
+        picture.objects = {{still, {}, {0.2, 0.3, 0.8}}, {strip(7, height_m), {}, {0.8, 0.3, 0.2}}};
+        return render(picture).left.rgba;
     };
     const auto low = show(0.08), high = show(0.2);
     EXPECT_FALSE(low == high);
@@ -88,30 +88,30 @@ namespace {
 
 // A wall behind the screen, and before it what casts a shadow on it.
 constexpr double kWallZ_m = -0.05;
-Scene before_a_wall(const std::vector<SceneCapsule>& capsules) {
+picture::Picture before_a_wall(const std::vector<picture::PictureCapsule>& capsules) {
     geometry::TriangleMesh wall;
     wall.positions_m = {{-0.3, -0.2, kWallZ_m}, {0.3, -0.2, kWallZ_m}, {0.3, 0.5, kWallZ_m}, {-0.3, 0.5, kWallZ_m}};
     wall.triangles = {{0, 1, 2}, {0, 2, 3}};
-    Scene scene = bare_scene();
-    scene.viewer.interpupillary_m = 0.0;
-    scene.objects = {{drawn_mesh(wall), {}, {0.8, 0.8, 0.8}}};
-    scene.capsules = capsules;
-    return scene;
+    picture::Picture picture = bare_scene();
+    picture.viewer.interpupillary_m = 0.0;
+    picture.objects = {{picture::drawn_mesh(wall), {}, {0.8, 0.8, 0.8}}};
+    picture.capsules = capsules;
+    return picture;
 }
 
 // Where the lamp's line through a place meets the wall, in pixels.
-Vec2 shadow_px(const Scene& scene, const Vec3& place) {
-    const Vec3 down = direction_to_light() * ((place.z - kWallZ_m) / direction_to_light().z);
-    const Vec2 at = wall::point_on_screen(scene.screen, scene.viewer.head_world.position_m, place - down);
-    return {at.x / scene.wall.width_m * kTestSize.width, (1.0 - at.y / scene.wall.height_m) * kTestSize.height};
+Vec2 shadow_px(const picture::Picture& picture, const Vec3& place) {
+    const Vec3 down = picture::direction_to_light() * ((place.z - kWallZ_m) / picture::direction_to_light().z);
+    const Vec2 at = wall::point_on_screen(picture.screen, picture.viewer.head_world.position_m, place - down);
+    return {at.x / picture.wall.width_m * kTestSize.width, (1.0 - at.y / picture.wall.height_m) * kTestSize.height};
 }
 
 }  // namespace
 
 TEST_F(Objects, CapsulesCastTheirShadowWhereTheLampsLinesMeetAWall) {
-    const SceneCapsule capsule{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006};
-    const Scene scene = before_a_wall({capsule});
-    const Image lit = render(before_a_wall({})).left, shaded = render(scene).left;
+    const picture::PictureCapsule capsule{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006};
+    const picture::Picture picture = before_a_wall({capsule});
+    const Image lit = render(before_a_wall({})).left, shaded = render(picture).left;
     Vec2 sum(0.0);
     double weight = 0.0;
     for (std::uint32_t y = 0; y < kTestSize.height; ++y)
@@ -124,28 +124,29 @@ TEST_F(Objects, CapsulesCastTheirShadowWhereTheLampsLinesMeetAWall) {
             weight += dark;
         }
     ASSERT_GT(weight, 1000.0);
-    const Vec2 middle = 0.5 * (shadow_px(scene, capsule.from_world) + shadow_px(scene, capsule.to_world));
+    const Vec2 middle = 0.5 * (shadow_px(picture, capsule.from_world) + shadow_px(picture, capsule.to_world));
     EXPECT_LT(glm::length(sum / weight - middle), 2.0);
 }
 
 // A tool within the workpiece or behind it could not be found.
 TEST_F(Objects, AToolBehindSomethingIsSeenAsAnOutline) {
     const auto show = [&](double z_m, bool shown) {
-        Scene scene = before_a_wall({});
-        scene.tool.center_world = {0.0, 0.15, z_m};
-        scene.tool.radius_m = 0.02;
-        scene.tool.visible = shown;
-        scene.tool.stylus_world = {{0.0, 0.15, z_m}, glm::angleAxis(0.5 * std::numbers::pi, Vec3(-1.0, 0.0, 0.0))};
-        return render(scene).left;
+        picture::Picture picture = before_a_wall({});
+        picture.tool.center_world = {0.0, 0.15, z_m};
+        picture.tool.radius_m = 0.02;
+        picture.tool.visible = shown;
+        picture.tool.stylus_world = {{0.0, 0.15, z_m}, glm::angleAxis(0.5 * std::numbers::pi, Vec3(-1.0, 0.0, 0.0))};
+        return render(picture).left;
     };
     constexpr double kBehind_m = kWallZ_m - 0.05, kFar_m = kWallZ_m - 0.2;
     const Image without = show(kBehind_m, false), hidden = show(kBehind_m, true), seen = show(0.0, true);
     // Along a line across its middle: what it changes of the wall is most at its rim.
     const auto change = [&](const Image& image, double x_m, double z_m) {
-        const Scene scene = before_a_wall({});
-        const Vec2 at = wall::point_on_screen(scene.screen, scene.viewer.head_world.position_m, Vec3(x_m, 0.15, z_m));
-        const auto x = static_cast<std::uint32_t>(at.x / scene.wall.width_m * kTestSize.width);
-        const auto y = static_cast<std::uint32_t>((1.0 - at.y / scene.wall.height_m) * kTestSize.height);
+        const picture::Picture picture = before_a_wall({});
+        const Vec2 at =
+            wall::point_on_screen(picture.screen, picture.viewer.head_world.position_m, Vec3(x_m, 0.15, z_m));
+        const auto x = static_cast<std::uint32_t>(at.x / picture.wall.width_m * kTestSize.width);
+        const auto y = static_cast<std::uint32_t>((1.0 - at.y / picture.wall.height_m) * kTestSize.height);
         int most = 0;
         for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.pixel(x, y)[c] - without.pixel(x, y)[c]));
         return most;
@@ -160,22 +161,22 @@ TEST_F(Objects, AToolBehindSomethingIsSeenAsAnOutline) {
 }
 
 TEST_F(Objects, CapsulesKeepNoLightOffWhatTheyStandFor) {
-    Scene scene = before_a_wall({{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006}});
+    picture::Picture picture = before_a_wall({{{-0.03, 0.2, 0.0}, {0.05, 0.23, 0.0}, 0.006}});
     const auto lit = render(before_a_wall({})).left.rgba;
-    EXPECT_FALSE(render(scene).left.rgba == lit);
-    for (const std::int32_t own : {kAllCapsules, 0}) {
-        scene.objects.front().own_capsule = own;
-        EXPECT_TRUE(render(scene).left.rgba == lit) << own;
+    EXPECT_FALSE(render(picture).left.rgba == lit);
+    for (const std::int32_t own : {picture::kAllCapsules, 0}) {
+        picture.objects.front().own_capsule = own;
+        EXPECT_TRUE(render(picture).left.rgba == lit) << own;
     }
-    scene.objects.front().own_capsule = 1;
-    EXPECT_FALSE(render(scene).left.rgba == lit);
+    picture.objects.front().own_capsule = 1;
+    EXPECT_FALSE(render(picture).left.rgba == lit);
 }
 
 TEST_F(Objects, WithoutCapsulesNoShaderKnowsThem) {
-    const auto compiled_for = [&](const Scene& scene) {
+    const auto compiled_for = [&](const picture::Picture& picture) {
         auto fresh = Renderer::create(device(), kTestSize);
         EXPECT_TRUE(fresh);
-        EXPECT_TRUE(fresh->render(scene));
+        EXPECT_TRUE(fresh->render(picture));
         return fresh->stats().pipelines;
     };
     EXPECT_EQ(compiled_for(before_a_wall({})), 1u);

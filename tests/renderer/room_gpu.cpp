@@ -8,21 +8,21 @@
 namespace burin::renderer {
 namespace {
 
-Scene some_room(std::mt19937& random) {
+picture::Picture some_room(std::mt19937& random) {
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-    Scene scene = bare_scene();
-    scene.show_grid = true;
-    scene.wall = {between(0.4, 3.0), between(0.3, 2.2)};
-    scene.screen = wall::screen_of(scene.wall);
-    scene.viewer.head_world.position_m = {between(-0.5, 0.5), between(0.1, 2.0), between(0.3, 2.5)};
+    picture::Picture picture = bare_scene();
+    picture.show_grid = true;
+    picture.wall = {between(0.4, 3.0), between(0.3, 2.2)};
+    picture.screen = wall::screen_of(picture.wall);
+    picture.viewer.head_world.position_m = {between(-0.5, 0.5), between(0.1, 2.0), between(0.3, 2.5)};
     const Vec3 foot{between(-0.6, 0.6), 0.0, between(-2.6, 0.3)};
     const double height_m = between(0.02, 0.8), radius_m = between(0.03, 0.3);
-    scene.pedestal = {foot + Vec3(0, height_m, 0), radius_m, {0.7, 0.7, 0.7}, random() % 4 != 0};
+    picture.pedestal = {foot + Vec3(0, height_m, 0), radius_m, {0.7, 0.7, 0.7}, random() % 4 != 0};
     if (random() % 4 != 0) {
-        scene.workpiece_object.include(foot + Vec3(-radius_m, height_m, -radius_m));
-        scene.workpiece_object.include(foot + Vec3(radius_m, height_m + 2.0 * radius_m, radius_m));
+        picture.workpiece_object.include(foot + Vec3(-radius_m, height_m, -radius_m));
+        picture.workpiece_object.include(foot + Vec3(radius_m, height_m + 2.0 * radius_m, radius_m));
     }
-    return scene;
+    return picture;
 }
 
 }  // namespace
@@ -41,8 +41,8 @@ TEST_F(Room, LooksTheSameWhereGridAndShadowsAreLeftOut) {
         }
         std::uint64_t spared = 0;
         for (int round = 0; round < 30; ++round) {
-            const Scene scene = some_room(random);
-            const auto tried = made[0].render(scene), full = made[1].render(scene);
+            const picture::Picture picture = some_room(random);
+            const auto tried = made[0].render(picture), full = made[1].render(picture);
             ASSERT_TRUE(tried && full);
             spared += made[0].stats().plain_room;
             ASSERT_EQ(made[1].stats().plain_room, 0u);
@@ -60,14 +60,14 @@ TEST_F(Room, LooksTheSameWhereGridAndShadowsAreLeftOut) {
 TEST_F(Room, IsCoveredOnceAndInEachPartAsInTheWhole) {
     std::mt19937 random{12};
     for (int round = 0; round < 50; ++round) {
-        const Scene scene = some_room(random);
-        const Workpiece workpiece = place_workpiece(scene, {}, 0.0);
+        const picture::Picture picture = some_room(random);
+        const picture::Workpiece workpiece = picture::place_workpiece(picture, {}, 0.0);
         const PixelRect part{static_cast<std::uint32_t>(random() % 200), static_cast<std::uint32_t>(random() % 150),
                              1 + static_cast<std::uint32_t>(random() % 40),
                              1 + static_cast<std::uint32_t>(random() % 30)};
         std::vector<int> whole(std::size_t{kTestSize.width} * kTestSize.height, -1), in_part = whole;
         const auto fill = [&](std::vector<int>& looks, const PixelRect& of) {
-            for (const RoomPart& p : room_parts(scene, workpiece, kTestSize, of))
+            for (const RoomPart& p : room_parts(picture, workpiece, kTestSize, of))
                 for (std::uint32_t y = p.rect.y; y < p.rect.y + p.rect.height; ++y)
                     for (std::uint32_t x = p.rect.x; x < p.rect.x + p.rect.width; ++x) {
                         int& look = looks[std::size_t{y} * kTestSize.width + x];

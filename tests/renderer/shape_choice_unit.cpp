@@ -12,22 +12,22 @@ namespace {
 
 constexpr ImageSize kSize{640, 480};
 
-Scene scene_with_tool(double radius_m) {
-    Scene scene;
-    scene.wall = {0.4, 0.3};
-    scene.screen = wall::screen_of(scene.wall);
-    scene.viewer.head_world.position_m = {0.0, 0.15, 0.6};
-    scene.show_wall_frame = false;
-    scene.tool = {radius_m, {0.1, 0.2, 0.0}, {0.8, 0.4, 0.2}, {{0.1, 0.2, 0.0}, Quat{1, 0, 0, 0}}, true};
-    return scene;
+picture::Picture scene_with_tool(double radius_m) {
+    picture::Picture picture;
+    picture.wall = {0.4, 0.3};
+    picture.screen = wall::screen_of(picture.wall);
+    picture.viewer.head_world.position_m = {0.0, 0.15, 0.6};
+    picture.show_wall_frame = false;
+    picture.tool = {radius_m, {0.1, 0.2, 0.0}, {0.8, 0.4, 0.2}, {{0.1, 0.2, 0.0}, Quat{1, 0, 0, 0}}, true};
+    return picture;
 }
 
 }  // namespace
 
 TEST(BallFor, LiesOffByAQuarterOfAPixelAtMost) {
-    const Primitives primitives = make_primitives();
+    const picture::Primitives primitives = picture::make_primitives();
     for (double radius_px = 0.5; radius_px < 400.0; radius_px *= 1.3) {
-        const PrimitiveRange& ball = ball_for(primitives, radius_px);
+        const picture::PrimitiveRange& ball = ball_for(primitives, radius_px);
         if (ball == primitives.balls.back()) continue;
         for (std::uint32_t i = 0; i < ball.index_count; i += 6) {  // a quad's: a, b, c, a, c, d
             const auto at = [&](std::uint32_t corner) {
@@ -45,13 +45,13 @@ TEST(BallFor, LiesOffByAQuarterOfAPixelAtMost) {
 }
 
 TEST(ShapesIn, AreThoseThatThePartShows) {
-    const Primitives primitives = make_primitives();
-    const Scene scene = scene_with_tool(0.01);
-    const auto sum = [](const Shapes& s) { return s.solid.size() + s.tool.size() + s.hidden.size(); };
-    const std::size_t all = sum(shapes_of(scene, primitives));
+    const picture::Primitives primitives = picture::make_primitives();
+    const picture::Picture picture = scene_with_tool(0.01);
+    const auto sum = [](const picture::Shapes& s) { return s.solid.size() + s.tool.size() + s.hidden.size(); };
+    const std::size_t all = sum(picture::shapes_of(picture, primitives));
     ASSERT_GE(all, 3u) << "a ball, its stylus, and its outline";
     const auto count = [&](const PixelRect& part, const Savings& savings) {
-        const ShownShapes shown = shapes_in(part, scene, primitives, kSize, savings);
+        const ShownShapes shown = shapes_in(part, picture, primitives, kSize, savings);
         EXPECT_EQ(sum(shown.shapes) + shown.left_out, all);
         return sum(shown.shapes);
     };
@@ -64,13 +64,14 @@ TEST(ShapesIn, AreThoseThatThePartShows) {
 }
 
 TEST(ShapesIn, BallsAreTheSameWhateverThePart) {
-    const Primitives primitives = make_primitives();
+    const picture::Primitives primitives = picture::make_primitives();
     for (const double radius_m : {0.002, 0.01, 0.3}) {
-        Scene scene = scene_with_tool(radius_m);
-        scene.tool.center_world.x = 0.2;  // cut by the picture's edge
-        const PrimitiveRange whole = shapes_in(all_of(kSize), scene, primitives, kSize, {}).shapes.tool.front().range;
-        const PrimitiveRange part =
-            shapes_in({600, 140, 40, 40}, scene, primitives, kSize, {}).shapes.tool.front().range;
+        picture::Picture picture = scene_with_tool(radius_m);
+        picture.tool.center_world.x = 0.2;  // cut by the picture's edge
+        const picture::PrimitiveRange whole =
+            shapes_in(all_of(kSize), picture, primitives, kSize, {}).shapes.tool.front().range;
+        const picture::PrimitiveRange part =
+            shapes_in({600, 140, 40, 40}, picture, primitives, kSize, {}).shapes.tool.front().range;
         EXPECT_EQ(whole, part);
         EXPECT_EQ(whole == primitives.balls.back(), radius_m > 0.1);
     }

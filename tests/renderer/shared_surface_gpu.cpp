@@ -15,16 +15,16 @@ namespace {
 constexpr std::array<ImageSize, 4> kSizes{{{160, 120}, {120, 160}, {100, 100}, {200, 90}}};
 
 // The eyes look at the same place from four sides, through screens around it.
-Scene scene_of(std::size_t screen) {
-    Scene scene = bare_scene();
+picture::Picture scene_of(std::size_t screen) {
+    picture::Picture picture = bare_scene();
     const Vec3 towards[]{{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}};
     const Vec3 center{0.0, 0.15, 0.0}, out = towards[screen], right = glm::cross(Vec3(0, 1, 0), out), up(0, 1, 0);
-    scene.screen = {center - 0.2 * right - 0.15 * up, center + 0.2 * right - 0.15 * up,
-                    center - 0.2 * right + 0.15 * up};
-    scene.viewer.head_world = {center + 0.6 * out, glm::angleAxis(std::atan2(out.x, out.z), Vec3(0, 1, 0))};
-    scene.workpiece_object = {Vec3(-0.15, 0.0, -0.15), Vec3(0.15, 0.3, 0.15)};  // else other bounds redraw everything
-    scene.tool = {0.01, {0.02, 0.16, 0.03}, {0.9, 0.5, 0.2}, {}, true};
-    return scene;
+    picture.screen = {center - 0.2 * right - 0.15 * up, center + 0.2 * right - 0.15 * up,
+                      center - 0.2 * right + 0.15 * up};
+    picture.viewer.head_world = {center + 0.6 * out, glm::angleAxis(std::atan2(out.x, out.z), Vec3(0, 1, 0))};
+    picture.workpiece_object = {Vec3(-0.15, 0.0, -0.15), Vec3(0.15, 0.3, 0.15)};  // else other bounds redraw everything
+    picture.tool = {0.01, {0.02, 0.16, 0.03}, {0.9, 0.5, 0.2}, {}, true};
+    return picture;
 }
 
 }  // namespace

@@ -69,22 +69,22 @@ inline Surface ball_surface(const Vec3& center, double radius, std::uint32_t col
 }
 
 // A screen of 0.4 by 0.3 m, 0.6 m before the viewer, and nothing in the room.
-inline Scene bare_scene() {
-    Scene scene;
-    scene.wall = {0.4, 0.3};
-    scene.screen = wall::screen_of(scene.wall);
-    scene.viewer.head_world.position_m = {0.0, 0.15, 0.6};
-    scene.show_wall_frame = false;
-    scene.show_grid = false;
-    return scene;
+inline picture::Picture bare_scene() {
+    picture::Picture picture;
+    picture.wall = {0.4, 0.3};
+    picture.screen = wall::screen_of(picture.wall);
+    picture.viewer.head_world.position_m = {0.0, 0.15, 0.6};
+    picture.show_wall_frame = false;
+    picture.show_grid = false;
+    return picture;
 }
 
-inline Vec3 pixel_centre_world(const Scene& scene, std::uint32_t x, std::uint32_t y) {
-    return {(x + 0.5) / kTestSize.width * scene.wall.width_m - 0.5 * scene.wall.width_m,
-            (1.0 - (y + 0.5) / kTestSize.height) * scene.wall.height_m, 0.0};
+inline Vec3 pixel_centre_world(const picture::Picture& picture, std::uint32_t x, std::uint32_t y) {
+    return {(x + 0.5) / kTestSize.width * picture.wall.width_m - 0.5 * picture.wall.width_m,
+            (1.0 - (y + 0.5) / kTestSize.height) * picture.wall.height_m, 0.0};
 }
 
-inline double pixel_m(const Scene& scene) { return scene.wall.width_m / kTestSize.width; }
+inline double pixel_m(const picture::Picture& picture) { return picture.wall.width_m / kTestSize.width; }
 
 inline bool same_colour(const std::uint8_t* a, const std::uint8_t* b, int tolerance = 0) {
     for (int i = 0; i < 3; ++i) {
@@ -108,8 +108,8 @@ protected:
     }
     Renderer& renderer() { return *renderer_; }
     void set(std::uint32_t id, const Surface& s) { renderer_->surface().set_patch(id, s.vertices, s.indices); }
-    StereoImage render(const Scene& scene) {
-        auto image = renderer_->render(scene);
+    StereoImage render(const picture::Picture& picture) {
+        auto image = renderer_->render(picture);
         EXPECT_TRUE(image) << image.error().line();
         if (!image) return {};
         return std::move(*image);

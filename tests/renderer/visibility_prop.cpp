@@ -94,10 +94,10 @@ wall::Screen random_screen(Random& random) {
 }
 
 // From 1 cm to 3 m before the screen's plane and up to several widths to the side; the workpiece anywhere near.
-Scene random_view(Random& random) {
-    Scene scene;
-    scene.screen = random_screen(random);
-    const wall::Screen& s = scene.screen;
+picture::Picture random_view(Random& random) {
+    picture::Picture picture;
+    picture.screen = random_screen(random);
+    const wall::Screen& s = picture.screen;
     const Vec3 x = s.lower_right_world - s.lower_left_world, y = s.upper_left_world - s.lower_left_world;
     const Vec3 out = glm::normalize(glm::cross(x, y));
     const double away = random.once_in(4) ? random.between(0.01, 0.06) : random.between(0.1, 3.0);
@@ -105,13 +105,13 @@ Scene random_view(Random& random) {
     const auto on_screen = [&](double most) {
         return s.lower_left_world + (0.5 + random.between(-most, most)) * x + (0.5 + random.between(-most, most)) * y;
     };
-    scene.viewer.head_world.position_m = on_screen(aside) + away * out;
-    scene.viewer.head_world.orientation = random.turn();
-    scene.world_from_object.orientation = random.turn();
-    scene.world_from_object.scale = std::exp(random.between(-1.0, 2.0));
-    scene.world_from_object.position_m = on_screen(0.8) + random.between(-1.5, 0.5) * out;
-    scene.lattice_origin_object = 0.1 * random.direction();
-    return scene;
+    picture.viewer.head_world.position_m = on_screen(aside) + away * out;
+    picture.viewer.head_world.orientation = random.turn();
+    picture.world_from_object.orientation = random.turn();
+    picture.world_from_object.scale = std::exp(random.between(-1.0, 2.0));
+    picture.world_from_object.position_m = on_screen(0.8) + random.between(-1.5, 0.5) * out;
+    picture.lattice_origin_object = 0.1 * random.direction();
+    return picture;
 }
 
 // A way from a to b and a box, by separating axes (Ericson, Real-Time Collision Detection, 5.3.3), with the box a
@@ -132,12 +132,12 @@ bool way_meets(const Vec3& a, const Vec3& b, const Box& box) {
 // The scene as one eye sees it, for brute force.
 class Looker {
 public:
-    Looker(const Scene& scene, const Solid& solid, const Vec3& eye_world)
-        : scene_(scene), solid_(solid), eye_world_(eye_world) {
-        const Similarity object_from_world = inverse(scene.world_from_object);
-        eye_ = object_from_world * eye_world - scene.lattice_origin_object;
-        width_ = glm::length(scene.screen.lower_right_world - scene.screen.lower_left_world);
-        height_ = glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world);
+    Looker(const picture::Picture& picture, const Solid& solid, const Vec3& eye_world)
+        : picture_(picture), solid_(solid), eye_world_(eye_world) {
+        const Similarity object_from_world = inverse(picture.world_from_object);
+        eye_ = object_from_world * eye_world - picture.lattice_origin_object;
+        width_ = glm::length(picture.screen.lower_right_world - picture.screen.lower_left_world);
+        height_ = glm::length(picture.screen.upper_left_world - picture.screen.lower_left_world);
     }
     // Some of the patch's triangles show their front, at one of four points, to the eye.
     [[nodiscard]] bool sees(const Patch& patch) const {
@@ -157,11 +157,11 @@ public:
 
 private:
     [[nodiscard]] bool in_picture(const Vec3& point) const {
-        const Vec3 world = scene_.world_from_object * (scene_.lattice_origin_object + point);
+        const Vec3 world = picture_.world_from_object * (picture_.lattice_origin_object + point);
         const double ahead =
-            wall::distance_in_front(scene_.screen, eye_world_) - wall::distance_in_front(scene_.screen, world);
+            wall::distance_in_front(picture_.screen, eye_world_) - wall::distance_in_front(picture_.screen, world);
         if (ahead <= 1e-6) return false;
-        const Vec2 at = point_on_screen(scene_.screen, eye_world_, world);
+        const Vec2 at = point_on_screen(picture_.screen, eye_world_, world);
         return at.x >= 0.0 && at.y >= 0.0 && at.x <= width_ && at.y <= height_;
     }
     [[nodiscard]] bool in_the_open(const Vec3& point) const {
@@ -170,7 +170,7 @@ private:
         return true;
     }
 
-    const Scene& scene_;
+    const picture::Picture& picture_;
     const Solid& solid_;
     Vec3 eye_world_, eye_{0.0};
     double width_ = 0.0, height_ = 0.0;
@@ -179,11 +179,11 @@ private:
 // What the vertex shader makes of a patch where parallax fades, in both eyes' pictures.
 class FadedDrawing {
 public:
-    explicit FadedDrawing(const Scene& scene) : scene_(scene) {
-        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+    explicit FadedDrawing(const picture::Picture& picture) : picture_(picture) {
+        const wall::Eyes eyes = wall::eyes_of(picture.viewer);
         middle_ = middle_of(eyes);
         const std::array from{eyes.left_world, eyes.right_world, middle_};
-        for (std::size_t i = 0; i < 3; ++i) clip_[i] = off_axis_projection(scene.screen, from[i], 0.005, 200.0);
+        for (std::size_t i = 0; i < 3; ++i) clip_[i] = off_axis_projection(picture.screen, from[i], 0.005, 200.0);
     }
     struct Seen {
         bool moves = false;  // a vertex is not where the eye sees it
@@ -194,13 +194,13 @@ public:
         for (std::size_t eye = 0; eye < 2; ++eye) {
             std::vector<glm::vec4> drawn;
             for (const shared::SurfaceVertex& v : patch.vertices) {
-                const glm::dvec4 world(scene_.world_from_object * (scene_.lattice_origin_object + Vec3{v.x, v.y, v.z}),
-                                       1.0);
+                const glm::dvec4 world(
+                    picture_.world_from_object * (picture_.lattice_origin_object + Vec3{v.x, v.y, v.z}), 1.0);
                 const glm::vec4 plain(clip_[eye] * world);
                 drawn.push_back(shared::parallax_faded(
                     plain, glm::vec4(clip_[2] * world),
-                    static_cast<float>(wall::distance_in_front(scene_.screen, middle_)),
-                    static_cast<float>(scene_.edge_fade), static_cast<float>(scene_.edge_fade_band)));
+                    static_cast<float>(wall::distance_in_front(picture_.screen, middle_)),
+                    static_cast<float>(picture_.edge_fade), static_cast<float>(picture_.edge_fade_band)));
                 seen.moves |= drawn.back() != plain;
             }
             for (std::size_t t = 0; t < patch.indices.size(); t += 3)
@@ -223,7 +223,7 @@ private:
         return std::ranges::any_of(p, [](const Vec2& q) { return std::abs(q.x) <= 1.0 && std::abs(q.y) <= 1.0; });
     }
 
-    const Scene& scene_;
+    const picture::Picture& picture_;
     Vec3 middle_{0.0};
     std::array<Mat4, 3> clip_;
 };
@@ -238,19 +238,19 @@ TEST(Culling, LosesNothingThatEitherEyeOfARandomHeadCouldSee) {
     Solid solid;
     while (heads < kHeads) {
         if (heads % kHeadsASolid == 0) solid = random_solid(random);
-        const Scene scene = random_view(random);
-        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
-        if (!wall::can_be_seen(scene.screen, eyes)) continue;
+        const picture::Picture picture = random_view(random);
+        const wall::Eyes eyes = wall::eyes_of(picture.viewer);
+        if (!wall::can_be_seen(picture.screen, eyes)) continue;
         ++heads;
-        const EyePair pair = eye_frusta(scene, kSize, all_of(kSize));
+        const EyePair pair = eye_frusta(picture, kSize, all_of(kSize));
         for (int k = 0; k < kPatchesAHead; ++k) {
             const auto chosen =
                 static_cast<std::size_t>(random.between(0.0, static_cast<double>(solid.patches.size())));
             const Patch& patch = solid.patches[std::min(chosen, solid.patches.size() - 1)];
             const Hidden why = hidden(pair, patch.shape, solid.inner);
             ++reasons[static_cast<std::size_t>(why)];
-            const bool left = Looker(scene, solid, eyes.left_world).sees(patch),
-                       right = Looker(scene, solid, eyes.right_world).sees(patch);
+            const bool left = Looker(picture, solid, eyes.left_world).sees(patch),
+                       right = Looker(picture, solid, eyes.right_world).sees(patch);
             seen += left || right ? 1 : 0;
             ASSERT_FALSE(why != Hidden::no && (left || right))
                 << "head " << heads << ", reason " << static_cast<int>(why) << (left ? ", left eye" : ", right eye");
@@ -272,11 +272,11 @@ TEST(Culling, LosesNothingThatIsDrawnWhereParallaxFades) {
     Solid solid;
     for (int head = 0; head < kHeads; ++head) {
         if (head % kHeadsASolid == 0) solid = random_solid(random);
-        Scene scene = random_view(random);
-        scene.edge_fade = random.between(0.2, 1.0);
-        scene.edge_fade_band = random.between(0.0, 0.6);
-        if (!wall::can_be_seen(scene.screen, wall::eyes_of(scene.viewer))) continue;
-        const EyePair pair = eye_frusta(scene, kSize, all_of(kSize));
+        picture::Picture picture = random_view(random);
+        picture.edge_fade = random.between(0.2, 1.0);
+        picture.edge_fade_band = random.between(0.0, 0.6);
+        if (!wall::can_be_seen(picture.screen, wall::eyes_of(picture.viewer))) continue;
+        const EyePair pair = eye_frusta(picture, kSize, all_of(kSize));
         const bool bends =
             std::ranges::any_of(solid.patches, [&](const Patch& patch) { return bent(pair, patch.shape.bounds); });
         for (int k = 0; k < kPatchesAHead; ++k) {
@@ -285,15 +285,15 @@ TEST(Culling, LosesNothingThatIsDrawnWhereParallaxFades) {
             const Patch& patch = solid.patches[std::min(chosen, solid.patches.size() - 1)];
             const bool is_bent = bent(pair, patch.shape.bounds);
             const bool gone = hidden(pair, patch.shape, bends ? std::span<const Box>{} : solid.inner) != Hidden::no;
-            const FadedDrawing drawing(scene);
+            const FadedDrawing drawing(picture);
             const auto [moves, shows] = drawing.look(patch);
             ASSERT_FALSE(moves && !is_bent) << "head " << head;
             if (is_bent) {
                 ASSERT_FALSE(gone && shows) << "head " << head;
             } else if (gone) {
-                const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+                const wall::Eyes eyes = wall::eyes_of(picture.viewer);
                 for (const Vec3& eye : {eyes.left_world, eyes.right_world})
-                    ASSERT_FALSE(Looker(scene, solid, eye).sees(patch)) << "head " << head;
+                    ASSERT_FALSE(Looker(picture, solid, eye).sees(patch)) << "head " << head;
             }
             bent_patches += is_bent ? 1 : 0;
             moved += moves ? 1 : 0;
@@ -314,27 +314,28 @@ TEST(Culling, OfAPartOfThePictureLosesNothingInIt) {
     Random random(21);
     int inside = 0;
     for (int i = 0; i < 20'000; ++i) {
-        const Scene scene = random_view(random);
-        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
-        if (!wall::can_be_seen(scene.screen, eyes)) continue;
+        const picture::Picture picture = random_view(random);
+        const wall::Eyes eyes = wall::eyes_of(picture.viewer);
+        if (!wall::can_be_seen(picture.screen, eyes)) continue;
         const auto at = [&](double most) { return static_cast<std::uint32_t>(random.between(0.0, most)); };
         PixelRect part{at(kSize.width - 2), at(kSize.height - 2), 0, 0};
         part.width = 1 + at(kSize.width - part.x - 1);
         part.height = 1 + at(kSize.height - part.y - 1);
-        const EyePair pair = eye_frusta(scene, kSize, part);
-        const Vec3 p_world = scene.world_from_object * (0.3 * random.direction());
-        if (wall::distance_in_front(scene.screen, eyes.left_world) - wall::distance_in_front(scene.screen, p_world) <
+        const EyePair pair = eye_frusta(picture, kSize, part);
+        const Vec3 p_world = picture.world_from_object * (0.3 * random.direction());
+        if (wall::distance_in_front(picture.screen, eyes.left_world) -
+                wall::distance_in_front(picture.screen, p_world) <
             1e-3)
             continue;
-        const Vec2 on = point_on_screen(scene.screen, eyes.left_world, p_world);
+        const Vec2 on = point_on_screen(picture.screen, eyes.left_world, p_world);
         const double x =
-            on.x / glm::length(scene.screen.lower_right_world - scene.screen.lower_left_world) * kSize.width;
-        const double y =
-            (1.0 - on.y / glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world)) * kSize.height;
+            on.x / glm::length(picture.screen.lower_right_world - picture.screen.lower_left_world) * kSize.width;
+        const double y = (1.0 - on.y / glm::length(picture.screen.upper_left_world - picture.screen.lower_left_world)) *
+                         kSize.height;
         if (x < part.x || y < part.y || x > part.x + part.width || y > part.y + part.height) continue;
         ++inside;
         Box box;
-        box.include(inverse(scene.world_from_object) * p_world - scene.lattice_origin_object);
+        box.include(inverse(picture.world_from_object) * p_world - picture.lattice_origin_object);
         ASSERT_FALSE(beside(pair.eyes[0], box)) << x << " " << y;
     }
     EXPECT_GT(inside, 300);

@@ -39,7 +39,7 @@ public:
         objects = view.world != nullptr ? view.world->objects.size() : 0;
     }
     void adjust(PartOfHand, haptics::TickParameters& parameters) const override { parameters.enabled = !calm; }
-    void stage(renderer::Scene& scene, std::size_t) const override { scene.tool.colour = Vec3(0.0, 0.0, 1.0); }
+    void stage(picture::Picture& scene, std::size_t) const override { scene.tool.colour = Vec3(0.0, 0.0, 1.0); }
     [[nodiscard]] ActivityPanel panel() const override {
         return {.title = "Watching",
                 .aside = "",

@@ -46,7 +46,7 @@ Vec3 towards_eye_object(const MouseDesk& desk) {
     return glm::normalize(inverse(state.world_from_object) * state.seen_from.eye_world - middle);
 }
 
-std::optional<renderer::ScenePedestal> plinth_of(const MouseDesk& desk) {
+std::optional<picture::PicturePedestal> plinth_of(const MouseDesk& desk) {
     const auto scene = desk.session->scene_on(0);
     return scene && scene->pedestal.visible ? std::optional(scene->pedestal) : std::nullopt;
 }

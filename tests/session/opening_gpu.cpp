@@ -52,7 +52,7 @@ TEST_F(Opening, ShowsPicturesBeforeTheSolidIsThere) {
         sculpt::LoadWatch watch{&sight.work()};
         watch.look = [&](const geometry::TriangleMesh& mesh) {
             EXPECT_STREQ(sight.work().look().step, "reading the file");
-            auto drawn = renderer::drawn_mesh(mesh);
+            auto drawn = picture::drawn_mesh(mesh);
             const unsigned so_far = sight.pictures();
             sight.show({drawn, drawn->bounds});
             EXPECT_TRUE(sight.wait_for_pictures(so_far + 1)) << "the file's mesh is seen";

@@ -27,7 +27,7 @@ protected:
         gpu::DeviceTest::TearDown();
     }
     // Draws the scene, or darkness, and returns what has changed.
-    std::vector<PixelRect> changed_by(const std::optional<renderer::Scene>& scene) {
+    std::vector<PixelRect> changed_by(const std::optional<picture::Picture>& scene) {
         auto commands = gpu::Commands::begin(device());
         EXPECT_TRUE(commands && surface_->flush(*commands));
         const auto drawn = picture_->draw(*commands, scene, kSize, kMono);
@@ -47,7 +47,7 @@ private:
 
 // As where a tracked head steps behind a screen and comes back.
 TEST_F(ScreenPicture, IsNewAllOverWhereItTurnsDarkAndWhereItEndsBeingDark) {
-    renderer::Scene scene;
+    picture::Picture scene;
     scene.viewer.head_world.position_m = {0.0, 1.6, 2.0};
     const std::vector<PixelRect> all{all_of(kSize)};
     EXPECT_EQ(changed_by(scene), all);

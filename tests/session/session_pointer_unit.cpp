@@ -13,8 +13,8 @@ namespace burin::session {
 namespace {
 
 // A panel of 200 x 400 pixels, 0.5 m wide, a metre before the wall and turned.
-const renderer::PanelStand kStand =
-    renderer::stand_of_width({{0.4, 1.2, 1.0}, glm::angleAxis(-0.3, Vec3(0, 1, 0))}, 0.5, ImageSize{200, 400});
+const picture::PanelStand kStand =
+    picture::stand_of_width({{0.4, 1.2, 1.0}, glm::angleAxis(-0.3, Vec3(0, 1, 0))}, 0.5, ImageSize{200, 400});
 const ImageSize kPanel{200, 400};
 
 Vec3 on_panel(const Vec2& px) {

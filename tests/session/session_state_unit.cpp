@@ -36,7 +36,7 @@ Result<void> run(SessionState& state, SessionOrders& orders, const std::string& 
 TEST(SessionState, BeginsWithTheWorkpieceInViewAndTheHandBeforeIt) {
     const Room room = test_room();
     const SessionState state = test_state(room);
-    const renderer::Scene scene = *scene_of(state, room, 0, Vec3(-0.1), {});
+    const picture::Picture scene = *scene_of(state, room, 0, Vec3(-0.1), {});
     const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p{corner & 1 ? 0.1 : -0.1, corner & 2 ? 0.1 : -0.1, corner & 4 ? 0.1 : -0.1};
@@ -168,7 +168,7 @@ TEST(SessionState, EveryToolIsFeltAndDrawnAsItsShape) {
         const haptics::TickParameters p = parameters_of(step.state, room);
         EXPECT_TRUE(haptics::parameters_are_sensible(p)) << spec;
         EXPECT_TRUE(p.shape.touches()) << spec;
-        const renderer::SceneTool drawn = scene_of(step.state, room, 0, Vec3(-0.1), tool)->tool;
+        const picture::PictureTool drawn = scene_of(step.state, room, 0, Vec3(-0.1), tool)->tool;
         ASSERT_NE(drawn.mesh, nullptr) << spec;
         // The drawn tool stands where and as the hand holds it, as large as the scene is.
         const Similarity expected =

@@ -22,8 +22,8 @@ haptics::ToolState paused_tool() {
     return tool;
 }
 
-renderer::Scene staged(const Staging& staging) {
-    renderer::Scene scene;
+picture::Picture staged(const Staging& staging) {
+    picture::Picture scene;
     stage(scene, staging, kWorldFromObject);
     return scene;
 }
@@ -36,14 +36,14 @@ TEST(Staging, ShowsNothingBeforeTheFirstTick) {
     haptics::ToolState tool = paused_tool();
     tool.workspace.bubble_radius_object_m = 0.02;
     tool.tick = 0;
-    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const picture::Picture scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     EXPECT_FALSE(scene.tool.visible || scene.box.visible || scene.proposed_box.visible || scene.bubble.visible);
 }
 
 TEST(Staging, ShowsTheToolOnTheSurfaceAndTheWorkspaceAroundTheDevicesMiddle) {
     haptics::ToolState tool = paused_tool();
     tool.workspace.proposed_visible = false;
-    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const picture::Picture scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     EXPECT_TRUE(near(scene.tool.center_world, kWorldFromObject * tool.proxy_object_m)) << "not where the hand is";
     EXPECT_DOUBLE_EQ(scene.tool.radius_m, 0.05);
     ASSERT_TRUE(scene.box.visible);
@@ -57,7 +57,7 @@ TEST(Staging, ShowsTheToolOnTheSurfaceAndTheWorkspaceAroundTheDevicesMiddle) {
 
 TEST(Staging, WhileModellingPausesAClearBoxStandsAroundTheToolAndTheOldOneIsLines) {
     const haptics::ToolState tool = paused_tool();
-    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const picture::Picture scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     ASSERT_TRUE(scene.proposed_box.visible);
     EXPECT_TRUE(near(scene.proposed_box.center_world.position_m, kWorldFromObject * tool.hip_object_m));
     EXPECT_EQ(scene.proposed_box.size_m, scene.box.size_m);
@@ -70,7 +70,7 @@ TEST(Staging, WhileModellingPausesAClearBoxStandsAroundTheToolAndTheOldOneIsLine
 TEST(Staging, TheBubbleLiesAroundTheWorkspacesMiddle) {
     haptics::ToolState tool = paused_tool();
     tool.workspace.bubble_radius_object_m = 0.0125;
-    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const picture::Picture scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     ASSERT_TRUE(scene.bubble.visible);
     EXPECT_TRUE(near(scene.bubble.center_world, scene.box.center_world.position_m));
     EXPECT_DOUBLE_EQ(scene.bubble.radius_m, 0.0625);
@@ -86,7 +86,7 @@ TEST(Staging, ShowsTheContactUnderTheBallAndTheForceAsTheHandFeelsIt) {
     Staging staging = staging_of(tool, 0.01, kWorkspace_m);
     EXPECT_FALSE(staged(staging).contact.visible) << "unless asked for";
     staging.contact_shown = true;
-    const renderer::Scene scene = staged(staging);
+    const picture::Picture scene = staged(staging);
     ASSERT_TRUE(scene.contact.visible);
     EXPECT_TRUE(near(scene.contact.point_world, kWorldFromObject * (tool.proxy_object_m - Vec3(0.0, 0.006, 0.008))));
     const Vec3 to_tool = scene.tool.center_world - scene.contact.point_world;

@@ -106,7 +106,7 @@ TEST(WandSession, IsDrawnAsARodWithARedAndAGreenBallWhereTheyTouch) {
     ASSERT_EQ(scene->objects.size(), 4u) << "rod, two balls, the block";
     const Similarity& world_from_object = desk.session->state().world_from_object;
     const haptics::ToolState tool = desk.session->newest_tool();
-    const renderer::DrawnObject &top = scene->objects[1], &bottom = scene->objects[2];
+    const picture::DrawnObject &top = scene->objects[1], &bottom = scene->objects[2];
     EXPECT_GT(top.colour.x, top.colour.y + 0.5);
     EXPECT_GT(bottom.colour.y, bottom.colour.x + 0.5);
     EXPECT_NEAR(top.world_from_mesh.scale, kBallOfPoint_m * world_from_object.scale, 1e-12) << "its mesh has a metre";

@@ -195,7 +195,7 @@ protected:
     }
 
     // Both eyes' pictures, side by side as the device has them.
-    StereoImage draw(std::span<const PanelStand> stands, const PanelPainter& painter, std::uint32_t samples) {
+    StereoImage draw(std::span<const picture::PanelStand> stands, const PanelPainter& painter, std::uint32_t samples) {
         auto targets = FrameTargets::create(device(), kView, samples);
         EXPECT_TRUE(targets) << targets.error().line();
         auto pipelines = Pipelines::create(device());
@@ -223,7 +223,7 @@ protected:
                                   0.0f, 1.0f};
         vk.vkCmdSetViewport(commands->raw(), 0, 1, &viewport);
         vk.vkCmdSetScissor(commands->raw(), 0, 1, &begin.renderArea);
-        for (const PanelStand& stand : stands) quad->record(commands->raw(), stand, pipelines->set());
+        for (const picture::PanelStand& stand : stands) quad->record(commands->raw(), stand, pipelines->set());
         vk.vkCmdEndRenderPass(commands->raw());
         auto submission = std::move(*commands).submit();
         EXPECT_TRUE(submission && submission->wait());
@@ -272,7 +272,7 @@ protected:
 
 TEST_F(PanelQuadTest, StandsWhereBothEyesExpectIt) {
     const PanelPainter painter = quarters();
-    const PanelStand stand{{{0.03, -0.05, -1.2}, glm::angleAxis(0.4, Vec3(0.0, 1.0, 0.0))}, {0.5, 0.4}};
+    const picture::PanelStand stand{{{0.03, -0.05, -1.2}, glm::angleAxis(0.4, Vec3(0.0, 1.0, 0.0))}, {0.5, 0.4}};
     for (const std::uint32_t samples : {1u, device().capabilities().msaa_samples}) {
         const StereoImage shown = draw(std::span(&stand, 1), painter, samples);
         for (std::size_t i = 0; i < 4; ++i) {
@@ -290,8 +290,8 @@ TEST_F(PanelQuadTest, StandsWhereBothEyesExpectIt) {
 
 TEST_F(PanelQuadTest, HidesAndIsHiddenByDepth) {
     const PanelPainter painter = quarters();
-    const PanelStand near{{{0.0, 0.0, -1.0}, Quat(1.0, 0.0, 0.0, 0.0)}, {0.3, 0.2}};
-    const PanelStand far{{{0.0, 0.0, -2.0}, Quat(1.0, 0.0, 0.0, 0.0)}, {2.0, 1.6}};
+    const picture::PanelStand near{{{0.0, 0.0, -1.0}, Quat(1.0, 0.0, 0.0, 0.0)}, {0.3, 0.2}};
+    const picture::PanelStand far{{{0.0, 0.0, -2.0}, Quat(1.0, 0.0, 0.0, 0.0)}, {2.0, 1.6}};
     const Vec3 upper_left_of_near(-0.075, 0.05, -1.0);
     const Vec3 on_far_alone(0.8, 0.6, -2.0);
     const StereoImage near_first = draw(std::array{near, far}, painter, 1);

@@ -20,9 +20,9 @@ double srgb(double linear) {
 }
 
 // In the screen's plane, where both eyes see one of its pixels through one of the picture's.
-PanelStand stand_pixel_on_pixel(const Scene& scene) {
-    const double px = pixel_m(scene);
-    const Vec3 corner = pixel_centre_world(scene, kPlace.x, kPlace.y) + Vec3(-0.5 * px, 0.5 * px, 0.0);
+picture::PanelStand stand_pixel_on_pixel(const picture::Picture& picture) {
+    const double px = pixel_m(picture);
+    const Vec3 corner = pixel_centre_world(picture, kPlace.x, kPlace.y) + Vec3(-0.5 * px, 0.5 * px, 0.0);
     const Vec2 size{px * kPanel.width, px * kPanel.height};
     return {{corner + Vec3(0.5 * size.x, -0.5 * size.y, 0.0), Quat{1, 0, 0, 0}}, size};
 }
@@ -86,13 +86,13 @@ std::array<double, 4> busy_at(std::uint32_t x, std::uint32_t y) {
 
 TEST_F(ScenePanelTest, HasTheOverlaysColoursWhereItsPixelsAreThePictures) {
     const PanelPainter painter = painted(busy_mesh());
-    Scene scene = bare_scene();
-    scene.background = {0.56, 0.57, 0.59};
-    scene.panel = ScenePanel{stand_pixel_on_pixel(scene), 1};
+    picture::Picture picture = bare_scene();
+    picture.background = {0.56, 0.57, 0.59};
+    picture.panel = picture::PicturePanel{stand_pixel_on_pixel(picture), 1};
     for (const std::uint32_t samples : {1u, device().capabilities().msaa_samples}) {
         Renderer renderer = make(samples);
         renderer.show_panel(painter.view());
-        const auto shown = renderer.render(scene);
+        const auto shown = renderer.render(picture);
         ASSERT_TRUE(shown) << shown.error().line();
         for (const Image* image : {&shown->left, &shown->right}) {
             double worst = 0.0;
@@ -101,7 +101,7 @@ TEST_F(ScenePanelTest, HasTheOverlaysColoursWhereItsPixelsAreThePictures) {
                     const std::array<double, 4> c = busy_at(x, y);
                     const std::uint8_t* pixel = image->pixel(kPlace.x + x, kPlace.y + y);
                     for (std::size_t k = 0; k < 3; ++k) {
-                        const double behind = linear(255.0 * scene.background[static_cast<int>(k)]);
+                        const double behind = linear(255.0 * picture.background[static_cast<int>(k)]);
                         const double expected = srgb(linear(c[k] / c[3]) * c[3] + behind * (1.0 - c[3]));
                         worst = std::max(worst, std::abs(pixel[k] - expected));
                     }
@@ -117,16 +117,16 @@ TEST_F(ScenePanelTest, HasTheOverlaysColoursWhereItsPixelsAreThePictures) {
 
 TEST_F(ScenePanelTest, IsNeitherLitNorShaded) {
     const PanelPainter painter = painted(plain_mesh(rgba(120, 200, 80, 255)));
-    Scene scene = bare_scene();
+    picture::Picture picture = bare_scene();
     const Vec3 middle{0.0, 0.15, 0.0};
     Renderer renderer = make(1);
     renderer.show_panel(painter.view());
     for (const double turn : {0.0, 0.9, -1.2}) {
-        scene.panel = ScenePanel{{{middle, glm::angleAxis(turn, Vec3(1, 0, 0))}, {0.1, 0.1}}, 1};
+        picture.panel = picture::PicturePanel{{{middle, glm::angleAxis(turn, Vec3(1, 0, 0))}, {0.1, 0.1}}, 1};
         // The tool right above it, between it and the lamp.
         const Vec3 above = middle + Vec3(0.0, 0.03, 0.02);
-        scene.tool = {0.01, above, {0.9, 0.4, 0.1}, {above, glm::angleAxis(-1.5, Vec3{1, 0, 0})}, true};
-        const auto shown = renderer.render(scene);
+        picture.tool = {0.01, above, {0.9, 0.4, 0.1}, {above, glm::angleAxis(-1.5, Vec3{1, 0, 0})}, true};
+        const auto shown = renderer.render(picture);
         ASSERT_TRUE(shown);
         const std::uint8_t* pixel = shown->left.pixel(kTestSize.width / 2, kTestSize.height / 2 + 2);
         constexpr std::array<std::uint8_t, 3> kOwn{120, 200, 80};
@@ -142,12 +142,12 @@ TEST_F(ScenePanelTest, IsHiddenByWhatStandsNearerAndHidesWhatIsBehind) {
         Surface plate;
         plate.quad({0, 0.15, 0}, {0.04, 0, 0}, {0, 0.04, 0}, kRed);
         renderer.surface().set_patch(0, plate.vertices, plate.indices);
-        Scene scene = bare_scene();
-        scene.show_grid = true;
-        scene.bubble = {{0, 0.15, 0.1}, 0.03, {0.2, 0.8, 0.3}, false};
+        picture::Picture picture = bare_scene();
+        picture.show_grid = true;
+        picture.bubble = {{0, 0.15, 0.1}, 0.03, {0.2, 0.8, 0.3}, false};
         for (const double z : {0.05, -0.05}) {
-            scene.panel = ScenePanel{{{{0, 0.15, z}, Quat{1, 0, 0, 0}}, {0.12, 0.12}}, 1};
-            const auto shown = renderer.render(scene);
+            picture.panel = picture::PicturePanel{{{{0, 0.15, z}, Quat{1, 0, 0, 0}}, {0.12, 0.12}}, 1};
+            const auto shown = renderer.render(picture);
             ASSERT_TRUE(shown);
             for (const Image* image : {&shown->left, &shown->right}) {
                 const std::uint8_t* middle = image->pixel(kTestSize.width / 2, kTestSize.height / 2);
@@ -157,10 +157,10 @@ TEST_F(ScenePanelTest, IsHiddenByWhatStandsNearerAndHidesWhatIsBehind) {
             }
         }
         // Glass before it tints it.
-        scene.panel->stand.world_from_panel.position_m.z = 0.05;
-        const auto bare = renderer.render(scene);
-        scene.bubble.visible = true;
-        const auto tinted = renderer.render(scene);
+        picture.panel->stand.world_from_panel.position_m.z = 0.05;
+        const auto bare = renderer.render(picture);
+        picture.bubble.visible = true;
+        const auto tinted = renderer.render(picture);
         ASSERT_TRUE(bare && tinted);
         const auto green = [](const StereoImage& s) {
             return s.left.pixel(kTestSize.width / 2, kTestSize.height / 2)[1];
@@ -175,17 +175,17 @@ TEST_F(ScenePanelTest, ItsParallaxFadesTowardsTheScreensEdge) {
     Renderer renderer = make(1);
     renderer.show_panel(painter.view());
     constexpr double kBand = 0.5, kStrength = 1.0, kZ = 0.1;
-    Scene scene = bare_scene();
-    scene.edge_fade = kStrength;
-    scene.edge_fade_band = kBand;
+    picture::Picture picture = bare_scene();
+    picture.edge_fade = kStrength;
+    picture.edge_fade_band = kBand;
     const Vec3 middle{0.07, 0.15, kZ};
-    scene.panel = ScenePanel{{{middle, Quat{1, 0, 0, 0}}, {0.12, 0.1}}, 1};
-    const auto shown = renderer.render(scene);
+    picture.panel = picture::PicturePanel{{{middle, Quat{1, 0, 0, 0}}, {0.12, 0.1}}, 1};
+    const auto shown = renderer.render(picture);
     ASSERT_TRUE(shown);
-    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(picture.viewer);
     const auto expected_px = [&](const Vec3& eye, double x) {
         const auto seen = [&](const Vec3& from) {
-            return 2.0 * point_on_screen(scene.screen, from, {x, middle.y, kZ}).x / scene.wall.width_m - 1.0;
+            return 2.0 * point_on_screen(picture.screen, from, {x, middle.y, kZ}).x / picture.wall.width_m - 1.0;
         };
         const double m = seen(middle_of(eyes)), d = seen(eye) - m;
         const double t = std::clamp((kBand - (1.0 - std::abs(m))) / kBand, 0.0, 1.0);
@@ -208,25 +208,25 @@ TEST_F(ScenePanelTest, ItsParallaxFadesTowardsTheScreensEdge) {
 TEST_F(ScenePanelTest, IsDrawnAnewAloneWhenItsPictureChangesAndNotOtherwise) {
     PanelPainter painter = painted(plain_mesh(rgba(200, 40, 40, 255)));
     Renderer renderer = make(1);
-    Scene scene = bare_scene();
-    scene.show_grid = true;
-    ASSERT_TRUE(renderer.render(scene));
+    picture::Picture picture = bare_scene();
+    picture.show_grid = true;
+    ASSERT_TRUE(renderer.render(picture));
     const std::uint32_t pipelines = renderer.stats().pipelines;
-    scene.panel = ScenePanel{stand_pixel_on_pixel(scene), 1};
-    ASSERT_TRUE(renderer.render(scene));
+    picture.panel = picture::PicturePanel{stand_pixel_on_pixel(picture), 1};
+    ASSERT_TRUE(renderer.render(picture));
     EXPECT_EQ(renderer.stats().pipelines, pipelines) << "no picture, no panel, no pipeline";
     renderer.show_panel(painter.view());
-    const auto red = renderer.render(scene);
+    const auto red = renderer.render(picture);
     ASSERT_TRUE(red);
     EXPECT_EQ(renderer.stats().pipelines, pipelines + 1);
     EXPECT_GT(red->left.pixel(kPlace.x + 5, kPlace.y + 5)[0], 190);
     renderer.show_panel(painter.view());  // as a session does every frame
-    ASSERT_TRUE(renderer.render(scene));
+    ASSERT_TRUE(renderer.render(picture));
     EXPECT_TRUE(renderer.stats().part.empty());
 
     paint(painter, plain_mesh(rgba(40, 200, 40, 255)));
-    ++scene.panel->version;
-    const auto green = renderer.render(scene);
+    ++picture.panel->version;
+    const auto green = renderer.render(picture);
     ASSERT_TRUE(green);
     EXPECT_GT(green->left.pixel(kPlace.x + 5, kPlace.y + 5)[1], 190);
     const PixelRect& part = renderer.stats().part;
@@ -238,11 +238,11 @@ TEST_F(ScenePanelTest, IsDrawnAnewAloneWhenItsPictureChangesAndNotOtherwise) {
     ASSERT_TRUE(painter.resize({32, 24}));
     paint(painter, plain_mesh(rgba(40, 40, 200, 255)));
     renderer.show_panel(painter.view());
-    const auto blue = renderer.render(scene);
+    const auto blue = renderer.render(picture);
     ASSERT_TRUE(blue);
     EXPECT_GT(blue->right.pixel(kPlace.x + 60, kPlace.y + 40)[2], 190);
     renderer.show_panel(VK_NULL_HANDLE);
-    const auto none = renderer.render(scene);
+    const auto none = renderer.render(picture);
     ASSERT_TRUE(none);
     EXPECT_LT(none->right.pixel(kPlace.x + 60, kPlace.y + 40)[2], 190);
 }

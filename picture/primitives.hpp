@@ -9,7 +9,7 @@
 #include "base/space.hpp"
 #include "shaders/shared/surface_vertex.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 struct PrimitiveRange {
     std::uint32_t first_index = 0;
@@ -39,4 +39,4 @@ struct Primitives {
 
 [[nodiscard]] Primitives make_primitives();
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

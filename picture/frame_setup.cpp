@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,12 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "renderer/scene/contact_marks.hpp"
-#include "renderer/scene/lamp_view.hpp"
+#include "picture/contact_marks.hpp"
+#include "picture/lamp_view.hpp"
 #include "shaders/shared/srgb.h"
 #include "wall/projection.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 namespace {
 
@@ -25,10 +25,10 @@ const Vec3 kGroundColour{0.16, 0.15, 0.14};
 
 glm::vec4 vec4_of(const Vec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
-double stylus_radius_m(const SceneTool& tool) { return std::clamp(0.42 * tool.radius_m, 0.002, 0.012); }
-double stylus_length_m(const SceneTool& tool) { return std::max(20.0 * stylus_radius_m(tool), 6.0 * tool.radius_m); }
+double stylus_radius_m(const PictureTool& tool) { return std::clamp(0.42 * tool.radius_m, 0.002, 0.012); }
+double stylus_length_m(const PictureTool& tool) { return std::max(20.0 * stylus_radius_m(tool), 6.0 * tool.radius_m); }
 // Returns the thickness of a workspace box's edges.
-double bar_m(const SceneBox& box) {
+double bar_m(const PictureBox& box) {
     return std::clamp(0.018 * std::min({box.size_m.x, box.size_m.y, box.size_m.z}), 0.0015, 0.008);
 }
 double half_diagonal(const Vec3& size) { return 0.5 * glm::length(size); }
@@ -83,7 +83,7 @@ void add_wall_frame(Shapes& shapes, const wall::Screen& screen, const Primitives
 // Opacity added to a box's faces towards its edges, as a share of the opacity of their middle (shaders/glass.frag).
 constexpr double kDenserEdges = 0.9;
 
-void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) {
+void add_box(Shapes& shapes, const PictureBox& box, const Primitives& primitives) {
     const Vec3 s = box.size_m;
     const double bar = bar_m(box);
     for (int axis = 0; axis < 3; ++axis) {
@@ -101,18 +101,18 @@ void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) 
         {primitives.cube, constants_of(matrix_of(box.center_world, s), box.colour, box.face_opacity, kDenserEdges, 0)});
 }
 
-void add_bubble(Shapes& shapes, const SceneBubble& bubble, const Primitives& primitives) {
+void add_bubble(Shapes& shapes, const PictureBubble& bubble, const Primitives& primitives) {
     const Pose pose{bubble.center_world, Quat{1, 0, 0, 0}};
     shapes.glass.push_back(
         {primitives.balls.back(), constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0)});
 }
 
 // Adds the objects through which one sees, the farthest first.
-void add_clear_objects(Shapes& shapes, const Scene& scene) {
+void add_clear_objects(Shapes& shapes, const Picture& picture) {
     constexpr double kNoEdges = 0.0, kShaded = 1.0;  // shaders/glass.frag
-    const Vec3 eye = middle_of(wall::eyes_of(scene.viewer));
+    const Vec3 eye = middle_of(wall::eyes_of(picture.viewer));
     std::vector<std::pair<double, const DrawnObject*>> clear;
-    for (const DrawnObject& object : scene.objects)
+    for (const DrawnObject& object : picture.objects)
         if (object.opacity < 1.0) clear.emplace_back(-glm::length(bounds_world(object).center() - eye), &object);
     std::ranges::stable_sort(clear, {}, &std::pair<double, const DrawnObject*>::first);
     for (const auto& [distance, object] : clear)
@@ -122,7 +122,7 @@ void add_clear_objects(Shapes& shapes, const Scene& scene) {
              object->mesh});
 }
 
-void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
+void add_tool(Shapes& shapes, const PictureTool& tool, const Primitives& primitives) {
     if (tool.mesh) {
         shapes.tool.push_back({{0, 0, tool.mesh->bounds},
                                constants_of(matrix(tool.world_from_mesh), tool.colour, 1.0, 0.28, 1.0),
@@ -151,8 +151,8 @@ Mat4 matrix_along(const Vec3& from, const Vec3& direction, const Vec3& size) {
             glm::dvec4(from, 1)};
 }
 
-void add_contact(Shapes& shapes, const Scene& scene, const Primitives& primitives) {
-    const ContactMarks marks = contact_marks(scene);
+void add_contact(Shapes& shapes, const Picture& picture, const Primitives& primitives) {
+    const ContactMarks marks = contact_marks(picture);
     const auto add = [&](const PrimitiveRange& range, const Mat4& place) {
         shapes.solid.push_back({range, constants_of(place, marks.colour, 1.0, 0.4, 0.8)});
     };
@@ -180,11 +180,11 @@ Box placed_box(const Box& own, const Similarity& world_from_own) {
 
 Vec3 linear_of(const Vec3& srgb) { return shared::linear_of(srgb); }
 
-Mat4 world_from_patch(const Scene& scene) {
-    return matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
+Mat4 world_from_patch(const Picture& picture) {
+    return matrix(picture.world_from_object) * glm::translate(Mat4(1.0), picture.lattice_origin_object);
 }
 
-Ball ball_of(const SceneTool& tool) {
+Ball ball_of(const PictureTool& tool) {
     if (!tool.visible) return {};
     const double half_length = 0.5 * stylus_length_m(tool);
     const Ball stylus{tool.stylus_world * Vec3{0, 0, half_length}, half_length + stylus_radius_m(tool)};
@@ -194,7 +194,7 @@ Ball ball_of(const SceneTool& tool) {
     return around(all, ball_around(head_of(tool)));
 }
 
-Box head_of(const SceneTool& tool) {
+Box head_of(const PictureTool& tool) {
     Box head;
     if (!tool.visible) return head;
     if (!tool.mesh) {
@@ -207,7 +207,7 @@ Box head_of(const SceneTool& tool) {
 
 Box bounds_world(const DrawnObject& object) { return placed_box(object.mesh->bounds, object.world_from_mesh); }
 
-std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool) {
+std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const PictureTool& tool) {
     std::array<Ball, kSpineBalls + kStylusBalls> balls;
     if (!tool.visible) return balls;
     const double spine_m = glm::length(tool.spine_m);
@@ -226,50 +226,50 @@ std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool) {
     return balls;
 }
 
-Ball ball_of(const SceneBox& box) {
+Ball ball_of(const PictureBox& box) {
     // The box's edges are bars that stick out a little.
     return {box.center_world.position_m, box.visible ? half_diagonal(box.size_m) + bar_m(box) : 0.0};
 }
 
-Ball ball_of(const SceneBubble& bubble) { return {bubble.center_world, bubble.visible ? bubble.radius_m : 0.0}; }
+Ball ball_of(const PictureBubble& bubble) { return {bubble.center_world, bubble.visible ? bubble.radius_m : 0.0}; }
 
 const Vec3& direction_to_light() { return kToLight; }
 
-Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double reach_m) {
-    if (!scene.workpiece_object.empty()) {
-        const Vec3 center = scene.world_from_object * scene.workpiece_object.center();
-        const Vec3 size = scene.workpiece_object.extent() * scene.world_from_object.scale;
+Workpiece place_workpiece(const Picture& picture, const Box& patch_bounds, double reach_m) {
+    if (!picture.workpiece_object.empty()) {
+        const Vec3 center = picture.world_from_object * picture.workpiece_object.center();
+        const Vec3 size = picture.workpiece_object.extent() * picture.world_from_object.scale;
         const Ball enclosing{center, 0.5 * glm::length(size)};
-        if (patch_bounds.empty() && lamp_view(scene)) return {enclosing, {}};
+        if (patch_bounds.empty() && lamp_view(picture)) return {enclosing, {}};
         return {enclosing, {center, (size.x + size.y + size.z) / 6.0}};
     }
     if (patch_bounds.empty()) return {};
-    const Vec3 center = scene.world_from_object * (scene.lattice_origin_object + patch_bounds.center());
-    const Vec3 size = patch_bounds.extent() * scene.world_from_object.scale;
-    return {{center, reach_m * scene.world_from_object.scale}, {center, (size.x + size.y + size.z) / 6.0}};
+    const Vec3 center = picture.world_from_object * (picture.lattice_origin_object + patch_bounds.center());
+    const Vec3 size = patch_bounds.extent() * picture.world_from_object.scale;
+    return {{center, reach_m * picture.world_from_object.scale}, {center, (size.x + size.y + size.z) / 6.0}};
 }
 
-DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
-    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
-    const double eye_m = std::min(wall::distance_in_front(scene.screen, eyes.left_world),
-                                  wall::distance_in_front(scene.screen, eyes.right_world));
+DepthRange depth_range(const Picture& picture, const Workpiece& workpiece) {
+    const wall::Eyes eyes = wall::eyes_of(picture.viewer);
+    const double eye_m = std::min(wall::distance_in_front(picture.screen, eyes.left_world),
+                                  wall::distance_in_front(picture.screen, eyes.right_world));
     DepthRange range;
-    const std::array signs = boxes_of(contact_marks(scene));
+    const std::array signs = boxes_of(contact_marks(picture));
     Box panel;
-    if (scene.panel)
-        for (const Vec3& corner : corners_world(scene.panel->stand)) panel.include(corner);
+    if (picture.panel)
+        for (const Vec3& corner : corners_world(picture.panel->stand)) panel.include(corner);
     Box objects;
-    for (const DrawnObject& object : scene.objects) {
+    for (const DrawnObject& object : picture.objects) {
         const Box bounds = bounds_world(object);
         if (bounds.empty()) continue;
         objects.include(bounds.lo);
         objects.include(bounds.hi);
     }
-    for (const Ball& ball : {ball_around(objects), workpiece.enclosing, ball_of(scene.tool), ball_of(scene.box),
-                             ball_of(scene.proposed_box), ball_of(scene.bubble), ball_around(signs[0]),
+    for (const Ball& ball : {ball_around(objects), workpiece.enclosing, ball_of(picture.tool), ball_of(picture.box),
+                             ball_of(picture.proposed_box), ball_of(picture.bubble), ball_around(signs[0]),
                              ball_around(signs[1]), ball_around(panel)}) {
         if (ball.radius_m <= 0.0) continue;
-        const double center_m = eye_m - wall::distance_in_front(scene.screen, ball.center_world);
+        const double center_m = eye_m - wall::distance_in_front(picture.screen, ball.center_world);
         range.near_m = std::min(range.near_m, 0.9 * (center_m - ball.radius_m));
         range.far_m = std::max(range.far_m, 1.5 * (center_m + ball.radius_m));
     }
@@ -280,43 +280,44 @@ DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
     return range;
 }
 
-shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece) {
+shared::FrameUniforms frame_uniforms(const Picture& picture, const Workpiece& workpiece) {
     shared::FrameUniforms frame{};
-    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
-    const DepthRange depth = depth_range(scene, workpiece);
+    const wall::Eyes eyes = wall::eyes_of(picture.viewer);
+    const DepthRange depth = depth_range(picture, workpiece);
     const std::array eye_world{eyes.left_world, eyes.right_world};
     for (std::size_t i = 0; i < 2; ++i) {
         const Mat4 guarded = glm::scale(Mat4(1.0), Vec3(1.0 / kGuard, 1.0 / kGuard, 1.0));
         frame.clip_from_world[i] =
-            glm::mat4(guarded * off_axis_projection(scene.screen, eye_world[i], depth.near_m, depth.far_m));
+            glm::mat4(guarded * off_axis_projection(picture.screen, eye_world[i], depth.near_m, depth.far_m));
         frame.eye_world[i] = vec4_of(eye_world[i], 1.0);
     }
     const Vec3 middle = middle_of(eyes);
-    frame.clip_from_world_middle = glm::mat4(off_axis_projection(scene.screen, middle, depth.near_m, depth.far_m));
-    frame.fade = {glm::vec4(
-        glm::dvec4(scene.edge_fade, scene.edge_fade_band, wall::distance_in_front(scene.screen, middle), kGuard))};
+    frame.clip_from_world_middle = glm::mat4(off_axis_projection(picture.screen, middle, depth.near_m, depth.far_m));
+    frame.fade = {glm::vec4(glm::dvec4(picture.edge_fade, picture.edge_fade_band,
+                                       wall::distance_in_front(picture.screen, middle), kGuard))};
     frame.light = vec4_of(kToLight, kLightHalfAngleTangent);
     frame.light_colour = vec4_of(kLightColour, 0.0);
     frame.sky_colour = vec4_of(kSkyColour, 0.0);
     frame.ground_colour = vec4_of(kGroundColour, 0.0);
-    if (scene.tool.visible) {
-        const Pose& stylus = scene.tool.stylus_world;
-        frame.tool = vec4_of(scene.tool.center_world, scene.tool.radius_m);
-        frame.tool_spine = vec4_of(scene.tool.spine_m, 0.0);
-        frame.stylus_tip = vec4_of(stylus.position_m, stylus_radius_m(scene.tool));
-        frame.stylus_end = vec4_of(stylus * Vec3{0, 0, stylus_length_m(scene.tool)}, 0.0);
+    if (picture.tool.visible) {
+        const Pose& stylus = picture.tool.stylus_world;
+        frame.tool = vec4_of(picture.tool.center_world, picture.tool.radius_m);
+        frame.tool_spine = vec4_of(picture.tool.spine_m, 0.0);
+        frame.stylus_tip = vec4_of(stylus.position_m, stylus_radius_m(picture.tool));
+        frame.stylus_end = vec4_of(stylus * Vec3{0, 0, stylus_length_m(picture.tool)}, 0.0);
     }
-    frame.tool_colour = vec4_of(linear_of(scene.tool.colour), 0.0);
+    frame.tool_colour = vec4_of(linear_of(picture.tool.colour), 0.0);
     frame.workpiece = vec4_of(workpiece.typical.center_world, workpiece.typical.radius_m);
-    if (scene.pedestal.visible) frame.pedestal = vec4_of(scene.pedestal.top_center_world, scene.pedestal.radius_m);
-    frame.background = vec4_of(linear_of(scene.background), 1.0);
-    frame.background_root = vec4_of(glm::pow(linear_of(scene.background), Vec3(1.0 / 2.4)), 0.0);
-    BURIN_CHECK(scene.capsules.size() <= shared::kMostCapsules);
-    for (std::size_t i = 0; i < std::min<std::size_t>(scene.capsules.size(), shared::kMostCapsules); ++i) {
-        frame.capsule_from[i] = vec4_of(scene.capsules[i].from_world, scene.capsules[i].radius_m);
-        frame.capsule_to[i] = vec4_of(scene.capsules[i].to_world, 0.0);
+    if (picture.pedestal.visible)
+        frame.pedestal = vec4_of(picture.pedestal.top_center_world, picture.pedestal.radius_m);
+    frame.background = vec4_of(linear_of(picture.background), 1.0);
+    frame.background_root = vec4_of(glm::pow(linear_of(picture.background), Vec3(1.0 / 2.4)), 0.0);
+    BURIN_CHECK(picture.capsules.size() <= shared::kMostCapsules);
+    for (std::size_t i = 0; i < std::min<std::size_t>(picture.capsules.size(), shared::kMostCapsules); ++i) {
+        frame.capsule_from[i] = vec4_of(picture.capsules[i].from_world, picture.capsules[i].radius_m);
+        frame.capsule_to[i] = vec4_of(picture.capsules[i].to_world, 0.0);
     }
-    if (const std::optional<LampView> lamp = lamp_view(scene)) {
+    if (const std::optional<LampView> lamp = lamp_view(picture)) {
         constexpr double kTexel = 1.0 / kShadowMapSide;
         frame.map_from_world = glm::mat4(lamp->map_from_world);
         frame.map = glm::vec4(glm::dvec4(kTexel, kTexel * lamp->side_m, lamp->deep_m, 0.0));
@@ -324,10 +325,10 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
     return frame;
 }
 
-Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
+Shapes shapes_of(const Picture& picture, const Primitives& primitives) {
     Shapes shapes;
-    if (scene.tool.visible) add_tool(shapes, scene.tool, primitives);
-    for (const DrawnObject& object : scene.objects) {
+    if (picture.tool.visible) add_tool(shapes, picture.tool, primitives);
+    for (const DrawnObject& object : picture.objects) {
         if (object.opacity < 1.0) continue;
         shared::DrawConstants c =
             constants_of(matrix(object.world_from_mesh), object.colour, 1.0, object.roughness, object.gloss);
@@ -335,25 +336,25 @@ Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
         c.material.w = object.own_capsule == kAllCapsules ? -1.0f : static_cast<float>(object.own_capsule + 1);
         shapes.solid.push_back({{0, 0, object.mesh->bounds}, c, object.mesh});
     }
-    add_clear_objects(shapes, scene);
-    add_contact(shapes, scene, primitives);
-    if (scene.pedestal.visible) {
-        const ScenePedestal& p = scene.pedestal;
+    add_clear_objects(shapes, picture);
+    add_contact(shapes, picture, primitives);
+    if (picture.pedestal.visible) {
+        const PicturePedestal& p = picture.pedestal;
         const Pose pose{p.top_center_world, Quat{1, 0, 0, 0}};
         const Vec3 size{p.radius_m, std::max(p.top_center_world.y, 0.001), p.radius_m};
         shapes.solid.push_back({primitives.plinth, constants_of(matrix_of(pose, size), p.colour, 1.0, 0.75, 0.4)});
         shapes.solid.back().constants.material.z = -1.0f;  // the workpiece casts its shadow on it
     }
-    if (scene.show_wall_frame) add_wall_frame(shapes, scene.screen, primitives);
-    for (const SceneBox* box : {&scene.box, &scene.proposed_box}) {
+    if (picture.show_wall_frame) add_wall_frame(shapes, picture.screen, primitives);
+    for (const PictureBox* box : {&picture.box, &picture.proposed_box}) {
         if (box->visible) add_box(shapes, *box, primitives);
     }
-    if (scene.bubble.visible) add_bubble(shapes, scene.bubble, primitives);
+    if (picture.bubble.visible) add_bubble(shapes, picture.bubble, primitives);
     return shapes;
 }
 
-shared::DrawConstants surface_constants(const Scene& scene) {
-    shared::DrawConstants c = constants_of(world_from_patch(scene), Vec3(1.0), 1.0, 0.42, 0.9);
+shared::DrawConstants surface_constants(const Picture& picture) {
+    shared::DrawConstants c = constants_of(world_from_patch(picture), Vec3(1.0), 1.0, 0.42, 0.9);
     c.material.z = 1.0f;  // shows how near the tool is
     return c;
 }
@@ -368,13 +369,13 @@ shared::DrawConstants screen_constants(const wall::Screen& screen) {
     return c;
 }
 
-std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene) {
+std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Picture& picture) {
     std::vector<std::shared_ptr<const DrawnMesh>> meshes;
-    if (scene.tool.visible && scene.tool.mesh) meshes.push_back(scene.tool.mesh);
-    for (const DrawnObject& object : scene.objects) meshes.push_back(object.mesh);
+    if (picture.tool.visible && picture.tool.mesh) meshes.push_back(picture.tool.mesh);
+    for (const DrawnObject& object : picture.objects) meshes.push_back(object.mesh);
     std::ranges::sort(meshes);
     meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
     return meshes;
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -9,7 +9,7 @@
 #include "base/image.hpp"
 #include "base/space.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 struct PanelStand {
     Pose world_from_panel;
@@ -48,4 +48,4 @@ struct PanelStand {
     return Vec2(uv.x * pixels.width, uv.y * pixels.height);
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

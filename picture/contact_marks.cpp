@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/contact_marks.hpp"
+#include "picture/contact_marks.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/scene/primitives.hpp"
+#include "picture/primitives.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 namespace {
 
 constexpr double kLeastForce_N = 0.05;
@@ -22,7 +22,7 @@ constexpr double kClearOfBall = 1.06;
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Returns the place on the tool's spine nearest to a point; a ball's centre.
-Vec3 nearest_on_spine(const SceneTool& tool, const Vec3& point) {
+Vec3 nearest_on_spine(const PictureTool& tool, const Vec3& point) {
     const double length2 = glm::dot(tool.spine_m, tool.spine_m);
     if (!(length2 > 0.0)) return tool.center_world;
     const double along = glm::dot(point - tool.center_world, tool.spine_m) / length2;
@@ -31,11 +31,11 @@ Vec3 nearest_on_spine(const SceneTool& tool, const Vec3& point) {
 
 // Returns whether the contact is the ball's own, and not that of another part of a tool. The round about the spine of a
 // tool that is no ball counts as its ball.
-bool ball_touches(const SceneTool& tool, const Vec3& point) {
+bool ball_touches(const PictureTool& tool, const Vec3& point) {
     return tool.visible && glm::length(point - nearest_on_spine(tool, point)) < 1.5 * tool.radius_m;
 }
 
-std::optional<ContactRing> ring_of(const SceneContact& contact, const SceneTool& tool) {
+std::optional<ContactRing> ring_of(const PictureContact& contact, const PictureTool& tool) {
     const double length = glm::length(contact.normal_world);
     if (!(length > 0.0)) return std::nullopt;
     const Vec3 axis = contact.normal_world / length;
@@ -55,7 +55,7 @@ double end_of_ball(const Vec3& from, const Vec3& direction, const Vec3& center, 
     return square > 0.0 ? std::max(along + std::sqrt(square), 0.0) : 0.0;
 }
 
-std::optional<ForceArrow> arrow_of(const SceneContact& contact, const SceneTool& tool) {
+std::optional<ForceArrow> arrow_of(const PictureContact& contact, const PictureTool& tool) {
     const double force_N = glm::length(contact.force_N);
     if (!(force_N >= kLeastForce_N) || !(contact.metres_per_N > 0.0)) return std::nullopt;
     const double unit = contact.metres_per_N;
@@ -77,12 +77,12 @@ std::optional<ForceArrow> arrow_of(const SceneContact& contact, const SceneTool&
 
 }  // namespace
 
-ContactMarks contact_marks(const Scene& scene) {
-    const SceneContact& c = scene.contact;
+ContactMarks contact_marks(const Picture& picture) {
+    const PictureContact& c = picture.contact;
     if (!c.visible || !std::isfinite(c.metres_per_N)) return {};
     for (const Vec3& v : {c.point_world, c.normal_world, c.force_N})
         if (!finite(v)) return {};
-    return {ring_of(c, scene.tool), arrow_of(c, scene.tool), c.colour};
+    return {ring_of(c, picture.tool), arrow_of(c, picture.tool), c.colour};
 }
 
 std::array<Box, 2> boxes_of(const ContactMarks& marks) {
@@ -109,4 +109,4 @@ std::array<Box, 2> boxes_of(const ContactMarks& marks) {
     return boxes;
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 inline constexpr std::uint32_t kShadowMapSide = 1024;  // texels
 
@@ -22,8 +22,8 @@ struct LampView {
     std::vector<const DrawnObject*> casters;
 };
 
-// Returns none where no object casts a shadow, and where capsules cast them in closed form (Scene::capsules): each of
+// Returns none where no object casts a shadow, and where capsules cast them in closed form (Picture::capsules): each of
 // an activity's objects would have two. What lies beyond the map is lit.
-[[nodiscard]] std::optional<LampView> lamp_view(const Scene& scene);
+[[nodiscard]] std::optional<LampView> lamp_view(const Picture& picture);
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/drawn_mesh.hpp"
+#include "picture/drawn_mesh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "geometry/mesh/vertex_weld.hpp"
 #include "shaders/shared/octahedral.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 namespace {
 
 struct Face {
@@ -172,4 +172,4 @@ std::shared_ptr<const DrawnMesh> smooth_mesh(std::span<const Vec3> places_m,
     return drawn;
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

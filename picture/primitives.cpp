@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/primitives.hpp"
+#include "picture/primitives.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 namespace {
 
@@ -186,4 +186,4 @@ Primitives make_primitives() {
     return out;
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/scene/primitives.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
+#include "picture/primitives.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 struct Ball {
     Vec3 center_world{0.0};
@@ -28,7 +28,7 @@ struct Workpiece {
     bool operator==(const Workpiece&) const = default;
 };
 // Computes the balls around the workpiece; reach_m is PatchStore::reach_m.
-[[nodiscard]] Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double reach_m);
+[[nodiscard]] Workpiece place_workpiece(const Picture& picture, const Box& patch_bounds, double reach_m);
 
 // Near and far planes (distances along the screen's normal) that clip neither the room
 // nor anything drawn that is at least 1 cm in front of the eyes. Both are powers of
@@ -39,37 +39,37 @@ struct DepthRange {
 
     bool operator==(const DepthRange&) const = default;
 };
-[[nodiscard]] DepthRange depth_range(const Scene& scene, const Workpiece& workpiece);
+[[nodiscard]] DepthRange depth_range(const Picture& picture, const Workpiece& workpiece);
 
 // Ratio of the viewport's size to the picture's, each way, with the picture in the middle. Triangles that cross the
 // picture's edge are thus scissored instead of clipped. (Mesa 22.3's software driver gives clipped triangles wrong
 // attributes in every view but the first.)
 inline constexpr double kGuard = 2.0;
 
-[[nodiscard]] shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece);
+[[nodiscard]] shared::FrameUniforms frame_uniforms(const Picture& picture, const Workpiece& workpiece);
 
 // Return the bounding ball of a tool with its stylus, of a
 // workspace box and of a bubble; radius 0 for what is not visible.
-[[nodiscard]] Ball ball_of(const SceneTool& tool);
-[[nodiscard]] Ball ball_of(const SceneBox& box);
-[[nodiscard]] Ball ball_of(const SceneBubble& bubble);
+[[nodiscard]] Ball ball_of(const PictureTool& tool);
+[[nodiscard]] Ball ball_of(const PictureBox& box);
+[[nodiscard]] Ball ball_of(const PictureBubble& bubble);
 // Returns what casts the tool's shadow: balls along its spine, then balls along its stylus that together hold it. Of a
 // ball the first is the tool's own, and the other three of the spine are absent.
 inline constexpr std::size_t kSpineBalls = 4, kStylusBalls = 8;
-[[nodiscard]] std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool);
+[[nodiscard]] std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const PictureTool& tool);
 // Returns the bounds of a box that is placed in the world; empty for one that is.
 [[nodiscard]] Box placed_box(const Box& own, const Similarity& world_from_own);
 // Returns the bounds of an object in the world.
 [[nodiscard]] Box bounds_world(const DrawnObject& object);
 // Returns the bounds of the tool without its stylus, as it is drawn; empty where it is not visible.
-[[nodiscard]] Box head_of(const SceneTool& tool);
+[[nodiscard]] Box head_of(const PictureTool& tool);
 // Returns the unit vector towards the lamp.
 [[nodiscard]] const Vec3& direction_to_light();
 // Tangent of half the angle that the lamp subtends: 4 degrees in all, so that shadow edges are 7 mm wide at 100 mm.
 inline constexpr double kLightHalfAngleTangent = 0.07;
 
 // Returns world_from_patch, which transforms positions of surface vertices.
-[[nodiscard]] Mat4 world_from_patch(const Scene& scene);
+[[nodiscard]] Mat4 world_from_patch(const Picture& picture);
 
 // One draw: of a range of primitives.hpp, or of a mesh as a whole.
 struct Shape {
@@ -84,18 +84,18 @@ struct Shapes {
     // Objects through which one sees, the farthest first; then the faces of the workspace boxes, and the bubble.
     std::vector<Shape> glass;
 };
-[[nodiscard]] Shapes shapes_of(const Scene& scene, const Primitives& primitives);
+[[nodiscard]] Shapes shapes_of(const Picture& picture, const Primitives& primitives);
 
 // Returns the draw constants of the workpiece.
-[[nodiscard]] shared::DrawConstants surface_constants(const Scene& scene);
+[[nodiscard]] shared::DrawConstants surface_constants(const Picture& picture);
 
 // Returns the constants for drawing the room: world_from_local maps the viewport's corners, -1 to 1, to the plane of
 // the screen, kGuard times as far out as the picture's corners.
 [[nodiscard]] shared::DrawConstants screen_constants(const wall::Screen& screen);
 // Lists the meshes that the scene shows, each once.
-[[nodiscard]] std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene);
+[[nodiscard]] std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Picture& picture);
 
 // Converts an sRGB colour to linear light.
 [[nodiscard]] Vec3 linear_of(const Vec3& srgb);
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

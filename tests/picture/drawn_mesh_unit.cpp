@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes that a scene draws: sharp where they are sharp, smooth where they are smooth.
-#include "renderer/scene/drawn_mesh.hpp"
+#include "picture/drawn_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <numbers>
 #include <set>
 
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 #include "shaders/shared/octahedral.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 namespace {
 
 Vec3 decoded(std::uint32_t code) {
@@ -100,7 +100,7 @@ TEST(DrawnMesh, LeavesOutWhatHasNoAreaAndColoursByMaterial) {
 
 // What a tool's shadow and darkening are bounded by follows its spine.
 TEST(BallsOf, CoverTheSpineOfAToolThatIsNoBall) {
-    SceneTool tool;
+    PictureTool tool;
     tool.visible = true;
     tool.radius_m = 0.01;
     tool.center_world = {0.1, 0.2, 0.3};
@@ -118,7 +118,7 @@ TEST(BallsOf, CoverTheSpineOfAToolThatIsNoBall) {
 }
 
 TEST(HeadOf, BoundsATurnedMesh) {
-    SceneTool tool;
+    PictureTool tool;
     tool.visible = true;
     tool.mesh = drawn_mesh(cuboid({0.01, 0.02, 0.03}));
     tool.world_from_mesh = {{1.0, 2.0, 3.0}, glm::angleAxis(0.7, glm::normalize(Vec3(1, 2, 3))), 2.0};
@@ -152,4 +152,4 @@ TEST(DrawnMesh, IsAsSmoothWhereVeryManyTrianglesMeet) {
         EXPECT_GT(glm::dot(at_the_point(*fine, 32 * k + 16), at_the_point(*coarse, k)), std::cos(0.1)) << k;
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

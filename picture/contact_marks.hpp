@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The marks of a contact in the world, from SceneContact: the
+// The marks of a contact in the world, from PictureContact: the
 // ring around the contact point and the arrow along the force.
 // Pure functions; any thread.
 #pragma once
@@ -7,9 +7,9 @@
 #include <array>
 #include <optional>
 
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 struct ContactRing {
     Vec3 center_world{0.0};
@@ -39,9 +39,9 @@ struct ContactMarks {
 
 // Computes the marks of the scene's contact, clear of the scene's
 // tool. Leaves out a mark whose numbers are not all finite.
-[[nodiscard]] ContactMarks contact_marks(const Scene& scene);
+[[nodiscard]] ContactMarks contact_marks(const Picture& picture);
 
 // Returns the bounding boxes of the ring and of the arrow; empty for a mark that is absent.
 [[nodiscard]] std::array<Box, 2> boxes_of(const ContactMarks& marks);
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

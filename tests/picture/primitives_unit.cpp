@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/primitives.hpp"
+#include "picture/primitives.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 namespace {
 
@@ -61,4 +61,4 @@ TEST(Primitives, HaveNormalsOnTheSideThatTheTrianglesFace) {
     }
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/panel/panel_stand.hpp"
+#include "picture/panel_stand.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 namespace {
 
 double between(double least, double most) {
@@ -88,4 +88,4 @@ TEST(PanelStand, HasItsCornersWhereTheRaysThroughTheCornersOfItsPictureMeetIt) {
     }
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

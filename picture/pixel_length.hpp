@@ -6,19 +6,19 @@
 #include <algorithm>
 
 #include "base/image.hpp"
-#include "renderer/scene/scene.hpp"
+#include "picture/picture.hpp"
 #include "wall/projection.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 class PixelLength {
 public:
-    PixelLength(const Scene& scene, ImageSize size) : plane_(scene.screen) {
-        const wall::Screen& screen = scene.screen;
+    PixelLength(const Picture& picture, ImageSize size) : plane_(picture.screen) {
+        const wall::Screen& screen = picture.screen;
         const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
         const double height_m = glm::length(screen.upper_left_world - screen.lower_left_world);
         const double pixel_m = std::min(width_m / size.width, height_m / size.height);
-        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+        const wall::Eyes eyes = wall::eyes_of(picture.viewer);
         eye_m_ = std::min(plane_.distance_in_front(eyes.left_world), plane_.distance_in_front(eyes.right_world));
         per_metre_ = pixel_m / eye_m_;
     }
@@ -34,4 +34,4 @@ private:
     double eye_m_ = 0.0, per_metre_ = 0.0;
 };
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The signs of a contact stand where the contact is, clear of the tool, and are of a length that can be read.
-#include "renderer/scene/contact_marks.hpp"
+#include "picture/contact_marks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,25 +8,25 @@
 #include <limits>
 #include <random>
 
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 namespace {
 
 // A ball of 2 cm that rests on a slope.
-Scene touching(double force_N) {
-    Scene scene;
+Picture touching(double force_N) {
+    Picture picture;
     const Vec3 normal = glm::normalize(Vec3(0.3, 1.0, 0.5)), point(0.1, 1.0, -0.2);
-    scene.tool.radius_m = 0.02;
-    scene.tool.center_world = point + 0.02 * normal;
-    scene.tool.stylus_world.position_m = scene.tool.center_world;
-    scene.tool.visible = true;
-    scene.contact.point_world = point;
-    scene.contact.normal_world = 7.0 * normal;
-    scene.contact.force_N = force_N * glm::normalize(Vec3(0.5, 1.0, 0.4));
-    scene.contact.metres_per_N = 0.03;
-    scene.contact.visible = true;
-    return scene;
+    picture.tool.radius_m = 0.02;
+    picture.tool.center_world = point + 0.02 * normal;
+    picture.tool.stylus_world.position_m = picture.tool.center_world;
+    picture.tool.visible = true;
+    picture.contact.point_world = point;
+    picture.contact.normal_world = 7.0 * normal;
+    picture.contact.force_N = force_N * glm::normalize(Vec3(0.5, 1.0, 0.4));
+    picture.contact.metres_per_N = 0.03;
+    picture.contact.visible = true;
+    return picture;
 }
 
 Vec3 tip_of(const ForceArrow& a) { return a.from_world + a.length_m * a.direction_world; }
@@ -41,22 +41,22 @@ bool holds(const Box& box, const Vec3& p) {
 }  // namespace
 
 TEST(ContactMarks, ThereAreNoneWithoutContactOrWithNumbersThatAreNone) {
-    Scene scene = touching(1.0);
-    ASSERT_TRUE(contact_marks(scene).arrow && contact_marks(scene).ring);
-    scene.contact.visible = false;
-    EXPECT_EQ(contact_marks(scene), ContactMarks{});
+    Picture picture = touching(1.0);
+    ASSERT_TRUE(contact_marks(picture).arrow && contact_marks(picture).ring);
+    picture.contact.visible = false;
+    EXPECT_EQ(contact_marks(picture), ContactMarks{});
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        scene = touching(1.0);
-        scene.contact.force_N.y = bad;
-        EXPECT_EQ(contact_marks(scene), ContactMarks{});
-        scene = touching(1.0);
-        scene.contact.metres_per_N = bad;
-        EXPECT_EQ(contact_marks(scene), ContactMarks{});
+        picture = touching(1.0);
+        picture.contact.force_N.y = bad;
+        EXPECT_EQ(contact_marks(picture), ContactMarks{});
+        picture = touching(1.0);
+        picture.contact.metres_per_N = bad;
+        EXPECT_EQ(contact_marks(picture), ContactMarks{});
     }
-    scene = touching(1.0);
-    scene.contact.normal_world = Vec3(0.0);
-    EXPECT_FALSE(contact_marks(scene).ring);
-    EXPECT_TRUE(contact_marks(scene).arrow);
+    picture = touching(1.0);
+    picture.contact.normal_world = Vec3(0.0);
+    EXPECT_FALSE(contact_marks(picture).ring);
+    EXPECT_TRUE(contact_marks(picture).arrow);
 }
 
 TEST(ContactMarks, TheArrowIsAsLongAsTheForceIsStrongBetweenBounds) {
@@ -81,30 +81,30 @@ TEST(ContactMarks, TheArrowLiesOnTheForcesLineThroughTheContactAndOutsideTheBall
     std::mt19937 random(3);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 500; ++i) {
-        Scene scene = touching(1.0);
-        scene.contact.force_N = {any(random), any(random), any(random)};
-        const auto arrow = contact_marks(scene).arrow;
+        Picture picture = touching(1.0);
+        picture.contact.force_N = {any(random), any(random), any(random)};
+        const auto arrow = contact_marks(picture).arrow;
         if (!arrow) continue;
-        EXPECT_NEAR(glm::dot(arrow->direction_world, glm::normalize(scene.contact.force_N)), 1.0, 1e-12);
-        const Vec3 offset = arrow->from_world - scene.contact.point_world;
+        EXPECT_NEAR(glm::dot(arrow->direction_world, glm::normalize(picture.contact.force_N)), 1.0, 1e-12);
+        const Vec3 offset = arrow->from_world - picture.contact.point_world;
         EXPECT_GE(glm::dot(offset, arrow->direction_world), 0.0);
         EXPECT_LT(glm::length(glm::cross(offset, arrow->direction_world)), 1e-12);
         for (int step = 0; step <= 20; ++step) {
             const Vec3 p = glm::mix(arrow->from_world, tip_of(*arrow), step / 20.0);
-            EXPECT_GE(glm::length(p - scene.tool.center_world), scene.tool.radius_m);
+            EXPECT_GE(glm::length(p - picture.tool.center_world), picture.tool.radius_m);
         }
     }
 }
 
 TEST(ContactMarks, WithoutATouchingBallTheyStandAtThePointItself) {
-    Scene scene = touching(1.0);
-    scene.tool.visible = false;
-    EXPECT_EQ(contact_marks(scene).arrow->from_world, scene.contact.point_world);
-    const double bare = contact_marks(scene).ring->radius_m;
-    scene.tool.visible = true;
-    EXPECT_GT(contact_marks(scene).ring->radius_m, scene.tool.radius_m) << "shows around the ball";
-    scene.tool.center_world.x += 1.0;
-    EXPECT_EQ(contact_marks(scene).ring->radius_m, bare);
+    Picture picture = touching(1.0);
+    picture.tool.visible = false;
+    EXPECT_EQ(contact_marks(picture).arrow->from_world, picture.contact.point_world);
+    const double bare = contact_marks(picture).ring->radius_m;
+    picture.tool.visible = true;
+    EXPECT_GT(contact_marks(picture).ring->radius_m, picture.tool.radius_m) << "shows around the ball";
+    picture.tool.center_world.x += 1.0;
+    EXPECT_EQ(contact_marks(picture).ring->radius_m, bare);
 }
 
 // What the picture is drawn from lies within the bounds that a redraw goes by.
@@ -113,12 +113,12 @@ TEST(ContactMarks, AllVerticesLieWithinTheBoxes) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 20; ++i) {
-        Scene scene = touching(1.0);
-        scene.show_wall_frame = scene.tool.visible = false;
-        scene.contact.normal_world = {any(random), any(random), any(random)};
-        scene.contact.force_N = Vec3{any(random), any(random), any(random)} + Vec3(0.1);
-        const std::array boxes = boxes_of(contact_marks(scene));
-        const Shapes shapes = shapes_of(scene, primitives);
+        Picture picture = touching(1.0);
+        picture.show_wall_frame = picture.tool.visible = false;
+        picture.contact.normal_world = {any(random), any(random), any(random)};
+        picture.contact.force_N = Vec3{any(random), any(random), any(random)} + Vec3(0.1);
+        const std::array boxes = boxes_of(contact_marks(picture));
+        const Shapes shapes = shapes_of(picture, primitives);
         ASSERT_EQ(shapes.solid.size(), 3u);
         for (const Shape& shape : shapes.solid) {
             for (std::uint32_t k = 0; k < shape.range.index_count; ++k) {
@@ -134,4 +134,4 @@ TEST(ContactMarks, AllVerticesLieWithinTheBoxes) {
     }
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

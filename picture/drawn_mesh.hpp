@@ -15,7 +15,7 @@
 #include "geometry/mesh/triangle_mesh.hpp"
 #include "shaders/shared/surface_vertex.h"
 
-namespace burin::renderer {
+namespace burin::picture {
 
 struct DrawnMesh {
     std::vector<shared::SurfaceVertex> vertices;
@@ -43,4 +43,4 @@ using TriangleColours = std::array<std::array<std::uint8_t, 3>, 3>;
 [[nodiscard]] std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh,
                                                           std::span<const TriangleColours> colours = {});
 
-}  // namespace burin::renderer
+}  // namespace burin::picture

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/lamp_view.hpp"
+#include "picture/lamp_view.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/scene/frame_setup.hpp"
+#include "picture/frame_setup.hpp"
 
-namespace burin::renderer {
+namespace burin::picture {
 namespace {
 
 // The lamp's own axes: x and y across its light, z away from it.
@@ -35,12 +35,12 @@ double step_up(double length_m) { return std::exp2(std::ceil(4.0 * std::log2(len
 
 }  // namespace
 
-std::optional<LampView> lamp_view(const Scene& scene) {
-    if (!scene.capsules.empty()) return std::nullopt;
+std::optional<LampView> lamp_view(const Picture& picture) {
+    if (!picture.capsules.empty()) return std::nullopt;
     const LampAxes axes = lamp_axes();
     LampView view;
     Box seen;
-    for (const DrawnObject& object : scene.objects) {
+    for (const DrawnObject& object : picture.objects) {
         if (!object.casts_shadow || object.opacity < 1.0) continue;
         const Box one = seen_by_lamp(object, axes);
         if (one.empty()) continue;
@@ -69,4 +69,4 @@ std::optional<LampView> lamp_view(const Scene& scene) {
     return view;
 }
 
-}  // namespace burin::renderer
+}  // namespace burin::picture
