@@ -17,6 +17,7 @@
 #include "session/live/session_watch.hpp"
 #include "session/opening/opening.hpp"
 #include "session/present/display_watch.hpp"
+#include "session/present/presenter.hpp"
 #include "session/state/option_bounds.hpp"
 #include "session/state/session_tracker.hpp"
 #include "session/timing/machine_pace.hpp"
@@ -42,6 +43,7 @@ public:
     LiveFrames(LiveSession& session, Presenter& presenter, InputSource input, Clock& clock, devices::Tracker* tracker,
                const std::string& tracker_name)
         : SessionFrames(session, presenter, std::move(input)),
+          presenter_(presenter),
           clock_(clock),
           tracker_(tracker),
           first_word_(tracker_name),
@@ -72,6 +74,7 @@ private:
     };
     [[nodiscard]] Moment now() const { return {clock_.now_ns(), process_cpu_ns()}; }
 
+    Presenter& presenter_;
     Clock& clock_;
     devices::Tracker* tracker_;
     FirstWordWatch first_word_;

@@ -8,6 +8,8 @@
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
+#include "session/present/offscreen_output.hpp"
+#include "session/record/log_outputs.hpp"
 
 namespace burin::session {
 namespace {
@@ -19,13 +21,9 @@ constexpr const char* kRemedy = "replay it with the program and the options that
 class RecordedFrames final : public SessionFrames {
 public:
     // All must outlive it. name: the log's file name.
-    RecordedFrames(LiveSession& session, Presenter& presenter, InputSource input, const ThreadLog& log,
+    RecordedFrames(LiveSession& session, FrameOutput& output, InputSource input, const ThreadLog& log,
                    const std::string& name, ThreadReplay& replay, const ReplayManner& manner)
-        : SessionFrames(session, presenter, std::move(input)),
-          log_(log),
-          name_(name),
-          replay_(replay),
-          manner_(manner) {
+        : SessionFrames(session, output, std::move(input)), log_(log), name_(name), replay_(replay), manner_(manner) {
         session.replay_events(log.messages_before);
         if (manner.notes != nullptr) recorder_.keep_events();
     }
@@ -47,7 +45,7 @@ private:
         const auto input = input_.begin_frame(0, 0);
         if (!input) return std::nullopt;
         const FrameSeen& seen = log_.frames[next_++];
-        for (const OutputSeen& output : seen.outputs) presenter_.put(output.screen, output.place);
+        for (const OutputSeen& output : seen.outputs) shown_on_.put(output.screen, output.place);
         session_.measure_again(seen.measured);
         replay_.begin_frame(seen);
         time_ns_ = input->time_ns;
@@ -58,7 +56,7 @@ private:
         const FrameSeen& seen = log_.frames[next_ - 1];
         if (!replay_.is_as_recorded()) note_departure(seen.line);
         if (seen.refused) session_.go_back_to(*seen.refused);
-        if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the recording decides
+        if (shown_on_.shows()) static_cast<void>(shown_on_.inputs(0.0));  // ignored: the recording decides
         if (manner_.picture_every_ns <= 0 || time_ns_ < next_picture_ns_) return;
         session_.files().ask_for_picture(formatted("%08.3f.png", seconds(time_ns_)));
         next_picture_ns_ = (time_ns_ / manner_.picture_every_ns + 1) * manner_.picture_every_ns;
@@ -113,13 +111,13 @@ Result<std::unique_ptr<TickSource>> ticks_for(LiveSession& session, const Thread
                 "replay it with the --device that it was recorded with");
 }
 
-Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, const std::string& name) {
+Result<void> check_screens(const FrameOutput& outputs, const ThreadLog& log, const std::string& name) {
     for (const FrameSeen& seen : log.frames) {
         for (const OutputSeen& output : seen.outputs) {
-            if (output.screen < presenter.screens()) continue;
+            if (output.screen < outputs.screens()) continue;
             return fail(name + ":" + std::to_string(seen.line),
                         "the recording has " + std::to_string(output.screen + 1) + " screens or more, this session " +
-                            std::to_string(presenter.screens()),
+                            std::to_string(outputs.screens()),
                         "give the --wall that it was recorded with");
         }
     }
@@ -132,6 +130,7 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
                                 const ReplayManner& manner) {
     SculptOptions options = given;
     options.live.stands_in = true;
+    const LogNeeds needs = needs_of(log.events);
     const ThreadLog threads = std::move(*log.threads);
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
@@ -139,15 +138,17 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
     auto opened = open_as_recorded(options, wall, threads, name, clock);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
-    Result<Presenter> presenter = Presenter::open(options.live, wall);
-    if (!presenter) return std::unexpected(presenter.error());
-    if (const auto fits = check_screens(*presenter, threads, name); !fits) return fits;
+    const bool asks_for_pictures = manner.draws && (needs.pictures || manner.picture_every_ns > 0);
+    if (options.live.offscreen && !needs.panel && !asks_for_pictures) session.leave_panel_out();
+    const auto output = open_output(options.live, wall, asks_for_pictures);
+    if (!output) return std::unexpected(output.error());
+    if (const auto fits = check_screens(**output, threads, name); !fits) return fits;
 
     auto ticks = ticks_for(session, threads, name, manner);
     if (!ticks) return std::unexpected(ticks.error());
     ThreadReplay replay(session, threads, std::move(*ticks), name);
     replay.judge_ticks(manner.witness);
-    RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay, manner);
+    RecordedFrames frames(session, **output, std::move(input), threads, name, replay, manner);
     Result<void> done = drive(replay, frames);
     if (done && !frames.cut_short()) done = frames.finish_as_recorded();
     if (!done && !replay.log_ends()) return done;

@@ -78,9 +78,10 @@ struct RealTimeRun {
                                                      InputSource input, RealTimeRun run = {});
 
 // Runs a script in simulated time: ticks, carving and frames follow one another on one thread, so that the same script
-// gives the same frames, with or without a window. (session_frames.cpp)
-[[nodiscard]] Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall,
-                                                 InputSource input);
+// gives the same frames, with or without a window. Offscreen it opens a graphics device for pictures that the script
+// asks for, and lays out a panel for them and for mouse, keys or wands that may meet it: else neither.
+// (session_frames.cpp)
+[[nodiscard]] Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log);
 
 // Replays a session that was recorded in real time (the log has threads): every frame with what the threads had done by
 // then, on one thread and as fast as the machine can. Fails at the end, after the last frame, when a result differs

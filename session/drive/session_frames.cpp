@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "session/drive/session.hpp"
+#include "session/present/offscreen_output.hpp"
+#include "session/record/log_outputs.hpp"
 
 namespace burin::session {
 
@@ -21,8 +23,8 @@ Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder
     return {};
 }
 
-SessionFrames::SessionFrames(LiveSession& session, Presenter& presenter, InputSource input)
-    : session_(session), presenter_(presenter), input_(std::move(input)), recorder_(input_, session) {
+SessionFrames::SessionFrames(LiveSession& session, FrameOutput& output, InputSource input)
+    : session_(session), shown_on_(output), input_(std::move(input)), recorder_(input_, session) {
     session.take_loaded();
 }
 
@@ -35,7 +37,7 @@ std::optional<Nanoseconds> SessionFrames::next() {
 }
 
 Result<void> SessionFrames::make(Executor& executor) {
-    if (const auto done = step_frame(session_, executor, recorder_, frame_, presenter_.places()); !done) return done;
+    if (const auto done = step_frame(session_, executor, recorder_, frame_, shown_on_.places()); !done) return done;
     stepped();
     const Result<bool> anew = draw();
     if (!anew) return std::unexpected(anew.error());
@@ -46,10 +48,10 @@ Result<void> SessionFrames::make(Executor& executor) {
 // Returns whether there was anything new. A device that was lost is replaced, and the frame drawn again.
 Result<bool> SessionFrames::draw() {
     while (wants_picture()) {
-        Result<bool> anew = presenter_.draw(session_, frame_.display_ns);
+        Result<bool> anew = shown_on_.draw(session_, frame_.display_ns);
         if (anew) return anew;
-        if (presenter_.has_lost_display()) return false;  // the next turn ends the session
-        if (const auto recovered = presenter_.recover(session_, anew.error()); !recovered)
+        if (shown_on_.has_lost_display()) return false;  // the next turn ends the session
+        if (const auto recovered = shown_on_.recover(session_, anew.error()); !recovered)
             return std::unexpected(recovered.error());
     }
     return false;
@@ -75,25 +77,27 @@ bool SessionFrames::look_for_signal() {
 std::optional<FrameInput> ScriptedFrames::next_input() {
     if (look_for_signal()) return std::nullopt;
     const std::optional<FrameInput> input = input_.begin_frame(0, 0);
-    if (input) presenter_.look();
+    if (input) shown_on_.look();
     return input;
 }
 
 void ScriptedFrames::stepped() {
-    if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the script decides
+    if (shown_on_.shows()) static_cast<void>(shown_on_.inputs(0.0));  // ignored: the script decides
     // Fails where the device is lost, which the next picture meets.
-    const bool is_drawn = presenter_.shows() || session_.files().wants_pictures();
-    if (!is_drawn && presenter_.has_drawn()) static_cast<void>(presenter_.fit_modes(session_));
+    const bool is_drawn = shown_on_.shows() || session_.files().wants_pictures();
+    if (!is_drawn && shown_on_.has_drawn()) static_cast<void>(shown_on_.fit_modes(session_));
 }
 
-Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputSource input) {
+Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log) {
     SimulatedClock clock;
     auto opened = LiveSession::create(options, wall, clock);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
-    Result<Presenter> presenter = Presenter::open(options.live, wall);
-    if (!presenter) return std::unexpected(presenter.error());
-    ScriptedFrames frames(session, *presenter, std::move(input));
+    const LogNeeds needs = needs_of(log.events);
+    if (options.live.offscreen && !needs.panel) session.leave_panel_out();
+    const auto output = open_output(options.live, wall, needs.pictures);
+    if (!output) return std::unexpected(output.error());
+    ScriptedFrames frames(session, **output, InputSource::replay(std::move(log)));
     SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     if (const auto driven = drive(executor, frames); !driven) return driven;

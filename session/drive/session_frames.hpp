@@ -12,7 +12,7 @@
 #include "session/drive/end_signals.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/live/live_session.hpp"
-#include "session/present/presenter.hpp"
+#include "session/present/frame_output.hpp"
 #include "session/record/input_source.hpp"
 
 namespace burin::session {
@@ -24,9 +24,9 @@ namespace burin::session {
 
 class SessionFrames : public FrameSource {
 public:
-    // Hands the session the surface as it was loaded. Session and presenter must outlive it. Create it before the
+    // Hands the session the surface as it was loaded. Session and output must outlive it. Create it before the
     // executor starts threads, which it records if the input is recorded.
-    SessionFrames(LiveSession& session, Presenter& presenter, InputSource input);
+    SessionFrames(LiveSession& session, FrameOutput& output, InputSource input);
 
     [[nodiscard]] std::optional<Nanoseconds> next() final;
     [[nodiscard]] Result<void> make(Executor& executor) final;
@@ -41,8 +41,7 @@ public:
     }
 
 protected:
-    // Returns the next frame's input; nothing at the end. Waits for it in real time, and has the presenter know where
-    // its outputs are.
+    // Returns the next frame's input; nothing at the end. Waits for it in real time, and has the output know where it is.
     [[nodiscard]] virtual std::optional<FrameInput> next_input() = 0;
     // Looks for a signal, and reports that what follows in the log is lost by it.
     [[nodiscard]] bool look_for_signal();
@@ -54,7 +53,7 @@ protected:
     virtual void finished(const FrameInput&, [[maybe_unused]] bool anew) {}
 
     LiveSession& session_;
-    Presenter& presenter_;
+    FrameOutput& shown_on_;
     InputSource input_;
     ThreadRecorder recorder_;
     LslStreams* streams_ = nullptr;
@@ -71,8 +70,8 @@ private:
 class ScriptedFrames : public SessionFrames {
 public:
     // Pictures depend on the script alone.
-    ScriptedFrames(LiveSession& session, Presenter& presenter, InputSource input)
-        : SessionFrames(session, presenter, std::move(input)) {
+    ScriptedFrames(LiveSession& session, FrameOutput& output, InputSource input)
+        : SessionFrames(session, output, std::move(input)) {
         session.hear_nothing_from_outside();
     }
 
@@ -80,7 +79,7 @@ protected:
     [[nodiscard]] std::optional<FrameInput> next_input() override;
     void stepped() override;
     // Without an output, only frames that become screenshots are drawn.
-    [[nodiscard]] bool wants_picture() override { return presenter_.shows() || session_.files().wants_pictures(); }
+    [[nodiscard]] bool wants_picture() override { return shown_on_.shows() || session_.files().wants_pictures(); }
 };
 
 }  // namespace burin::session

@@ -243,6 +243,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
     const bool has_place = has_column || (!in_window && !stands && !is_empty(eye));
     column_shown_ = has_column;
     SceneInput left{{input.events.begin(), input.events.end()}, {}};
+    if (left_out_) return left;
     if (has_place) {
         const ImageSize size = in_window ? ImageSize{width, context.panel_output.height}
                                : stands  ? kStanding_px

@@ -75,6 +75,8 @@ public:
     // Feeds a step's events and lays the panel out, with the log's messages on it; an Error where there can be no
     // panel.
     [[nodiscard]] Result<SceneInput> feed(const FrameInput& input, const PanelContext& context, MessageLog& log);
+    // Lays nothing out from now on. All else is as if it were there: how much of the picture it leaves free.
+    void leave_out() { left_out_ = true; }
     // Returns the commands that its widgets gave in the last step.
     [[nodiscard]] const std::vector<CommandInput>& actions() const { return actions_; }
     // Returns its picture for a screen, as laid out in the last step; nothing where it is not shown.
@@ -112,8 +114,9 @@ private:
     std::optional<Panel> panel_;          // created when it is first shown
     const PanelFrame* layout_ = nullptr;  // of the last step; null while there is nothing of it
     std::string told_notice_;             // about fonts
-    bool column_shown_ = false;           // and not only what lies over the picture
-    std::optional<Panel> page_;           // beside a panel in its own window
+    bool left_out_ = false;
+    bool column_shown_ = false;  // and not only what lies over the picture
+    std::optional<Panel> page_;  // beside a panel in its own window
     const PanelFrame* page_layout_ = nullptr;
     bool mouse_on_window_ = false;  // the panel's own
     std::vector<CommandInput> actions_;

@@ -136,6 +136,8 @@ public:
         acknowledged_ = tick;
         recording_ended_ = !goes_on;
     }
+    // Lays no panel out from now on: nobody sees it, and no input meets it.
+    void leave_panel_out() { panel_.leave_out(); }
     // See LivePanel.
     [[nodiscard]] const PanelMeasured& measured() const { return panel_.measured(); }
     void measure_again(const PanelMeasured& recorded) { panel_.measure_again(recorded); }

@@ -20,6 +20,7 @@
 #include "session/picture/session_picture.hpp"
 #include "session/picture/session_surface.hpp"
 #include "session/present/direct_output.hpp"
+#include "session/present/frame_output.hpp"
 #include "session/present/session_waker.hpp"
 #include "session/present/session_window.hpp"
 #include "wall/parity.hpp"
@@ -33,26 +34,26 @@ struct StillPicture {
     std::optional<PanelPicture> panel;
 };
 
-class Presenter {
+class Presenter final : public FrameOutput {
 public:
     // The wall must outlive it.
     [[nodiscard]] static Result<Presenter> open(const LiveOptions& options, const SessionWall& wall,
                                                 DirectDriver driver = direct_driver());
 
     // Reads the outputs' positions and sizes, which hold until the next call; once a frame.
-    void look();
-    [[nodiscard]] std::vector<wall::OutputPlace> places() const;  // of all screens' outputs
+    void look() override;
+    [[nodiscard]] std::vector<wall::OutputPlace> places() const override;  // of all screens' outputs
     // Position and size of the main screen's output.
     [[nodiscard]] const wall::OutputPlace& place() const { return screens_[wall_->main].place; }
     // Overrides a screen's position and size with those to draw for, whatever the output is like.
-    void put(std::size_t screen, const wall::OutputPlace& place) { screens_[screen].place = place; }
-    [[nodiscard]] std::size_t screens() const { return screens_.size(); }
+    void put(std::size_t screen, const wall::OutputPlace& place) override { screens_[screen].place = place; }
+    [[nodiscard]] std::size_t screens() const override { return screens_.size(); }
     // Returns whether any screen has an output, or there are screenshots alone; and whether there are windows, which
     // give input.
-    [[nodiscard]] bool shows() const { return screens_.front().output != nullptr; }
+    [[nodiscard]] bool shows() const override { return screens_.front().output != nullptr; }
     [[nodiscard]] bool has_windows() const { return !waker_ && shows(); }
     // Returns whether the windows' display is gone for good: they are dead, and a session has to end.
-    [[nodiscard]] bool has_lost_display() const { return has_windows() && window::display_is_lost(); }
+    [[nodiscard]] bool has_lost_display() const override { return has_windows() && window::display_is_lost(); }
     [[nodiscard]] double refresh_Hz() const;
     // Has the windows say what is worked on.
     void name_windows(const std::string& document);
@@ -71,7 +72,7 @@ public:
     // counts in the main screen alone; in the window of its right eye positions lie kRightWindow_px (seen_place.hpp)
     // further to the right, in the panel's window kPanelWindow_px (panel_pointer.hpp). Closing any window asks the
     // session to end, since none of a wall's windows can be reopened alone. Displays driven directly give no input.
-    [[nodiscard]] std::vector<Input> inputs(double wait_s);
+    [[nodiscard]] std::vector<Input> inputs(double wait_s) override;
     void wake();  // any thread
 
     // Has frames from now on draw less while the view moves, where the device is a processor (drawn_detail.hpp). Only
@@ -80,7 +81,7 @@ public:
     // Returns whether the full picture is still to come; a frame after its rest draws it.
     [[nodiscard]] bool owes_full_picture() const { return burin::session::owes_full_picture(detail_); }
     // Draws one frame, if anything is new; returns whether it was. frame_ns: when it is to be seen, in session time.
-    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns);
+    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns) override;
     // Draws a picture in the main screen's window, if it differs from the one before; returns whether it was shown. A
     // stereo mode that the window cannot have is left for the session to refuse.
     [[nodiscard]] Result<bool> draw_still(const StillPicture& still);
@@ -88,8 +89,8 @@ public:
     // Has the session refuse a stereo mode that the output cannot show or the device has no memory for, and go on with
     // the one shown. draw() does so too; a frame that is not drawn calls it, once has_drawn(), so that the next
     // picture has the shape of the mode that goes on.
-    [[nodiscard]] Result<void> fit_modes(LiveSession& session);
-    [[nodiscard]] bool has_drawn() const { return drawn_; }
+    [[nodiscard]] Result<void> fit_modes(LiveSession& session) override;
+    [[nodiscard]] bool has_drawn() const override { return drawn_; }
     // Returns whether eyes are shown by turns, which needs a picture at each refresh.
     [[nodiscard]] bool takes_turns(const LiveSession& session) const;
     // Has coarser levels of the surface computed in the background; call between frames. resting: nothing has happened
@@ -102,7 +103,7 @@ public:
     // Replaces a lost device: drops what was made on it and starts anew on one that is present, waiting some seconds at
     // most. What is carved belongs to the session and stays. Returns any other error, and so a device that is lost over
     // and over.
-    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error);
+    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error) override;
 
 private:
     // Output for one eye's picture or both eyes'.

@@ -105,6 +105,13 @@ std::optional<sculpt::ToolSpec> tool_in(const CommandInput& input) {
     return set != nullptr ? std::optional(set->tool) : std::nullopt;
 }
 
+bool is_for_a_picture(const CommandInput& input) {
+    const Result<SessionCommand> command = parse_command(input);
+    if (!command) return false;
+    const auto* run = std::get_if<RunAction>(&*command);
+    return std::holds_alternative<ScreenshotTo>(*command) || (run != nullptr && run->action == Action::take_screenshot);
+}
+
 Result<void> check_command(const CommandInput& input, SessionState state, const Activity* activity) {
     const Result<SessionCommand> command = parse_command(input);
     if (!command) return std::unexpected(command.error());
@@ -134,6 +141,21 @@ Result<void> check_output_name(const std::string& name, OutputKind kind) {
     if (kind == OutputKind::picture) return fail(where, "is no name of a picture", "name it .png");
     if (kind == OutputKind::document) return fail(where, "is no name of a document", "name it .burin");
     return fail(where, "has no extension that Burin exports", "name it .stl, .ply or .obj");
+}
+
+LogNeeds needs_of(std::span<const InputEvent> events) {
+    LogNeeds needs;
+    for (const InputEvent& event : events) {
+        const auto* command = std::get_if<CommandInput>(&event.input);
+        if (command != nullptr && is_for_a_picture(*command)) needs.pictures = true;
+        const bool passes_by =
+            command != nullptr || std::holds_alternative<HeadInput>(event.input) ||
+            std::holds_alternative<FrameStart>(event.input) || std::holds_alternative<WindowResize>(event.input) ||
+            std::holds_alternative<WindowFocus>(event.input) || std::holds_alternative<WindowClose>(event.input);
+        if (!passes_by) needs.panel = true;
+    }
+    needs.panel = needs.panel || needs.pictures;
+    return needs;
 }
 
 std::vector<sculpt::ToolSpec> tools_in(const InputLog& log) {

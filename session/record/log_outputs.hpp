@@ -34,6 +34,14 @@ enum class OutputKind : std::uint8_t { picture, mesh, document };
 [[nodiscard]] Result<void> check_commands(const InputLog& log, const std::string& name,
                                           const Activity* activity = nullptr);
 
+// What a log's session needs besides its scene, where nobody sees it.
+struct LogNeeds {
+    bool pictures = false;  // commands ask for some
+    // Mouse, keys or a tracked wand may meet the panel, or pictures show it.
+    bool panel = false;
+};
+[[nodiscard]] LogNeeds needs_of(std::span<const InputEvent> events);
+
 // Returns the tools that a log's commands take up.
 [[nodiscard]] std::vector<sculpt::ToolSpec> tools_in(const InputLog& log);
 

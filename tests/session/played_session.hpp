@@ -16,6 +16,7 @@
 
 #include "gpu/device.hpp"
 #include "session/drive/session_frames.hpp"
+#include "session/present/presenter.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -60,7 +61,10 @@ class MishapFrames final : public ScriptedFrames {
 public:
     MishapFrames(LiveSession& session, Presenter& presenter, InputSource input, const Mishap& mishap,
                  const std::set<int>& minimised)
-        : ScriptedFrames(session, presenter, std::move(input)), mishap_(mishap), minimised_(minimised) {}
+        : ScriptedFrames(session, presenter, std::move(input)),
+          presenter_(presenter),
+          mishap_(mishap),
+          minimised_(minimised) {}
 
 private:
     [[nodiscard]] std::optional<FrameInput> next_input() override {
@@ -77,6 +81,7 @@ private:
         return true;
     }
 
+    Presenter& presenter_;
     const Mishap& mishap_;
     const std::set<int>& minimised_;
     int frame_ = -1;
