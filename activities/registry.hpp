@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "session/state/recorded_activity.hpp"
+#include "session/activity/recorded_activity.hpp"
 
 namespace burin::activities {
 

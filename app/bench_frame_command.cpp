@@ -12,7 +12,7 @@
 #include "bench/frame/frame.hpp"
 #include "bench/frame/frame_peers.hpp"
 #include "gpu/driver_threads.hpp"
-#include "renderer/png.hpp"
+#include "picture/png.hpp"
 
 namespace burin::app {
 namespace {
@@ -67,7 +67,7 @@ Result<void> write_pictures(const bench::FrameReport& report, const std::filesys
     for (const bench::FrameTimes& times : report.times) {
         std::string name = times.subject + "-" + bench::name_of(times.motion) + "-" + bench::name_of(times.way);
         for (char& c : name) c = std::isalnum(c) == 0 ? '-' : static_cast<char>(std::tolower(c));
-        if (const auto done = renderer::write_png(folder / (name + ".png"), side_by_side(times.pictures)); !done)
+        if (const auto done = picture::write_png(folder / (name + ".png"), side_by_side(times.pictures)); !done)
             return done;
     }
     return {};

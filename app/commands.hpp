@@ -16,7 +16,7 @@
 #include "base/space.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "document/document_file.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 
 namespace burin::app {
 

@@ -17,9 +17,9 @@
 #include "app/study_command.hpp"
 #include "app/world_explore.hpp"
 #include "base/assets.hpp"
+#include "desk/draw/pictures.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "scene/vrml_world.hpp"
-#include "session/picture/pictures.hpp"
 
 namespace burin::app {
 namespace {

@@ -11,8 +11,8 @@
 #include "base/length_unit.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
-#include "session/document/opened_work.hpp"
 #include "session/record/input_files.hpp"
+#include "session/work/opened_work.hpp"
 
 namespace burin::app {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/temporary_folder.hpp"
 #include "app/world_digest.hpp"
 #include "base/json.hpp"
-#include "session/state/option_bounds.hpp"
+#include "session/options/option_bounds.hpp"
 
 namespace burin::app {
 namespace {

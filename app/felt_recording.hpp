@@ -9,7 +9,7 @@
 
 #include "record/compare.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 
 namespace burin::app {
 

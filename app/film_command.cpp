@@ -7,8 +7,8 @@
 #include "base/file_io.hpp"
 #include "base/places.hpp"
 #include "base/text.hpp"
+#include "picture/png.hpp"
 #include "renderer/film.hpp"
-#include "renderer/png.hpp"
 
 namespace burin::app {
 namespace {
@@ -58,7 +58,7 @@ Result<void> film(const FilmOptions& options) {
     if (!pictures) return std::unexpected(pictures.error());
     renderer::Film made(static_cast<std::uint16_t>(std::lround(1000.0 / options.pictures_a_second)));
     for (const fs::path& path : *pictures) {
-        const auto picture = renderer::load_png(path);
+        const auto picture = picture::load_png(path);
         if (!picture) return std::unexpected(picture.error());
         if (const auto added = made.add(*picture); !added)
             return fail(path.string(), added.error().what, added.error().remedy);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/command_line.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 
 namespace burin::app {
 

@@ -11,18 +11,18 @@
 #include "activities/registry.hpp"
 #include "app/recorded_device.hpp"
 #include "app/world_digest.hpp"
+#include "desk/draw/pictures.hpp"
+#include "desk/run/session.hpp"
 #include "document/document_file.hpp"
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
-#include "session/document/opened_work.hpp"
-#include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/input/input_words.hpp"
-#include "session/picture/pictures.hpp"
+#include "session/options/session_settings.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 #include "session/record/session_recording.hpp"
-#include "session/state/session_settings.hpp"
+#include "session/work/opened_work.hpp"
 
 namespace burin::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "record/compare.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 
 namespace burin::app {
 
@@ -18,7 +18,7 @@ namespace burin::app {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
                                                                              const std::string& command);
 
-// Runs a session (session/drive/session.hpp). Where a session file is recorded, checks its place first, and gives it
+// Runs a session (desk/run/session.hpp). Where a session file is recorded, checks its place first, and gives it
 // its facts.
 [[nodiscard]] Result<void> run_recorded_session(const session::SculptOptions& options, const std::string& command);
 

@@ -26,7 +26,7 @@
 #include "app/version_report.hpp"
 #include "app/wall_commands.hpp"
 #include "app/world_command.hpp"
-#include "session/drive/session.hpp"
+#include "desk/run/session.hpp"
 
 namespace burin::app {
 namespace {

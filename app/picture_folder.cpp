@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "renderer/png.hpp"
-#include "session/picture/pictures.hpp"
+#include "desk/draw/pictures.hpp"
+#include "picture/png.hpp"
 
 namespace burin::app {
 namespace {
@@ -31,7 +31,7 @@ Result<void> PictureFolder::take(const picture::Picture& scene, const std::strin
     const auto image = renderer_.render(scene);
     if (!image) return std::unexpected(image.error());
     const std::filesystem::path path = std::filesystem::path(folder_) / name;
-    if (const auto written = renderer::write_png(path, image->left); !written) return written;
+    if (const auto written = picture::write_png(path, image->left); !written) return written;
     std::printf("wrote %s\n", path.string().c_str());
     return {};
 }

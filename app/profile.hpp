@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // burin profile: runs a session from an input log, in real time with a live session's threads, and shows how long its
-// frames and ticks took (session/timing/session_times.hpp), as a table for the terminal and as JSON.
+// frames and ticks took (desk/timing/session_times.hpp), as a table for the terminal and as JSON.
 //   burin profile [--input LOG] [--window] [--driver-threads 0,1,2] [--json OUT]
 #pragma once
 
@@ -12,7 +12,7 @@
 #include "app/command_line.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "session/timing/session_times.hpp"
+#include "desk/timing/session_times.hpp"
 
 namespace burin::app {
 

@@ -9,7 +9,7 @@
 #include "app/profile.hpp"
 #include "base/assets.hpp"
 #include "compute/rays/lattice.hpp"
-#include "session/drive/session.hpp"
+#include "desk/run/session.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {

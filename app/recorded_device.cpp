@@ -12,9 +12,9 @@
 #include "devices/haptic/wand_file.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
+#include "session/options/session_settings.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_recording.hpp"
-#include "session/state/session_settings.hpp"
 
 namespace burin::app {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "app/recorded_device.hpp"
 #include "base/json.hpp"
+#include "session/options/session_settings.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/session_log.hpp"
-#include "session/state/session_settings.hpp"
 
 namespace burin::app {
 namespace {

@@ -18,7 +18,7 @@
 #include "base/text.hpp"
 #include "record/derived.hpp"
 #include "record/examination.hpp"
-#include "session/live/world_side.hpp"
+#include "session/objects/world_side.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::app {

@@ -11,17 +11,17 @@
 #include "app/report.hpp"
 #include "app/world_digest.hpp"
 #include "compute/tools/apply.hpp"
+#include "desk/draw/pictures.hpp"
+#include "desk/input/desk_input.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "record/record_writer.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/stroke_file.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/document/opened_work.hpp"
 #include "session/felt/felt_stroke.hpp"
-#include "session/input/desk_input.hpp"
-#include "session/picture/pictures.hpp"
 #include "session/record/input_files.hpp"
+#include "session/work/opened_work.hpp"
 
 namespace burin::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 
 namespace burin::app {
 

@@ -25,7 +25,7 @@
 #include "app/command_line.hpp"
 #include "app/study_trials.hpp"
 #include "base/error.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 #include "study/report/html_report.hpp"
 
 namespace burin::app {

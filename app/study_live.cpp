@@ -15,8 +15,8 @@
 #include "app/study_trials.hpp"
 #include "base/places.hpp"
 #include "base/text.hpp"
+#include "desk/run/session.hpp"
 #include "devices/haptic/wand_choice.hpp"
-#include "session/drive/session.hpp"
 #include "session/record/session_recording.hpp"
 #include "study/folder/interruption.hpp"
 

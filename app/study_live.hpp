@@ -8,7 +8,7 @@
 
 #include "activities/train/study_activity.hpp"
 #include "app/study_command.hpp"
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 #include "study/folder/study_folder.hpp"
 
 namespace burin::app {

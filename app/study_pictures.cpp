@@ -10,10 +10,10 @@
 #include "app/output_files.hpp"
 #include "base/plot/svg.hpp"
 #include "base/text.hpp"
+#include "desk/draw/pictures.hpp"
 #include "gpu/device.hpp"
+#include "picture/png.hpp"
 #include "renderer/frame/renderer.hpp"
-#include "renderer/png.hpp"
-#include "session/picture/pictures.hpp"
 #include "study/replay/stage_replay.hpp"
 
 namespace burin::app {
@@ -147,7 +147,7 @@ Result<void> draw_stages(const study::StudyFolder& study) {
             if (!image) return std::unexpected(image.error());
             const std::string name =
                 formatted("%s-day%zu-%02zu-%s.png", group.code.c_str(), at.day, at.place, at.stage->name.c_str());
-            if (const auto ok = renderer::write_png(folder / name, image->left); !ok) return ok;
+            if (const auto ok = picture::write_png(folder / name, image->left); !ok) return ok;
             std::printf("wrote %s\n", (folder / name).c_str());
         }
     }

@@ -8,7 +8,7 @@
 
 #include "app/output_files.hpp"
 #include "app/wall_commands.hpp"
-#include "session/state/session_tracker.hpp"
+#include "desk/view/session_tracker.hpp"
 #include "wall/wall.hpp"
 #include "wall/wall_figures.hpp"
 #include "wall/wall_file.hpp"

@@ -15,13 +15,13 @@
 #include "app/rendered_report.hpp"
 #include "app/world_digest.hpp"
 #include "base/text.hpp"
+#include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "gpu/device.hpp"
+#include "picture/png.hpp"
 #include "record/record_writer.hpp"
 #include "renderer/frame/renderer.hpp"
-#include "renderer/png.hpp"
-#include "session/live/world_side.hpp"
-#include "session/picture/pictures.hpp"
+#include "session/objects/world_side.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
@@ -75,7 +75,7 @@ private:
         : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {}
     Result<void> write(const std::string& name, const Image& image) {
         const std::filesystem::path path = std::filesystem::path(folder_) / name;
-        if (const auto written = renderer::write_png(path, image); !written) return written;
+        if (const auto written = picture::write_png(path, image); !written) return written;
         std::printf("wrote %s\n", path.string().c_str());
         return {};
     }

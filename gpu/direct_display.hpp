@@ -12,7 +12,7 @@
 // desktop (NVIDIA's X driver: Option "AllowHMD", or the display switched off in the desktop's settings).
 //
 // Tests cover the choice of display, mode and plane as pure functions (display_choice.hpp), and a session on such a
-// display with another surface in its place (tests/session/session_direct_gpu.cpp). Of this file itself they reach only
+// display with another surface in its place (tests/desk/session_direct_gpu.cpp). Of this file itself they reach only
 // the answer "no display": the rest follows the specification and has yet to run on a machine with a stereo projector.
 // The stereo structures are declared here by hand, as Debian 12's headers are older than the extension; they are those
 // of VK_NV_display_stereo revision 1 (Vulkan registry, extension 552).

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "renderer/png.hpp"
+#include "picture/png.hpp"
 
 namespace burin::renderer {
 namespace {
@@ -102,7 +102,7 @@ Result<void> Film::add(const Image& picture) {
 }
 
 Result<void> Film::append_frame() {
-    const auto png = encode_png(part_of(*last_, waiting_));
+    const auto png = picture::encode_png(part_of(*last_, waiting_));
     if (!png) return std::unexpected(png.error());
     std::vector<std::byte> control;
     append_number(control, numbered_++);

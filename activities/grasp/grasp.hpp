@@ -21,7 +21,7 @@
 #include "activities/grasp/hand_reading.hpp"
 #include "geometry/hand/fingertip_patch.hpp"
 #include "geometry/hand/gesture.hpp"
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 
 namespace burin::activities {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 
 namespace burin::activities {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "activities/train/study_activity.hpp"
-#include "session/state/recorded_activity.hpp"
+#include "session/activity/recorded_activity.hpp"
 
 namespace burin::activities {
 

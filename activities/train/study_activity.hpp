@@ -23,7 +23,7 @@
 
 #include "activities/train/training_run.hpp"
 #include "activities/train/visit_scene.hpp"
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 #include "study/felt/trial_marks.hpp"
 
 namespace burin::activities {

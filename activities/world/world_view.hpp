@@ -10,7 +10,7 @@
 #include "haptics/channels.hpp"
 #include "picture/picture.hpp"
 #include "scene/mesh_part.hpp"
-#include "session/picture/drawn_world.hpp"
+#include "session/objects/drawn_world.hpp"
 
 namespace burin::activities {
 

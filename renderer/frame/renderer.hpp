@@ -26,7 +26,7 @@
 #include "gpu/commands.hpp"
 #include "gpu/device.hpp"
 #include "picture/picture.hpp"
-#include "renderer/png.hpp"
+#include "picture/png.hpp"
 #include "renderer/surface/patch_choice.hpp"
 #include "renderer/surface/surface_store.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "record/compare.hpp"
 #include "record/motion.hpp"
+#include "session/activity/activity.hpp"
 #include "session/drive/tick_witness.hpp"
-#include "session/state/activity.hpp"
 
 namespace burin::session {
 

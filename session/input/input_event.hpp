@@ -19,7 +19,7 @@
 
 namespace burin::session {
 
-// A key by its label, a digit by its position (session/present/key_reader.hpp); input_keys.hpp has the names. The
+// A key by its label, a digit by its position (desk/present/key_reader.hpp); input_keys.hpp has the names. The
 // order is that of the name table.
 enum class Key : std::uint8_t {
     // clang-format off

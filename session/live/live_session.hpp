@@ -18,20 +18,20 @@
 #include <utility>
 #include <vector>
 
+#include "desk/panel/live_panel.hpp"
 #include "sculpt/made_workpiece.hpp"
-#include "session/document/saved_world.hpp"
-#include "session/live/activity_side.hpp"
-#include "session/live/asked_files.hpp"
-#include "session/live/document_news.hpp"
-#include "session/live/document_side.hpp"
-#include "session/live/hand_side.hpp"
-#include "session/live/live_panel.hpp"
-#include "session/live/message_log.hpp"
-#include "session/live/scene_side.hpp"
-#include "session/live/session_watch.hpp"
+#include "session/activity/activity_side.hpp"
+#include "session/hands/hand_side.hpp"
+#include "session/live/session_state.hpp"
+#include "session/notices/message_log.hpp"
+#include "session/notices/session_watch.hpp"
+#include "session/objects/scene_side.hpp"
+#include "session/options/session_options.hpp"
 #include "session/record/input_source.hpp"
-#include "session/state/session_options.hpp"
-#include "session/state/session_state.hpp"
+#include "session/work/asked_files.hpp"
+#include "session/work/document_news.hpp"
+#include "session/work/document_side.hpp"
+#include "session/work/saved_world.hpp"
 
 namespace burin::session {
 
@@ -39,7 +39,7 @@ class LiveSession {
 public:
     // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the
     // clock must outlive the session. pace: how much slower than the reference core the machine is
-    // (haptics::WorkSettings); as measured where time is real (session/timing/machine_pace.hpp), as recorded in a
+    // (haptics::WorkSettings); as measured where time is real (session/hands/machine_pace.hpp), as recorded in a
     // replay, and 1 where results must depend on no machine. made: the workpiece of the options, where it is ready
     // already.
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,

@@ -10,10 +10,10 @@
 #include "base/text.hpp"
 #include "scene/rendered_material.hpp"
 #include "sculpt/crumbs.hpp"
-#include "session/document/journal_folder.hpp"
 #include "session/live/live_session.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/work/journal_folder.hpp"
 
 namespace burin::session {
 namespace {

@@ -4,15 +4,15 @@
 #include <numbers>
 #include <utility>
 
+#include "desk/panel/live_panel.hpp"
+#include "desk/view/session_screens.hpp"
 #include "devices/haptic/mouse_arm.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
-#include "session/live/live_panel.hpp"
 #include "session/record/recordings.hpp"
-#include "session/state/activity.hpp"
-#include "session/state/session_screens.hpp"
 
 namespace burin::session {
 namespace {

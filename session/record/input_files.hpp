@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "session/state/session_options.hpp"
+#include "session/options/session_options.hpp"
 
 namespace burin::session {
 

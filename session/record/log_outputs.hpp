@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "session/activity/activity.hpp"
+#include "session/options/session_options.hpp"
 #include "session/record/input_log.hpp"
-#include "session/state/activity.hpp"
-#include "session/state/session_options.hpp"
 
 namespace burin::session {
 

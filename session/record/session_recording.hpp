@@ -23,9 +23,9 @@
 #include <vector>
 
 #include "record/record_writer.hpp"
+#include "session/activity/activity.hpp"
 #include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
-#include "session/state/activity.hpp"
 
 namespace burin::session {
 

@@ -23,7 +23,7 @@
 #include "base/error.hpp"
 #include "devices/haptic/haptic_device.hpp"
 #include "scene/scene_service.hpp"
-#include "session/panel/panel_feed.hpp"
+#include "session/record/panel_measured.hpp"
 #include "wall/output_settings.hpp"
 
 namespace burin::session {

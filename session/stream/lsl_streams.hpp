@@ -25,7 +25,7 @@
 #include <thread>
 #include <vector>
 
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 #include "session/stream/stream_outlets.hpp"
 
 namespace burin::session {

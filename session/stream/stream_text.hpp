@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 
 namespace burin::session {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 
 namespace burin::activities {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "base/json.hpp"
+#include "desk/panel/device_look.hpp"
 #include "devices/emulators/emulator_registry.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/present_devices.hpp"
 #include "devices/trackers/tracker.hpp"
-#include "session/live/device_look.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 

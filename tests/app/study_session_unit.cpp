@@ -9,8 +9,8 @@
 
 #include "activities/train/study_activity.hpp"
 #include "app/study_live.hpp"
-#include "session/drive/session.hpp"
-#include "session/drive/session_frames.hpp"
+#include "desk/run/session.hpp"
+#include "desk/run/session_frames.hpp"
 #include "session/live/live_session.hpp"
 
 namespace burin::app {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Trackers: what a queue that nobody empties keeps, and the registry. What comes over the network is tested with the
-// lines of the input log (tests/session/session_tracker_unit.cpp).
+// lines of the input log (tests/desk/session_tracker_unit.cpp).
 #include "devices/trackers/tracker.hpp"
 
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "renderer/png.hpp"
+#include "picture/png.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::renderer {
@@ -90,7 +90,7 @@ TEST(Film, HoldsWhatChangesAndForHowLong) {
     Workplace place;
     std::ofstream(place / "film.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(file->data()), static_cast<std::streamsize>(file->size()));
-    const auto still = load_png(place / "film.png");
+    const auto still = picture::load_png(place / "film.png");
     ASSERT_TRUE(still) << still.error().line();
     EXPECT_EQ(still->rgba, pictures[0].rgba);
 }
@@ -105,15 +105,15 @@ TEST(Film, RefusesPicturesOfTwoSizesAndNone) {
 TEST(Png, IsReadAsItWasWrittenAndNonsenseIsRefusedByName) {
     Workplace place;
     const Image image = square_at(9, 9, 77);
-    ASSERT_TRUE(write_png(place / "a.png", image));
-    const auto read = load_png(place / "a.png");
+    ASSERT_TRUE(picture::write_png(place / "a.png", image));
+    const auto read = picture::load_png(place / "a.png");
     ASSERT_TRUE(read);
     EXPECT_EQ(read->rgba, image.rgba);
     place.write("b.png", "no picture");
-    const auto refused = load_png(place / "b.png");
+    const auto refused = picture::load_png(place / "b.png");
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("b.png"), std::string::npos);
-    EXPECT_FALSE(load_png(place / "c.png")) << "it is not there";
+    EXPECT_FALSE(picture::load_png(place / "c.png")) << "it is not there";
 }
 
 }  // namespace burin::renderer

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A session's activity: it sees every tick, is told what commands say, and changes objects, ticks and pictures.
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <set>
 #include <tuple>
 
-#include "session/drive/session_frames.hpp"
+#include "desk/run/session_frames.hpp"
+#include "session/commands/governed.hpp"
 #include "session/live/live_session.hpp"
-#include "session/state/governed.hpp"
-#include "session/state/session_settings.hpp"
+#include "session/options/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A person closes the window, saves, names a file: nothing that was carved is lost without a word.
-#include "session/state/asked_close.hpp"
+#include "session/commands/asked_close.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "tests/session/person_desk.hpp"
+#include "tests/desk/person_desk.hpp"
 
 namespace burin::session {
 namespace {

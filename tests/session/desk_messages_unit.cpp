@@ -2,10 +2,10 @@
 // What a person at a desk is told, and where it stands: over the picture, where it moves no widget.
 #include <map>
 
-#include "session/live/message_log.hpp"
-#include "session/panel/panel_sections.hpp"
-#include "tests/session/mouse_desk.hpp"
-#include "tests/session/panel_models.hpp"
+#include "desk/panel/panel_sections.hpp"
+#include "session/notices/message_log.hpp"
+#include "tests/desk/mouse_desk.hpp"
+#include "tests/desk/panel_models.hpp"
 
 namespace burin::session {
 namespace {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "session/drive/session.hpp"
-#include "session/drive/session_frames.hpp"
+#include "desk/panel/panel.hpp"
+#include "desk/run/session.hpp"
+#include "desk/run/session_frames.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/live/live_session.hpp"
-#include "session/panel/panel.hpp"
-#include "session/state/session_settings.hpp"
+#include "session/options/session_settings.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::session {

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "session/drive/session.hpp"
+#include "desk/run/session.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

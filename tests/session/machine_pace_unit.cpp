@@ -2,8 +2,8 @@
 // The machine's pace, and that only a session in real time has one of its own.
 #include <gtest/gtest.h>
 
+#include "session/hands/machine_pace.hpp"
 #include "session/live/live_session.hpp"
-#include "session/timing/machine_pace.hpp"
 
 namespace burin::session {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Undo and redo after a document or a journal was opened: each step gives back the rays that were there, to the bit.
-#include "session/document/opened_history.hpp"
+#include "session/work/opened_history.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/tool_options.hpp"
-#include "session/document/opened_work.hpp"
+#include "session/work/opened_work.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

@@ -17,14 +17,14 @@
 #include <utility>
 #include <vector>
 
+#include "desk/run/session_frames.hpp"
 #include "session/drive/driver.hpp"
 #include "session/drive/recording_start.hpp"
-#include "session/drive/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/drive/tick_comparison.hpp"
+#include "session/options/session_settings.hpp"
 #include "session/record/session_log.hpp"
 #include "session/record/tick_source.hpp"
-#include "session/state/session_settings.hpp"
 #include "tests/geometry/touch_samples.hpp"
 #include "tests/session/threads_seen.hpp"
 #include "tests/support/paced_clock.hpp"

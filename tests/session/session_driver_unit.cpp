@@ -6,11 +6,11 @@
 
 #include <string>
 
+#include "desk/run/session.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/drive/session.hpp"
 #include "tests/support/test_units.hpp"
 
 namespace burin::session {

@@ -2,9 +2,9 @@
 // The roles beside a live session: what it watches, logs and queues.
 #include <gtest/gtest.h>
 
-#include "session/drive/session.hpp"
+#include "desk/panel/panel.hpp"
+#include "desk/run/session.hpp"
 #include "session/live/live_session.hpp"
-#include "session/panel/panel.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/test_units.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shift when a stroke of the mouse begins: the tool smooths, and afterwards does what it did before.
-#include "session/state/smooth_stroke.hpp"
+#include "session/commands/smooth_stroke.hpp"
 
-#include "tests/session/mouse_desk.hpp"
+#include "tests/desk/mouse_desk.hpp"
 
 namespace burin::session {
 namespace {

@@ -10,14 +10,14 @@
 #include <fstream>
 #include <thread>
 
+#include "desk/view/session_head.hpp"
+#include "desk/view/session_tracker.hpp"
 #include "devices/emulators/emulated_dtrack.hpp"
 #include "devices/emulators/emulated_vrpn.hpp"
 #include "devices/trackers/dtrack_tracker.hpp"
 #include "devices/trackers/udp_tracker.hpp"
 #include "session/input/input_line.hpp"
 #include "session/record/input_source.hpp"
-#include "session/state/session_head.hpp"
-#include "session/state/session_tracker.hpp"
 #include "wall/wall_file.hpp"
 
 namespace burin::session {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "desk/run/session_frames.hpp"
 #include "devices/haptic/wand_file.hpp"
-#include "session/drive/session_frames.hpp"
 #include "session/live/live_session.hpp"
-#include "session/state/session_settings.hpp"
+#include "session/options/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

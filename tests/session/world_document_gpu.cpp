@@ -14,7 +14,7 @@
 #include "gpu/device.hpp"
 #include "record/database.hpp"
 #include "scene/saved_objects.hpp"
-#include "session/document/opened_work.hpp"
+#include "session/work/opened_work.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 

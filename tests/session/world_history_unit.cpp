@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Edits of a world's objects are undone and repeated: one step for each thing that a user did.
-#include "session/state/world_history.hpp"
+#include "session/objects/world_history.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "session/drive/session_frames.hpp"
+#include "desk/run/session_frames.hpp"
 #include "session/live/live_session.hpp"
-#include "session/state/session_settings.hpp"
+#include "session/options/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <functional>
 
+#include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/picture/pictures.hpp"
 
 namespace burin {
 namespace {
@@ -192,7 +192,7 @@ Result<void> make(const std::filesystem::path& file) {
     if (!pictures) return std::unexpected(pictures.error());
     const auto images = Story(carving, *pictures, std::move(*tool), bounds).tell();
     if (!images) return std::unexpected(images.error());
-    return renderer::write_png(file, montage(*images));
+    return picture::write_png(file, montage(*images));
 }
 
 }  // namespace

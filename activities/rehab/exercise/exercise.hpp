@@ -20,7 +20,7 @@
 #include "base/json.hpp"
 #include "bodies/soft_part.hpp"
 #include "haptics/channels.hpp"
-#include "session/state/activity.hpp"
+#include "session/activity/activity.hpp"
 
 namespace burin::activities {
 

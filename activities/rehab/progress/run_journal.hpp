@@ -9,7 +9,7 @@
 //                         none of a run that had not begun yet, nor of who has withdrawn
 // A journal whose run is there as a file is a remnant and is removed: no run is kept twice. The first line is there
 // whole or there is no journal; a torn line costs what it alone told.
-// A participant has one run at a time. The process that does it keeps a lock (session/document/document_lock.hpp);
+// A participant has one run at a time. The process that does it keeps a lock (session/work/document_lock.hpp);
 // nobody else touches its journal as long as it lives.
 // A line is in the file when add() returns, and outlives the process; a thread of the journal's own brings it to the
 // disk, so that no frame waits for that.
@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "activities/rehab/progress/kept_run.hpp"
-#include "session/document/document_lock.hpp"
+#include "session/work/document_lock.hpp"
 
 namespace burin::activities {
 

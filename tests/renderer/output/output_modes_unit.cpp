@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
+#include "picture/png.hpp"
 #include "renderer/output/compose.hpp"
-#include "renderer/png.hpp"
 #include "shaders/shared/output_rules.h"
 #include "tests/renderer/output/output_pictures.hpp"
 
@@ -260,7 +260,7 @@ TEST(Compose, GivesTheKeptPictures) {
         settings.mode = mode;
         const Image shown = compose_all(left, right, settings);
         if (std::getenv("BURIN_WRITE_GOLDEN") != nullptr) {
-            ASSERT_TRUE(write_png(golden_path(mode), shown));
+            ASSERT_TRUE(picture::write_png(golden_path(mode), shown));
         }
         EXPECT_EQ(greatest_difference(read_png(golden_path(mode)), shown), 0) << file_name_of(mode);
     }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "picture/png.hpp"
 #include "renderer/output/canvas.hpp"
 #include "renderer/output/test_pattern.hpp"
-#include "renderer/png.hpp"
 #include "shaders/shared/srgb.h"
 #include "tests/renderer/output/output_pictures.hpp"
 
@@ -22,7 +22,7 @@ bool is_white(const std::uint8_t* p) { return p[0] == 255 && p[1] == 255 && p[2]
 // To look at: BURIN_PATTERN_FOLDER=some/folder.
 void save(const StereoImage& images, const std::string& name) {
     if (const char* folder = std::getenv("BURIN_PATTERN_FOLDER")) {
-        EXPECT_TRUE(write_png(std::string(folder) + "/" + name + ".png", side_by_side(images)));
+        EXPECT_TRUE(picture::write_png(std::string(folder) + "/" + name + ".png", side_by_side(images)));
     }
 }
 

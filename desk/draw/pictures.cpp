@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "desk/draw/pictures.hpp"
+
+#include "base/file_io.hpp"
+#include "picture/frame_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin::session {
+namespace {
+
+constexpr ImageSize kEyeSize{1280, 960};  // the wall is 4 : 3
+// The workpiece is scaled so that its longest side has this length. It stands so that the carved side lies about in the
+// wall's own plane, where eyes rest best, and its pedestal behind the wall, where the wall's lower edge does not cut it
+// off.
+constexpr double kLargestOnWall_m = 1.15;
+const Vec3 kPlace_world{0.0, 1.22, -0.45};
+const Vec3 kHead_world{0.0, 1.60, 2.00};
+
+constexpr std::size_t kTilesAStep = 256;
+
+constexpr const char* kBefore = "before.png";
+constexpr const char* kAfter = "after.png";
+constexpr const char* kLeft = "left.png";
+constexpr const char* kRight = "right.png";
+constexpr const char* kStereo = "stereo.png";
+
+double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+}  // namespace
+
+Result<void> make_picture_folder(const std::filesystem::path& folder, const std::string& option) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder, ignored)) return {};
+    return fail(folder.string(), "cannot be made as a folder for pictures (" + error.message() + ")",
+                "choose another " + option + " folder");
+}
+
+Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
+                   const Box& bounds_object)
+    : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {
+    device_name_ = device_.info().name;
+    world_from_object_.scale = kLargestOnWall_m / longest(bounds_object.extent());
+    world_from_object_.position_m = kPlace_world - world_from_object_.scale * bounds_object.center();
+    center_world_ = kPlace_world;
+    bottom_world_m_ = kPlace_world.y - 0.5 * world_from_object_.scale * bounds_object.extent().y;
+    radius_world_m_ = 0.5 * world_from_object_.scale * glm::length(bounds_object.extent());
+}
+
+Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
+    if (const auto made = make_picture_folder(folder, "--pictures"); !made) return std::unexpected(made.error());
+    for (const char* name : {kBefore, kAfter, kLeft, kRight, kStereo}) {
+        if (const auto ok = check_writable(folder / name); !ok) return std::unexpected(ok.error());
+    }
+    Result<gpu::Device> device = gpu::Device::create();
+    if (!device) {
+        Error e = device.error();
+        e.what += ", and --pictures needs one";
+        return std::unexpected(e);
+    }
+    Result<renderer::Renderer> renderer = renderer::Renderer::create(*device, kEyeSize);
+    if (!renderer) return std::unexpected(renderer.error());
+    return Pictures(folder, std::move(*device), std::move(*renderer), bounds_object);
+}
+
+// Updates the renderer's surface. Pictures are not urgent: all light is computed before one is taken.
+Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
+    const Vec3 to_light_object = inverse(world_from_object_.orientation) * picture::direction_to_light();
+    if (const auto kept = carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}); !kept) return kept;
+    while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
+    }
+    for (const std::uint32_t tile : carving.take_changed_tiles()) {
+        renderer_.surface().set_patch(tile, carving.surface().shared_tile(tile));
+        if (const auto& light = carving.light()->shared_light(tile))
+            renderer_.surface().set_patch_light(tile, light->vertices);
+    }
+    std::vector<Box> inner = carving.light()->inner_boxes_object();
+    const Vec3& origin = carving.surface().lattice().origin_object;
+    for (Box& box : inner) box = {box.lo - origin, box.hi - origin};
+    renderer_.surface().set_occluders(std::move(inner));
+    return {};
+}
+
+picture::Picture Pictures::wall_scene(const sculpt::Sculpture& carving) const {
+    picture::Picture scene;
+    scene.viewer.head_world.position_m = kHead_world;
+    scene.world_from_object = world_from_object_;
+    scene.lattice_origin_object = carving.surface().lattice().origin_object;
+    scene.pedestal.visible = true;
+    scene.pedestal.top_center_world = {center_world_.x, bottom_world_m_, center_world_.z};
+    scene.pedestal.radius_m = std::min(0.3, 0.5 * radius_world_m_);
+    return scene;
+}
+
+// Shows the same scene through a smaller screen that stands around the workpiece, square to the line of sight.
+picture::Picture Pictures::close_scene(const sculpt::Sculpture& carving) const {
+    picture::Picture scene = wall_scene(carving);
+    const Vec3 towards_eye = glm::normalize(Vec3(0.18, 0.22, 1.0));
+    const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
+    const Vec3 up = glm::cross(towards_eye, right);
+    const double half_height = 1.12 * std::max(radius_world_m_ / std::sqrt(2.0), 0.35 * radius_world_m_);
+    const double half_width = half_height * kEyeSize.width / kEyeSize.height;
+    scene.screen = {center_world_ - half_width * right - half_height * up,
+                    center_world_ + half_width * right - half_height * up,
+                    center_world_ - half_width * right + half_height * up};
+    scene.viewer.interpupillary_m = 0.0;
+    scene.viewer.head_world.position_m = center_world_ + 4.0 * half_height * towards_eye;
+    scene.show_wall_frame = false;
+    return scene;
+}
+
+Result<void> Pictures::take_before(sculpt::Sculpture& carving) {
+    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
+    const auto image = renderer_.render(close_scene(carving));
+    if (!image) return std::unexpected(image.error());
+    carving.drop_light();  // not needed until the next picture
+    return picture::write_png(folder_ / kBefore, image->left);
+}
+
+Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& staging) {
+    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
+    const auto close = renderer_.render(close_scene(carving));
+    if (!close) return std::unexpected(close.error());
+    if (const auto done = picture::write_png(folder_ / kAfter, close->left); !done) return done;
+
+    picture::Picture scene = wall_scene(carving);
+    stage(scene, staging, world_from_object_);
+
+    const auto stereo = renderer_.render(scene);
+    if (!stereo) return std::unexpected(stereo.error());
+    if (const auto done = picture::write_png(folder_ / kLeft, stereo->left); !done) return done;
+    if (const auto done = picture::write_png(folder_ / kRight, stereo->right); !done) return done;
+    return picture::write_png(folder_ / kStereo, side_by_side(*stereo));
+}
+
+Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& staging) {
+    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
+    picture::Picture scene = wall_scene(carving);
+    scene.viewer.interpupillary_m = 0.0;
+    stage(scene, staging, world_from_object_);
+    auto views = renderer_.render(scene);
+    if (!views) return std::unexpected(views.error());
+    return std::move(views->left);
+}
+
+}  // namespace burin::session

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "desk/opening/opening_picture.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "desk/panel/live_panel.hpp"
+#include "desk/view/session_screens.hpp"
+#include "session/live/opened_room.hpp"
+
+namespace burin::session {
+namespace {
+
+// Before anything is known of the workpiece: as large as a shape without a name.
+const Box kUnknownBox{Vec3(-0.1), Vec3(0.1)};
+
+// The letters of the session's panel are others than the card's, however many atlases either has had.
+constexpr std::uint64_t kCardsAtlases = 1ull << 32;
+
+}  // namespace
+
+OpeningPicture::OpeningPicture(const SculptOptions& options, Room room, wall::OutputSettings output)
+    : options_(options),
+      room_(std::move(room)),
+      output_(output),
+      name_(std::filesystem::path(options.workpiece.source).filename().string()) {
+    room_.workpiece_object = kUnknownBox;
+}
+
+Result<OpeningPicture> OpeningPicture::create(const SculptOptions& options, const SessionWall& wall) {
+    Result<OpenedRoom> opened = open_room(options, wall);
+    if (!opened) return std::unexpected(opened.error());
+    const Result<wall::OutputSettings> output = first_output(opened->room, options.live);
+    if (!output) return std::unexpected(output.error());
+    return OpeningPicture(options, std::move(opened->room), *output);
+}
+
+void OpeningPicture::take(FirstLook look) {
+    room_.workpiece_object = look.bounds_object;
+    look_ = std::move(look);
+}
+
+// The scene as the session begins it, with the mesh in the workpiece's place.
+picture::Picture OpeningPicture::scene() const {
+    const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
+    const auto tool = sculpt::parse_tool_settings(sculpt::with_tool({}, longest_m));
+    const SessionState state = begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {}, output_);
+    auto scene = scene_of(state, room_, room_.wall.main, Vec3(0.0), {}).value_or(picture::Picture{});
+    scene.pedestal.visible = scene.pedestal.visible && look_.has_value();
+    if (!look_) return scene;
+    constexpr double kPlain = 200.0 / 255.0;  // a material's colour where the file has none
+    scene.objects.push_back({look_->mesh, state.world_from_object, Vec3(kPlain)});
+    return scene;
+}
+
+Result<StillPicture> OpeningPicture::lay_out(const WorkWatch::Seen& seen, Nanoseconds time_ns, ImageSize window) {
+    const ImageSize eye = wall::eye_size(output_.mode, window);
+    fit_desk_screen(room_.wall, eye);
+    room_.free_width = beside_panel(room_, eye, window);
+    StillPicture picture{scene(), output_, std::nullopt};
+    const auto width = static_cast<std::uint32_t>(std::lround(kPanelWidth_px * room_.panel_scale));
+    if (!panel_) {
+        auto made = Panel::create({.size = {width, eye.height}, .scale = room_.panel_scale});
+        if (!made) return std::unexpected(made.error());
+        panel_.emplace(std::move(*made));
+    }
+    panel_->resize({width, eye.height});
+    panel_->lie_over(eye);
+    PanelModel model;
+    model.visible = false;
+    model.workpiece.name = name_;
+    model.opening = PanelOpening{name_, seen.step, static_cast<int>(std::floor(100.0 * seen.done)),
+                                 static_cast<int>(time_ns / kNanosecondsPerSecond)};
+    const PanelFrame& card = panel_->show(model, time_ns);
+    picture.panel.emplace(
+        PanelPicture{card.mesh, panel_->atlas(), card.size, kCardsAtlases + panel_->atlases(), card.parts});
+    return picture;
+}
+
+}  // namespace burin::session

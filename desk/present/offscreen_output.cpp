@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "desk/present/offscreen_output.hpp"
+
+#include <utility>
+
+namespace burin::session {
+
+OffscreenOutput::OffscreenOutput(const LiveOptions& options, const SessionWall& wall)
+    : options_(options), wall_(&wall) {
+    for (const SessionScreen& screen : wall.screens) places_.emplace_back().size = screen.size;
+}
+
+void OffscreenOutput::put(std::size_t screen, const wall::OutputPlace& place) {
+    places_[screen] = place;
+    if (presenter_) presenter_->put(screen, place);
+}
+
+Result<bool> OffscreenOutput::draw(LiveSession& session, Nanoseconds frame_ns) {
+    if (!presenter_ && !session.files().wants_pictures()) return false;
+    if (!presenter_) {
+        auto opened = Presenter::open(options_, *wall_);
+        if (!opened) return std::unexpected(opened.error());
+        presenter_.emplace(std::move(*opened));
+        for (std::size_t screen = 0; screen < places_.size(); ++screen) presenter_->put(screen, places_[screen]);
+    }
+    return presenter_->draw(session, frame_ns);
+}
+
+Result<void> OffscreenOutput::recover(LiveSession& session, const Error& error) {
+    return presenter_ ? presenter_->recover(session, error) : Result<void>(std::unexpected(error));
+}
+
+Result<void> OffscreenOutput::fit_modes(LiveSession& session) {
+    return presenter_ ? presenter_->fit_modes(session) : Result<void>{};
+}
+
+Result<std::unique_ptr<FrameOutput>> open_output(const LiveOptions& options, const SessionWall& wall,
+                                                 bool asks_for_pictures) {
+    if (options.offscreen && !asks_for_pictures) return std::make_unique<OffscreenOutput>(options, wall);
+    auto opened = Presenter::open(options, wall);
+    if (!opened) return std::unexpected(opened.error());
+    return std::make_unique<Presenter>(std::move(*opened));
+}
+
+}  // namespace burin::session

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The outputs of a session that nobody sees: screens of a size and nothing behind them. A graphics device is opened
+// with the first picture that is asked for; a session that asks for none needs none. Thread: the frame's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "desk/present/frame_output.hpp"
+#include "desk/present/presenter.hpp"
+#include "desk/view/session_screens.hpp"
+#include "session/options/session_options.hpp"
+
+namespace burin::session {
+
+class OffscreenOutput final : public FrameOutput {
+public:
+    // The wall must outlive it.
+    OffscreenOutput(const LiveOptions& options, const SessionWall& wall);
+
+    void look() override {}
+    [[nodiscard]] std::vector<wall::OutputPlace> places() const override { return places_; }
+    void put(std::size_t screen, const wall::OutputPlace& place) override;
+    [[nodiscard]] std::size_t screens() const override { return places_.size(); }
+    [[nodiscard]] bool shows() const override { return false; }
+    [[nodiscard]] bool has_lost_display() const override { return false; }
+    [[nodiscard]] std::vector<Input> inputs(double) override { return {}; }
+    // Fails where there is no Vulkan driver for the first picture.
+    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns) override;
+    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error) override;
+    [[nodiscard]] Result<void> fit_modes(LiveSession& session) override;
+    [[nodiscard]] bool has_drawn() const override { return presenter_ && presenter_->has_drawn(); }
+
+private:
+    LiveOptions options_;
+    const SessionWall* wall_;
+    std::vector<wall::OutputPlace> places_;
+    std::optional<Presenter> presenter_;  // none: no picture has been asked for yet
+};
+
+// Opens the outputs of a session: with a graphics device at once where somebody sees its pictures, or where some are
+// asked for already, so that a missing driver is told of before anything is done.
+[[nodiscard]] Result<std::unique_ptr<FrameOutput>> open_output(const LiveOptions& options, const SessionWall& wall,
+                                                               bool asks_for_pictures);
+
+}  // namespace burin::session

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "desk/run/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "desk/draw/pictures.hpp"
+#include "desk/opening/first_time.hpp"
+#include "desk/view/session_tracker.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "sculpt/crumbs.hpp"
+#include "session/drive/session_streams.hpp"
+#include "session/drive/tick_comparison.hpp"
+#include "session/live/opened_room.hpp"
+#include "session/options/session_settings.hpp"
+#include "session/record/input_files.hpp"
+#include "session/record/log_outputs.hpp"
+#include "session/record/recordings.hpp"
+#include "session/record/session_log.hpp"
+#include "session/work/journal_folder.hpp"
+
+namespace burin::session {
+namespace {
+
+Result<InputLog> log_of_session(const std::string& path) {
+    Result<record::RecordReader> reader = record::RecordReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    return read_session_log(*reader);
+}
+
+// Reads a log, all of whose commands make sense.
+Result<InputLog> open_log(const std::string& path, const Activity* activity = nullptr) {
+    Result<InputLog> log = is_database(path) ? log_of_session(path) : read_input_log(path);
+    if (!log) return log;
+    if (log->torn_line) {
+        // A script's last command would be left undone; a session that broke off is repeated as far as it was recorded.
+        if (!log->threads) return fail(path, "the last line has no end", "end it with a line feed, or take it away");
+        std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
+    }
+    if (const auto sound = check_commands(*log, path, activity); !sound) return std::unexpected(sound.error());
+    return log;
+}
+
+// Refuses what only carving along a stroke does: a session would leave it undone without a word.
+Result<void> check_for_a_session(const SculptOptions& options) {
+    struct Misplaced {
+        bool given;
+        const char *option, *instead;
+    };
+    const std::array misplaced{
+        Misplaced{!options.stroke.empty(), "--stroke", "carve it without a session first, or write it as an --input"},
+        Misplaced{!options.exports.empty(), "--export",
+                  "export from the session's panel, or with 'command export FILE' in its --input"},
+        Misplaced{!options.pictures.empty(), "--pictures",
+                  "press F12 in the session, or give 'command screenshot FILE' in its --input"},
+        Misplaced{!options.report.empty(), "--report", "time sessions with burin profile --json"},
+    };
+    if (!options.stroke.empty() && (options.live.lsl || options.live.lsl_markers))
+        return fail("--stroke", "is carved without a session, and --lsl and --lsl-markers are of sessions",
+                    "leave them out, or write the stroke as an --input");
+    for (const Misplaced& one : misplaced)
+        if (one.given) return fail(one.option, "belongs to carving along a --stroke and not to a session", one.instead);
+    return {};
+}
+
+// Reports errors in the options before a window opens, also those in the file of a mesh tool.
+Result<void> check(const SculptOptions& options) {
+    if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
+    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return ok;
+    if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
+    if (options.no_workpiece && options.world.empty() && !options.scene)
+        return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");
+    if (options.mirror.any() && !has_workpiece(options))
+        return fail("--mirror", "is for a workpiece, and the world has none",
+                    "open it with a --workpiece, or leave it out");
+    std::error_code ignored;
+    if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
+        return fail(options.world,
+                    std::filesystem::exists(options.world, ignored) ? "is no file that can be read" : "does not exist",
+                    "name a world: .toml, .wrl, or a mesh");
+    const auto has_points = [](const NamedDevice& hand) {
+        return devices::has_handle(hand.device, &session_recordings());
+    };
+    if (!options.points.empty() && std::ranges::none_of(devices_of(options.live), has_points))
+        return fail("--points", "belongs to a handle with points, and the device is " + options.live.device,
+                    "give --device " + devices::devices_with_handles() + ", or leave --points out");
+    return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file
+}
+
+Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wall) {
+    const bool has_window = std::ranges::any_of(wall.screens, [](const SessionScreen& s) { return !s.direct; });
+    const bool has_tracker = live.tracker.empty() ? !wall.setup.tracker_toml.empty() : live.tracker != kNoTracker;
+    if (has_window || has_tracker || !live.input.empty()) return {};
+    return fail(live.wall, "has no screen in a window, and so neither keys nor a mouse",
+                "give a --tracker whose wand works the panel, or an --input; or try the wall with --windowed");
+}
+
+// A session in simulated time hears nothing from outside, since its result depends on its --input alone.
+void tell_of_unheard_tracker(const LiveOptions& live) {
+    if (live.tracker.empty() || live.tracker == kNoTracker) return;
+    std::fprintf(
+        stderr,
+        "burin: --tracker %s: is not opened, since an --input is done in simulated time; with --record as well "
+        "it is played in real time, and the tracker is heard\n",
+        live.tracker.c_str());
+}
+
+// Does a session file again, and compares every tick on the way.
+Result<void> run_compared(const SculptOptions& options, InputLog log) {
+    Result<record::RecordReader> reader = record::RecordReader::open(options.live.input);
+    if (!reader) return std::unexpected(reader.error());
+    Result<TickComparison> judge = TickComparison::create(*reader, {}, TickComparison::AtDifference::goes_on);
+    if (!judge) return std::unexpected(judge.error());
+    SessionNotes notes;
+    const ReplayManner manner{.witness = &*judge, .ticks = &*reader, .notes = &notes};
+    if (const auto done = run_as_recorded(options, std::move(log), manner); !done) return done;
+    const record::Comparison& found = judge->found();
+    if (found.difference) return fail(options.live.input, "differs: " + found.difference->line());
+    if (found.ticks == 0)
+        return fail(options.live.input, "none of its ticks was compared: its log ends before them, or they are missing",
+                    "burin session check names what is missing");
+    if (const auto same = compare_trials(*reader, notes.trials, reader->is_closed()); !same) return same;
+    if (const auto same = compare_events(*reader, notes.events, reader->is_closed()); !same) return same;
+    if (const auto untouched = check_unchanged(*reader); !untouched) return untouched;
+    std::printf("%s: %s ticks, %zu columns: equal to the bit\n", options.live.input.c_str(),
+                std::to_string(found.ticks).c_str(), found.columns);
+    return {};
+}
+
+}  // namespace
+
+bool wants_session(const SculptOptions& options) {
+    const LiveOptions& live = options.live;
+    const bool named = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() ||
+                       !live.record.empty() || !live.outputs.empty() || wants_streams(live);
+    return named ||
+           (options.stroke.empty() && options.exports.empty() && options.pictures.empty() && options.report.empty());
+}
+
+Result<void> run_as_recorded(const SculptOptions& given, InputLog log, const ReplayManner& manner) {
+    Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
+    if (!recorded) return std::unexpected(recorded.error());
+    if (!log.device.empty()) recorded->options.live.device = log.device;
+    recorded->options.live.tools_of_input = tools_in(log);
+    for (const std::string& message : recorded->overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
+    if (const auto ok = check(recorded->options); !ok) return ok;
+    const Result<SessionWall> wall = session_wall(recorded->options.live);
+    if (!wall) return std::unexpected(wall.error());
+    return replay_as_recorded(recorded->options, *wall, std::move(log), manner);
+}
+
+Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) {
+    SculptOptions options = given;
+    if (const auto ok = check_for_a_session(options); !ok) return ok;
+    if (const auto ok = check_streams(options.live); !ok) return ok;
+    // What is recorded or streamed is played in real time.
+    const bool in_real_time = !options.live.record.empty() || wants_streams(options.live);
+    if (options.live.offscreen && options.live.input.empty()) {
+        return fail("--offscreen", "needs an --input: without a window nobody can do anything",
+                    "give a log or a script, or leave --offscreen out");
+    }
+    if (!options.live.outputs.empty() && options.live.input.empty()) {
+        return fail("--outputs", "is where the files of an --input go, and there is none",
+                    "leave it out: keys and panel name a file's place, --screenshots that of pictures");
+    }
+    if (!options.live.screenshots.empty()) {
+        if (const auto made = make_picture_folder(options.live.screenshots, "--screenshots"); !made) return made;
+    }
+    std::optional<InputLog> log;
+    if (!options.live.input.empty()) {
+        Result<InputLog> read = open_log(options.live.input, options.activity.get());
+        if (!read) return std::unexpected(read.error());
+        const SessionOutputs outputs(options.live, inputs_of(options).list());
+        if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
+        if (!in_real_time) tell_of_unheard_tracker(options.live);
+        if (read->threads && !in_real_time) {
+            return is_database(options.live.input) ? run_compared(options, std::move(*read))
+                                                   : run_as_recorded(options, std::move(*read), {});
+        }
+        options.live.tools_of_input = tools_in(*read);
+        log = std::move(*read);
+    }
+    if (!log && options.live.journal.empty()) options.live.journal = usual_journal_folder();
+    if (options.live.journal == kNoJournal) options.live.journal.clear();
+    if (const auto settled = settle_document(options); !settled) return settled;
+    if (const auto taken = take_settings_of_document(options); !taken) return taken;
+    if (const auto settled = settle_mouse(options); !settled) return settled;
+    settle_view(options);
+    if (!log) options.workpiece.close_small_holes = true;
+    settle_room(options, true);
+    options.usual_crumbs = !log;
+    if (const auto ok = check(options); !ok) return ok;
+    const Result<SessionWall> wall = session_wall(options.live);
+    if (!wall) return std::unexpected(wall.error());
+    if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
+    options.live.first_steps = !log && wall->desk && options.live.mouse == MouseMode::surface && is_first_time();
+    if (log && !in_real_time) return run_in_simulated_time(options, *wall, std::move(*log));
+    const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
+                                      {.facts = facts, .opens_before_eyes = !log});
+    return run ? Result<void>{} : std::unexpected(run.error());
+}
+
+Result<SessionRecord> time_session(SculptOptions options, bool for_a_device) {
+    options.live.writes_nothing = true;
+    options.workpiece.close_small_holes = true;
+    if (const auto settled = settle_mouse(options); !settled) return std::unexpected(settled.error());
+    if (const auto ok = check(options); !ok) return std::unexpected(ok.error());
+    const Result<SessionWall> wall = session_wall(options.live);
+    if (!wall) return std::unexpected(wall.error());
+    Result<InputLog> log = open_log(options.live.input);
+    if (!log) return std::unexpected(log.error());
+    options.live.tools_of_input = tools_in(*log);
+    RealTimeRun run{.keep_frames = true};
+    if (for_a_device) run.pace = {.lead_ns = haptics::HapticLoop::kLead_ns};
+    return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), std::move(run));
+}
+
+}  // namespace burin::session

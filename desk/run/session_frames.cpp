@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "desk/run/session_frames.hpp"
+
+#include <utility>
+
+#include "desk/present/offscreen_output.hpp"
+#include "desk/run/session.hpp"
+#include "session/record/log_outputs.hpp"
+
+namespace burin::session {
+
+Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
+                        const std::vector<wall::OutputPlace>& places) {
+    const std::vector<haptics::ToolState> tools = executor.tools();
+    const SessionWall& wall = session.room().wall;
+    session.step(
+        input, places[wall.main], tools, [&](Executor::Order order) { executor.order(std::move(order)); },
+        wall.has_panel_window() ? places.back().size : ImageSize{});
+    const Result<Executor::Taken> taken = executor.take_updates();
+    if (!taken) return std::unexpected(taken.error());
+    session.take_news(taken->collected);
+    recorder.frame(tools, taken->updates, places);
+    return {};
+}
+
+SessionFrames::SessionFrames(LiveSession& session, FrameOutput& output, InputSource input)
+    : session_(session), shown_on_(output), input_(std::move(input)), recorder_(input_, session) {
+    session.take_loaded();
+}
+
+std::optional<Nanoseconds> SessionFrames::next() {
+    if (session_.state().quit) return std::nullopt;
+    const std::optional<FrameInput> input = next_input();
+    if (!input) return std::nullopt;
+    frame_ = *input;
+    return session_.start_ns() + frame_.time_ns;
+}
+
+Result<void> SessionFrames::make(Executor& executor) {
+    if (const auto done = step_frame(session_, executor, recorder_, frame_, shown_on_.places()); !done) return done;
+    stepped();
+    const Result<bool> anew = draw();
+    if (!anew) return std::unexpected(anew.error());
+    finished(frame_, *anew);
+    return {};
+}
+
+// Returns whether there was anything new. A device that was lost is replaced, and the frame drawn again.
+Result<bool> SessionFrames::draw() {
+    while (wants_picture()) {
+        Result<bool> anew = shown_on_.draw(session_, frame_.display_ns);
+        if (anew) return anew;
+        if (shown_on_.has_lost_display()) return false;  // the next turn ends the session
+        if (const auto recovered = shown_on_.recover(session_, anew.error()); !recovered)
+            return std::unexpected(recovered.error());
+    }
+    return false;
+}
+
+Result<void> SessionFrames::finish(Executor& executor) {
+    const Result<Executor::Taken> last = executor.take_updates();
+    if (!last) return std::unexpected(last.error());
+    session_.finish_scene();
+    recorder_.finish(last->updates);
+    return {};
+}
+
+bool SessionFrames::look_for_signal() {
+    if (!end_.came()) return false;
+    cut_short_ = true;
+    session_.files().notify_of_loss("the session was ended by a signal; what follows in the log was not done");
+    return true;
+}
+
+// ---- A script
+
+std::optional<FrameInput> ScriptedFrames::next_input() {
+    if (look_for_signal()) return std::nullopt;
+    const std::optional<FrameInput> input = input_.begin_frame(0, 0);
+    if (input) shown_on_.look();
+    return input;
+}
+
+void ScriptedFrames::stepped() {
+    if (shown_on_.shows()) static_cast<void>(shown_on_.inputs(0.0));  // ignored: the script decides
+    // Fails where the device is lost, which the next picture meets.
+    const bool is_drawn = shown_on_.shows() || session_.files().wants_pictures();
+    if (!is_drawn && shown_on_.has_drawn()) static_cast<void>(shown_on_.fit_modes(session_));
+}
+
+Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log) {
+    SimulatedClock clock;
+    auto opened = LiveSession::create(options, wall, clock);
+    if (!opened) return std::unexpected(opened.error());
+    LiveSession& session = **opened;
+    const LogNeeds needs = needs_of(log.events);
+    if (options.live.offscreen && !needs.panel) session.leave_panel_out();
+    const auto output = open_output(options.live, wall, needs.pictures);
+    if (!output) return std::unexpected(output.error());
+    ScriptedFrames frames(session, **output, InputSource::replay(std::move(log)));
+    SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
+                             [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
+    if (const auto driven = drive(executor, frames); !driven) return driven;
+    session.finish_scene();
+    return session.files().outcome();
+}
+
+}  // namespace burin::session

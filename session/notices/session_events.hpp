@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// What happens in a session, as rows of its file's table `event`: what hands begin and end to touch. Pure.
+#pragma once
+
+#include "session/activity/activity.hpp"
+#include "session/hands/session_hands.hpp"
+
+namespace burin::session {
+
+// Returns a contact by names: "touches" or "leaves", of several parts behind the part's ("left index touches"), and the
+// object, or "workpiece". world: null: there is none.
+[[nodiscard]] EventMark event_of(const scene::ContactEvent& contact, const SessionHands& hands,
+                                 const WorldObjects* world);
+
+}  // namespace burin::session

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "session/options/session_options.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "devices/haptic/mouse_arm.hpp"
+
+namespace burin::session {
+namespace {
+
+bool is_hand_name(const std::string& name) {
+    constexpr const char* kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    return !name.empty() && name.size() <= 32 && name.find_first_not_of(kLetters) == std::string::npos;
+}
+
+}  // namespace
+
+Result<NamedDevice> parse_named_device(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    NamedDevice named{text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1)};
+    if (equals == std::string::npos)
+        return fail("--device " + text, "does not say whose device it is, and there are several hands",
+                    "write NAME=DEVICE for each, such as right=" + text);
+    if (!is_hand_name(named.hand))
+        return fail("--device " + text, "gives a hand a name with other than letters, digits, - and _",
+                    "write such as right=simulated");
+    if (named.device.empty())
+        return fail("--device " + text, "names no device", "write such as " + named.hand + "=simulated");
+    return named;
+}
+
+std::vector<NamedDevice> devices_of(const LiveOptions& live) {
+    return live.hands.empty() ? std::vector<NamedDevice>{{"", live.device}} : live.hands;
+}
+
+Result<MouseMode> parse_mouse_mode(const std::string& text, const std::string& where) {
+    const auto names = mouse_mode_names();
+    const auto at = std::ranges::find(names, text);
+    if (at == names.end())
+        return fail(where, "is no way to lead a hand",
+                    "did you mean " + std::string(nearest_name(text, names)) + "? There are free and surface");
+    return static_cast<MouseMode>(at - names.begin());
+}
+
+std::optional<Error> no_surface(const SculptOptions& options) {
+    const std::string where = "--mouse surface";
+    if (options.activity != nullptr || options.no_workpiece || !options.world.empty() || options.scene != nullptr)
+        return Error{"follows the surface of a workpiece alone, and the session has other things to touch", where,
+                     "leave it out, and the mouse flies freely"};
+    if (!options.live.hands.empty())
+        return Error{"leads one hand, and the session has several", where, "leave it out, and the mouse flies freely"};
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(options.live.device);
+    if (!nature) return nature.error();
+    if (nature->leads_itself)
+        return Error{"leads the hand, and that of " + options.live.device + " leads itself", where,
+                     "leave --mouse out, or --device"};
+    if (nature->handle || nature->is_worn || nature->felt_by_person || nature->is_emulated || nature->parts != 1)
+        return Error{"leads a tool that nobody holds, and the device is " + options.live.device, where,
+                     "leave --device out, or --mouse"};
+    return std::nullopt;
+}
+
+Result<void> settle_mouse(SculptOptions& options) {
+    const std::optional<Error> cannot = no_surface(options);
+    if (!options.live.mouse && options.live.input.empty() && !cannot) options.live.mouse = MouseMode::surface;
+    if (options.live.mouse != MouseMode::surface) return {};
+    if (cannot) return std::unexpected(*cannot);
+    if (!options.live.device_given) options.live.device = devices::kMouseArm;
+    return {};
+}
+
+void settle_view(SculptOptions& options) {
+    const LiveOptions& live = options.live;
+    const bool has_world = !options.world.empty() || options.scene != nullptr;
+    if (has_world && live.input.empty() && live.wall.empty() && options.activity == nullptr)
+        options.live.frames_world = true;
+}
+
+void settle_room(SculptOptions& options, bool in_session) {
+    if (options.workpiece.room) return;
+    const bool adds = in_session ? options.live.input.empty()
+                                 : !options.stroke.empty() && options.tool.operation == compute::Operation::fill;
+    options.workpiece.room = adds ? sculpt::kUsualRoom : 0.0;
+}
+
+Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& given) {
+    if (given.empty()) return {};
+    live.device_given = true;
+    // A device alone may have a = in the name of its file, behind the colon.
+    const auto is_named = [](const std::string& text) { return text.find('=') < text.find(':'); };
+    if (given.size() == 1 && !is_named(given.front())) {
+        live.device = given.front();
+        return {};
+    }
+    if (given.size() > kMostHands)
+        return fail("--device", "is given " + std::to_string(given.size()) + " times",
+                    "a session has " + std::to_string(kMostHands) + " hands at most");
+    std::vector<NamedDevice> hands;
+    for (const std::string& text : given) {
+        Result<NamedDevice> named = parse_named_device(text);
+        if (!named) return std::unexpected(named.error());
+        if (std::ranges::find(hands, named->hand, &NamedDevice::hand) != hands.end())
+            return fail("--device " + text, "is a second device of one name", "give each hand a name of its own");
+        hands.push_back(std::move(*named));
+    }
+    live.device = hands.front().device;
+    live.hands = std::move(hands);
+    return {};
+}
+
+}  // namespace burin::session

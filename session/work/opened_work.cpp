@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include "session/work/opened_work.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "compute/rays/extent.hpp"
+#include "document/journal.hpp"
+#include "document/log_check.hpp"
+#include "record/store_reading.hpp"
+#include "scene/saved_objects.hpp"
+#include "sculpt/saved_changes.hpp"
+#include "sculpt/saved_solid.hpp"
+#include "session/commands/command_table.hpp"
+#include "session/hands/held_tool.hpp"
+#include "session/input/input_words.hpp"
+#include "session/options/session_settings.hpp"
+#include "session/work/opened_history.hpp"
+
+namespace burin::session {
+namespace {
+
+constexpr const char *kUnit = "unit", *kBounds = "workpiece bounds m", *kView = "view", *kSource = "source",
+                     *kSettings = "settings", *kHardness = "hardness", *kYield = "yield kPa", *kGrain = "grain mm";
+
+// Writes numbers so that they read back to the same bits.
+std::string exact(std::span<const double> numbers) {
+    std::string text;
+    for (const double number : numbers) {
+        std::array<char, 32> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+        text += (text.empty() ? "" : ",") + std::string(digits.data(), end.ptr);
+    }
+    return text;
+}
+
+// What is seen of a workpiece, and from where, lies within these by far.
+constexpr double kSmallestSeen_m = 1e-9, kLargestSeen_m = 1e9, kFarthestSeen_m = 1e12, kTurnTolerance = 1e-3;
+
+void add_to(std::string& told, const std::string& more) { told += (told.empty() ? "" : "; ") + more; }
+
+// Returns the saved view of a workpiece of this size; nothing where none was saved, or it is damaged, which is told.
+std::optional<Similarity> view_in(const document::DocumentReader& reader, double size_m, std::string& lost) {
+    if (!reader.facts().contains(kView)) return std::nullopt;
+    const auto n = sculpt::parse_numbers(reader.fact(kView), 8, kView);
+    const auto is_near = [](double at_m) { return std::abs(at_m) <= kFarthestSeen_m; };
+    const auto is_sound = [&] {
+        const double turn = glm::length(Quat((*n)[3], (*n)[4], (*n)[5], (*n)[6])), seen_m = (*n)[7] * size_m;
+        return std::ranges::all_of(std::span(*n).first(3), is_near) && std::abs(turn - 1.0) <= kTurnTolerance &&
+               seen_m >= kSmallestSeen_m && seen_m <= kLargestSeen_m;
+    };
+    if (n && is_sound()) return Similarity{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5], (*n)[6]}, (*n)[7]};
+    add_to(lost, "its view is damaged: it is seen as new work is");
+    return std::nullopt;
+}
+
+// Returns the saved bounds of the workpiece, which lie in the lattice; where they are damaged, which is told, the
+// lattice's.
+Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& lattice, std::string& lost) {
+    if (!reader.facts().contains(kBounds)) return sculpt::workpiece_bounds(lattice);
+    const auto n = sculpt::parse_numbers(reader.fact(kBounds), 6, kBounds);
+    const Box most = sculpt::lattice_bounds(lattice);
+    const auto is_sound = [&] {
+        double longest_m = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double lo = (*n)[static_cast<std::size_t>(axis)], hi = (*n)[static_cast<std::size_t>(axis) + 3];
+            if (!(most.lo[axis] <= lo && lo <= hi && hi <= most.hi[axis])) return false;
+            longest_m = std::max(longest_m, hi - lo);
+        }
+        return longest_m >= lattice.spacing_m;
+    };
+    if (n && is_sound()) return {{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+    add_to(lost, "the workpiece's bounds are damaged: those of its lattice are taken");
+    return sculpt::workpiece_bounds(lattice);
+}
+
+// Makes a change of one part again; of the solid with a history of it, where there is one.
+Result<void> apply_change(const scene::Pages& change, OpenedWork& opened, const std::string& where,
+                          compute::History* history) {
+    if (change.part == scene::kObjectsPart)
+        return opened.world ? scene::apply_change(opened.world->objects, opened.colours, change, where)
+                            : Result<void>{};
+    return opened.workpiece ? sculpt::apply_change(opened.workpiece->solid, change, where, history) : Result<void>{};
+}
+
+// Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
+Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened, compute::History* history) {
+    for (std::int64_t number = 1; number <= reader.changes(); ++number) {
+        bool is_there = false;
+        for (const document::PartPlace& part : reader.parts()) {
+            const Result<scene::Pages> change = reader.change(part, number);
+            if (!change) return std::unexpected(change.error());
+            if (change->pages.empty()) continue;
+            is_there = true;
+            if (const auto done = apply_change(*change, opened, reader.path(), history); !done) return done;
+        }
+        if (!is_there) return fail(reader.path(), "change " + std::to_string(number) + " is missing");
+        opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
+    }
+    return {};
+}
+
+// Work from a journal goes where the work went that it is of.
+void say_where_it_goes(const document::DocumentReader& reader, OpenedWork& opened) {
+    const auto& facts = reader.facts();
+    if (!facts.contains(document::kJournalNameFact)) {
+        opened.document = reader.path();
+        opened.version = reader.version();
+        return;
+    }
+    opened.journal = reader.path();
+    opened.name = reader.fact(document::kJournalNameFact);
+    opened.recovered = "what was not saved has come back from " + reader.path() +
+                       (opened.recovered.empty() ? std::string() : ": " + opened.recovered);
+    const std::string of = reader.fact(document::kJournalOfFact);
+    if (of.empty()) return;
+    opened.document = of;
+    opened.version = document::Version{reader.fact(document::kBaseIdFact), reader.number(document::kBaseSavesFact)};
+}
+
+// Takes the history of the solid that the pages hold. What is damaged and was made again is other than the strokes left
+// it: nothing leads back from there.
+void take_history(document::DocumentReader& reader, OpenedWork& opened, std::size_t undo_bytes, std::string& lost) {
+    const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
+    if (lost.empty()) {
+        opened.history = history_in(reader, *part, opened.workpiece->solid, undo_bytes, lost);
+        return;
+    }
+    opened.history.emplace(undo_bytes);
+    const auto steps = reader.steps(*part);
+    const bool had_some = !steps || (*steps && (*steps)->first <= (*steps)->last) || reader.changes() > 0;
+    if (had_some) add_to(lost, "undo goes back to this opening alone");
+}
+
+bool has_part(const document::DocumentReader& reader, std::string_view kind) {
+    return std::ranges::find(reader.parts(), kind, &document::PartPlace::kind) != reader.parts().end();
+}
+
+// Reads the solid and what led to it.
+Result<void> read_solid(document::DocumentReader& reader, std::size_t undo_bytes, OpenedWork& opened,
+                        std::string& lost) {
+    const Result<scene::Pages> pages = reader.pages_of(sculpt::kSolidPart);
+    if (!pages) return std::unexpected(pages.error());
+    Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, reader.path());
+    if (!loaded) return std::unexpected(loaded.error());
+    opened.workpiece = {.solid = std::move(loaded->solid), .report = {}};
+    lost = loaded->lost;
+    if (undo_bytes > 0) take_history(reader, opened, undo_bytes, lost);
+    return {};
+}
+
+Result<void> read_objects(document::DocumentReader& reader, OpenedWork& opened, std::string& lost) {
+    const Result<scene::Pages> pages = reader.pages_of(scene::kObjectsPart);
+    if (!pages) return std::unexpected(pages.error());
+    Result<scene::LoadedObjects> loaded = scene::load_objects(*pages, reader.path());
+    if (!loaded) return std::unexpected(loaded.error());
+    opened.world = {std::filesystem::path(reader.path()).stem().string(), std::move(loaded->objects), {}};
+    opened.colours = std::move(loaded->colours);
+    if (!loaded->lost.empty()) add_to(lost, loaded->lost);
+    return {};
+}
+
+// Says of the workpiece what the document knows of it.
+void describe_workpiece(const document::DocumentReader& reader, sculpt::LoadedWorkpiece& workpiece, std::string& lost) {
+    const std::string& path = reader.path();
+    workpiece.unit = length_unit(reader.fact(kUnit)).value_or(LengthUnit::m);
+    workpiece.bounds_object = bounds_in(reader, workpiece.solid.lattice, lost);
+    // Of what is there now; the bounds are where the view was framed.
+    const Box material = compute::material_bounds(workpiece.solid);
+    workpiece.size_m = material.empty() ? Vec3(0.0) : material.extent();
+    const std::string size = material.empty() ? "nothing is left" : in_millimetres(workpiece.size_m);
+    workpiece.size = path + ": " + size + ", saved from " + reader.fact(kSource);
+    workpiece.report = {{"source", path}, {"size", workpiece.size}, {"made_from", reader.fact(kSource)}};
+}
+
+std::string number_in(double value) { return exact(std::array{value}); }
+
+constexpr const char* kCannotBeCut = "inf";  // a hardness that no command sets
+
+// Puts what a command sets into the options; commands that set something else change nothing.
+struct IntoOptions {
+    SculptOptions& options;
+    bool keeps_tool, keeps_hardness;  // that the options have
+
+    void operator()(const SetTool& set) const {
+        if (keeps_tool) return;
+        const std::string shape = sculpt::text_of(set.tool);
+        if (const auto read = ToolMeshes().read(set.tool); read)
+            options.tool.shape = shape;
+        else  // its file lies elsewhere now; the work is no less there
+            std::fprintf(stderr, "burin: %s: its tool %s cannot be taken up, the usual one is: %s\n",
+                         document_of(options).c_str(), shape.c_str(), read.error().line().c_str());
+    }
+    void operator()(const SetOperation& set) const {
+        if (!keeps_tool) options.tool.operation = set.operation;
+    }
+    void operator()(const SetColour& set) const {
+        if (keeps_tool || !options.tool.material.empty()) return;
+        std::array<double, 3> of_255{};  // as --material has it
+        for (std::size_t k = 0; k < 3; ++k) of_255[k] = std::round(255.0 * std::clamp(set.srgb[k], 0.0, 1.0));
+        options.tool.material = exact(of_255);
+    }
+    void operator()(const SetMaterial& set) const {
+        if (!keeps_hardness) options.feel.hardness = sculpt::feel_presets()[static_cast<std::size_t>(set.preset)].name;
+    }
+    void operator()(const SetQuantity& set) const {
+        if (set.quantity == Quantity::hardness && !keeps_hardness)
+            options.feel.hardness = number_in(set.value / sculpt::kHardnessUnit_Ns_per_m3);
+        if (set.quantity == Quantity::stiffness && !options.feel.stiffness_N_per_m)
+            options.feel.stiffness_N_per_m = set.value;
+        if (set.quantity == Quantity::friction && !options.feel.friction) options.feel.friction = set.value;
+    }
+    void operator()(const SetMirror& set) const {
+        if (!options.mirror.any()) options.mirror = set.mirror;
+    }
+    void operator()(const auto&) const {}
+};
+
+// Takes what of the material's feel no command sets, where the options leave it open.
+void take_feel(const document::DocumentReader& reader, bool keeps_hardness, sculpt::FeelOptions& feel) {
+    const auto take = [&](const char* fact, std::optional<double>& into) {
+        const auto number = sculpt::parse_numbers(reader.fact(fact), 1, fact);
+        if (number && !into) into = number->front();
+    };
+    take(kGrain, feel.grain_mm);
+    if (keeps_hardness) return;
+    take(kYield, feel.yield_kPa);
+    if (reader.fact(kHardness) == kCannotBeCut) feel.hardness = kCannotBeCut;
+}
+
+std::string line_of(const SessionCommand& command) {
+    const CommandInput input = as_input(command);
+    std::string line = input.name;
+    for (const std::string& argument : input.arguments) line += " " + as_word(argument);
+    return line;
+}
+
+}  // namespace
+
+bool is_document(const sculpt::WorkpieceOptions& options) { return document::is_document_name(options.source); }
+
+std::string document_of(const SculptOptions& options) {
+    if (!options.no_workpiece && is_document(options.workpiece)) return options.workpiece.source;
+    return document::is_document_name(options.world) ? options.world : std::string();
+}
+
+Result<void> settle_document(SculptOptions& options) {
+    const std::string path = document_of(options);
+    if (path.empty() || options.scene != nullptr) return {};
+    const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    const bool has_solid = has_part(*reader, sculpt::kSolidPart), has_objects = has_part(*reader, scene::kObjectsPart);
+    if (!has_solid && !has_objects)
+        return fail(path, "holds neither a workpiece nor a world", "open it with the program that has saved it");
+    const bool brings_other = (has_objects && !options.world.empty() && options.world != path) ||
+                              (has_solid && !options.no_workpiece && options.workpiece.source != path);
+    if (brings_other)
+        return fail(path, "brings its own " + std::string(has_objects && options.world != path ? "world" : "workpiece"),
+                    "leave the other out");
+    if (has_objects) options.world = path;
+    options.no_workpiece = options.no_workpiece && !has_solid;
+    if (has_solid) options.workpiece.source = path;
+    if (!has_solid && options.workpiece.source == path) options.no_workpiece = true;
+    return {};
+}
+
+Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes) {
+    Result<document::DocumentReader> reader = document::DocumentReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    OpenedWork opened;
+    std::string lost;
+    const bool has_objects = has_part(*reader, scene::kObjectsPart);
+    const bool has_solid = has_part(*reader, sculpt::kSolidPart) || !has_objects;
+    if (has_solid)
+        if (const auto read = read_solid(*reader, undo_bytes, opened, lost); !read)
+            return std::unexpected(read.error());
+    const bool leads_back = has_solid && undo_bytes > 0 && lost.empty();
+    if (has_objects)
+        if (const auto read = read_objects(*reader, opened, lost); !read) return std::unexpected(read.error());
+    compute::History* const history = leads_back ? &*opened.history : nullptr;
+    if (const auto changed = apply_changes(*reader, opened, history); !changed) add_to(lost, changed.error().what);
+    if (history != nullptr) history->take_step(compute::HistoryStep::stroke);  // the one that was not ended
+    if (document::is_log_damaged(path))
+        add_to(lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
+    if (record::lacks_its_log(path))
+        add_to(lost, "its log " + path + "-wal is not beside it: the newest changes may be missing");
+    say_where_it_goes(*reader, opened);
+    double size_m = 1.0;
+    if (opened.workpiece) {
+        describe_workpiece(*reader, *opened.workpiece, lost);
+        size_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
+    }
+    opened.view = view_in(*reader, size_m, lost);
+    if (!lost.empty()) {
+        opened.lost = path + ": " + lost;
+        if (opened.workpiece) opened.workpiece->report["lost"] = lost;
+    }
+    for (const char* fact : {kSource, document::kSourceDigestFact, kSettings})
+        if (reader->facts().contains(fact)) opened.origin[fact] = reader->fact(fact);
+    return opened;
+}
+
+Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool, std::size_t undo_bytes) {
+    if (is_document(options)) {
+        Result<OpenedWork> opened = open_document(options.source, undo_bytes);
+        if (!opened || opened->workpiece) return opened;
+        return fail(options.source, "holds a world and no workpiece", "open it as one: burin world " + options.source);
+    }
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options, pool);
+    if (!workpiece) return std::unexpected(workpiece.error());
+    return OpenedWork{.workpiece = std::move(*workpiece), .version = {}};
+}
+
+Result<void> take_settings_of_document(SculptOptions& options) {
+    const std::string path = document_of(options);
+    if (path.empty()) return {};
+    const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    const IntoOptions into{options, !options.tool.shape.empty(),
+                           options.feel.hardness != sculpt::FeelOptions{}.hardness};
+    // A command that this program does not know is left out: what it set is not there either.
+    for (const std::string& line : reader->commands())
+        if (const Result<SessionCommand> command = parse_command_line(line)) std::visit(into, *command);
+    take_feel(*reader, into.keeps_hardness, options.feel);
+    return {};
+}
+
+std::vector<std::string> saved_commands(const SessionState& state) {
+    std::vector<SessionCommand> commands{SetTool{state.tool.shape}, SetOperation{state.tool.operation}};
+    if (state.tool.colour) {
+        SetColour colour;
+        for (std::size_t k = 0; k < 3; ++k) colour.srgb[k] = (*state.tool.colour)[k] / 255.0;
+        commands.emplace_back(colour);
+    }
+    commands.emplace_back(SetMaterial{state.feel.preset});
+    const auto add = [&](bool given, Quantity quantity) {
+        if (given) commands.emplace_back(SetQuantity{quantity, descriptor_of(quantity).value(state)});
+    };
+    add(std::isfinite(state.feel.hardness_kPa_per_mm_s.value_or(HUGE_VAL)), Quantity::hardness);
+    add(state.feel.friction.has_value(), Quantity::friction);
+    add(state.feel.stiffness_N_per_m.has_value(), Quantity::stiffness);
+    if (state.mirror.any()) commands.emplace_back(SetMirror{state.mirror});
+    std::vector<std::string> lines;
+    for (const SessionCommand& command : commands) lines.push_back(line_of(command));
+    return lines;
+}
+
+std::map<std::string, std::string> saved_facts(const SculptOptions& options, const SessionState& state,
+                                               const Box& workpiece_object) {
+    std::map<std::string, std::string> facts(options.provenance.begin(), options.provenance.end());
+    const Similarity& view = state.world_from_object;
+    facts[kUnit] = name_of(state.export_unit);
+    // Empty where there is none: a fact that is not written stays as it was.
+    const sculpt::FeelSettings& feel = state.feel;
+    facts[kHardness] = std::isinf(feel.hardness_kPa_per_mm_s.value_or(0.0)) ? kCannotBeCut : "";
+    facts[kYield] = feel.yield_kPa ? number_in(*feel.yield_kPa) : "";
+    facts[kGrain] = feel.grain_mm ? number_in(*feel.grain_mm) : "";
+    if (!workpiece_object.empty())
+        facts[kBounds] = exact(std::array{workpiece_object.lo.x, workpiece_object.lo.y, workpiece_object.lo.z,
+                                          workpiece_object.hi.x, workpiece_object.hi.y, workpiece_object.hi.z});
+    facts[kView] = exact(std::array{view.position_m.x, view.position_m.y, view.position_m.z, view.orientation.w,
+                                    view.orientation.x, view.orientation.y, view.orientation.z, view.scale});
+    if (!document_of(options).empty()) return facts;  // whose source is known already
+    facts[kSource] = options.no_workpiece ? options.world : options.workpiece.source;
+    facts[kSettings] = settings_line(options);
+    return facts;
+}
+
+}  // namespace burin::session

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// A scripted session played in this process, so that a test can do to its presenter what a graphics driver does on a
+// bad day.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "desk/present/presenter.hpp"
+#include "desk/run/session_frames.hpp"
+#include "gpu/device.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::session {
+
+// Carves from 0.3 to 0.8 s, with the panel open; photographs before, meanwhile and at the end. What is refused is said
+// on the panel, where it takes the place of what was said of a loss: else the pictures would differ by that. A device
+// is lost only where there is something to draw; so the panel has another friction to show at 0.83 s, while the hand
+// has not set out yet.
+inline const std::string kScript = R"(burin-input 1 test
+0.02 mouse 160 180
+0.04 scroll 0 15
+0.1 command radius -1
+0.2 command screenshot before.png
+0.3 button press left
+0.32 scroll 0 8
+0.4 mouse 166 182
+0.45 command radius -1
+0.5 mouse 176 186
+0.52 command screenshot carving.png
+0.6 mouse 190 190
+0.8 button release left
+0.81 command friction 0.31
+0.82 scroll 0 -14
+0.86 command radius -1
+0.9 command screenshot end.png
+0.92 command export carved.stl
+1 command quit
+)";
+
+// What may happen before each attempt to draw a frame.
+using Mishap = std::function<void(int frame, Presenter& presenter)>;
+
+struct Played {
+    int recoveries = 0;
+    Result<void> outcome;
+    std::string said;
+    std::uint64_t presented = 0;  // of the main screen, since its images were opened at last
+};
+
+// The frames of a script with its mishaps, and with some in which the output is minimised.
+class MishapFrames final : public ScriptedFrames {
+public:
+    MishapFrames(LiveSession& session, Presenter& presenter, InputSource input, const Mishap& mishap,
+                 const std::set<int>& minimised)
+        : ScriptedFrames(session, presenter, std::move(input)),
+          presenter_(presenter),
+          mishap_(mishap),
+          minimised_(minimised) {}
+
+private:
+    [[nodiscard]] std::optional<FrameInput> next_input() override {
+        const std::size_t main = session_.room().wall.main;
+        if (minimised_.contains(frame_++)) presenter_.put(main, place_);
+        const auto input = ScriptedFrames::next_input();
+        place_ = presenter_.place();
+        if (minimised_.contains(frame_)) presenter_.put(main, {});
+        return input;
+    }
+    [[nodiscard]] bool wants_picture() override {
+        if (minimised_.contains(frame_)) return false;
+        if (mishap_) mishap_(frame_, presenter_);
+        return true;
+    }
+
+    Presenter& presenter_;
+    const Mishap& mishap_;
+    const std::set<int>& minimised_;
+    int frame_ = -1;
+    wall::OutputPlace place_;  // of the main screen, when it is not minimised
+};
+
+class PlayedSession : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto devices = gpu::list_devices();
+        if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
+        setenv("BURIN_VULKAN_VALIDATION", "1", 1);
+        messages_before_ = gpu::validation_messages();
+    }
+    void TearDown() override {
+        unsetenv("BURIN_VULKAN_VALIDATION");
+        EXPECT_EQ(gpu::validation_messages(), messages_before_) << "the validation layer complained";
+    }
+
+    // As run_session(), in simulated time. Folders have one letter: their names are on the panel, and lines of one
+    // length are broken alike.
+    Played play(const std::string& folder, LiveOptions live, const Mishap& mishap = {},
+                const std::set<int>& minimised = {}, const DirectDriver& driver = direct_driver()) {
+        std::filesystem::create_directory(place / folder);
+        live.screenshots = (place / folder).string();
+        SculptOptions options;
+        options.workpiece = {"ball:0.1", 32, false};
+        options.tool.shape = "ball:0.012";
+        options.live = live;
+        std::string script = kScript;
+        script.replace(script.find("carved.stl"), 10, (place / folder).string() + "/carved.stl");
+        testing::internal::CaptureStderr();
+        Played played;
+        played.outcome = run(options, InputSource::replay(parse_input_log(script, "script").value()), mishap, minimised,
+                             driver, played);
+        played.said = testing::internal::GetCapturedStderr();
+        const std::string lost = "the graphics device was lost; starting";
+        for (std::size_t at = 0; (at = played.said.find(lost, at)) != std::string::npos; at += lost.size())
+            ++played.recoveries;
+        return played;
+    }
+
+    void expect_same(const std::string& one, const std::string& other, const std::vector<std::string>& names) {
+        for (const std::string& name : names) {
+            const std::string first = place.read(one + "/" + name);
+            ASSERT_FALSE(first.empty()) << name;
+            EXPECT_TRUE(first == place.read(other + "/" + name)) << name << " is another one";
+        }
+    }
+
+    Workplace place;
+
+private:
+    std::uint64_t messages_before_ = 0;
+
+    static Result<void> run(const SculptOptions& options, InputSource input, const Mishap& mishap,
+                            const std::set<int>& minimised, const DirectDriver& driver, Played& played) {
+        SimulatedClock clock;
+        const Result<SessionWall> wall = session_wall(options.live);
+        if (!wall) return std::unexpected(wall.error());
+        auto session = LiveSession::create(options, *wall, clock);
+        if (!session) return std::unexpected(session.error());
+        Result<Presenter> presenter = Presenter::open(options.live, *wall, driver);
+        if (!presenter) return std::unexpected(presenter.error());
+        LiveSession& s = **session;
+        MishapFrames frames(s, *presenter, std::move(input), mishap, minimised);
+        SteppedExecutor executor(clock, s.loop(), s.channels_of_parts(), s.scene(),
+                                 [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
+        const Result<void> driven = drive(executor, frames);
+        played.presented = presenter->presented();
+        return driven;
+    }
+};
+
+}  // namespace burin::session
