@@ -197,8 +197,9 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
     options.live.first_steps = !log && wall->desk && options.live.mouse == MouseMode::surface && is_first_time();
     if (log && !in_real_time) return run_in_simulated_time(options, *wall, std::move(*log));
+    const LogNeeds needs = log ? needs_of(log->events) : LogNeeds{.pictures = true, .panel = true};
     const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
-                                      {.facts = facts, .opens_before_eyes = !log});
+                                      {.facts = facts, .needs = needs, .opens_before_eyes = !log});
     return run ? Result<void>{} : std::unexpected(run.error());
 }
 

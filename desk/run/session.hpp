@@ -15,6 +15,7 @@
 #include "session/drive/tick_witness.hpp"
 #include "session/options/session_options.hpp"
 #include "session/record/input_source.hpp"
+#include "session/record/log_outputs.hpp"
 
 namespace burin::session {
 
@@ -63,7 +64,9 @@ struct RealTimeRun {
     std::optional<double>
         machine_pace{};  // haptics::WorkSettings::pace; none: it is measured before the session begins
     DirectDriver driver = direct_driver();
-    SessionFacts facts{};            // of a session file
+    SessionFacts facts{};  // of a session file
+    LogNeeds needs{.pictures = true,
+                   .panel = true};   // of the input; where nobody sees it and it needs less, there is less
     bool opens_before_eyes = false;  // a window shows the workpiece while it is made (desk/opening/)
 };
 // Returns the pace that was asked for, without rest where ticks are missed by somebody: an activity, whose clock and

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Sessions that nobody sees and that ask for no picture: they run where there is no Vulkan driver at all, and end as
+// they do where there is one and their frames are drawn.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+
+#include "gpu/device.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::session {
+namespace {
+
+// A loader that finds no driver: so does a machine without one.
+const std::string kNoDriver = "VK_DRIVER_FILES=/nonexistent.json VK_ICD_FILENAMES=/nonexistent.json ";
+
+std::string asset(const std::string& name) {
+    std::ifstream in(std::string(kSessionsFolder) + "/" + name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+std::string without_pictures(const std::string& script) {
+    return std::regex_replace(script, std::regex("[^\n]*command (screenshot|take-screenshot)[^\n]*\n"), "");
+}
+
+class Headless : public testing::Test {
+protected:
+    // Runs a command offscreen and returns its output.
+    std::string run(const std::string& environment, const std::string& command) {
+        const auto done = place.run(environment + kBurinCommand + " " + command);
+        EXPECT_EQ(done.status, 0) << done.output;
+        return done.output;
+    }
+    Workplace place;
+};
+
+TEST_F(Headless, CarvesTheSameWithoutADriver) {
+    place.write("none.txt", without_pictures(asset("first-carve.txt")));
+    place.write("some.txt", asset("first-carve.txt"));
+    const std::string sculpt = "sculpt --workpiece ball:0.1 --resolution 48 --width 320 --height 180 --offscreen ";
+    run(kNoDriver, sculpt + "--input none.txt --outputs none");
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver draws the pictures of the session to compare with";
+    run("", sculpt + "--input some.txt --outputs some");
+    ASSERT_FALSE(place.read("some/10-turned.png").empty());
+    ASSERT_FALSE(place.read("none/first-carve.stl").empty());
+    EXPECT_TRUE(place.read("none/first-carve.stl") == place.read("some/first-carve.stl"));
+}
+
+TEST_F(Headless, ExploresAWorldHoldsItWithAGloveAndPlaysAnExercise) {
+    for (const std::string& name :
+         {std::string("garden.txt"), std::string("hand-pinch.txt"), std::string("rehab-ball.txt")})
+        place.write(name, without_pictures(asset(name)));
+    const std::string worlds = std::string(kSessionsFolder) + "/../worlds/";
+    run(kNoDriver, "world " + worlds + "garden.toml --input garden.txt --offscreen --outputs g");
+    run(kNoDriver, "hand " + worlds + "hand.toml --input hand-pinch.txt --offscreen --outputs h");
+    run(kNoDriver, "rehab ball --input rehab-ball.txt --offscreen --outputs r");
+}
+
+TEST_F(Headless, IsRecordedInRealTimeAndReplayedWithoutADriver) {
+    place.write("s.txt", "burin-input 1 short\n0.1 command force on\n0.2 command radius 0.004\n0.5 command quit\n");
+    const std::string sculpt =
+        "sculpt --workpiece ball:0.1 --resolution 16 --input s.txt --offscreen --record r.session";
+    run(kNoDriver, sculpt);
+    const std::string replayed = run(kNoDriver, "sculpt --input r.session --offscreen");
+    EXPECT_NE(replayed.find("equal to the bit"), std::string::npos) << replayed;
+}
+
+TEST_F(Headless, SaysBeforeItBeginsThatAPictureNeedsADriver) {
+    place.write("s.txt", "burin-input 1 short\n0.1 command screenshot a.png\n0.2 command quit\n");
+    const auto refused =
+        place.run(kNoDriver + kBurinCommand + " sculpt --workpiece ball:0.1 --resolution 16 --input s.txt --offscreen");
+    EXPECT_EQ(refused.status, 1) << refused.output;
+    EXPECT_NE(refused.output.find("Vulkan"), std::string::npos) << refused.output;
+}
+
+}  // namespace
+}  // namespace burin::session
