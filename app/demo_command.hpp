@@ -7,7 +7,7 @@
 
 #include <memory>
 
-#include "app/command_line.hpp"
+#include "app/cli/command_line.hpp"
 #include "base/error.hpp"
 
 namespace burin::app {
