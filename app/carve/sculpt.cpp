@@ -9,7 +9,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/recordings/felt_recording.hpp"
-#include "app/recordings/world_digest.hpp"
+#include "base/file_io.hpp"
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "record/record_writer.hpp"

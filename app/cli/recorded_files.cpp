@@ -6,8 +6,9 @@
 #include <fstream>
 #include <string_view>
 
-#include "app/recordings/recorded_device.hpp"
 #include "base/json.hpp"
+#include "record/export/table_export.hpp"
+#include "record/record_reader.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/session_log.hpp"
 #include "session/state/session_settings.hpp"
@@ -60,9 +61,9 @@ std::vector<std::string> named_by_session_file(const std::string& path) {
     for (const char* beside : {"-wal", "-shm", "-journal"}) files.file(path + beside);
     const Result<record::RecordReader> reader = record::RecordReader::open(path);
     if (!reader) return files.list();
-    for (const char* fact : {"world", "workpiece", "stroke", "device"}) files.add(fact, fact_of(*reader, fact));
-    files.add_settings(live_settings_of(*reader));
-    files.add_json(Json::parse(fact_of(*reader, "settings"), nullptr, false));
+    for (const char* fact : {"world", "workpiece", "stroke", "device"}) files.add(fact, reader->fact(fact));
+    files.add_settings(session::settings_on(reader->fact(record::kLogHeaderFact)));
+    files.add_json(Json::parse(reader->fact("settings"), nullptr, false));
     return files.list();
 }
 

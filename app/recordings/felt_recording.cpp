@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/cli/temporary_folder.hpp"
-#include "app/recordings/world_digest.hpp"
+#include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "session/state/option_bounds.hpp"
 

@@ -10,10 +10,12 @@
 
 #include "activities/registry.hpp"
 #include "app/recordings/recorded_device.hpp"
-#include "app/recordings/world_digest.hpp"
+#include "base/file_io.hpp"
 #include "document/document_file.hpp"
+#include "record/motion.hpp"
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
+#include "scene/world_digest.hpp"
 #include "session/document/opened_work.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
@@ -59,11 +61,11 @@ std::optional<std::string> digest_of_world(const std::string& path, const scene:
     if (path.empty()) return {};
     if (document::is_document_name(path)) {
         const Result<session::OpenedWork> saved = session::open_document(path);
-        return saved && saved->world ? std::optional(world_digest(saved->world->objects)) : std::nullopt;
+        return saved && saved->world ? std::optional(scene::world_digest(saved->world->objects)) : std::nullopt;
     }
     // The session tells its remarks and problems.
     const scene::WorldOrProblems world = scene::read_any_world(path, reading);
-    return world ? std::optional(world_digest(world->objects)) : std::nullopt;
+    return world ? std::optional(scene::world_digest(world->objects)) : std::nullopt;
 }
 
 // A file that a recording depends on: the fact that holds its digest, what it is, and the option that names it.
@@ -78,7 +80,7 @@ struct FileOfRecording {
 Result<void> check_recorded_file(const record::RecordReader& reader, const FileOfRecording& file,
                                  const std::string& path, const std::optional<std::string>& now,
                                  const std::vector<std::string>& sets) {
-    const std::string recorded = fact_of(reader, file.fact);
+    const std::string recorded = reader.fact(file.fact);
     if (recorded.empty() || !now || *now == recorded) return {};
     const std::string what = "is another " + std::string(file.what) + " than the one that was recorded: SHA-256 " +
                              *now + ", recorded: " + recorded;
@@ -139,7 +141,7 @@ Result<std::string> with_changes(std::string settings, const LiveReplay& how, co
 Result<void> check_files(const record::RecordReader& reader, const session::SculptOptions& own,
                          const std::string& first_device, const std::vector<std::string>& sets) {
     const std::string tool = tool_file_of(own), &workpiece = own.workpiece.source, &device = own.live.device;
-    if (const auto same = check_recorded_file(reader, {kWorldDigestFact, "world", "world"}, own.world,
+    if (const auto same = check_recorded_file(reader, {record::kWorldDigestFact, "world", "world"}, own.world,
                                               digest_of_world(own.world, own.world_reading), sets);
         !same)
         return same;
@@ -192,8 +194,7 @@ Result<void> check_changes(const LiveReplay& how, const session::SculptOptions& 
 Result<session::MadeActivity> activity_of(const record::RecordReader& reader, const std::string& settings_line) {
     const Result<std::string> settings = session::activity_on(settings_line);
     if (!settings) return std::unexpected(settings.error());
-    auto made = activities::activity_as_recorded(
-        *settings, [&](const std::string& name) { return fact_of(reader, name.c_str()); });
+    auto made = activities::activity_as_recorded(*settings, [&](const std::string& name) { return reader.fact(name); });
     if (!made && made.error().where == "the recording")
         return fail(reader.path(), made.error().what, made.error().remedy);
     return made;
@@ -213,7 +214,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     const auto add = [&](const char* fact, const std::optional<std::string>& digest) {
         if (digest) facts.emplace_back(fact, *digest);
     };
-    add(kWorldDigestFact, digest_of_world(options.world, options.world_reading));
+    add(record::kWorldDigestFact, digest_of_world(options.world, options.world_reading));
     if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
     std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <string_view>
 
-#include "app/recordings/world_digest.hpp"
-#include "app/world/world_wand.hpp"
+#include "app/recordings/wand_stroke.hpp"
 #include "base/file_io.hpp"
 #include "base/sha256.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
+#include "record/motion.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/state/session_settings.hpp"
@@ -27,13 +27,13 @@ struct DeviceWords {
 };
 
 Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
-    const std::string activity = fact_of(reader, session::kActivityFact);
+    const std::string activity = reader.fact(session::kActivityFact);
     if (activity == kWandActivity) {
         const Result<WorldExploration> stroke = recorded_wand_stroke(reader);
         if (!stroke) return std::unexpected(stroke.error());
         return DeviceWords{stroke->device, stroke->points};
     }
-    if (const std::string points = fact_of(reader, record::kWandPointsFact); !points.empty())
+    if (const std::string points = reader.fact(record::kWandPointsFact); !points.empty())
         return DeviceWords{std::string(devices::kSimulatedWand), points};
     if (activity != session::kLiveActivity) return DeviceWords{};
     const std::string settings = live_settings_of(reader);
@@ -53,8 +53,8 @@ Result<devices::WandDescription> described_now(const std::string& device) {
 
 Result<devices::WandDescription> recorded_wand(const record::RecordReader& reader, const std::string& device) {
     const std::string file = wand_file_of(device);
-    const std::string digest = fact_of(reader, record::kWandDigestFact);
-    if (const std::string text = fact_of(reader, record::kWandTextFact); !text.empty()) {
+    const std::string digest = reader.fact(record::kWandDigestFact);
+    if (const std::string text = reader.fact(record::kWandTextFact); !text.empty()) {
         if (sha256(text) != digest)
             return fail(reader.path(), "holds another description of its wand than its digest says",
                         "read it from an unchanged copy of the recording");
@@ -72,11 +72,6 @@ Result<devices::WandDescription> recorded_wand(const record::RecordReader& reade
 
 }  // namespace
 
-std::string fact_of(const record::RecordReader& reader, const char* key) {
-    const auto at = reader.facts().find(key);
-    return at == reader.facts().end() ? std::string() : at->second;
-}
-
 std::string wand_file_of(const std::string& device) { return devices::handle_file_of(device); }
 
 std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::string& device) {
@@ -89,7 +84,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::s
 }
 
 Result<void> check_wand_file(const record::RecordReader& reader, const std::string& device, const std::string& remedy) {
-    const std::string file = wand_file_of(device), recorded = fact_of(reader, record::kWandDigestFact);
+    const std::string file = wand_file_of(device), recorded = reader.fact(record::kWandDigestFact);
     if (file.empty() || recorded.empty()) return {};
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
@@ -102,7 +97,7 @@ Result<void> check_wand_file(const record::RecordReader& reader, const std::stri
 }
 
 std::string live_settings_of(const record::RecordReader& reader) {
-    return session::settings_on(fact_of(reader, record::kLogHeaderFact));
+    return session::settings_on(reader.fact(record::kLogHeaderFact));
 }
 
 Result<activities::RecordedDevice> recorded_device(const record::RecordReader& reader) {
@@ -113,7 +108,7 @@ Result<activities::RecordedDevice> recorded_device(const record::RecordReader& r
     Result<devices::WandDescription> wand = recorded_wand(reader, words->device);
     if (!wand) return std::unexpected(wand.error());
     recorded.wand = std::move(*wand);
-    const bool is_stroke = fact_of(reader, session::kActivityFact) == kWandActivity;
+    const bool is_stroke = reader.fact(session::kActivityFact) == kWandActivity;
     if (words->points.empty() && !is_stroke) return recorded;
     Result<std::vector<devices::WandPoint>> points = devices::points_named(
         *recorded.wand, words->points.empty() ? devices::usual_points(*recorded.wand) : words->points);

@@ -12,9 +12,6 @@
 
 namespace burin::app {
 
-// Returns what a recording says of itself under this key; empty where it says nothing.
-[[nodiscard]] std::string fact_of(const record::RecordReader& reader, const char* key);
-
 // Returns the facts that describe a wand (record/motion.hpp); none where the device is no wand that a file describes,
 // or the file cannot be read.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::string& device);

@@ -13,10 +13,9 @@
 #include "app/recordings/live_replay.hpp"
 #include "app/recordings/recorded_device.hpp"
 #include "app/recordings/replay_through.hpp"
-#include "app/recordings/world_digest.hpp"
-#include "app/world/world_explore.hpp"
-#include "app/world/world_wand.hpp"
+#include "app/recordings/wand_stroke.hpp"
 #include "record/examination.hpp"
+#include "record/motion.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/session_recording.hpp"
@@ -27,7 +26,7 @@ namespace {
 
 // Exact again is only what the same program computes: another one adds up in another order.
 Result<void> check_build(const record::RecordReader& reader) {
-    const std::string version = fact_of(reader, "version"), compiler = fact_of(reader, "compiler");
+    const std::string version = reader.fact("version"), compiler = reader.fact("compiler");
     if (version == BURIN_VERSION && compiler == __VERSION__) return {};
     const std::string by = version.empty() ? "a program that did not name itself"
                                            : "Burin " + version + ", compiler " + (compiler.empty() ? "?" : compiler);
@@ -40,13 +39,13 @@ Result<void> check_build(const record::RecordReader& reader) {
 
 Result<record::Comparison> replay_world(record::RecordReader& reader, const std::string& given,
                                         const record::TickRange& range) {
-    const std::string path = given.empty() ? fact_of(reader, "world") : given;
+    const std::string path = given.empty() ? reader.fact("world") : given;
     if (path.empty()) return fail(reader.path(), "does not name its world", "name it by --world FILE");
     if (std::error_code ignored; !std::filesystem::exists(path, ignored))
         return fail(path, "is the world of the recording, and is not there", "say where it is now by --world FILE");
     Result<std::unique_ptr<OpenedWorld>> world = open_world(path, {});
     if (!world) return std::unexpected(world.error());
-    const std::string recorded = fact_of(reader, kWorldDigestFact);
+    const std::string recorded = reader.fact(record::kWorldDigestFact);
     if ((*world)->digest != recorded)
         return fail(path,
                     "is another world than the one that was recorded: SHA-256 " + (*world)->digest +
@@ -108,7 +107,7 @@ Result<void> ReplayCommand::Options::replay() const {
     Result<record::RecordReader> reader = record::RecordReader::open(file);
     if (!reader) return std::unexpected(reader.error());
     if (const auto some = record::check_ticks(*reader, range()); !some) return some;
-    const std::string activity = fact_of(*reader, activities::kActivityFact);
+    const std::string activity = reader->fact(activities::kActivityFact);
     if (activity == session::kLiveActivity) return replay_session(*reader);
     std::optional<sculpt::EngineChoice> engine;
     if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=cpu"}) engine = sculpt::EngineChoice::cpu;

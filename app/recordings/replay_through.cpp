@@ -13,11 +13,12 @@
 #include "app/recordings/felt_recording.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "app/recordings/recorded_device.hpp"
-#include "app/recordings/world_digest.hpp"
-#include "app/world/world_wand.hpp"
+#include "app/recordings/wand_stroke.hpp"
 #include "base/text.hpp"
 #include "record/derived.hpp"
 #include "record/examination.hpp"
+#include "record/motion.hpp"
+#include "scene/world_digest.hpp"
 #include "session/live/world_side.hpp"
 #include "session/record/session_recording.hpp"
 
@@ -159,7 +160,7 @@ Json through_json(const activities::ThroughFigures& f, bool has_torque) {
 
 // Returns the radius of the balls that touched.
 Result<double> recorded_radius_m(const record::RecordReader& reader) {
-    const std::string activity = fact_of(reader, activities::kActivityFact);
+    const std::string activity = reader.fact(activities::kActivityFact);
     std::optional<double> ball_m;
     if (activity == activities::kWorldActivity) {
         const auto own = activities::recorded_settings(reader);
@@ -170,7 +171,7 @@ Result<double> recorded_radius_m(const record::RecordReader& reader) {
         if (!stroke) return std::unexpected(stroke.error());
         ball_m = stroke->radius_m;
     } else if (activity == kFeltActivity) {
-        ball_m = felt_ball_radius_m(fact_of(reader, activities::kSettingsFact));
+        ball_m = felt_ball_radius_m(reader.fact(activities::kSettingsFact));
     } else if (activity == session::kLiveActivity) {
         ball_m = live_ball_radius_m(reader);
     }
@@ -198,7 +199,8 @@ record::DerivedTable table_of(const ThroughOptions& options, const OpenedWorld& 
     const record::TickRange all;
     if (options.range.from != all.from) table.name += ", from tick " + std::to_string(options.range.from);
     if (options.range.to != all.to) table.name += ", to tick " + std::to_string(options.range.to);
-    Json settings{{"world", options.world}, {kWorldDigestFact, world.digest}, {"tool_radius_m", probe.radius_m}};
+    Json settings{
+        {"world", options.world}, {record::kWorldDigestFact, world.digest}, {"tool_radius_m", probe.radius_m}};
     settings["materials_changed"] = options.materials.is_any();
     settings["device"] = probe.device.wand ? probe.device.wand->name : std::string();
     settings["points"] = Json::array();
@@ -218,7 +220,7 @@ Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path, const M
         opened->ids.push_back(object.id);
         opened->objects.push_back({static_cast<std::int64_t>(object.id), object.name});
     }
-    opened->digest = world_digest(world->objects);
+    opened->digest = scene::world_digest(world->objects);
     auto part = scene::MeshPart::create(std::move(world->objects), opened->materials);
     if (!part) return std::unexpected(part.error());
     opened->part = std::move(*part);

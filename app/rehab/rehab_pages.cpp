@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using activities::KeptRun;
 using activities::PageTexts;
 
-constexpr const char* kProgram = "Burin " BURIN_VERSION;
+constexpr const char* kPagesProgram = "Burin " BURIN_VERSION;
 constexpr std::size_t kMostComment = 500;
 
 std::string page_of_participant(unsigned participant) {
@@ -39,7 +39,7 @@ Result<void> write_of_participant(const fs::path& folder, const std::vector<cons
     const Result<PageTexts> texts = PageTexts::in(language.empty() ? activities::language_of(runs) : language);
     if (!texts) return std::unexpected(texts.error());
     const fs::path page = folder / page_of_participant(runs.front()->participant);
-    const std::string html = activities::patient_page(runs, activities::levels_of, *texts, kProgram);
+    const std::string html = activities::patient_page(runs, activities::levels_of, *texts, kPagesProgram);
     if (const auto written = activities::write_private(page, html); !written) return written;
     return activities::write_private(fs::path(page).replace_extension(".csv"), activities::patient_table(runs));
 }
@@ -93,7 +93,7 @@ Result<std::string> write_pages(const PagesToWrite& pages) {
         if (const auto written = write_of_participant(pages.folder, runs, pages.language); !written)
             return std::unexpected(written.error());
     const std::string index = pages.index.empty() ? (fs::path(pages.folder) / "report.html").string() : pages.index;
-    const std::string html = activities::index_page(*kept, *withdrawn, kProgram, page_of_participant);
+    const std::string html = activities::index_page(*kept, *withdrawn, kPagesProgram, page_of_participant);
     if (const auto written = activities::write_private(index, html); !written) return std::unexpected(written.error());
     return index;
 }

@@ -12,14 +12,16 @@
 #include "activities/world/world_plot.hpp"
 #include "activities/world/world_view.hpp"
 #include "app/cli/output_files.hpp"
-#include "app/recordings/world_digest.hpp"
 #include "app/world/rendered_report.hpp"
+#include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "gpu/device.hpp"
+#include "record/motion.hpp"
 #include "record/record_writer.hpp"
 #include "renderer/frame/renderer.hpp"
 #include "renderer/png.hpp"
+#include "scene/world_digest.hpp"
 #include "session/live/world_side.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/input_files.hpp"
@@ -143,16 +145,17 @@ Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const Wo
     const auto world_file = file_digest(options.world), stroke_file = file_digest(options.stroke);
     if (!world_file) return std::unexpected(world_file.error());
     if (!stroke_file) return std::unexpected(stroke_file.error());
-    return std::vector<std::pair<std::string, std::string>>{{"program", "burin"},
-                                                            {"version", BURIN_VERSION},
-                                                            {"compiler", __VERSION__},
-                                                            {"command", "world --stroke"},
-                                                            {"world", options.world},
-                                                            {"world file sha256", *world_file},
-                                                            {kWorldDigestFact, world_digest(world.objects)},
-                                                            {"stroke", options.stroke},
-                                                            {"stroke sha256", *stroke_file},
-                                                            {"time", "simulated"}};
+    return std::vector<std::pair<std::string, std::string>>{
+        {"program", "burin"},
+        {"version", BURIN_VERSION},
+        {"compiler", __VERSION__},
+        {"command", "world --stroke"},
+        {"world", options.world},
+        {"world file sha256", *world_file},
+        {record::kWorldDigestFact, scene::world_digest(world.objects)},
+        {"stroke", options.stroke},
+        {"stroke sha256", *stroke_file},
+        {"time", "simulated"}};
 }
 
 }  // namespace

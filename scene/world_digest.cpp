@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/recordings/world_digest.hpp"
+#include "scene/world_digest.hpp"
 
 #include <map>
 
-#include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "base/sha256.hpp"
 
-namespace burin::app {
+namespace burin::scene {
 namespace {
 
 template <typename T>
@@ -21,17 +20,17 @@ std::string mesh_digest(const geometry::TriangleMesh& mesh) {
     return sha256(bytes_of(mesh.positions_m)) + sha256(bytes_of(mesh.triangles));
 }
 
-Json pose_json(const Pose& pose) {
+Json digested_pose(const Pose& pose) {
     const Vec3& p = pose.position_m;
     const Quat& q = pose.orientation;
     return Json::array({p.x, p.y, p.z, q.x, q.y, q.z, q.w});
 }
 
-Json motion_json(const scene::ObjectMotion& motion) {
-    const auto* path = std::get_if<scene::PathMotion>(&motion);
+Json digested_motion(const ObjectMotion& motion) {
+    const auto* path = std::get_if<PathMotion>(&motion);
     if (path == nullptr) return Json(motion.index());  // a world's file has no hands that hold something
     Json keys = Json::array();
-    for (const scene::PathKey& key : path->keys) keys.push_back({key.time_s, pose_json(key.pose)});
+    for (const PathKey& key : path->keys) keys.push_back({key.time_s, digested_pose(key.pose)});
     Json json{{"keys", keys}, {"repeats", path->repeats}};
     if (path->about_m != Vec3(0.0)) json["about"] = Json::array({path->about_m.x, path->about_m.y, path->about_m.z});
     return json;
@@ -39,25 +38,25 @@ Json motion_json(const scene::ObjectMotion& motion) {
 
 }  // namespace
 
-std::string world_digest(std::span<const scene::SceneObject> objects) {
+std::string world_digest(std::span<const SceneObject> objects) {
     std::map<const geometry::TriangleMesh*, std::string> meshes;
     std::string all;
-    for (const scene::SceneObject& object : objects) {
+    for (const SceneObject& object : objects) {
         std::string& mesh = meshes[object.mesh.get()];
         if (mesh.empty() && object.mesh) mesh = mesh_digest(*object.mesh);
-        const scene::HapticMaterial& m = object.material;
+        const HapticMaterial& m = object.material;
         Json json{
             {"id", object.id},
             {"name", object.name},
             {"mesh", mesh},
-            {"pose", pose_json(object.pose)},
+            {"pose", digested_pose(object.pose)},
             {"scale", object.scale},
             {"seen", object.seen},
             {"felt", object.felt},
             {"colour", object.colour},
             {"material", Json::array({m.stiffness_N_per_m, m.damping_Ns_per_m, m.static_friction, m.dynamic_friction})},
             {"both_sides", object.both_sides},
-            {"motion", motion_json(object.motion)}};
+            {"motion", digested_motion(object.motion)}};
         if (m.coulomb_velocity_m_per_s != 0.0) json["material"].push_back(m.coulomb_velocity_m_per_s);
         if (object.opacity != 1.0) json["opacity"] = object.opacity;  // recordings from before there was any stay equal
         all += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -65,10 +64,4 @@ std::string world_digest(std::span<const scene::SceneObject> objects) {
     return sha256(all);
 }
 
-Result<std::string> file_digest(const std::string& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path);
-    if (!bytes) return std::unexpected(bytes.error());
-    return sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-}
-
-}  // namespace burin::app
+}  // namespace burin::scene
