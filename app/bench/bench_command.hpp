@@ -11,32 +11,25 @@
 //   burin bench world      from a VRML world's text to its triangles, beside Coin
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "app/cli/commands.hpp"
+#include "app/cli/command_table.hpp"
 
 namespace burin::app {
 
-class BenchCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit BenchCommand(Command app);
-    ~BenchCommand();
-    BenchCommand(const BenchCommand&) = delete;
-    BenchCommand& operator=(const BenchCommand&) = delete;
+[[nodiscard]] CommandRow bench_row();
 
-    [[nodiscard]] bool parsed() const;
-    // What was asked for. Places for output are looked at before the first long step.
-    [[nodiscard]] Result<void> run() const;
+// ---- Its commands. Places for output are looked at before the first long step.
 
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_;
-    Command stroke_;
-    Command pareto_;
-    std::vector<BenchSubcommand> others_;
-};
+[[nodiscard]] CommandRow bench_stroke_row();     // bench/stroke/stroke_report.hpp
+[[nodiscard]] CommandRow bench_pareto_row();     // bench/stroke/pareto.hpp
+[[nodiscard]] CommandRow bench_frame_row();      // bench/frame/frame.hpp
+[[nodiscard]] CommandRow bench_haptics_row();    // bench/haptics/haptics.hpp
+[[nodiscard]] CommandRow bench_record_row();     // bench/recording/recording.hpp
+[[nodiscard]] CommandRow bench_document_row();   // bench/document/document_bench.hpp
+[[nodiscard]] CommandRow bench_study_row();      // activities/train/simulated_study.hpp
+[[nodiscard]] CommandRow bench_stability_row();  // bench/stability/stability.hpp
+[[nodiscard]] CommandRow bench_glove_row();      // bench/glove/glove_output.hpp
+[[nodiscard]] CommandRow bench_workspace_row();  // bench/workspace/workspace.hpp
+[[nodiscard]] CommandRow bench_body_row();       // bench/body/body_bench.hpp
+[[nodiscard]] CommandRow bench_world_row();      // bench/world/world_bench.hpp
 
 }  // namespace burin::app

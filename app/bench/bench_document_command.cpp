@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "bench/document/document_bench.hpp"
 #include "compute/rays/lattice.hpp"
@@ -25,10 +25,7 @@ Result<void> run_document_bench(const DocumentBench& options) {
     return write_output(options.json, json_text(bench::document_json(*figures)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_document(Command bench) {
-    Command command = bench.subcommand("document", "What it costs to keep the work: journal, save, open, size");
+CommandAction add_document_bench(Command command) {
     const auto options = std::make_shared<DocumentBench>();
     std::error_code ignored;
     bench::DocumentTask& task = options->task;
@@ -50,7 +47,13 @@ BenchSubcommand add_bench_document(Command bench) {
         .show_default();
     command.option("--folder", task.folder, "Where documents are written: the disk that is measured").show_default();
     command.option("--json", options->json, "A file for the figures; - for standard output");
-    return {command, [options] { return run_document_bench(*options); }};
+    return action([options] { return run_document_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_document_row() {
+    return {"document", "What it costs to keep the work: journal, save, open, size", add_document_bench};
 }
 
 }  // namespace burin::app

@@ -7,7 +7,7 @@
 #include <memory>
 #include <sstream>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "bench/frame/frame.hpp"
 #include "bench/frame/frame_peers.hpp"
@@ -94,11 +94,7 @@ Result<void> run_frame_bench(const FrameBench& options) {
     return write_output(options.json, json_text(json));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_frame(Command bench) {
-    Command command =
-        bench.subcommand("frame", "Stereo frames off screen: their cost, beside OpenSceneGraph's and VTK's");
+CommandAction add_frame_bench(Command command) {
     const auto options = std::make_shared<FrameBench>();
     command.option("--triangles", options->frame.triangles, "How many the surface has, about")
         .within(std::size_t{1'000}, std::size_t{10'000'000})
@@ -127,7 +123,13 @@ BenchSubcommand add_bench_frame(Command bench) {
     command.option("--ratios", options->ratios,
                    "A file that the ratios to the peers are added to, for medians of many runs");
     command.option("--json", options->json, "A file for every figure; - for standard output");
-    return {command, [options] { return run_frame_bench(*options); }};
+    return action([options] { return run_frame_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_frame_row() {
+    return {"frame", "Stereo frames off screen: their cost, beside OpenSceneGraph's and VTK's", add_frame_bench};
 }
 
 }  // namespace burin::app

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "activities/grasp/grasp_options.hpp"
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/assets.hpp"
 #include "bench/glove/glove_output.hpp"
@@ -84,18 +84,21 @@ Result<void> run_glove_bench(const GloveBench& options) {
     return write_output(options.json, json_text(bench::glove_json(figures)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_glove(Command bench) {
-    Command command = bench.subcommand(
-        "glove", "What a few points feel of a fingertip, and what a serial line does to a glove's force");
+CommandAction add_glove_bench(Command command) {
     const auto options = std::make_shared<GloveBench>();
     command.option("--hand", options->hand, "A skinned hand, as assets/hands/README.md describes").show_default();
     command.flag("--without-line", options->without_line,
                  "Leave out what runs on the emulated glove's line in real time, about a minute");
     command.option("--svg", options->svg, "A file for the figure; - for standard output");
     command.option("--json", options->json, "A file for all figures; - for standard output");
-    return {command, [options] { return run_glove_bench(*options); }};
+    return action([options] { return run_glove_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_glove_row() {
+    return {"glove", "What a few points feel of a fingertip, and what a serial line does to a glove's force",
+            add_glove_bench};
 }
 
 }  // namespace burin::app

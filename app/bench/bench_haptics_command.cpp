@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/file_io.hpp"
 #include "bench/haptics/groove_figure.hpp"
@@ -76,12 +76,7 @@ Result<void> run_haptics_bench(const HapticsBench& options) {
     return write_output(options.json, json_text(bench::haptics_json(*all)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_haptics(Command bench) {
-    Command command = bench.subcommand(
-        "haptics",
-        "Ticks of the haptic loop: their cost, parts, the proxy's error, lost contact, edits, the force's jumps");
+CommandAction add_haptics_bench(Command command) {
     const auto options = std::make_shared<HapticsBench>();
     command.flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
     command.option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")
@@ -98,7 +93,15 @@ BenchSubcommand add_bench_haptics(Command bench) {
                    "A folder for sinking.svg, lifted.svg and groove.csv of a tool in its groove, and nothing else");
     command.option("--before", options->before, "With --groove: another version's groove.csv, to be drawn beside");
     command.option("--json", options->json, "A file for every figure; - for standard output");
-    return {command, [options] { return run_haptics_bench(*options); }};
+    return action([options] { return run_haptics_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_haptics_row() {
+    return {"haptics",
+            "Ticks of the haptic loop: their cost, parts, the proxy's error, lost contact, edits, the force's jumps",
+            add_haptics_bench};
 }
 
 }  // namespace burin::app

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "bench/recording/recording.hpp"
 
@@ -23,10 +23,7 @@ Result<void> run_record_bench(const RecordBench& options) {
     return write_output(options.json, json_text(bench::recording_json(*figures)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_record(Command bench) {
-    Command command = bench.subcommand("record", "What it costs to keep every tick: size, blocks, transactions, tick");
+CommandAction add_record_bench(Command command) {
     const auto options = std::make_shared<RecordBench>();
     std::error_code ignored;
     options->task.folder = std::filesystem::temp_directory_path(ignored).string();
@@ -38,7 +35,13 @@ BenchSubcommand add_bench_record(Command bench) {
     command.option("--folder", options->task.folder, "Where they are recorded: the disk that is measured")
         .show_default();
     command.option("--json", options->json, "A file for the figures; - for standard output");
-    return {command, [options] { return run_record_bench(*options); }};
+    return action([options] { return run_record_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_record_row() {
+    return {"record", "What it costs to keep every tick: size, blocks, transactions, tick", add_record_bench};
 }
 
 }  // namespace burin::app

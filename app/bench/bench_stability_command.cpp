@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "bench/stability/stability.hpp"
 
@@ -29,19 +29,22 @@ Result<void> run_stability_bench(const StabilityBench& options) {
     return write_output(options.json, json_text(bench::stability_json(stability)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_stability(Command bench) {
-    Command command = bench.subcommand(
-        "stability",
-        "How stiff a wall may be before a simulated device shakes, over rate, delay, filter and controller");
+CommandAction add_stability_bench(Command command) {
     const auto options = std::make_shared<StabilityBench>();
     command.flag("--quick", options->quick, "A few points of each table");
     command.option("--csv", options->csv, "A file for the figures; - for standard output");
     command.option("--svg", options->svg, "A file for the plots of the largest stable stiffness");
     command.option("--figure7-svg", options->figure7_svg, "A file for the force over time with and without a filter");
     command.option("--json", options->json, "A file for every figure; - for standard output");
-    return {command, [options] { return run_stability_bench(*options); }};
+    return action([options] { return run_stability_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_stability_row() {
+    return {"stability",
+            "How stiff a wall may be before a simulated device shakes, over rate, delay, filter and controller",
+            add_stability_bench};
 }
 
 }  // namespace burin::app

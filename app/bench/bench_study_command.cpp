@@ -10,7 +10,7 @@
 
 #include "activities/train/simulated_stage.hpp"
 #include "activities/train/simulated_study.hpp"
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/study/study_command.hpp"
 #include "base/file_io.hpp"
@@ -173,10 +173,7 @@ Result<void> run_study_bench(const StudyBench& options) {
     return write_output(options.json, json_text(json));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_study(Command bench) {
-    Command command = bench.subcommand("study", "A whole simulated study: against real time, recorded and replayed");
+CommandAction add_study_bench(Command command) {
     const auto options = std::make_shared<StudyBench>();
     std::error_code ignored;
     options->folder = fs::temp_directory_path(ignored).string();
@@ -186,7 +183,13 @@ BenchSubcommand add_bench_study(Command bench) {
     command.option("--folder", options->folder, "Where it is recorded: the disk that is measured").show_default();
     command.option("--seed", options->seed, "Of allocation and learners").show_default();
     command.option("--json", options->json, "A file for the figures; - for standard output");
-    return {command, [options] { return run_study_bench(*options); }};
+    return action([options] { return run_study_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_study_row() {
+    return {"study", "A whole simulated study: against real time, recorded and replayed", add_study_bench};
 }
 
 }  // namespace burin::app

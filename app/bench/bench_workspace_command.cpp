@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "bench/workspace/workspace.hpp"
 
@@ -30,11 +30,7 @@ Result<void> run_workspace_bench(const WorkspaceBench& options) {
     return write_output(options.json, json_text(bench::workspace_json(figures, options.task)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_workspace(Command bench) {
-    Command command =
-        bench.subcommand("workspace", "Reach across the wall with a small device, by each workspace technique");
+CommandAction add_workspace_bench(Command command) {
     const auto options = std::make_shared<WorkspaceBench>();
     command.option("--targets", options->task.targets, "How many targets each technique reaches for")
         .within(1, 10'000)
@@ -43,7 +39,13 @@ BenchSubcommand add_bench_workspace(Command bench) {
     command.option("--csv", options->csv, "A file for the table; - for standard output");
     command.option("--svg", options->svg, "A file for the figure");
     command.option("--json", options->json, "A file for the figures of every target; - for standard output");
-    return {command, [options] { return run_workspace_bench(*options); }};
+    return action([options] { return run_workspace_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_workspace_row() {
+    return {"workspace", "Reach across the wall with a small device, by each workspace technique", add_workspace_bench};
 }
 
 }  // namespace burin::app

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/cli/commands.hpp"
+#include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "bench/world/world_bench.hpp"
 #include "session/record/input_files.hpp"
@@ -30,10 +30,7 @@ Result<void> run_world_bench(const WorldBench& options) {
     return write_output(options.json, json_text(bench::world_bench_json(*figures)));
 }
 
-}  // namespace
-
-BenchSubcommand add_bench_world(Command bench) {
-    Command command = bench.subcommand("world", "From a VRML world's text to its triangles, beside Coin");
+CommandAction add_world_bench(Command command) {
     const auto options = std::make_shared<WorldBench>();
     std::error_code ignored;
     options->task.folder = std::filesystem::temp_directory_path(ignored).string();
@@ -46,7 +43,13 @@ BenchSubcommand add_bench_world(Command bench) {
     command.option("--folder", options->task.folder, "Where the made world is written for Coin").show_default();
     command.flag("--without-coin", options->without_coin, "Read it without Coin");
     command.option("--json", options->json, "A file for the figures; - for standard output");
-    return {command, [options] { return run_world_bench(*options); }};
+    return action([options] { return run_world_bench(*options); });
+}
+
+}  // namespace
+
+CommandRow bench_world_row() {
+    return {"world", "From a VRML world's text to its triangles, beside Coin", add_world_bench};
 }
 
 }  // namespace burin::app

@@ -4,34 +4,18 @@
 //   burin profile [--input LOG] [--window] [--driver-threads 0,1,2] [--json OUT]
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/cli/command_line.hpp"
+#include "app/cli/command_table.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "session/timing/session_times.hpp"
 
 namespace burin::app {
 
-class ProfileCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit ProfileCommand(Command app);
-    ~ProfileCommand();
-    ProfileCommand(const ProfileCommand&) = delete;
-    ProfileCommand& operator=(const ProfileCommand&) = delete;
-
-    [[nodiscard]] bool parsed() const;
-    [[nodiscard]] Result<void> run() const;
-
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_;
-};
+[[nodiscard]] CommandRow profile_row();
 
 // ---- Figures (profile_report.cpp)
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include "app/bench/profile.hpp"
 #include "app/cli/live_options.hpp"
@@ -14,14 +15,14 @@
 
 namespace burin::app {
 
-struct ProfileCommand::Options {
+namespace {
+
+struct ProfileOptions {
     session::SculptOptions sculpt;
     bool window = false, simulated_hand = false;
     std::string driver_threads;  // "0,1,2"; empty: one run with as many as a live session has
     std::string json;
 };
-
-namespace {
 
 constexpr unsigned kMostDriverThreads = 32;
 
@@ -62,60 +63,7 @@ Result<std::vector<std::optional<unsigned>>> parse_driver_threads(const std::str
     }
 }
 
-}  // namespace
-
-ProfileCommand::ProfileCommand(Command app)
-    : options_(std::make_unique<Options>()),
-      command_(app.subcommand("profile", "Time the frames and ticks of a session that a log leads")) {
-    Options& o = *options_;
-    o.sculpt = first_carve();
-    session::SculptOptions& s = o.sculpt;
-    command_.option("--input", s.live.input, "A recorded or written log of a session's input; it leaves no files")
-        .asset(AssetRoom::sessions)
-        .show_default();
-    command_.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
-    command_.flag("--simulated-hand", o.simulated_hand,
-                  "Ticks as a session without a device has them, which may rest; else as a device's user needs them");
-    command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it")
-        .asset(AssetRoom::workpieces)
-        .show_default();
-    command_.option("--world", s.world, "A world, as burin world has it, in the workpiece's place")
-        .asset(AssetRoom::worlds);
-    command_.option("--tool", s.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
-    command_.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
-    command_.option("--weld", s.workpiece.weld_m, "As burin sculpt has it");
-    command_.unit("--units", s.workpiece.units, "As burin sculpt has it");
-    command_.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
-        .within(compute::kMinResolution, compute::kMaxResolution)
-        .show_default();
-    command_.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
-    command_.option("--wall", s.live.wall, "A wall file: all its screens").asset(AssetRoom::walls);
-    command_.flag("--windowed", s.live.windowed, "With --wall and --window: its screens in windows on the desktop");
-    command_.option("--width", s.live.width, "Of the picture, in pixels")
-        .within(session::kPictureBounds)
-        .show_default();
-    command_.option("--height", s.live.height, "Of the picture, in pixels")
-        .within(session::kPictureBounds)
-        .show_default();
-    command_.option("--samples", s.live.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
-        .one_of(session::kSampleCounts)
-        .show_default();
-    add_mouse_option(command_, s.live);
-    add_detail_option(command_, s.live);
-    add_shadows_option(command_, s.live);
-    add_engine_option(command_, s.engine);
-    command_.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
-    command_.option("--driver-threads", o.driver_threads,
-                    "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");
-    command_.option("--json", o.json, "A file for all figures; - for standard output");
-}
-
-ProfileCommand::~ProfileCommand() = default;
-
-bool ProfileCommand::parsed() const { return command_.parsed(); }
-
-Result<void> ProfileCommand::run() const {
-    const Options& o = *options_;
+Result<void> profile(const ProfileOptions& o) {
     if (const auto ok = check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()); !ok) return ok;
     session::SculptOptions options = o.sculpt;
     options.live.offscreen = !o.window;
@@ -134,5 +82,53 @@ Result<void> ProfileCommand::run() const {
     if (options.no_workpiece) all["workpiece"] = options.world;
     return write_output(o.json, json_text(all));
 }
+
+CommandAction add_profile(Command command) {
+    const auto options = std::make_shared<ProfileOptions>();
+    ProfileOptions& o = *options;
+    o.sculpt = first_carve();
+    session::SculptOptions& s = o.sculpt;
+    command.option("--input", s.live.input, "A recorded or written log of a session's input; it leaves no files")
+        .asset(AssetRoom::sessions)
+        .show_default();
+    command.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
+    command.flag("--simulated-hand", o.simulated_hand,
+                 "Ticks as a session without a device has them, which may rest; else as a device's user needs them");
+    command.option("--workpiece", s.workpiece.source, "As burin sculpt has it")
+        .asset(AssetRoom::workpieces)
+        .show_default();
+    command.option("--world", s.world, "A world, as burin world has it, in the workpiece's place")
+        .asset(AssetRoom::worlds);
+    command.option("--tool", s.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
+    command.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
+    command.option("--weld", s.workpiece.weld_m, "As burin sculpt has it");
+    command.unit("--units", s.workpiece.units, "As burin sculpt has it");
+    command.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
+        .within(compute::kMinResolution, compute::kMaxResolution)
+        .show_default();
+    command.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
+    command.option("--wall", s.live.wall, "A wall file: all its screens").asset(AssetRoom::walls);
+    command.flag("--windowed", s.live.windowed, "With --wall and --window: its screens in windows on the desktop");
+    command.option("--width", s.live.width, "Of the picture, in pixels").within(session::kPictureBounds).show_default();
+    command.option("--height", s.live.height, "Of the picture, in pixels")
+        .within(session::kPictureBounds)
+        .show_default();
+    command.option("--samples", s.live.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
+        .one_of(session::kSampleCounts)
+        .show_default();
+    add_mouse_option(command, s.live);
+    add_detail_option(command, s.live);
+    add_shadows_option(command, s.live);
+    add_engine_option(command, s.engine);
+    command.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
+    command.option("--driver-threads", o.driver_threads,
+                   "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");
+    command.option("--json", o.json, "A file for all figures; - for standard output");
+    return action([options] { return profile(*options); });
+}
+
+}  // namespace
+
+CommandRow profile_row() { return {"profile", "Time the frames and ticks of a session that a log leads", add_profile}; }
 
 }  // namespace burin::app

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "app/carve/sculpt.hpp"
+
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "app/carve/report.hpp"
-#include "app/cli/commands.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/recordings/felt_recording.hpp"
 #include "base/file_io.hpp"
@@ -184,6 +185,146 @@ Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenToo
     return material;
 }
 
+// What is known before the first long step.
+struct StrokeInputs {
+    ChosenTool chosen;  // a ball that stands in where no tool is given
+    sculpt::Feel feel;
+    sculpt::Stroke stroke;
+};
+
+// Finds everything that can be wrong with the input before the first long step.
+Result<StrokeInputs> read_inputs(const session::SculptOptions& options) {
+    if (const auto ok = check_for_a_stroke(options); !ok) return std::unexpected(ok.error());
+    Result<ChosenTool> chosen = choose_tool(options, std::nullopt);
+    if (!chosen) return std::unexpected(chosen.error());
+    Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
+    if (!feel) return std::unexpected(feel.error());
+    if (const auto ok = check_all_outputs(options); !ok) return std::unexpected(ok.error());
+    if (const auto ok = record::check_new_place(options.live.record); !ok) return std::unexpected(ok.error());
+    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return std::unexpected(ok.error());
+    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return std::unexpected(ok.error());
+    if (options.stroke.empty()) return StrokeInputs{std::move(*chosen), std::move(*feel), {}};
+    Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
+    if (!stroke) return std::unexpected(stroke.error());
+    return StrokeInputs{std::move(*chosen), std::move(*feel), std::move(*stroke)};
+}
+
+// A workpiece and the tool that suits it.
+struct TakenUp {
+    sculpt::LoadedWorkpiece workpiece;
+    ChosenTool chosen;
+    geometry::Material material;  // of the surface that the tool leaves
+    double longest_side_m;
+};
+
+Result<TakenUp> take_up_workpiece(const session::SculptOptions& options, const ChosenTool& stand_in, WorkerPool& pool) {
+    Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
+    if (!opened) return std::unexpected(opened.error());
+    if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
+    for (const std::string& path : options.exports)
+        if (const auto ok = sculpt::check_precision(path, opened->workpiece->solid.lattice); !ok)
+            return std::unexpected(ok.error());
+    const double longest_side_m = sculpt::longest_side_m(opened->workpiece->bounds_object);
+    Result<ChosenTool> chosen = options.tool.shape.empty() ? choose_tool(options, longest_side_m) : stand_in;
+    if (!chosen) return std::unexpected(chosen.error());
+    const Result<geometry::Material> material = take_up(*opened->workpiece, *chosen);
+    if (!material) return std::unexpected(material.error());
+    return TakenUp{std::move(*opened->workpiece), std::move(*chosen), *material, longest_side_m};
+}
+
+// Opens the folder of the pictures; none where none are asked for.
+Result<std::optional<session::Pictures>> open_pictures(const std::string& folder, const Box& bounds_object) {
+    if (folder.empty()) return std::optional<session::Pictures>();
+    Result<session::Pictures> opened = session::Pictures::create(folder, bounds_object);
+    if (!opened) return std::unexpected(opened.error());
+    return std::optional<session::Pictures>(std::move(*opened));
+}
+
+// Leads the tool along the stroke: exactly, or as a simulated hand feels its way. Returns what that has felt.
+Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carving,
+                                                        const session::SculptOptions& options,
+                                                        const StrokeInputs& inputs, const ChosenTool& chosen) {
+    const sculpt::Tool& tool = chosen.tool;
+    if (inputs.stroke.empty()) return std::optional<session::FeltFigures>();
+    if (options.hand == session::HandChoice::rigid) {
+        // Only the surface after the stroke is read, so the device may keep it until then.
+        if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth)
+            carving.mesh_on_device();
+        if (const auto carved = sculpt::carve_rigidly(carving, inputs.stroke, tool, options.merge_rows); !carved)
+            return std::unexpected(carved.error());
+        return std::optional<session::FeltFigures>();
+    }
+    session::FeltOptions felt_options{inputs.feel, options.real_time, options.live.record};
+    if (!options.live.record.empty()) felt_options.facts = facts_of(options, chosen.options, carving.engine().name());
+    Result<session::FeltFigures> carved = session::carve_by_feel(carving, inputs.stroke, tool, felt_options);
+    if (!carved) return std::unexpected(carved.error());
+    if (!options.live.record.empty())
+        std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved->ticks).c_str());
+    return std::optional<session::FeltFigures>(std::move(*carved));
+}
+
+// What the carving has come to.
+struct CarvedStroke {
+    std::optional<session::FeltFigures> felt;  // of a simulated hand
+    std::vector<std::string> notices;
+    Json undone;  // null: nothing was to be taken back
+};
+
+// Carves along the stroke, and takes back what is asked.
+Result<CarvedStroke> carve(sculpt::Sculpture& carving, const session::SculptOptions& options,
+                           const StrokeInputs& inputs, const ChosenTool& chosen) {
+    carving.mirror(options.mirror);
+    if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
+    Result<std::optional<session::FeltFigures>> felt = carve_along(carving, options, inputs, chosen);
+    if (!felt) return std::unexpected(felt.error());
+    carving.read_back();
+    CarvedStroke carved{std::move(*felt), tell_notices(carving), {}};
+    if (options.undo == 0) return carved;
+    Result<Json> taken_back = take_back(carving, options.undo);
+    if (!taken_back) return std::unexpected(taken_back.error());
+    carved.undone = std::move(*taken_back);
+    return carved;
+}
+
+// Describes the mesh and what finishing has changed of it.
+void describe_finished(Json& report, const sculpt::FinishedMesh& finished, LengthUnit export_unit) {
+    report["mesh"] = describe_mesh(finished.mesh, export_unit);
+    report["mesh"]["self_intersections"] = finished.self_intersections;
+    report["mesh"]["crumbs"] = {{"dropped", finished.crumbs.count}, {"below_m", finished.crumbs.below_m}};
+    if (finished.crumbs.count > 0) std::printf("  %s\n", sculpt::in_words(finished.crumbs).c_str());
+    report["slivers"] = finished.slivers;
+    if (!finished.simplification.is_null()) report["simplification"] = finished.simplification;
+}
+
+// Writes the exports, and their names into the report.
+Result<void> export_all(const session::SculptOptions& options, const sculpt::FinishedMesh& finished,
+                        LengthUnit export_unit, Json& report) {
+    if (options.exports.empty()) return {};
+    if (finished.mesh.triangles.empty() && !finished.too_thin.empty())
+        return fail(options.workpiece.source, "has nothing to export: " + finished.too_thin,
+                    "raise --resolution, or make it thicker");
+    if (finished.mesh.triangles.empty())
+        return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
+                    "use a smaller tool or a shorter stroke");
+    for (const std::string& path : options.exports) {
+        if (const auto written = sculpt::export_finished(finished, path); !written) return written;
+        report["exports"].push_back(fs::path(path).filename().string());
+        std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
+        if (sculpt::loses_colours(finished.mesh, path)) std::printf("  %s\n", sculpt::kColoursLeftOut);
+    }
+    report["export_unit"] = name_of(export_unit);
+    return {};
+}
+
+// Writes the report, with plots of what was felt beside it; nothing where none is asked for.
+Result<void> write_sculpt_report(const std::string& path, const std::optional<session::FeltFigures>& felt,
+                                 Json& report) {
+    if (path.empty()) return {};
+    if (felt)
+        if (const auto plotted = write_plots(path, *felt, report); !plotted) return plotted;
+    return write_report(path, report);
+}
+
 }  // namespace
 
 bool records_a_felt_stroke(const session::SculptOptions& options) {
@@ -195,131 +336,52 @@ bool records_a_felt_stroke(const session::SculptOptions& options) {
 }
 
 Result<void> sculpt(const session::SculptOptions& options) {
-    // Finds everything that can be wrong with the input before the first long step.
-    if (const auto ok = check_for_a_stroke(options); !ok) return ok;
-    Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
-    if (!chosen_tool) return std::unexpected(chosen_tool.error());
-    const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
-    if (!feel) return std::unexpected(feel.error());
-    if (const auto ok = check_all_outputs(options); !ok) return ok;
-    if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
-    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
-    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return ok;
-    sculpt::Stroke stroke;
-    if (!options.stroke.empty()) {
-        Result<sculpt::Stroke> read = sculpt::read_stroke(options.stroke);
-        if (!read) return std::unexpected(read.error());
-        stroke = std::move(*read);
-    }
+    const Result<StrokeInputs> inputs = read_inputs(options);
+    if (!inputs) return std::unexpected(inputs.error());
     WorkerPool pool(options.threads);
-    Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
-    if (!opened) return std::unexpected(opened.error());
-    sculpt::LoadedWorkpiece* const workpiece = &*opened->workpiece;
-    if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
-    for (const std::string& path : options.exports) {
-        if (const auto ok = sculpt::check_precision(path, workpiece->solid.lattice); !ok) return ok;
-    }
-    const Box bounds_object = workpiece->bounds_object;
-    const double longest_side_m = sculpt::longest_side_m(bounds_object);
-    if (options.tool.shape.empty()) chosen_tool = choose_tool(options, longest_side_m);
-    if (!chosen_tool) return std::unexpected(chosen_tool.error());
-    const Result<geometry::Material> material = take_up(*workpiece, *chosen_tool);
-    if (!material) return std::unexpected(material.error());
-    const sculpt::Tool& tool = chosen_tool->tool;
-
-    std::optional<session::Pictures> pictures;
-    if (!options.pictures.empty()) {
-        Result<session::Pictures> opened = session::Pictures::create(options.pictures, bounds_object);
-        if (!opened) return std::unexpected(opened.error());
-        pictures.emplace(std::move(*opened));
-    }
-    sculpt::ChosenEngine chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
-    sculpt::Sculpture carving(std::move(chosen.engine), pool);
-    if (pictures) {
-        if (const auto taken = pictures->take_before(carving); !taken) return taken;
-    }
-
+    Result<TakenUp> taken_up = take_up_workpiece(options, inputs->chosen, pool);
+    if (!taken_up) return std::unexpected(taken_up.error());
+    const ChosenTool& tool = taken_up->chosen;
+    const Box bounds_object = taken_up->workpiece.bounds_object;
+    Result<std::optional<session::Pictures>> pictures = open_pictures(options.pictures, bounds_object);
+    if (!pictures) return std::unexpected(pictures.error());
+    sculpt::ChosenEngine engine = sculpt::choose_engine(options.engine, std::move(taken_up->workpiece.solid), pool);
+    sculpt::Sculpture carving(std::move(engine.engine), pool);
+    if (*pictures)
+        if (const auto taken = (*pictures)->take_before(carving); !taken) return taken;
+    const double cell_m = carving.surface().lattice().spacing_m;
     Result<Json> tool_report =
-        introduce(*chosen_tool, *material, longest_side_m, carving.surface().lattice().spacing_m, !stroke.empty());
+        introduce(tool, taken_up->material, taken_up->longest_side_m, cell_m, !inputs->stroke.empty());
     if (!tool_report) return std::unexpected(tool_report.error());
-    std::printf("%s\n", workpiece->size.c_str());
-    carving.mirror(options.mirror);
-    if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    std::optional<session::FeltFigures> felt;
-    if (!stroke.empty() && options.hand == session::HandChoice::rigid) {
-        // Only the surface after the stroke is read, so the device may keep it until then.
-        if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth)
-            carving.mesh_on_device();
-        if (const auto carved = sculpt::carve_rigidly(carving, stroke, tool, options.merge_rows); !carved)
-            return carved;
-    } else if (!stroke.empty()) {
-        session::FeltOptions felt_options{*feel, options.real_time, options.live.record};
-        if (!options.live.record.empty())
-            felt_options.facts = facts_of(options, chosen_tool->options, carving.engine().name());
-        Result<session::FeltFigures> carved = session::carve_by_feel(carving, stroke, tool, felt_options);
-        if (!carved) return std::unexpected(carved.error());
-        if (!options.live.record.empty())
-            std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved->ticks).c_str());
-        felt = std::move(*carved);
-    }
+    std::printf("%s\n", taken_up->workpiece.size.c_str());
+    const Result<CarvedStroke> carved = carve(carving, options, *inputs, tool);
+    if (!carved) return std::unexpected(carved.error());
 
-    carving.read_back();
-    const std::vector<std::string> notices = tell_notices(carving);
-    Json undone;
-    if (options.undo > 0) {
-        Result<Json> taken_back = take_back(carving, options.undo);
-        if (!taken_back) return std::unexpected(taken_back.error());
-        undone = std::move(*taken_back);
-    }
-
-    const LengthUnit export_unit = options.export_units.value_or(workpiece->unit);
-    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(
-        carving.surface(), carving.engine().solid(), export_unit, options.simplify_m,
-        options.crumbs_m.value_or(sculpt::kCrumbCells * carving.surface().lattice().spacing_m), pool);
+    const LengthUnit export_unit = options.export_units.value_or(taken_up->workpiece.unit);
+    const Result<sculpt::FinishedMesh> finished =
+        sculpt::finish_mesh(carving.surface(), carving.engine().solid(), export_unit, options.simplify_m,
+                            options.crumbs_m.value_or(sculpt::kCrumbCells * cell_m), pool);
     if (!finished) return std::unexpected(finished.error());
-    const geometry::TriangleMesh& mesh = finished->mesh;
-    Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
+    Json report = {{"burin", BURIN_VERSION}, {"workpiece", taken_up->workpiece.report}};
     report["tool"] = std::move(*tool_report);
     report["engine"] = {
-        {"name", carving.engine().name()}, {"device", chosen.device}, {"chosen_because", chosen.reason}};
-    if (!notices.empty()) report["notices"] = notices;
+        {"name", carving.engine().name()}, {"device", engine.device}, {"chosen_because", engine.reason}};
+    if (!carved->notices.empty()) report["notices"] = carved->notices;
     if (const auto traffic = carving.engine().traffic()) report["engine"]["traffic"] = describe_traffic(*traffic);
     report["carving"] = describe_carving(carving);
-    if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
-    report["mesh"] = describe_mesh(mesh, export_unit);
-    report["mesh"]["self_intersections"] = finished->self_intersections;
-    report["mesh"]["crumbs"] = {{"dropped", finished->crumbs.count}, {"below_m", finished->crumbs.below_m}};
-    if (finished->crumbs.count > 0) std::printf("  %s\n", sculpt::in_words(finished->crumbs).c_str());
-    report["slivers"] = finished->slivers;
-    if (!finished->simplification.is_null()) report["simplification"] = finished->simplification;
-    if (!undone.is_null()) report["undo"] = undone;
-    if (felt) report["feel"] = describe_feel(*felt, *feel);
+    if (!inputs->stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
+    describe_finished(report, *finished, export_unit);
+    if (!carved->undone.is_null()) report["undo"] = carved->undone;
+    const std::optional<session::FeltFigures>& felt = carved->felt;
+    if (felt) report["feel"] = describe_feel(*felt, inputs->feel);
     report["timing"] = describe_timing(carving, felt ? &*felt : nullptr);
-    if (mesh.triangles.empty() && !options.exports.empty() && !finished->too_thin.empty()) {
-        return fail(options.workpiece.source, "has nothing to export: " + finished->too_thin,
-                    "raise --resolution, or make it thicker");
+    if (const auto exported = export_all(options, *finished, export_unit, report); !exported) return exported;
+    if (*pictures) {
+        const auto taken = (*pictures)->take_after(carving, staging_of(inputs->stroke, tool.tool, felt));
+        if (!taken) return taken;
+        report["pictures"] = {{"device", (*pictures)->device_name()}, {"scene_scale", (*pictures)->scene_scale()}};
     }
-    if (mesh.triangles.empty() && !options.exports.empty()) {
-        return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
-                    "use a smaller tool or a shorter stroke");
-    }
-    for (const std::string& path : options.exports) {
-        if (const auto written = sculpt::export_finished(*finished, path); !written) return written;
-        report["exports"].push_back(fs::path(path).filename().string());
-        std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
-        if (sculpt::loses_colours(finished->mesh, path)) std::printf("  %s\n", sculpt::kColoursLeftOut);
-    }
-    if (!options.exports.empty()) report["export_unit"] = name_of(export_unit);
-    if (pictures) {
-        if (const auto taken = pictures->take_after(carving, staging_of(stroke, tool, felt)); !taken) return taken;
-        report["pictures"] = {{"device", pictures->device_name()}, {"scene_scale", pictures->scene_scale()}};
-    }
-    if (!options.report.empty()) {
-        if (felt) {
-            if (const auto plotted = write_plots(options.report, *felt, report); !plotted) return plotted;
-        }
-        if (const auto written = write_report(options.report, report); !written) return written;
-    }
+    if (const auto written = write_sculpt_report(options.report, felt, report); !written) return written;
     print_table(report);
     return {};
 }

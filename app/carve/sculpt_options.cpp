@@ -30,7 +30,10 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
     add_carving_options(command, options);
 }
 
-void add_carving_options(Command command, session::SculptOptions& options) {
+namespace {
+
+// Adds how a mesh is read, and what carves it.
+void add_tool_options(Command command, session::SculptOptions& options) {
     command.unit("--units", options.workpiece.units, kUnitsHelp);
     command.unit("--export-units", options.export_units,
                  "Unit of the numbers in exported files; else that of the workpiece's file, or m");
@@ -57,6 +60,10 @@ void add_carving_options(Command command, session::SculptOptions& options) {
         .within(session::kSmoothStrengthBounds)
         .show_default();
     add_mirror_option(command, options);
+}
+
+// Adds along which stroke it is carved, and by what.
+void add_stroke_options(Command command, session::SculptOptions& options) {
     command.flag("!--no-merge", options.merge_rows,
                  "One update for each row of the stroke, instead of one for a straight run of rows");
     command.option("--stroke", options.stroke, "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button")
@@ -72,6 +79,10 @@ void add_carving_options(Command command, session::SculptOptions& options) {
                       sculpt::kUsualRoom))
         .within(session::kRoomBounds);
     add_engine_option(command, options.engine);
+}
+
+// Adds how a simulated hand feels the workpiece.
+void add_feel_options(Command command, session::SculptOptions& options) {
     command.choice("--hand", options.hand,
                    "rigid: the tool follows the stroke exactly; simulated: a hand feels its way",
                    {{"rigid", session::HandChoice::rigid}, {"simulated", session::HandChoice::simulated}});
@@ -97,6 +108,10 @@ void add_carving_options(Command command, session::SculptOptions& options) {
         .show_default();
     command.flag("--real-time", options.real_time,
                  "With --hand simulated: a haptic thread at 1 kHz instead of simulated time");
+}
+
+// Adds what is left of the carving, and what of it can be taken back.
+void add_result_options(Command command, session::SculptOptions& options) {
     command.option("--export", options.exports,
                    "Where to write the carved mesh: .stl, .ply (with colour) or .obj; may be repeated");
     command.option("--simplify", options.simplify_m,
@@ -115,26 +130,13 @@ void add_carving_options(Command command, session::SculptOptions& options) {
     command.option("--threads", options.threads, "How many threads carve; 0: one per core").within(0, 1024);
 }
 
-void add_combine_options(Command command, CombineOptions& options) {
-    command.option("A", options.a, "STL, OBJ, PLY or OFF").asset(AssetRoom::workpieces).required();
-    command.option("B", options.b, "STL, OBJ, PLY or OFF").asset(AssetRoom::workpieces).required();
-    command
-        .choice("--operation", options.operation, "union, difference (A without B) or intersection",
-                {{"union", compute::Combination::unite},
-                 {"difference", compute::Combination::subtract},
-                 {"intersection", compute::Combination::intersect}})
-        .required();
-    command.option("--resolution", options.resolution, "Lattice cells along the longest side of both together")
-        .within(compute::kMinResolution, compute::kMaxResolution)
-        .show_default();
-    command.unit("--units", options.units, std::string("Of both files: ") + kUnitsHelp);
-    command.unit("--export-units", options.export_units, "Unit of the numbers in exported files; else that of A");
-    command.flag("--close-holes", options.close_holes, "Fill the holes of meshes that are not closed");
-    command.option("--weld", options.weld_m, kWeldHelp);
-    command.option("--export", options.exports,
-                   "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
-    command.option("--report", options.report, "A JSON file for all figures");
-    command.option("--threads", options.threads, "How many threads work; 0: one per core").within(0, 1024);
+}  // namespace
+
+void add_carving_options(Command command, session::SculptOptions& options) {
+    add_tool_options(command, options);
+    add_stroke_options(command, options);
+    add_feel_options(command, options);
+    add_result_options(command, options);
 }
 
 }  // namespace burin::app

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Options of burin sculpt, which burin demo takes too, and of burin combine. The options must outlive the parse. One
-// thread.
+// Options of burin sculpt, which burin demo takes too. The options must outlive the parse. One thread.
 #pragma once
 
 #include "app/cli/command_line.hpp"
-#include "app/cli/commands.hpp"
 #include "session/state/session_options.hpp"
 
 namespace burin::app {
@@ -21,6 +19,5 @@ inline constexpr const char* kWeldHelp =
 void add_sculpt_options(Command command, session::SculptOptions& options);
 // Adds what says how a workpiece is carved and what is made of it.
 void add_carving_options(Command command, session::SculptOptions& options);
-void add_combine_options(Command command, CombineOptions& options);
 
 }  // namespace burin::app

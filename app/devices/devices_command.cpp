@@ -2,9 +2,12 @@
 #include "app/devices/devices_command.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <random>
+#include <string>
 
 #include "app/cli/output_files.hpp"
 #include "app/devices/check_terminal.hpp"
@@ -56,123 +59,135 @@ Json described(const std::string& device, const std::vector<CheckLine>& lines) {
     return {{"device", device}, {"passed", !failed && !unclear}, {"cannot_tell", unclear}, {"checks", list}};
 }
 
-}  // namespace
+Result<void> list_devices(const std::string& json) {
+    if (const auto place = check_place(json); !place) return place;
+    const auto all = devices::look_for_devices();
+    if (json != kStandardOutput) print(all);
+    return write_output(json, json_text(described(all)));
+}
 
-struct DevicesCommand::Options {
-    std::string json, emulated, tested, test_json;
-    CheckOptions check;
-    std::optional<double> watch_s;
-    std::optional<std::uint64_t> seed;
+struct AskedEmulator {
+    std::string name;
     devices::EmulatorOptions emulator;
     double for_s = 0.0;
 };
 
-DevicesCommand::DevicesCommand(Command app)
-    : options_(std::make_unique<Options>()),
-      command_(app.subcommand("devices", "Which devices and trackers there are, and why others are not")) {
-    command_.option("--json", options_->json, "A file for the list; - for standard output");
-    emulate_ = command_.subcommand(
-        "emulate", "A device that is not there: prints how a session finds it, and runs until it is ended");
-    emulate_.option("NAME", options_->emulated, devices::emulator_usage()).required();
-    emulate_.option(
-        "--at", options_->emulator.at,
-        "Where it is found, HOST, PORT or HOST:PORT, or a name that begins with emulated; else its usual place");
-    emulate_.option("--layout", options_->emulator.layout,
-                    "Of a spacemouse's reports: split or joined, which is usual");
-    emulate_.option("--seconds", options_->for_s, "End after so many; 0: when it is ended by a signal")
-        .within(0.0, 86400.0)
-        .show_default();
-    emulate_
-        .option("--silent-from", options_->emulator.silence.from_s,
-                "A drill: is gone from so many seconds on, as a device whose cable is pulled; 0: never")
-        .within(0.0, 86400.0);
-    emulate_.option("--silent-for", options_->emulator.silence.for_s, "... for so many seconds; 0: for good")
-        .within(0.0, 86400.0);
-    test_ = command_.subcommand(
-        "test", "A guided check of a force-feedback device: position, buttons, and a gentle force while a key is held");
-    test_.option("NAME", options_->tested, "The device, as --device takes it").required();
-    test_.option("--json", options_->test_json, "A file for the verdicts; - for standard output");
-    test_.option("--force", options_->check.force_N, "The most that it taps with, in newtons")
-        .within(0.1, 3.0)
-        .show_default();
-    test_
-        .option("--seconds", options_->watch_s,
-                "The longest that it waits for the handle's motion and for buttons; 60, or 15 with --yes")
-        .within(0.1, 600.0);
-    test_.flag("--yes", options_->check.by_itself,
-               "Nobody is there: what is asked for counts as done, and the space bar as held. For emulated devices, or "
-               "where somebody holds the handle");
-    test_.option("--seed", options_->seed, "Of the order of the taps; else another each time, which is told");
-    test_.flag("!--no-force", options_->check.pushes, "Try no force");
-}
-
-DevicesCommand::~DevicesCommand() = default;
-
-Result<int> DevicesCommand::run() const {
-    if (test_.parsed()) return test();
-    const auto done = emulate_.parsed() ? emulate() : list();
-    if (!done) return std::unexpected(done.error());
-    return 0;
-}
-
-Result<void> DevicesCommand::list() const {
-    if (const auto place = check_place(options_->json); !place) return place;
-    const auto all = devices::look_for_devices();
-    if (options_->json != kStandardOutput) print(all);
-    return write_output(options_->json, json_text(described(all)));
-}
-
-Result<void> DevicesCommand::emulate() const {
-    if (options_->emulator.silence.for_s > 0.0 && options_->emulator.silence.from_s == 0.0)
+Result<void> emulate_device(const AskedEmulator& asked) {
+    if (asked.emulator.silence.for_s > 0.0 && asked.emulator.silence.from_s == 0.0)
         return fail("--silent-for", "says for how long, and nothing says from when on", "give --silent-from too");
     const session::EndSignals signals;
     MonotonicClock clock;
     const Nanoseconds begun_ns = clock.now_ns();
-    devices::EmulatorOptions options = options_->emulator;
+    devices::EmulatorOptions options = asked.emulator;
     options.ends = [&] {
-        return signals.came() || (options_->for_s > 0.0 && seconds(clock.now_ns() - begun_ns) >= options_->for_s);
+        return signals.came() || (asked.for_s > 0.0 && seconds(clock.now_ns() - begun_ns) >= asked.for_s);
     };
     options.is_there = [](const std::string& how) {
         std::printf("%s\n", how.c_str());
         std::fflush(stdout);
     };
-    return devices::run_emulator(options_->emulated, options);
+    return devices::run_emulator(asked.name, options);
 }
 
-Result<int> DevicesCommand::test() const {
-    const std::string where = "burin devices test " + options_->tested;
-    CheckOptions check = options_->check;
-    check.watch_s = options_->watch_s.value_or(check.by_itself ? 15.0 : 60.0);
-    check.seed = options_->seed ? *options_->seed : std::random_device{}();
-    const auto nature = devices::nature_of_device(options_->tested, &session::session_recordings());
+CommandAction add_devices_emulate(Command command) {
+    const auto options = std::make_shared<AskedEmulator>();
+    command.option("NAME", options->name, devices::emulator_usage()).required();
+    command.option(
+        "--at", options->emulator.at,
+        "Where it is found, HOST, PORT or HOST:PORT, or a name that begins with emulated; else its usual place");
+    command.option("--layout", options->emulator.layout, "Of a spacemouse's reports: split or joined, which is usual");
+    command.option("--seconds", options->for_s, "End after so many; 0: when it is ended by a signal")
+        .within(0.0, 86400.0)
+        .show_default();
+    command
+        .option("--silent-from", options->emulator.silence.from_s,
+                "A drill: is gone from so many seconds on, as a device whose cable is pulled; 0: never")
+        .within(0.0, 86400.0);
+    command.option("--silent-for", options->emulator.silence.for_s, "... for so many seconds; 0: for good")
+        .within(0.0, 86400.0);
+    return action([options] { return emulate_device(*options); });
+}
+
+struct AskedCheck {
+    std::string device, json;
+    CheckOptions check;
+    std::optional<double> watch_s;
+    std::optional<std::uint64_t> seed;
+};
+
+Result<int> test_device(const AskedCheck& asked) {
+    const std::string where = "burin devices test " + asked.device;
+    CheckOptions check = asked.check;
+    check.watch_s = asked.watch_s.value_or(check.by_itself ? 15.0 : 60.0);
+    check.seed = asked.seed ? *asked.seed : std::random_device{}();
+    const auto nature = devices::nature_of_device(asked.device, &session::session_recordings());
     if (!nature) return std::unexpected(nature.error());
     if (nature->is_played)
         return fail(where, "is a recording, which moves whatever is asked of it and takes no force",
-                    "play it in a session: burin sculpt --device " + options_->tested);
+                    "play it in a session: burin sculpt --device " + asked.device);
     if (!check.by_itself && !TerminalGuide::is_there())
         return fail(where, "asks a person at a terminal, and there is none",
                     "run it in a terminal, or with --yes for a device that is emulated or held");
-    if (const auto place = check_place(options_->test_json); !place) return std::unexpected(place.error());
+    if (const auto place = check_place(asked.json); !place) return std::unexpected(place.error());
     MonotonicClock clock;
     // Leads the handle of a simulated device as emulated ones are led.
     auto hand = devices::SimulatedHand::create(devices::circling_hand(), devices::HandPath::monotone_cubic);
     if (!hand) return std::unexpected(hand.error());
-    auto device = devices::open_haptic_device(options_->tested, {clock, std::move(*hand)});
+    auto device = devices::open_haptic_device(asked.device, {clock, std::move(*hand)});
     if (!device) return std::unexpected(device.error());
     // The check is the haptic loop here; where real-time priority is refused it goes on without.
     static_cast<void>(haptics::ask_for_realtime());
     std::vector<CheckLine> lines;
     {
-        TerminalGuide guide(options_->test_json == kStandardOutput, !check.by_itself);
+        TerminalGuide guide(asked.json == kStandardOutput, !check.by_itself);
         lines = check_device(*device, clock, guide, check);
     }
-    if (const auto written = write_output(options_->test_json, json_text(described(options_->tested, lines))); !written)
+    if (const auto written = write_output(asked.json, json_text(described(asked.device, lines))); !written)
         return std::unexpected(written.error());
     const auto outcome = outcome_of(where, lines);
     if (outcome && *outcome == kCannotTell)
         std::fprintf(stderr, "burin: %s: cannot tell: %s; the lines above say what to do, then try again\n",
                      where.c_str(), checks_with(Verdict::unclear, lines).c_str());
     return outcome;
+}
+
+CommandAction add_devices_test(Command command) {
+    const auto options = std::make_shared<AskedCheck>();
+    command.option("NAME", options->device, "The device, as --device takes it").required();
+    command.option("--json", options->json, "A file for the verdicts; - for standard output");
+    command.option("--force", options->check.force_N, "The most that it taps with, in newtons")
+        .within(0.1, 3.0)
+        .show_default();
+    command
+        .option("--seconds", options->watch_s,
+                "The longest that it waits for the handle's motion and for buttons; 60, or 15 with --yes")
+        .within(0.1, 600.0);
+    command.flag(
+        "--yes", options->check.by_itself,
+        "Nobody is there: what is asked for counts as done, and the space bar as held. For emulated devices, or "
+        "where somebody holds the handle");
+    command.option("--seed", options->seed, "Of the order of the taps; else another each time, which is told");
+    command.flag("!--no-force", options->check.pushes, "Try no force");
+    return action([options] { return test_device(*options); });
+}
+
+CommandAction add_devices(Command command) {
+    const auto json = std::make_shared<std::string>();
+    command.option("--json", *json, "A file for the list; - for standard output");
+    return add_commands(
+        command,
+        {{"emulate", "A device that is not there: prints how a session finds it, and runs until it is ended",
+          add_devices_emulate},
+         {"test",
+          "A guided check of a force-feedback device: position, buttons, and a gentle force while a key is held",
+          add_devices_test}},
+        action([json] { return list_devices(*json); }));
+}
+
+}  // namespace
+
+CommandRow devices_row() {
+    return {"devices", "Which devices and trackers there are, and why others are not", add_devices};
 }
 
 }  // namespace burin::app

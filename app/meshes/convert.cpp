@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
+#include "app/meshes/convert.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <system_error>
 
-#include "app/cli/commands.hpp"
+#include "app/carve/sculpt_options.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/meshes/convert_placing.hpp"
+#include "app/meshes/document_command.hpp"
+#include "app/recordings/session_export.hpp"
 #include "compute/repair/rounding.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -22,7 +27,6 @@
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
-
 namespace {
 
 // Prints the health of a mesh of numbers in the unit.
@@ -175,9 +179,39 @@ void follow_triangles(geometry::ImportedMesh& imported, bool some_are_gone) {
     }
 }
 
-}  // namespace
+// Joins open edges, and closes the holes where that is asked for. Says what that has changed.
+void close_mesh(geometry::ImportedMesh& imported, const ConvertOptions& options) {
+    geometry::TriangleMesh& mesh = imported.mesh;
+    weld(mesh);
+    const auto joined = geometry::join_open_edges(mesh, options.weld_m.value_or(imported.report.weld_tolerance_m));
+    if (joined.vertices_joined > 0) std::printf("  %s\n", in_words(joined).c_str());
+    follow_triangles(imported, joined.triangles_dropped > 0);
+    if (options.close_holes) {
+        const geometry::ClosingReport closing = geometry::close_holes(mesh);
+        const geometry::OrientationReport turned = geometry::orient_outward(mesh);
+        std::printf("  closed %zu holes with %zu triangles; turned %zu triangles\n", closing.holes.size(),
+                    closing.triangles_added, turned.triangles_turned);
+        follow_triangles(imported, false);
+    }
+    print_health(mesh);
+}
 
-Result<void> convert(const ConvertOptions& options) {
+// Makes fewer triangles of the file's numbers, and says how many.
+Result<void> simplify(geometry::TriangleMesh& numbers, geometry::ImportedMesh& imported, LengthUnit unit,
+                      double simplify_m, WorkerPool& pool) {
+    auto simplified = sculpt::simplify_with_progress(numbers, unit, simplify_m, pool);
+    if (!simplified) return std::unexpected(simplified.error());
+    std::printf("  simplified from %zu to %zu triangles, at most %s away (asked: %s)\n", imported.mesh.triangles.size(),
+                simplified->mesh.triangles.size(),
+                in_millimetres(simplified->figures["error_max_m"].get<double>()).c_str(),
+                in_millimetres(simplify_m).c_str());
+    numbers = std::move(simplified->mesh);
+    follow_triangles(imported, true);
+    print_health(numbers, unit);
+    return {};
+}
+
+Result<void> convert_mesh(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
     const Result<geometry::Placing> placing = placing_of(options);
     if (!placing) return std::unexpected(placing.error());
@@ -196,21 +230,7 @@ Result<void> convert(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_weld(options.weld_m, longest_side_m); !ok) return ok;
     for (const std::string& remark : imported->report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
-    if (options.close_holes || options.weld_m) {
-        weld(mesh);
-        const auto joined = geometry::join_open_edges(mesh, options.weld_m.value_or(report.weld_tolerance_m));
-        if (joined.vertices_joined > 0) std::printf("  %s\n", in_words(joined).c_str());
-        follow_triangles(*imported, joined.triangles_dropped > 0);
-        if (!options.close_holes) print_health(mesh);
-    }
-    if (options.close_holes) {
-        const geometry::ClosingReport closing = geometry::close_holes(mesh);
-        const geometry::OrientationReport turned = geometry::orient_outward(mesh);
-        std::printf("  closed %zu holes with %zu triangles; turned %zu triangles\n", closing.holes.size(),
-                    closing.triangles_added, turned.triangles_turned);
-        follow_triangles(*imported, false);
-        print_health(mesh);
-    }
+    if (options.close_holes || options.weld_m) close_mesh(*imported, options);
     const LengthUnit unit = options.export_units.value_or(report.unit.unit);
     if (const auto ok = place(mesh, *placing, unit); !ok) return ok;
     // Without shared vertices every edge would be a border, and decimation keeps borders.
@@ -218,18 +238,95 @@ Result<void> convert(const ConvertOptions& options) {
     WorkerPool pool;
     Result<geometry::TriangleMesh> numbers = rounded_for(options.out, mesh, unit, pool);
     if (!numbers) return std::unexpected(numbers.error());
-    if (options.simplify_m) {
-        auto simplified = sculpt::simplify_with_progress(*numbers, unit, *options.simplify_m, pool);
-        if (!simplified) return std::unexpected(simplified.error());
-        std::printf("  simplified from %zu to %zu triangles, at most %s away (asked: %s)\n", mesh.triangles.size(),
-                    simplified->mesh.triangles.size(),
-                    in_millimetres(simplified->figures["error_max_m"].get<double>()).c_str(),
-                    in_millimetres(*options.simplify_m).c_str());
-        numbers = std::move(simplified->mesh);
-        follow_triangles(*imported, true);
-        print_health(*numbers, unit);
-    }
+    if (options.simplify_m)
+        if (const auto ok = simplify(*numbers, *imported, unit, *options.simplify_m, pool); !ok) return ok;
     return write_mesh(options, *numbers, unit, *imported, inputs);
+}
+
+// Refuses what a mesh or a document alone can be asked for.
+Result<void> check_for_a_session(const ConvertOptions& options) {
+    const std::array given{std::pair{"--units", options.units.has_value()},
+                           std::pair{"--export-units", options.export_units.has_value()},
+                           std::pair{"--close-holes", options.close_holes},
+                           std::pair{"--weld", options.weld_m.has_value()},
+                           std::pair{"--simplify", options.simplify_m.has_value()},
+                           std::pair{"--center", options.center},
+                           std::pair{"--place", options.place_m.has_value()},
+                           std::pair{"--scale", options.scale.has_value()}};
+    for (const auto& [name, is_given] : given)
+        if (is_given) return fail(name, "is for meshes and documents", "leave it out, or leave out --to");
+    return {};
+}
+
+Result<void> convert_session(const ConvertOptions& options) {
+    if (const auto ok = check_for_a_session(options); !ok) return ok;
+    return export_session({.in = options.in,
+                           .out = options.out,
+                           .to = options.to,
+                           .columns = options.columns,
+                           .part = options.part,
+                           .trials = options.trials,
+                           .subject = options.subject,
+                           .task = options.task});
+}
+
+// Adds the format of a session file's table, and what of it is written.
+void add_table_options(Command command, ConvertOptions& o) {
+    command
+        .option("--to", o.to,
+                "csv, npy, hdf5, mat: the ticks of a session file as a table; bids: as a folder of motion data; log: "
+                "what was noted, as text")
+        .one_of({"csv", "npy", "hdf5", "mat", "bids", "log"});
+    command.option("--columns", o.columns,
+                   "With --to: names with commas between them, a star at the end for all that begin so; else all");
+    command.option(
+        "--part", o.part,
+        "With --to: which hand, where the recording has several, or a derived table by its name's beginning");
+    command.option("--trials", o.trials,
+                   "With --to: the ticks of these trials alone: numbers or names with commas between them, a star at "
+                   "the end for all that begin so");
+    command.option("--subject", o.subject, "With --to bids: its label").show_default();
+    command.option("--task", o.task, "With --to bids: its label").show_default();
+}
+
+// Adds what becomes of a mesh.
+void add_mesh_options(Command command, ConvertOptions& o) {
+    command.unit("--units", o.units, kUnitsHelp);
+    command.unit("--export-units", o.export_units, "Unit of the numbers in OUT; else that of IN");
+    command.flag("--close-holes", o.close_holes, "Fill holes and turn the triangles outwards");
+    command.option("--weld", o.weld_m,
+                   "Join corners at open edges that lie up to this far apart, in metres; with --close-holes at least "
+                   "as far as the file's numbers are precise");
+    command.option("--simplify", o.simplify_m, "Fewer triangles: the surface moves at most this far, in metres");
+    add_placing_options(command, o);
+}
+
+CommandAction add_convert(Command command) {
+    const auto options = std::make_shared<ConvertOptions>();
+    ConvertOptions& o = *options;
+    command.option("IN", o.in, "STL, OBJ, PLY, OFF, or a document (.burin); with --to a session file")
+        .asset(AssetRoom::workpieces)
+        .required();
+    command.option("OUT", o.out,
+                   ".stl, .ply or .obj; with --to any name, - for standard output, or none: IN with another ending");
+    add_table_options(command, o);
+    add_mesh_options(command, o);
+    return [options]() -> Result<int> {
+        if (options->is_misused()) return wrong_usage("convert", "OUT is required");
+        return action([&] {
+            return options->is_of_session()    ? convert_session(*options)
+                   : options->is_of_document() ? convert_document(*options)
+                                               : convert_mesh(*options);
+        })();
+    };
+}
+
+}  // namespace
+
+CommandRow convert_row() {
+    return {"convert",
+            "Convert a mesh file or a document to STL, PLY or OBJ, or a session file to what other programs read",
+            add_convert};
 }
 
 }  // namespace burin::app

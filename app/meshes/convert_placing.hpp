@@ -2,7 +2,7 @@
 // burin convert --center, --place and --scale (geometry/mesh/mesh_placing.hpp): of a mesh, and of a document's solid.
 #pragma once
 
-#include "app/cli/commands.hpp"
+#include "app/meshes/convert.hpp"
 #include "base/error.hpp"
 #include "base/worker_pool.hpp"
 #include "compute/rays/solid.hpp"

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/cli/output_files.hpp"
@@ -54,12 +56,10 @@ void tell_steps(document::DocumentReader& reader, const document::PartPlace& par
                 static_cast<long long>(forward));
 }
 
-}  // namespace
-
-void add_info_options(Command command, InfoOptions& options) {
-    command.option("FILE", options.file, "A document that burin has saved, .burin").required();
-    command.option("--json", options.json, "A file for all of it; - for standard output");
-}
+struct InfoOptions {
+    std::string file;
+    std::string json;  // a file for all of it; empty: none
+};
 
 Result<void> document_info(const InfoOptions& options) {
     if (const auto ok = check_places(std::array{options.json}, std::array{options.file}); !ok) return ok;
@@ -99,6 +99,17 @@ Result<void> document_info(const InfoOptions& options) {
     if (lost.empty()) return {};
     return fail(options.file, lost.substr(options.file.size() + 2), "the rest opens; an earlier copy has it");
 }
+
+CommandAction add_info(Command command) {
+    const auto options = std::make_shared<InfoOptions>();
+    command.option("FILE", options->file, "A document that burin has saved, .burin").required();
+    command.option("--json", options->json, "A file for all of it; - for standard output");
+    return action([options] { return document_info(*options); });
+}
+
+}  // namespace
+
+CommandRow info_row() { return {"info", "What is in a document, and from where it came", add_info}; }
 
 Result<void> convert_document(const ConvertOptions& options) {
     if (const auto ok = check_for_a_document(options); !ok) return ok;

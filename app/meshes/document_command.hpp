@@ -4,21 +4,14 @@
 //   burin convert FILE.burin part.ply        its solid as a mesh, as the session that saved it would export it
 #pragma once
 
-#include <string>
-
-#include "app/cli/command_line.hpp"
-#include "app/cli/commands.hpp"
+#include "app/cli/command_table.hpp"
+#include "app/meshes/convert.hpp"
 #include "base/error.hpp"
 
 namespace burin::app {
 
-struct InfoOptions {
-    std::string file;
-    std::string json;  // a file for all of it; empty: none
-};
-void add_info_options(Command command, InfoOptions& options);
 // Fails, after all that can be told, where a page is damaged.
-[[nodiscard]] Result<void> document_info(const InfoOptions& options);
+[[nodiscard]] CommandRow info_row();
 
 [[nodiscard]] Result<void> convert_document(const ConvertOptions& options);
 

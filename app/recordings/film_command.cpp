@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "app/recordings/film_command.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
 
-#include "app/cli/commands.hpp"
 #include "base/file_io.hpp"
 #include "base/places.hpp"
 #include "base/text.hpp"
@@ -14,6 +18,11 @@ namespace burin::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct FilmOptions {
+    std::string folder, out;
+    double pictures_a_second = 10.0;
+};
 
 // Returns the number in a name, for pictures such as 0.5.png and 12.png; those without one come first, by name.
 double number_in(const fs::path& path) {
@@ -35,17 +44,7 @@ Result<std::vector<fs::path>> pictures_in(const std::string& folder) {
     return pictures;
 }
 
-}  // namespace
-
-void add_film_options(Command command, FilmOptions& film) {
-    command.option("FOLDER", film.folder, "Pictures as PNG, in the order of the numbers in their names").required();
-    command.option("OUT", film.out, "The file: animated PNG").required();
-    command.option("--rate", film.pictures_a_second, "How many pictures are shown a second")
-        .within(0.1, 100.0)
-        .show_default();
-}
-
-Result<void> film(const FilmOptions& options) {
+Result<void> join_pictures(const FilmOptions& options) {
     // There it would be a picture of the next film, or take the place of one of this.
     const fs::path home = fs::path(options.out).parent_path();
     std::error_code ignored;
@@ -70,5 +69,20 @@ Result<void> film(const FilmOptions& options) {
                 1e-6 * static_cast<double>(bytes->size()));
     return {};
 }
+
+CommandAction add_film(Command command) {
+    const auto options = std::make_shared<FilmOptions>();
+    FilmOptions& film = *options;
+    command.option("FOLDER", film.folder, "Pictures as PNG, in the order of the numbers in their names").required();
+    command.option("OUT", film.out, "The file: animated PNG").required();
+    command.option("--rate", film.pictures_a_second, "How many pictures are shown a second")
+        .within(0.1, 100.0)
+        .show_default();
+    return action([options] { return join_pictures(*options); });
+}
+
+}  // namespace
+
+CommandRow film_row() { return {"film", "Join a folder's pictures into one that moves (animated PNG)", add_film}; }
 
 }  // namespace burin::app

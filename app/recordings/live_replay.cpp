@@ -200,6 +200,57 @@ Result<session::MadeActivity> activity_of(const record::RecordReader& reader, co
     return made;
 }
 
+// What a recorded session is done again with.
+struct PreparedReplay {
+    session::InputLog log;
+    session::SculptOptions options;
+};
+
+// Reads the log, and makes the activity and the scene of the session anew.
+Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
+    Result<session::InputLog> log = session::read_session_log(reader);
+    if (!log) return std::unexpected(log.error());
+    if (log->torn_line || !log->threads)
+        return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
+    PreparedReplay prepared{std::move(*log), {}};
+    prepared.options.live.input = reader.path();
+    prepared.options.live.offscreen = true;
+    auto made = activity_of(reader, prepared.log.settings);
+    if (!made) return std::unexpected(made.error());
+    prepared.options.activity = std::move(made->activity);
+    prepared.options.scene = std::move(made->scene);
+    return prepared;
+}
+
+// Changes what is asked to be changed. Checks that all files of the session are there, and are those that were
+// recorded where nobody has put others in their place.
+Result<void> change_settings(const record::RecordReader& reader, const LiveReplay& how, PreparedReplay& prepared) {
+    session::InputLog& log = prepared.log;
+    session::SculptOptions& options = prepared.options;
+    const auto first = session::options_as_recorded(log.settings, options);
+    if (!first) return std::unexpected(first.error());
+    if (const auto ok = check_changes(how, first->options, options.scene != nullptr); !ok) return ok;
+    Result<std::string> changed = with_changes(log.settings, how, options);
+    if (!changed) return std::unexpected(changed.error());
+    log.settings = std::move(*changed);
+    options.live.refuses_exports = true;
+    options.live.screenshots = how.pictures;
+    if (!how.pictures.empty())
+        if (const auto made = session::make_picture_folder(how.pictures, "--pictures"); !made) return made;
+    const auto recorded = session::options_as_recorded(log.settings, options);
+    if (!recorded) return std::unexpected(recorded.error());
+    const std::string &device = first->options.live.device, &now = recorded->options.live.device;
+    if (const auto same = check_files(reader, recorded->options, device, how.sets); !same) return same;
+    if (now != device) log.device.clear();  // chosen anew
+    return session::check_commands(log, reader.path(), options.activity.get());
+}
+
+// Compares what was noted on the way: trials, and events.
+Result<void> compare_notes(record::RecordReader& reader, const session::SessionNotes& notes, bool whole) {
+    if (const auto same = session::compare_trials(reader, notes.trials, whole); !same) return same;
+    return session::compare_events(reader, notes.events, whole);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
@@ -242,39 +293,9 @@ std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
 }
 
 Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay& how, const record::TickRange& range) {
-    Result<session::InputLog> log = session::read_session_log(reader);
-    if (!log) return std::unexpected(log.error());
-    if (log->torn_line || !log->threads)
-        return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
-    session::SculptOptions options;
-    options.live.input = reader.path();
-    options.live.offscreen = true;
-    auto made = activity_of(reader, log->settings);
-    if (!made) return std::unexpected(made.error());
-    options.activity = std::move(made->activity);
-    options.scene = std::move(made->scene);
-    const auto first = session::options_as_recorded(log->settings, options);
-    if (!first) return std::unexpected(first.error());
-    if (const auto ok = check_changes(how, first->options, options.scene != nullptr); !ok)
-        return std::unexpected(ok.error());
-    Result<std::string> changed = with_changes(log->settings, how, options);
-    if (!changed) return std::unexpected(changed.error());
-    log->settings = std::move(*changed);
-    options.live.refuses_exports = true;
-    options.live.screenshots = how.pictures;
-    if (!how.pictures.empty()) {
-        if (const auto made = session::make_picture_folder(how.pictures, "--pictures"); !made)
-            return std::unexpected(made.error());
-    }
-    const auto recorded = session::options_as_recorded(log->settings, options);
-    if (!recorded) return std::unexpected(recorded.error());
-    const std::string &device = first->options.live.device, &now = recorded->options.live.device;
-    if (const auto same = check_files(reader, recorded->options, device, how.sets); !same)
-        return std::unexpected(same.error());
-    if (now != device) log->device.clear();  // chosen anew
-    if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
-        return std::unexpected(sound.error());
-
+    Result<PreparedReplay> prepared = read_recorded_session(reader);
+    if (!prepared) return std::unexpected(prepared.error());
+    if (const auto changed = change_settings(reader, how, *prepared); !changed) return std::unexpected(changed.error());
     Result<session::TickComparison> judge =
         session::TickComparison::create(reader, range,
                                         how.pictures.empty() ? session::TickComparison::AtDifference::ends
@@ -288,7 +309,7 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     manner.ticks = &reader;
     session::SessionNotes notes;
     manner.notes = &notes;
-    const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
+    const Result<void> done = session::run_as_recorded(prepared->options, std::move(prepared->log), manner);
     LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
     if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
     std::uint64_t rows = 0;
@@ -296,10 +317,7 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     replayed.left = rows - std::min(rows, judge->repeated());
     const bool whole = reader.is_closed() && replayed.left == 0 && replayed.unrecorded == 0;
     if (!done || replayed.comparison.difference) return replayed;
-    if (const auto same = session::compare_trials(reader, notes.trials, whole); !same)
-        return std::unexpected(same.error());
-    if (const auto same = session::compare_events(reader, notes.events, whole); !same)
-        return std::unexpected(same.error());
+    if (const auto same = compare_notes(reader, notes, whole); !same) return std::unexpected(same.error());
     return replayed;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "activities/world/world_replay.hpp"
@@ -21,7 +22,6 @@
 #include "session/record/session_recording.hpp"
 
 namespace burin::app {
-
 namespace {
 
 // Exact again is only what the same program computes: another one adds up in another order.
@@ -81,9 +81,7 @@ Result<void> tell(const record::RecordReader& reader, const record::Comparison& 
     return {};
 }
 
-}  // namespace
-
-struct ReplayCommand::Options {
+struct AskedReplay {
     std::string file, through, world, stroke, workpiece, json;
     std::vector<std::string> sets;
     std::string pictures;
@@ -103,7 +101,7 @@ struct ReplayCommand::Options {
     [[nodiscard]] Result<void> replay_session(record::RecordReader& reader) const;
 };
 
-Result<void> ReplayCommand::Options::replay() const {
+Result<void> AskedReplay::replay() const {
     Result<record::RecordReader> reader = record::RecordReader::open(file);
     if (!reader) return std::unexpected(reader.error());
     if (const auto some = record::check_ticks(*reader, range()); !some) return some;
@@ -135,7 +133,7 @@ Result<void> ReplayCommand::Options::replay() const {
 }
 
 // Does a live session again.
-Result<void> ReplayCommand::Options::replay_session(record::RecordReader& reader) const {
+Result<void> AskedReplay::replay_session(record::RecordReader& reader) const {
     if (!stroke.empty())
         return fail("--stroke", "belongs to a felt stroke, and this is a live session", "leave it out");
     if (const auto ok = check_build(reader); !ok) return ok;
@@ -154,44 +152,8 @@ Result<void> ReplayCommand::Options::replay_session(record::RecordReader& reader
     return tell(reader, found->comparison, took.count(), json);
 }
 
-ReplayCommand::ReplayCommand(Command app)
-    : options_(std::make_unique<Options>()),
-      command_(app.subcommand("replay", "Do a recording again and compare every tick, or feel its motion elsewhere")) {
-    Options& o = *options_;
-    command_.option("FILE", o.file, "A session file, which --record has written").required();
-    command_.option("--from", o.from, "The first tick that is compared; with --through the first that is felt");
-    command_.option("--to", o.to, "The last tick; they are counted from 1");
-    command_.option("--world", o.world, "Where the recorded world's file is now").asset(AssetRoom::worlds);
-    command_.option("--stroke", o.stroke, "Where the stroke's file is now").asset(AssetRoom::strokes);
-    command_.option("--workpiece", o.workpiece, "Where the workpiece's file is now").asset(AssetRoom::workpieces);
-    command_.option(
-        "--set", o.sets,
-        "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
-        "The first difference then tells what that changes. Of a felt stroke: engine=cpu or engine=vulkan");
-    command_.option("--pictures", o.pictures, "Of a live session: a folder for pictures of it, named by their seconds");
-    command_.option("--every", o.every_s, "With --pictures: seconds of the session from one to the next")
-        .within(0.001, 1e6)
-        .show_default();
-    command_
-        .option("--through", o.through,
-                "A world (.toml, .wrl) in which the recorded motion is felt: adds a table of proxies, forces and "
-                "deviations to FILE")
-        .asset(AssetRoom::worlds);
-    command_.option("--radius", o.radius_m, "With --through: of the ball that touches, in metres; else as recorded");
-    command_.option("--stiffness", o.materials.stiffness_N_per_m, "With --through: of all objects, N/m");
-    command_.option("--damping", o.materials.damping_Ns_per_m, "With --through: of all objects, N s/m");
-    command_.option("--static-friction", o.materials.static_friction, "With --through: of all objects");
-    command_.option("--dynamic-friction", o.materials.dynamic_friction, "With --through: of all objects");
-    command_.option("--coulomb-velocity", o.materials.coulomb_velocity_m_per_s, "With --through: of all objects, m/s");
-    command_.option("--json", o.json, "A file for all figures; - for standard output");
-}
-
-ReplayCommand::~ReplayCommand() = default;
-
-bool ReplayCommand::parsed() const { return command_.parsed(); }
-
-std::string ReplayCommand::misuse() const {
-    const Options& o = *options_;
+// Returns what is wrong with the usage; empty where nothing is.
+std::string misuse_of(const AskedReplay& o) {
     if (o.through.empty() && (o.radius_m || o.materials.is_any()))
         return "--radius and materials need --through a world: a replay is with the recorded ones";
     if (!o.through.empty() &&
@@ -204,13 +166,61 @@ std::string ReplayCommand::misuse() const {
     return "";
 }
 
-Result<void> ReplayCommand::run() const {
-    const Options& o = *options_;
+Result<void> run_replay(const AskedReplay& o) {
     session::InputFiles inputs;
     inputs.file(o.file).world(o.through).world(o.world).file(o.stroke).mesh(o.workpiece);
     if (const auto ok = check_outputs({}, o.json == kStandardOutput ? "" : o.json, inputs.list()); !ok) return ok;
     return o.through.empty() ? o.replay()
                              : replay_through({o.file, o.through, o.radius_m, o.materials, o.range(), o.json});
+}
+
+// Adds which ticks are done again, and what of the recorded session is elsewhere or is changed.
+void add_repeat_options(Command command, AskedReplay& o) {
+    command.option("FILE", o.file, "A session file, which --record has written").required();
+    command.option("--from", o.from, "The first tick that is compared; with --through the first that is felt");
+    command.option("--to", o.to, "The last tick; they are counted from 1");
+    command.option("--world", o.world, "Where the recorded world's file is now").asset(AssetRoom::worlds);
+    command.option("--stroke", o.stroke, "Where the stroke's file is now").asset(AssetRoom::strokes);
+    command.option("--workpiece", o.workpiece, "Where the workpiece's file is now").asset(AssetRoom::workpieces);
+    command.option("--set", o.sets,
+                   "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
+                   "The first difference then tells what that changes. Of a felt stroke: engine=cpu or engine=vulkan");
+    command.option("--pictures", o.pictures, "Of a live session: a folder for pictures of it, named by their seconds");
+    command.option("--every", o.every_s, "With --pictures: seconds of the session from one to the next")
+        .within(0.001, 1e6)
+        .show_default();
+}
+
+// Adds in which world a motion is felt, and how.
+void add_through_options(Command command, AskedReplay& o) {
+    command
+        .option("--through", o.through,
+                "A world (.toml, .wrl) in which the recorded motion is felt: adds a table of proxies, forces and "
+                "deviations to FILE")
+        .asset(AssetRoom::worlds);
+    command.option("--radius", o.radius_m, "With --through: of the ball that touches, in metres; else as recorded");
+    command.option("--stiffness", o.materials.stiffness_N_per_m, "With --through: of all objects, N/m");
+    command.option("--damping", o.materials.damping_Ns_per_m, "With --through: of all objects, N s/m");
+    command.option("--static-friction", o.materials.static_friction, "With --through: of all objects");
+    command.option("--dynamic-friction", o.materials.dynamic_friction, "With --through: of all objects");
+    command.option("--coulomb-velocity", o.materials.coulomb_velocity_m_per_s, "With --through: of all objects, m/s");
+}
+
+CommandAction add_replay(Command command) {
+    const auto options = std::make_shared<AskedReplay>();
+    add_repeat_options(command, *options);
+    add_through_options(command, *options);
+    command.option("--json", options->json, "A file for all figures; - for standard output");
+    return [options]() -> Result<int> {
+        if (const std::string misuse = misuse_of(*options); !misuse.empty()) return wrong_usage("replay", misuse);
+        return action([&] { return run_replay(*options); })();
+    };
+}
+
+}  // namespace
+
+CommandRow replay_row() {
+    return {"replay", "Do a recording again and compare every tick, or feel its motion elsewhere", add_replay};
 }
 
 }  // namespace burin::app

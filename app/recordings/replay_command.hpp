@@ -6,31 +6,10 @@
 //                                       is compared with the one that is there
 #pragma once
 
-#include <memory>
-#include <string>
-
-#include "app/cli/command_line.hpp"
-#include "base/error.hpp"
+#include "app/cli/command_table.hpp"
 
 namespace burin::app {
 
-class ReplayCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit ReplayCommand(Command app);
-    ~ReplayCommand();
-    ReplayCommand(const ReplayCommand&) = delete;
-    ReplayCommand& operator=(const ReplayCommand&) = delete;
-
-    [[nodiscard]] bool parsed() const;
-    // Returns what is wrong with the usage, for exit status 2; empty where nothing is.
-    [[nodiscard]] std::string misuse() const;
-    [[nodiscard]] Result<void> run() const;
-
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_;
-};
+[[nodiscard]] CommandRow replay_row();
 
 }  // namespace burin::app

@@ -4,23 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
+#include <memory>
+#include <string>
 
 #include "app/cli/output_files.hpp"
+#include "app/recordings/session_words.hpp"
 #include "base/text.hpp"
 #include "record/compare.hpp"
 #include "record/examination.hpp"
-#include "record/export/new_file.hpp"
-#include "record/export/table_export.hpp"
 #include "record/store_reading.hpp"
-#include "session/record/log_export.hpp"
 
 namespace burin::app {
 namespace {
-
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 Json hand_json(const record::HandRecord& hand, const record::HandSummary& summary) {
     Json json{{"name", hand.name}, {"ticks", summary.ticks}, {"blocks", hand.blocks.size()}};
@@ -60,7 +55,7 @@ void print_hand(const record::HandRecord& hand, const record::HandSummary& summa
                     std::string(record::name_of(column.type)).c_str());
 }
 
-Result<void> info(const std::string& path, const std::string& json_path) {
+Result<void> session_info(const std::string& path, const std::string& json_path) {
     if (const auto ok = check_places(std::array{json_path}, std::array{path}); !ok) return ok;
     Result<record::RecordReader> reader = record::RecordReader::open(path);
     if (!reader) return std::unexpected(reader.error());
@@ -137,7 +132,7 @@ Result<std::size_t> check_chain(record::RecordReader& reader) {
     return chain->faults.size();
 }
 
-Result<void> check(const std::string& path) {
+Result<void> check_session(const std::string& path) {
     Result<record::RecordReader> reader = record::RecordReader::open(path);
     if (!reader) return std::unexpected(reader.error());
     const Result<std::string> structure = reader->structure_fault();
@@ -181,7 +176,7 @@ Result<void> check(const std::string& path) {
     return fail(path, counted(damaged, "part is", "parts are") + " damaged", "the rest can be read and converted");
 }
 
-Result<void> compare(const std::string& a, const std::string& b, const std::string& columns) {
+Result<void> compare_sessions(const std::string& a, const std::string& b, const std::string& columns) {
     Result<record::RecordReader> first = record::RecordReader::open(a), second = record::RecordReader::open(b);
     if (!first) return std::unexpected(first.error());
     if (!second) return std::unexpected(second.error());
@@ -197,124 +192,49 @@ Result<void> compare(const std::string& a, const std::string& b, const std::stri
     return {};
 }
 
-// Returns the table of this name: a hand, or a derived one by the beginning of its name.
-Result<std::size_t> find_table(const record::RecordReader& reader, const std::string& part) {
-    std::vector<std::string_view> names;
-    std::vector<std::size_t> found;
-    for (std::size_t t = 0; t < reader.tables(); ++t) {
-        const record::HandRecord& table = reader.table(t);
-        if (table.name == part) return t;
-        if (!part.empty() && table.is_derived() && table.name.starts_with(part)) found.push_back(t);
-        names.push_back(table.name);
-    }
-    if (part.empty() && reader.hands().size() == 1) return std::size_t{0};
-    if (found.size() == 1) return found.front();
-    const std::string what = part.empty()       ? "has several hands"
-                             : found.size() > 1 ? "has several tables that begin with " + part
-                                                : "has no hand or table " + part;
-    return fail(reader.path(), what, "--part one of: " + joined(names));
+struct AskedInfo {
+    std::string file, json;
+};
+
+CommandAction add_session_info(Command command) {
+    const auto options = std::make_shared<AskedInfo>();
+    command.option("FILE", options->file, "A file that --record has written").required();
+    command.option("--json", options->json, "A file for all of it; - for standard output");
+    return action([options] { return session_info(options->file, options->json); });
 }
 
-// The name of the output where none is given: the recording's, with another ending.
-std::string output_of(const ConvertOptions& options) {
-    if (!options.out.empty()) return options.out;
-    const std::filesystem::path in(options.in);
-    if (options.to == "bids") return std::filesystem::path(in).replace_extension().string() + "-bids";
-    return std::filesystem::path(in).replace_extension(options.to == "hdf5" ? "h5" : options.to).string();
+CommandAction add_session_check(Command command) {
+    const auto file = std::make_shared<std::string>();
+    command.option("FILE", *file, "A file that --record has written").required();
+    return action([file] { return check_session(*file); });
 }
 
-Result<record::ExportReport> export_table(record::RecordReader& reader, const ConvertOptions& options,
-                                          const std::string& out) {
-    if (options.to == "log" && reader.facts().contains(record::kLogHeaderFact))
-        return session::export_session_log(reader, out);
-    if (options.to == "log") return record::export_log(reader, out);
-    const Result<std::size_t> table = find_table(reader, options.part);
-    if (!table) return std::unexpected(table.error());
-    const auto columns = record::choose_columns(reader.table(*table).columns, options.columns);
-    if (!columns) return std::unexpected(columns.error());
-    Result<record::TickTimes> times;
-    if (!options.trials.empty()) times = record::times_of_trials(reader, options.trials);
-    if (!times) return std::unexpected(times.error());
-    if (options.to == "npy") return record::export_npy(reader, *table, *columns, out, *times);
-    if (options.to == "hdf5") return record::export_hdf5(reader, *table, *columns, out, *times);
-    if (options.to == "mat") return record::export_mat(reader, *table, *columns, out, *times);
-    if (options.to == "bids")
-        return record::export_bids(reader, *table, *columns, out, {options.subject, options.task}, *times);
-    return record::export_csv(reader, *table, *columns, out, *times);
+struct AskedComparison {
+    std::string first, second, columns;
+};
+
+CommandAction add_session_compare(Command command) {
+    const auto options = std::make_shared<AskedComparison>();
+    command.option("A", options->first, "A file that --record has written").required();
+    command.option("B", options->second, "Another").required();
+    command.option("--columns", options->columns,
+                   "Names with commas between them, a star at the end for all that begin so; else all");
+    return action([options] { return compare_sessions(options->first, options->second, options->columns); });
 }
 
-// Refuses what a mesh or a document alone can be asked for.
-Result<void> check_for_a_session(const ConvertOptions& options) {
-    const std::array given{std::pair{"--units", options.units.has_value()},
-                           std::pair{"--export-units", options.export_units.has_value()},
-                           std::pair{"--close-holes", options.close_holes},
-                           std::pair{"--weld", options.weld_m.has_value()},
-                           std::pair{"--simplify", options.simplify_m.has_value()},
-                           std::pair{"--center", options.center},
-                           std::pair{"--place", options.place_m.has_value()},
-                           std::pair{"--scale", options.scale.has_value()}};
-    for (const auto& [name, is_given] : given)
-        if (is_given) return fail(name, "is for meshes and documents", "leave it out, or leave out --to");
-    return {};
+CommandAction add_session(Command command) {
+    command.require_subcommand();
+    return add_commands(
+        command,
+        {{"info", "What is in a session file: columns with units and frames, ticks, gaps, clocks", add_session_info},
+         {"check", "Read all of a session file and name what is damaged or was changed; exit status 1 then",
+          add_session_check},
+         {"compare", "The first difference of two session files; exit status 1 where there is one",
+          add_session_compare}});
 }
 
 }  // namespace
 
-Result<void> convert_session(const ConvertOptions& options) {
-    if (const auto ok = check_for_a_session(options); !ok) return ok;
-    const std::string out = output_of(options);
-    if (const auto ok = check_overwrites_none(out, std::array{options.in}); !ok) return ok;
-    if (const auto ok = record::check_no_file(out); !ok) return ok;
-    if (options.to == "log" && !(options.columns.empty() && options.part.empty() && options.trials.empty()))
-        return fail("--to log", "has no columns, parts or trials to choose",
-                    "leave --columns, --part and --trials out");
-    Result<record::RecordReader> reader = record::RecordReader::open(options.in);
-    if (!reader) return std::unexpected(reader.error());
-    const Result<record::ExportReport> report = export_table(*reader, options, out);
-    if (!report) return std::unexpected(report.error());
-    for (const Error& error : report->damaged) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
-    if (out != kStandardOutput && options.to == "log")
-        std::printf("%s: %s\n", out.c_str(), counted(report->rows, "line", "lines").c_str());
-    else if (out != kStandardOutput)
-        std::printf("%s: %s, %s\n", out.c_str(), counted(report->rows, "tick", "ticks").c_str(),
-                    counted(report->columns, "column", "columns").c_str());
-    if (report->damaged.empty()) return {};
-    return fail(options.in, counted(report->damaged.size(), "block is", "blocks are") + " damaged and left out",
-                "the rest has been written");
-}
-
-struct SessionCommand::Options {
-    std::string file, json, first, second, columns;
-};
-
-SessionCommand::SessionCommand(Command app)
-    : options_(std::make_unique<Options>()), command_(app.subcommand("session", "Session files: recorded ticks")) {
-    command_.require_subcommand();
-    Options& o = *options_;
-    info_ =
-        command_.subcommand("info", "What is in a session file: columns with units and frames, ticks, gaps, clocks");
-    info_.option("FILE", o.file, "A file that --record has written").required();
-    info_.option("--json", o.json, "A file for all of it; - for standard output");
-    check_ = command_.subcommand(
-        "check", "Read all of a session file and name what is damaged or was changed; exit status 1 then");
-    check_.option("FILE", o.file, "A file that --record has written").required();
-    Command compared =
-        command_.subcommand("compare", "The first difference of two session files; exit status 1 where there is one");
-    compared.option("A", o.first, "A file that --record has written").required();
-    compared.option("B", o.second, "Another").required();
-    compared.option("--columns", o.columns,
-                    "Names with commas between them, a star at the end for all that begin so; else all");
-}
-
-SessionCommand::~SessionCommand() = default;
-
-bool SessionCommand::parsed() const { return command_.parsed(); }
-
-Result<void> SessionCommand::run() const {
-    const Options& o = *options_;
-    if (info_.parsed()) return info(o.file, o.json);
-    if (check_.parsed()) return check(o.file);
-    return compare(o.first, o.second, o.columns);
-}
+CommandRow session_row() { return {"session", "Session files: recorded ticks", add_session}; }
 
 }  // namespace burin::app

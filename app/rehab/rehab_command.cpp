@@ -5,6 +5,10 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/progress/baseline.hpp"
@@ -150,14 +154,11 @@ void print_score(const activities::Rehab& rehab) {
     for (const std::string& note : course.notes) std::printf("%s: %s\n", exercise.name(), note.c_str());
 }
 
-}  // namespace
-
-struct RehabCommand::Of {
-    Of(const ExerciseKind& of, Command to)
-        : kind(of), command(to), numbers(of.settings.size()), words(numbers.size()) {}
+// An exercise, with what it was given on the command line.
+struct AskedExercise {
+    explicit AskedExercise(const ExerciseKind& of) : kind(of), numbers(of.settings.size()), words(numbers.size()) {}
 
     const ExerciseKind& kind;
-    Command command;
     session::SculptOptions session;
     // Of each of the kind's settings; they overrule the file.
     std::vector<std::optional<double>> numbers;
@@ -200,136 +201,179 @@ struct RehabCommand::Of {
     }
 };
 
-struct RehabCommand::Report {
-    Command command;
-    std::string folder, page, language;
-    Command withdraw;
-    RehabWithdrawOptions withdrawn;
+// Brings what a run begins with together: settings, of which some are fitted to the person. Of a recording nothing is
+// fitted, since it is done again as it was.
+struct FittedRun {
+    SettingValues values;
+    Json fitted;  // what was fitted by what; null: nothing
 };
-
-RehabCommand::RehabCommand(Command app)
-    : command_(app.subcommand("rehab", "Exercises for a hand in a glove, with a score and a log")) {
-    command_.require_subcommand();
-    for (const ExerciseKind& kind : activities::exercise_kinds()) {
-        exercises_.push_back(std::make_unique<Of>(kind, command_.subcommand(kind.name, kind.help)));
-        Of& of = *exercises_.back();
-        Command& command = of.command;
-        of.session.world = asset_path(kind.world);
-        of.session.no_workpiece = true;
-        of.session.live.device = devices::kSimulatedGlove;
-        of.session.tool.shape = "ball:0.006";  // around a fingertip's patch
-        command.option("--settings", of.settings,
-                       "A TOML file with the therapist's settings; what is given here goes before");
-        for (std::size_t i = 0; i < kind.settings.size(); ++i) {
-            const SettingKind& setting = kind.settings[i];
-            if (setting.words.empty())
-                command.option(setting.option, of.numbers[i], setting.help);
-            else
-                command.option(setting.option, of.words[i], setting.help).one_of(setting.words);
-        }
-        command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
-        if (kind.course == nullptr)
-            command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well")
-                .one_of({kScriptedHand});
-        else
-            command
-                .option("--hand", of.hand,
-                        "scripted: a simulated hand does it; weak: one that goes half as far, whose index does not "
-                        "press and whose fingers follow each other")
-                .one_of({kScriptedHand, kWeakHand});
-        command.option("--seed", of.seed, "Of the scripted hand").show_default();
-        command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
-        add_results_options(command, of.results);
-        add_remark_options(command, of.remarks);
-        add_live_options(command, of.session.live);
-    }
-    report_ = std::make_unique<Report>();
-    report_->command = command_.subcommand("report", "Write the pages of all participants' progress anew");
-    report_->command.option("FOLDER", report_->folder, "That --results was given").required();
-    report_->command.option("--out", report_->page, "The page that leads to theirs, if not FOLDER/report.html");
-    report_->command.option(
-        "--language", report_->language,
-        "Of all pages: " + activities::PageTexts::listed() + "; each participant's own if not given");
-    report_->withdraw = command_.subcommand("withdraw", "Take a participant off all pages, who is exercised no more");
-    report_->withdraw.option("FOLDER", report_->withdrawn.folder, "That --results was given").required();
-    report_->withdraw.option("--participant", report_->withdrawn.participant, "By number, 1 to 999").required();
-    report_->withdraw.flag("--erase", report_->withdrawn.erase, "Erase all runs of the participant, too");
+Result<FittedRun> fitted_run(SettingValues values, const AskedExercise& of, bool is_again) {
+    FittedRun run{std::move(values), {}};
+    if (is_again) return run;
+    if (const auto fits = fit_to_person(run.values, of.results, of.kind.conflict, run.fitted); !fits)
+        return std::unexpected(fits.error());
+    if (const auto begins = begin_where_it_ended(run.values, of.results, of.kind); !begins)
+        return std::unexpected(begins.error());
+    return run;
 }
 
-RehabCommand::~RehabCommand() = default;
-
-Result<void> RehabCommand::run() const {
-    if (report_->command.parsed()) return rehab_report(report_->folder, report_->page, report_->language);
-    if (report_->withdraw.parsed()) return rehab_withdraw(report_->withdrawn);
-    for (const auto& of : exercises_)
-        if (of->command.parsed()) return run(*of);
-    return {};
-}
-
-Result<void> RehabCommand::run(const Of& of) const {
-    Result<SettingValues> values = of.values();
-    if (!values) return std::unexpected(values.error());
+// Has the session's glove be led as asked: by nobody's script, by the scripted hand, or by the script of the exercise
+// where nobody sees it. Returns the folder of a script that was written; it must outlive the session.
+Result<std::optional<TemporaryFolder>> lead_glove(session::LiveOptions& live, const AskedExercise& of,
+                                                  SettingValues& values, bool is_simulated) {
     const bool scripted = !of.hand.empty();
+    std::optional<TemporaryFolder> folder;
+    if (values.has("start") && values.number("start") == activities::kStartsByDevice)
+        values.set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
+    if (scripted) {
+        Result<TemporaryFolder> made = have_scripted(live, of.kind, values, of.hand, of.seed);
+        if (!made) return std::unexpected(made.error());
+        folder.emplace(std::move(*made));
+    }
+    if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
+    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(values));
+    return folder;
+}
+
+// Names the hand of a run. A run that a script led is kept as the script's, so that it never counts as a person's.
+std::string hand_of_run(const AskedExercise& of, const session::LiveOptions& live) {
+    if (of.hand == kWeakHand) return "scripted, a weak hand";
+    if (!of.hand.empty()) return formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed));
+    return !live.input.empty() ? "scripted, " + live.input : live.device;
+}
+
+// Keeps what the person has done, even where the session missed something else (`done`). One that never began leaves
+// an older report alone, and a replay that went another way than its recording is nobody's run.
+Result<void> keep_run(const AskedExercise& of, const activities::Rehab& exercise, ResultsOfRun& results, bool is_again,
+                      const Result<void>& done) {
+    const bool never_began = exercise.exercise().course().events.empty();
+    if (!done && (is_again || never_began)) {
+        results.discard();
+        return done;
+    }
+    if (never_began && exercise.failure().empty()) {
+        std::printf("%s: it was never begun, and nothing is kept of it\n", of.kind.name);
+        results.discard();
+        return done;
+    }
+    print_score(exercise);
+    const Json report = exercise.report();
+    const Result<void> written = write_output(of.report, json_text(report));
+    const Result<void> kept = results.keep(report);
+    return !done ? done : !written ? written : kept;
+}
+
+Result<void> run_exercise(const AskedExercise& of) {
+    Result<SettingValues> given = of.values();
+    if (!given) return std::unexpected(given.error());
     // A recording is done again, and is whose it was; any other input is a script.
     const bool is_again = session::is_database(of.session.live.input);
     const std::string recording = is_again ? of.session.live.input : "";
-    if (const auto ok = check_results(of.results, scripted, recording); !ok) return ok;
+    if (const auto ok = check_results(of.results, !of.hand.empty(), recording); !ok) return ok;
     if (const auto ok = check_remarks(of.remarks, !of.results.folder.empty()); !ok) return ok;
-    Json fitted;
-    if (!is_again)
-        if (const auto fits = fit_to_person(*values, of.results, of.kind.conflict, fitted); !fits) return fits;
-    if (!is_again)
-        if (const auto begins = begin_where_it_ended(*values, of.results, of.kind); !begins) return begins;
+    Result<FittedRun> run = fitted_run(std::move(*given), of, is_again);
+    if (!run) return std::unexpected(run.error());
+    SettingValues& values = run->values;
     if (of.print_config) {
-        std::fputs(activities::table_text(of.kind.name, *values).c_str(), stdout);
+        std::fputs(activities::table_text(of.kind.name, values).c_str(), stdout);
         return {};
     }
     session::SculptOptions session = of.session;
     session::LiveOptions& live = session.live;
     if (const auto glove = check_glove(live); !glove) return glove;
-    std::optional<TemporaryFolder> folder;
     const bool is_simulated = live.device == devices::kSimulatedGlove;
-    if (values->has("start") && values->number("start") == activities::kStartsByDevice)
-        values->set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
-    if (scripted) {
-        Result<TemporaryFolder> made = have_scripted(live, of.kind, *values, of.hand, of.seed);
-        if (!made) return std::unexpected(made.error());
-        folder.emplace(std::move(*made));
-    }
-    if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
-    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(*values));
+    const Result<std::optional<TemporaryFolder>> folder = lead_glove(live, of, values, is_simulated);
+    if (!folder) return std::unexpected(folder.error());
     if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
-    const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(*values));
+    const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(values));
     if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
     exercise->describe(json_of(of.remarks));
-    if (!fitted.is_null()) exercise->fitted_by(std::move(fitted));
-    // A run that a script led is kept as the script's, so that it never counts as a person's.
-    const std::string hand = of.hand == kWeakHand ? "scripted, a weak hand"
-                             : scripted ? formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed))
-                             : !live.input.empty() ? "scripted, " + live.input
-                                                   : live.device;
-    Result<ResultsOfRun> results =
-        is_again ? ResultsOfRun::again(of.results, recording) : ResultsOfRun::begin(of.results, hand, exercise);
+    if (!run->fitted.is_null()) exercise->fitted_by(std::move(run->fitted));
+    Result<ResultsOfRun> results = is_again ? ResultsOfRun::again(of.results, recording)
+                                            : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise);
     if (!results) return std::unexpected(results.error());
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
-    // What the person has done is kept, even where the session missed something else; one that never began leaves an
-    // older report alone.
-    // A replay that went another way than its recording is nobody's run.
-    if (!done && (is_again || exercise->exercise().course().events.empty())) {
-        results->discard();
-        return done;
-    }
-    if (exercise->exercise().course().events.empty() && exercise->failure().empty()) {
-        std::printf("%s: it was never begun, and nothing is kept of it\n", of.kind.name);
-        results->discard();
-        return done;
-    }
-    print_score(*exercise);
-    const Json report = exercise->report();
-    const Result<void> written = write_output(of.report, json_text(report));
-    const Result<void> kept = results->keep(report);
-    return !done ? done : !written ? written : kept;
+    return keep_run(of, *exercise, *results, is_again, done);
 }
+
+// Adds an option for each of the kind's settings.
+void add_setting_options(Command command, AskedExercise& of) {
+    command.option("--settings", of.settings,
+                   "A TOML file with the therapist's settings; what is given here goes before");
+    for (std::size_t i = 0; i < of.kind.settings.size(); ++i) {
+        const SettingKind& setting = of.kind.settings[i];
+        if (setting.words.empty())
+            command.option(setting.option, of.numbers[i], setting.help);
+        else
+            command.option(setting.option, of.words[i], setting.help).one_of(setting.words);
+    }
+}
+
+void add_hand_option(Command command, AskedExercise& of) {
+    if (of.kind.course == nullptr)
+        command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well")
+            .one_of({kScriptedHand});
+    else
+        command
+            .option("--hand", of.hand,
+                    "scripted: a simulated hand does it; weak: one that goes half as far, whose index does not "
+                    "press and whose fingers follow each other")
+            .one_of({kScriptedHand, kWeakHand});
+}
+
+CommandAction add_exercise(Command command, const ExerciseKind& kind) {
+    const auto asked = std::make_shared<AskedExercise>(kind);
+    AskedExercise& of = *asked;
+    of.session.world = asset_path(kind.world);
+    of.session.no_workpiece = true;
+    of.session.live.device = devices::kSimulatedGlove;
+    of.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+    add_setting_options(command, of);
+    command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
+    add_hand_option(command, of);
+    command.option("--seed", of.seed, "Of the scripted hand").show_default();
+    command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
+    add_results_options(command, of.results);
+    add_remark_options(command, of.remarks);
+    add_live_options(command, of.session.live);
+    return action([asked] { return run_exercise(*asked); });
+}
+
+// The pages of a folder of results, and the language of all of them.
+struct AskedPages {
+    std::string folder, page, language;
+};
+
+CommandAction add_rehab_report(Command command) {
+    const auto options = std::make_shared<AskedPages>();
+    command.option("FOLDER", options->folder, "That --results was given").required();
+    command.option("--out", options->page, "The page that leads to theirs, if not FOLDER/report.html");
+    command.option("--language", options->language,
+                   "Of all pages: " + activities::PageTexts::listed() + "; each participant's own if not given");
+    return action([options] { return rehab_report(options->folder, options->page, options->language); });
+}
+
+CommandAction add_rehab_withdraw(Command command) {
+    const auto options = std::make_shared<RehabWithdrawOptions>();
+    command.option("FOLDER", options->folder, "That --results was given").required();
+    command.option("--participant", options->participant, "By number, 1 to 999").required();
+    command.flag("--erase", options->erase, "Erase all runs of the participant, too");
+    return action([options] { return rehab_withdraw(*options); });
+}
+
+CommandAction add_rehab(Command command) {
+    command.require_subcommand();
+    std::vector<CommandRow> rows;
+    for (const ExerciseKind& kind : activities::exercise_kinds())
+        rows.push_back({kind.name, kind.help, [&kind](Command of_kind) { return add_exercise(of_kind, kind); }});
+    rows.push_back({"report", "Write the pages of all participants' progress anew", add_rehab_report});
+    rows.push_back({"withdraw", "Take a participant off all pages, who is exercised no more", add_rehab_withdraw});
+    return add_commands(command, rows);
+}
+
+}  // namespace
+
+CommandRow rehab_row() { return {"rehab", "Exercises for a hand in a glove, with a score and a log", add_rehab}; }
 
 }  // namespace burin::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
+#include <memory>
 
 #include <algorithm>
 #include <array>
@@ -180,6 +181,31 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
         if (const auto ok = write_folder(out, files); !ok) return ok;
     }
     return write_output(options.json, json_text(json));
+}
+
+namespace {
+
+CommandAction add_study_analyse(Command command) {
+    const auto options = std::make_shared<StudyAnalyseOptions>();
+    command.option("STUDY", options->study, "The study's folder, instead of --data");
+    command.option("--data", options->data,
+                   "CSV with participant, group, trial, deviation, time_s; see docs/formats.md");
+    command.option("--day", options->chosen.day,
+                   "With STUDY: trials of this day alone, such as a later one's (retention)");
+    command.option("--stage", options->chosen.stage, "With STUDY: trials of this stage alone, such as another path's");
+    command.option("--published", options->published,
+                   "CSV of figures that were published of these data, to be checked");
+    command.option("--json", options->json, "A file for every figure; - for standard output");
+    command.option("--out", options->out, "A new folder for report.html, results.json and tables as CSV");
+    command.option("--seed", options->seed, "Of random permutations, where there are too many to count all")
+        .show_default();
+    return action([options] { return study_analyse(*options); });
+}
+
+}  // namespace
+
+CommandRow study_analyse_row() {
+    return {"analyse", "Correlations, comparisons and effect sizes of a table of trials", add_study_analyse};
 }
 
 }  // namespace burin::app

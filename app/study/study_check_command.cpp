@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "app/study/study_command.hpp"
 #include "app/study/study_reach.hpp"
@@ -105,5 +106,17 @@ Result<void> study_check(const std::string& place) {
     std::error_code ignored;
     return std::filesystem::is_directory(place, ignored) ? check_folder(place) : check_protocol(place);
 }
+
+namespace {
+
+CommandAction add_study_check(Command command) {
+    const auto place = std::make_shared<std::string>();
+    command.option("PLACE", *place, "A protocol (.toml) or a study's folder").required();
+    return action([place] { return study_check(*place); });
+}
+
+}  // namespace
+
+CommandRow study_check_row() { return {"check", "Every fault of a protocol, or of a study's folder", add_study_check}; }
 
 }  // namespace burin::app

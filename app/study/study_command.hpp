@@ -17,12 +17,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/cli/command_line.hpp"
+#include "app/cli/command_table.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/error.hpp"
 #include "session/state/session_options.hpp"
@@ -30,26 +29,9 @@
 
 namespace burin::app {
 
-class StudyCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit StudyCommand(Command app);
-    ~StudyCommand();
-    StudyCommand(const StudyCommand&) = delete;
-    StudyCommand& operator=(const StudyCommand&) = delete;
+[[nodiscard]] CommandRow study_row();
 
-    [[nodiscard]] bool parsed() const;
-    [[nodiscard]] Result<void> run() const;
-
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    void add_figures();
-    void add_folder();
-
-    Command command_;
-    Command analyse_, power_, init_, check_, enrol_, run_, replay_, status_, withdraw_, report_;
-};
+inline constexpr const char* kStudyHelp = "The study's folder";
 
 // ---- burin study analyse (study_analyse_command.cpp)
 
@@ -69,6 +51,7 @@ struct StudyAnalyseOptions {
 };
 // Lists every fault of the inputs and fails, or analyses. The folder is written whole or not at all.
 [[nodiscard]] Result<void> study_analyse(const StudyAnalyseOptions& options);
+[[nodiscard]] CommandRow study_analyse_row();
 
 // ---- burin study power (study_power_command.cpp)
 
@@ -83,6 +66,7 @@ struct StudyPowerOptions {
     std::string json;      // a file; empty: none
 };
 [[nodiscard]] Result<void> study_power(const StudyPowerOptions& options);
+[[nodiscard]] CommandRow study_power_row();
 
 // ---- the folder of a study (study_NAME_command.cpp each)
 
@@ -95,15 +79,18 @@ struct StudyInitOptions {
 };
 // Lists every fault of the protocol and fails, or makes the folder.
 [[nodiscard]] Result<void> study_init(const StudyInitOptions& options);
+[[nodiscard]] CommandRow study_init_row();
 
 // A protocol, or a study's folder with its protocol, journal and data; lists every fault.
 [[nodiscard]] Result<void> study_check(const std::string& place);
+[[nodiscard]] CommandRow study_check_row();
 
 struct StudyEnrolOptions {
     std::string study, id, key;
     std::vector<std::string> codes;
 };
 [[nodiscard]] Result<void> study_enrol(const StudyEnrolOptions& options);
+[[nodiscard]] CommandRow study_enrol_row();
 
 struct StudyRunOptions {
     std::string study, key;
@@ -117,6 +104,7 @@ struct StudyRunOptions {
 };
 // Goes on where the journal ends. `given`: the names of the options that were given; fails where one has no effect.
 [[nodiscard]] Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given);
+[[nodiscard]] CommandRow study_run_row();
 
 // Every recorded motion through the haptic tick again; fails where one does not give what was stored.
 struct StudyReplayOptions {
@@ -126,16 +114,20 @@ struct StudyReplayOptions {
     bool quiet = false;       // prints faults alone
 };
 [[nodiscard]] Result<void> study_replay(const StudyReplayOptions& options);
+[[nodiscard]] CommandRow study_replay_row();
 
 [[nodiscard]] Result<void> study_status(const std::string& study);
+[[nodiscard]] CommandRow study_status_row();
 
 struct StudyWithdrawOptions {
     std::string study, id;
     bool erase = false;
 };
 [[nodiscard]] Result<void> study_withdraw(const StudyWithdrawOptions& options);
+[[nodiscard]] CommandRow study_withdraw_row();
 
 // Makes trials.csv anew and writes a new folder in reports/.
 [[nodiscard]] Result<void> study_report(const std::string& study);
+[[nodiscard]] CommandRow study_report_row();
 
 }  // namespace burin::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <memory>
 
 #include "app/study/study_command.hpp"
 #include "app/study/study_reach.hpp"
@@ -63,6 +64,30 @@ Result<void> study_init(const StudyInitOptions& options) {
         std::printf("The allocation is drawn at random and sealed.\n");
     std::printf("Its key is %s.\n", options.key.empty() ? (folder + "/allocation.key").c_str() : options.key.c_str());
     return {};
+}
+
+namespace {
+
+CommandAction add_study_init(Command command) {
+    const auto options = std::make_shared<StudyInitOptions>();
+    command
+        .option("PLACES", options->places,
+                "PROTOCOL STUDY: a TOML file (docs/study.md) or kinesthetic-path; a new folder")
+        .required();
+    command.option("--protocol", options->protocol, "The protocol, where only STUDY is named before");
+    command.option("--participants", options->participants, "Places of each stratum's list")
+        .within(std::uint64_t{1}, std::uint64_t{10'000})
+        .show_default();
+    command.option("--seed", options->seed, "Of the allocation and of simulated learners; with people leave it out");
+    command.option("--key", options->key,
+                   "A new file for the key of the sealed allocation, to be kept by who does not enrol");
+    return action([options] { return study_init(*options); });
+}
+
+}  // namespace
+
+CommandRow study_init_row() {
+    return {"init", "Makes a study's folder of a protocol: frozen, with its allocation", add_study_init};
 }
 
 }  // namespace burin::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <memory>
 
 #include "app/cli/output_files.hpp"
 #include "app/study/study_command.hpp"
@@ -50,6 +51,34 @@ Result<void> study_power(const StudyPowerOptions& options) {
     }
     simulated.first = simulated.second = sizes->per_group;
     return show_power(options, simulated, sizes->power);
+}
+
+namespace {
+
+CommandAction add_study_power(Command command) {
+    const auto options = std::make_shared<StudyPowerOptions>();
+    command
+        .option("--effect", options->effect, "Difference of the groups in standard deviations of a participant's value")
+        .within(-100.0, 100.0)
+        .required();
+    command.option("--participants", options->participants, "Of both groups together: print their power")
+        .within(std::uint64_t{2}, std::uint64_t{4000});
+    command.option("--target", options->target, "Print the fewest participants that reach this power (0.8)")
+        .within(0.01, 0.9999);
+    command.option("--alpha", options->alpha, "Significance level").within(1e-6, 0.5).show_default();
+    command.option("--studies", options->studies, "How many are simulated (10000; 1000 without an effect)")
+        .within(std::uint64_t{100}, std::uint64_t{10'000'000});
+    command.option("--seed", options->seed, "Of the simulation").show_default();
+    command.option("--threads", options->threads, "How many threads work; 0: one per core; the result is the same")
+        .within(0, 1024);
+    command.option("--json", options->json, "A file for the result; - for standard output");
+    return action([options] { return study_power(*options); });
+}
+
+}  // namespace
+
+CommandRow study_power_row() {
+    return {"power", "How many participants a study needs, by simulation", add_study_power};
 }
 
 }  // namespace burin::app

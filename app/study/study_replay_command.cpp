@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -156,6 +157,22 @@ Result<void> study_replay(const StudyReplayOptions& options) {
                     "see above; the others do, to the bit");
     if (!options.quiet) std::printf("All equal what was stored, to the bit.\n");
     return {};
+}
+
+namespace {
+
+CommandAction add_study_replay(Command command) {
+    const auto options = std::make_shared<StudyReplayOptions>();
+    command.option("STUDY", options->study, kStudyHelp).required();
+    command.option("--participant", options->participant, "Of this participant only");
+    command.option("--threads", options->threads, "Recordings at a time; 0: one for each core").within(0, 1024);
+    return action([options] { return study_replay(*options); });
+}
+
+}  // namespace
+
+CommandRow study_replay_row() {
+    return {"replay", "Recorded motion through the haptic tick again, compared to the bit", add_study_replay};
 }
 
 }  // namespace burin::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "app/study/study_command.hpp"
@@ -36,6 +37,20 @@ Result<void> study_report(const std::string& folder) {
     if (const auto ok = study_analyse(options); !ok) return ok;
     std::printf("\n%s\n", (report / "report.html").c_str());
     return {};
+}
+
+namespace {
+
+CommandAction add_study_report(Command command) {
+    const auto study = std::make_shared<std::string>();
+    command.option("STUDY", *study, kStudyHelp).required();
+    return action([study] { return study_report(*study); });
+}
+
+}  // namespace
+
+CommandRow study_report_row() {
+    return {"report", "A new folder in reports/ with report.html, results.json and tables", add_study_report};
 }
 
 }  // namespace burin::app

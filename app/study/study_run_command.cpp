@@ -3,10 +3,12 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <span>
 
 #include "activities/train/scripted_visit.hpp"
 #include "activities/train/simulated_study.hpp"
+#include "app/cli/live_options.hpp"
 #include "app/study/study_command.hpp"
 #include "app/study/study_device.hpp"
 #include "app/study/study_live.hpp"
@@ -172,6 +174,45 @@ Result<void> study_run(const StudyRunOptions& options, const std::vector<std::st
                                          : take_participant(*study, options);
     if (!went) return went;
     return options.pictures ? draw_stages(*study) : Result<void>();
+}
+
+namespace {
+
+CommandAction add_study_run(Command command) {
+    const auto options = std::make_shared<StudyRunOptions>();
+    command.option("STUDY", options->study, kStudyHelp).required();
+    command.flag("--simulated", options->simulated,
+                 "Simulated learners with a simulated wand fill all places; no window");
+    command.option("--participant", options->participant,
+                   "Takes one participant, who is enrolled, through the next day's stages");
+    options->live_names =
+        add_live_options(command, options->live,
+                         "A written log of a session's input, in its user's place, in a live session; or a "
+                         "script of a visit, in simulated time (docs/study.md)",
+                         ". In a study \"simulated\" is not the Omni but the wand, simulated, with the "
+                         "protocol's two points");
+    command.option("--key", options->key, "The allocation's key, where it is not in the folder");
+    command.option("--threads", options->threads, "People at a time; 0: one for each core; the result is the same")
+        .within(0, 1024);
+    command.flag("--without-motion", options->without_motion,
+                 "Keep what is measured, but not the motion; replay needs that");
+    command.flag(
+        "--resume", options->resume,
+        "Begin an interrupted stage anew though the protocol's time for it is over; journal and report name it");
+    command.flag("--any-delay", options->any_delay,
+                 "Begin the day though it comes too early or too late by the protocol; journal and report name it");
+    command.flag("--pictures", options->pictures,
+                 "Draw what each group saw in each stage, into the folder's pictures/");
+    command.option("--effect", options->effect, "Of simulated learners: how much less the first group wanders, in SD")
+        .within(-10.0, 10.0)
+        .show_default();
+    return action([options, command] { return study_run(*options, command.given()); });
+}
+
+}  // namespace
+
+CommandRow study_run_row() {
+    return {"run", "Takes the participants through the protocol, from where the journal ends", add_study_run};
 }
 
 }  // namespace burin::app

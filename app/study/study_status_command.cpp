@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <memory>
 
 #include "app/study/study_command.hpp"
 #include "app/study/study_trials.hpp"
@@ -46,6 +47,20 @@ Result<void> study_status(const std::string& folder) {
         std::printf("%zu files of data stand in no line of the journal: burin study check names them\n", unnamed);
     std::printf("last digest of the journal: %s\n", study->journal().last_digest.c_str());
     return {};
+}
+
+namespace {
+
+CommandAction add_study_status(Command command) {
+    const auto study = std::make_shared<std::string>();
+    command.option("STUDY", *study, kStudyHelp).required();
+    return action([study] { return study_status(*study); });
+}
+
+}  // namespace
+
+CommandRow study_status_row() {
+    return {"status", "Who is in the study and how far; aborted stages; damage", add_study_status};
 }
 
 }  // namespace burin::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <memory>
 
 #include "app/study/study_command.hpp"
 #include "app/study/study_trials.hpp"
@@ -24,5 +25,20 @@ Result<void> study_withdraw(const StudyWithdrawOptions& options) {
     if (options.erase) static_cast<void>(make_trials(options.study));
     return {};
 }
+
+namespace {
+
+CommandAction add_study_withdraw(Command command) {
+    const auto options = std::make_shared<StudyWithdrawOptions>();
+    command.option("STUDY", options->study, kStudyHelp).required();
+    command.option("ID", options->id, "The participant's code").required();
+    command.flag("--erase", options->erase,
+                 "Delete the participant's data too, and all that journal and reports tell but for code and group");
+    return action([options] { return study_withdraw(*options); });
+}
+
+}  // namespace
+
+CommandRow study_withdraw_row() { return {"withdraw", "Excludes a participant", add_study_withdraw}; }
 
 }  // namespace burin::app

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include "app/cli/output_files.hpp"
@@ -204,6 +205,30 @@ Result<void> calibrate_wall(const WallCalibrationOptions& options) {
     if (const auto ok = refuse_errors(*setup, screen.name); !ok) return ok;
     if (const auto ok = write_text(options.out, wall::wall_text(*setup)); !ok) return ok;
     return write_output(options.json, json_text(describe(*fit, *before)));
+}
+
+namespace {
+
+CommandAction add_wall_calibrate(Command command) {
+    const auto options = std::make_shared<WallCalibrationOptions>();
+    WallCalibrationOptions& c = *options;
+    command.option("--wall", c.wall, "The wall file as it is").asset(AssetRoom::walls).required();
+    command
+        .option("--samples", c.samples,
+                "CSV with place,x,y,z in the wall's unit and the tracker's frame; - for standard input, with a "
+                "prompt for each touch")
+        .required();
+    command.option("--screen", c.screen, "Which screen was touched").required();
+    command.option("--out", c.out, "Where to write the new wall file; may be the old one").required();
+    command.option("--json", c.json, "A file for the residuals; - for standard output");
+    command.flag("--keep-size", c.keep_size, "Move and turn the screen, but leave its width and height");
+    return action([options] { return calibrate_wall(*options); });
+}
+
+}  // namespace
+
+CommandRow wall_calibrate_row() {
+    return {"calibrate", "A screen's corners from touches with a tracked wand", add_wall_calibrate};
 }
 
 }  // namespace burin::app

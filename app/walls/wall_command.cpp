@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,16 +16,13 @@
 
 namespace burin::app {
 
-struct WallCommand::Options {
+namespace {
+
+// Of show; check has the file alone.
+struct ShownWall {
     std::string file, svg, json, tracker;
     bool print_config = false;
-    WallCalibrationOptions calibration;
-
-    [[nodiscard]] Result<void> show() const;
-    [[nodiscard]] Result<void> check_file() const;
 };
-
-namespace {
 
 // Returns the setup with its tracker's description written out, its address as --tracker says.
 Result<wall::WallSetup> with_tracker(wall::WallSetup setup, const std::string& file, const std::string& tracker) {
@@ -44,25 +42,24 @@ Result<wall::WallSetup> with_tracker(wall::WallSetup setup, const std::string& f
     return setup;
 }
 
-}  // namespace
-
-Result<void> WallCommand::Options::show() const {
-    if (const auto ok = check_places(std::array{svg, json}, std::array{file}); !ok) return ok;
-    const auto setup = wall::read_wall(file);
+Result<void> show_wall(const ShownWall& shown) {
+    if (const auto ok = check_places(std::array{shown.svg, shown.json}, std::array{shown.file}); !ok) return ok;
+    const auto setup = wall::read_wall(shown.file);
     if (!setup) return std::unexpected(setup.error());
-    if (print_config) {
-        const auto whole = with_tracker(*setup, file, tracker);
+    if (shown.print_config) {
+        const auto whole = with_tracker(*setup, shown.file, shown.tracker);
         if (!whole) return std::unexpected(whole.error());
         std::fputs(wall::wall_text(*whole).c_str(), stdout);
         return {};
     }
     const auto figures = wall::wall_figures(*setup);
-    if (json != kStandardOutput && svg != kStandardOutput) std::fputs(wall::wall_table(figures).c_str(), stdout);
-    if (const auto ok = write_output(svg, wall::wall_drawing(*setup)); !ok) return ok;
-    return write_output(json, json_text(figures));
+    if (shown.json != kStandardOutput && shown.svg != kStandardOutput)
+        std::fputs(wall::wall_table(figures).c_str(), stdout);
+    if (const auto ok = write_output(shown.svg, wall::wall_drawing(*setup)); !ok) return ok;
+    return write_output(shown.json, json_text(figures));
 }
 
-Result<void> WallCommand::Options::check_file() const {
+Result<void> check_wall(const std::string& file) {
     const auto setup = wall::read_wall(file);
     if (!setup) return std::unexpected(setup.error());
     if (const auto whole = with_tracker(*setup, file, {}); !whole) return std::unexpected(whole.error());
@@ -78,45 +75,36 @@ Result<void> WallCommand::Options::check_file() const {
     return {};
 }
 
-WallCommand::WallCommand(Command app)
-    : options_(std::make_unique<Options>()),
-      command_(app.subcommand("wall", "Show, check or calibrate a stereo wall")) {
-    command_.require_subcommand();
-    Options& o = *options_;
-    show_ = command_.subcommand("show", "Its screens in metres, degrees and pixels");
-    show_.option("FILE", o.file, "A wall file, see docs/formats.md").asset(AssetRoom::walls).required();
-    show_.option("--svg", o.svg, "A file for a drawing, plan and side view; - for standard output");
-    show_.flag("--print-config", o.print_config,
-               "Print the file with every setting, its tracker's description written out, and do no more");
-    show_.option("--tracker", o.tracker, "With --print-config: a tracker as sessions take it, in place of the file's")
+CommandAction add_wall_show(Command command) {
+    const auto options = std::make_shared<ShownWall>();
+    command.option("FILE", options->file, "A wall file, see docs/formats.md").asset(AssetRoom::walls).required();
+    command.option("--svg", options->svg, "A file for a drawing, plan and side view; - for standard output");
+    command.flag("--print-config", options->print_config,
+                 "Print the file with every setting, its tracker's description written out, and do no more");
+    command
+        .option("--tracker", options->tracker,
+                "With --print-config: a tracker as sessions take it, in place of the file's")
         .asset(AssetRoom::trackers);
-    show_.option("--json", o.json, "A file for all figures; - for standard output");
-
-    check_ = command_.subcommand("check", "What is wrong with it; exit status 1 when there is an error");
-    check_.option("FILE", o.file, "A wall file").asset(AssetRoom::walls).required();
-
-    Command calibrate = command_.subcommand("calibrate", "A screen's corners from touches with a tracked wand");
-    WallCalibrationOptions& c = o.calibration;
-    calibrate.option("--wall", c.wall, "The wall file as it is").asset(AssetRoom::walls).required();
-    calibrate
-        .option("--samples", c.samples,
-                "CSV with place,x,y,z in the wall's unit and the tracker's frame; - for standard input, with a "
-                "prompt for each touch")
-        .required();
-    calibrate.option("--screen", c.screen, "Which screen was touched").required();
-    calibrate.option("--out", c.out, "Where to write the new wall file; may be the old one").required();
-    calibrate.option("--json", c.json, "A file for the residuals; - for standard output");
-    calibrate.flag("--keep-size", c.keep_size, "Move and turn the screen, but leave its width and height");
+    command.option("--json", options->json, "A file for all figures; - for standard output");
+    return action([options] { return show_wall(*options); });
 }
 
-WallCommand::~WallCommand() = default;
-
-bool WallCommand::parsed() const { return command_.parsed(); }
-
-Result<void> WallCommand::run() const {
-    if (show_.parsed()) return options_->show();
-    if (check_.parsed()) return options_->check_file();
-    return calibrate_wall(options_->calibration);
+CommandAction add_wall_check(Command command) {
+    const auto file = std::make_shared<std::string>();
+    command.option("FILE", *file, "A wall file").asset(AssetRoom::walls).required();
+    return action([file] { return check_wall(*file); });
 }
+
+CommandAction add_wall_command(Command command) {
+    command.require_subcommand();
+    return add_commands(command,
+                        {{"show", "Its screens in metres, degrees and pixels", add_wall_show},
+                         {"check", "What is wrong with it; exit status 1 when there is an error", add_wall_check},
+                         wall_calibrate_row()});
+}
+
+}  // namespace
+
+CommandRow wall_row() { return {"wall", "Show, check or calibrate a stereo wall", add_wall_command}; }
 
 }  // namespace burin::app

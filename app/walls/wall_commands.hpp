@@ -6,35 +6,17 @@
 #pragma once
 
 #include <iosfwd>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/cli/command_line.hpp"
+#include "app/cli/command_table.hpp"
 #include "base/error.hpp"
 #include "wall/calibration.hpp"
 
 namespace burin::app {
 
-class WallCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit WallCommand(Command app);
-    ~WallCommand();
-    WallCommand(const WallCommand&) = delete;
-    WallCommand& operator=(const WallCommand&) = delete;
-
-    [[nodiscard]] bool parsed() const;
-    [[nodiscard]] Result<void> run() const;
-
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_;
-    Command show_;
-    Command check_;
-};
+[[nodiscard]] CommandRow wall_row();
 
 // ---- burin wall calibrate (wall_calibrate_command.cpp): fits a screen's corners to where a wand touched it
 //
@@ -56,5 +38,6 @@ struct WallCalibrationOptions {
                                                                   double unit_m);
 
 [[nodiscard]] Result<void> calibrate_wall(const WallCalibrationOptions& options);
+[[nodiscard]] CommandRow wall_calibrate_row();
 
 }  // namespace burin::app

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// burin hand [WORLD]: a hand in a glove, drawn and felt, among rigid things (activities/grasp).
+#include "app/world/hand_command.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "activities/grasp/grasp.hpp"
-#include "app/cli/commands.hpp"
 #include "app/cli/live_options.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "base/assets.hpp"
@@ -40,15 +40,40 @@ void print_grasps(const activities::Grasp& hand) {
     if (hand.grasps().empty()) std::printf("nothing was grasped\n");
 }
 
-}  // namespace
-
-void prepare_hand(HandSession& hand) {
-    hand.session.world = scripted_world();
-    hand.session.live.device = devices::kSimulatedGlove;
-    hand.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+// Has the hand go by the script of a grasp. Refuses what says otherwise.
+Result<void> lead_by_grasp(session::SculptOptions& session, const std::string& grasp) {
+    session::LiveOptions& live = session.live;
+    if (live.device != devices::kSimulatedGlove)
+        return fail("--grasp", "is of a simulated hand, and --device names " + live.device, "leave one of them out");
+    if (!live.input.empty())
+        return fail("--grasp " + grasp, "leads the hand by a script, and --input names another",
+                    "leave one of them out");
+    if (!is_scripted_world(session.world))
+        return fail("--grasp " + grasp,
+                    "goes by a script for " + scripted_world() + ", and " + session.world + " is another world",
+                    "lead the hand there with --input");
+    live.device = std::string(devices::kSimulatedGlove) + ":" + grasp;
+    live.input = arm_script(grasp);
+    live.offscreen = true;
+    return {};
 }
 
-void add_hand_options(Command command, HandSession& hand) {
+// Checks that the device is a glove which can render as asked.
+Result<void> check_worn(const session::LiveOptions& live, activities::GloveRendering rendering, bool has_line) {
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    if (!nature->is_worn)
+        return fail("--device " + live.device, "is no glove",
+                    "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
+    if (rendering == activities::GloveRendering::local && !has_line)
+        return fail("--rendering local", "needs a glove's controller, and " + live.device + " has none",
+                    "name --device glove:PORT, or leave it out");
+    return {};
+}
+
+CommandAction add_hand(Command command) {
+    const auto options = std::make_shared<HandSession>();
+    HandSession& hand = *options;
     prepare_hand(hand);
     command.option("FILE", hand.session.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
         .asset(AssetRoom::worlds)
@@ -75,6 +100,15 @@ void add_hand_options(Command command, HandSession& hand) {
         "glove on a line, which knows the piston's length alone",
         {{"distributed", activities::GloveRendering::distributed}, {"local", activities::GloveRendering::local}});
     add_live_options(command, hand.session.live);
+    return action([options] { return app::hand(*options); });
+}
+
+}  // namespace
+
+void prepare_hand(HandSession& hand) {
+    hand.session.world = scripted_world();
+    hand.session.live.device = devices::kSimulatedGlove;
+    hand.session.tool.shape = "ball:0.006";  // around a fingertip's patch
 }
 
 Result<void> hand(const HandSession& options) {
@@ -82,30 +116,10 @@ Result<void> hand(const HandSession& options) {
     session::LiveOptions& live = session.live;
     session.no_workpiece = true;
     if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
-    if (!options.grasp.empty()) {
-        if (live.device != devices::kSimulatedGlove)
-            return fail("--grasp", "is of a simulated hand, and --device names " + live.device,
-                        "leave one of them out");
-        if (!live.input.empty())
-            return fail("--grasp " + options.grasp, "leads the hand by a script, and --input names another",
-                        "leave one of them out");
-        if (!is_scripted_world(session.world))
-            return fail("--grasp " + options.grasp,
-                        "goes by a script for " + scripted_world() + ", and " + session.world + " is another world",
-                        "lead the hand there with --input");
-        live.device = std::string(devices::kSimulatedGlove) + ":" + options.grasp;
-        live.input = arm_script(options.grasp);
-        live.offscreen = true;
-    }
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    if (!nature->is_worn)
-        return fail("--device " + live.device, "is no glove",
-                    "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
+    if (!options.grasp.empty())
+        if (const auto led = lead_by_grasp(session, options.grasp); !led) return led;
     const bool has_line = live.device.starts_with(std::string(devices::kGlove) + ":");
-    if (options.options.rendering == activities::GloveRendering::local && !has_line)
-        return fail("--rendering local", "needs a glove's controller, and " + live.device + " has none",
-                    "name --device glove:PORT, or leave it out");
+    if (const auto glove = check_worn(live, options.options.rendering, has_line); !glove) return glove;
     // A glove whose arm nobody leads grasps by a script; a simulated one closes by its script's buttons.
     if (live.offscreen && live.input.empty() && !is_scripted_world(session.world))
         return fail(
@@ -119,5 +133,7 @@ Result<void> hand(const HandSession& options) {
     if (done) print_grasps(*activity);
     return done;
 }
+
+CommandRow hand_row() { return {"hand", "Close, feel, grasp, carry and point with a drawn hand", add_hand}; }
 
 }  // namespace burin::app

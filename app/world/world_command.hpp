@@ -6,32 +6,10 @@
 //   burin world check FILE... [--json OUT]     what is in each file, or all that is wrong with it; exit status 1 then
 #pragma once
 
-#include <memory>
-#include <string>
-
-#include "app/cli/command_line.hpp"
-#include "base/error.hpp"
+#include "app/cli/command_table.hpp"
 
 namespace burin::app {
 
-class WorldCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit WorldCommand(Command app);
-    ~WorldCommand();
-    WorldCommand(const WorldCommand&) = delete;
-    WorldCommand& operator=(const WorldCommand&) = delete;
-
-    [[nodiscard]] bool parsed() const;
-    // Returns what is wrong with the usage, for exit status 2; empty where nothing is.
-    [[nodiscard]] std::string misuse() const;
-    [[nodiscard]] Result<void> run() const;
-
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_;
-    Command check_;
-};
+[[nodiscard]] CommandRow world_row();
 
 }  // namespace burin::app
