@@ -4,18 +4,20 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "activities/wand/cube_test.hpp"
 #include "activities/wand/wand_view.hpp"
-#include "app/commands.hpp"
-#include "app/output_files.hpp"
-#include "app/picture_folder.hpp"
-#include "app/sculpt_options.hpp"
-#include "app/study_command.hpp"
-#include "app/world_explore.hpp"
+#include "app/carve/sculpt.hpp"
+#include "app/carve/sculpt_options.hpp"
+#include "app/cli/output_files.hpp"
+#include "app/cli/picture_folder.hpp"
+#include "app/study/study_command.hpp"
+#include "app/world/hand_command.hpp"
+#include "app/world/world_explore.hpp"
 #include "base/assets.hpp"
 #include "desk/draw/pictures.hpp"
 #include "devices/haptic/wand_file.hpp"
@@ -130,125 +132,14 @@ Result<void> write_figures(const std::filesystem::path& folder, const activities
     return {};
 }
 
-}  // namespace
-
-struct DemoCommand::Options {
-    session::SculptOptions sculpt;
-    std::string sculpt_out = "out/demo";
-    std::string world_out = "out/demo-world", study_out = "out/demo-study", hand_out = "out/demo-hand";
+// Of burin demo wand.
+struct CubeDemo {
     std::string out, world = asset_path("worlds/wand-cube.wrl"), wand;
     double radius_m = 0.004;
     bool no_pictures = false;
-
-    [[nodiscard]] Result<void> carve() const;
-    [[nodiscard]] Result<void> explore() const;
-    [[nodiscard]] Result<void> take_study() const;
-    [[nodiscard]] Result<void> grasp() const;
-    [[nodiscard]] Result<void> press_cube() const;
 };
 
-namespace {
-
-// Returns what the demonstration carves where the command line says nothing else: an ornament in a soccer ball.
-session::SculptOptions ornament() {
-    session::SculptOptions options;
-    options.workpiece.source = asset_path("workpieces/soccer_ball.obj");
-    options.workpiece.resolution = 512;
-    options.tool.shape = "ball:0.003";
-    options.stroke = asset_path("strokes/ornament.csv");
-    options.hand = session::HandChoice::simulated;
-    options.feel.hardness = "medium";
-    options.feel.press_N = 1.5;
-    options.feel.grip_N_per_m = 1000.0;
-    return options;
-}
-
-}  // namespace
-
-Result<void> DemoCommand::Options::carve() const {
-    session::SculptOptions options = sculpt;
-    const std::filesystem::path folder = sculpt_out;
-    if (const auto made = session::make_picture_folder(sculpt_out, "--out"); !made) return made;
-    for (const char* part : {"part.stl", "part.ply"}) options.exports.push_back((folder / part).string());
-    if (options.pictures.empty()) options.pictures = sculpt_out;
-    if (options.report.empty()) options.report = (folder / "report.json").string();
-    session::settle_room(options, false);
-    if (const auto carved = app::sculpt(options); !carved) return carved;
-    std::printf("left in %s\n", sculpt_out.c_str());
-    return {};
-}
-
-Result<void> DemoCommand::Options::explore() const {
-    WorldExploration exploration;
-    exploration.world = asset_path("worlds/garden.toml");
-    exploration.stroke = asset_path("strokes/garden.csv");
-    exploration.pictures = world_out;
-    exploration.report = (std::filesystem::path(world_out) / "report.json").string();
-    if (const auto made = session::make_picture_folder(world_out, "--out"); !made) return made;
-    return explore_world(exploration);
-}
-
-Result<void> DemoCommand::Options::take_study() const {
-    StudyInitOptions init;
-    init.places = {"kinesthetic-path", study_out};
-    init.seed = 1;
-    if (const auto made = study_init(init); !made) return made;
-    StudyRunOptions run;
-    run.study = study_out;
-    run.simulated = true;
-    if (const auto ran = study_run(run, {}); !ran) return ran;
-    return study_report(study_out);
-}
-
-Result<void> DemoCommand::Options::grasp() const {
-    HandSession session;
-    prepare_hand(session);
-    session.grasp = "whole";
-    session.session.live.outputs = hand_out;
-    if (const auto made = session::make_picture_folder(hand_out, "--out"); !made) return made;
-    return hand(session);
-}
-
-DemoCommand::DemoCommand(Command app)
-    : options_(std::make_unique<Options>()),
-      command_(
-          app.subcommand("demo", "Carve an ornament into a ball with a simulated hand; other runs that show much")) {
-    options_->sculpt = ornament();
-    command_.option("--out", options_->sculpt_out, "A folder for pictures, meshes and report").show_default();
-    add_carving_options(command_, options_->sculpt);
-    world_ = command_.subcommand("world", "A simulated hand feels the objects of a garden");
-    world_.option("--out", options_->world_out, "A folder for pictures and report").show_default();
-    study_ = command_.subcommand("study", "A study of simulated learners, from its protocol to its report");
-    study_.option("--out", options_->study_out, "A new folder for it").show_default();
-    hand_ = command_.subcommand("hand", "A drawn hand grasps a ball, carries it and lets it go");
-    hand_.option("--out", options_->hand_out, "A folder for pictures").show_default();
-    Command wand = command_.subcommand(
-        "wand", "Press a wand's ends against a cube: forces, torques and their signs, with pictures and plots");
-    Options& o = *options_;
-    wand.option("--out", o.out, "A folder for pictures, figures, table and report").required();
-    wand.option("--world", o.world, "A world whose first object that is felt is the cube")
-        .asset(AssetRoom::worlds)
-        .show_default();
-    wand.option("--wand", o.wand, "A wand's description (TOML); else the Quanser wand's").asset(AssetRoom::devices);
-    wand_ = wand;
-    wand.option("--radius", o.radius_m, "Radius of the balls that touch, in metres").within(1e-4, 0.02).show_default();
-    wand.flag("--no-pictures", o.no_pictures, "Leave out the pictures, which need a Vulkan device");
-}
-
-DemoCommand::~DemoCommand() = default;
-
-bool DemoCommand::parsed() const { return command_.parsed(); }
-
-Result<void> DemoCommand::run() const {
-    const Options& o = *options_;
-    if (world_.parsed()) return o.explore();
-    if (study_.parsed()) return o.take_study();
-    if (hand_.parsed()) return o.grasp();
-    return wand_.parsed() ? o.press_cube() : o.carve();
-}
-
-Result<void> DemoCommand::Options::press_cube() const {
-    const Options& o = *this;
+Result<void> demo_wand(const CubeDemo& o) {
     const Result<devices::WandDescription> described =
         o.wand.empty() ? devices::WandDescription{} : devices::read_wand(o.wand);
     if (!described) return std::unexpected(described.error());
@@ -265,6 +156,123 @@ Result<void> DemoCommand::Options::press_cube() const {
     if (test->holds()) return {};
     std::fflush(stdout);
     return fail(o.out, "not all forces and torques are as expected", "see the lines that say WRONG");
+}
+
+// Returns what the demonstration carves where the command line says nothing else: an ornament in a soccer ball.
+session::SculptOptions ornament() {
+    session::SculptOptions options;
+    options.workpiece.source = asset_path("workpieces/soccer_ball.obj");
+    options.workpiece.resolution = 512;
+    options.tool.shape = "ball:0.003";
+    options.stroke = asset_path("strokes/ornament.csv");
+    options.hand = session::HandChoice::simulated;
+    options.feel.hardness = "medium";
+    options.feel.press_N = 1.5;
+    options.feel.grip_N_per_m = 1000.0;
+    return options;
+}
+
+Result<void> demo_ornament(const session::SculptOptions& sculpt, const std::string& out) {
+    session::SculptOptions options = sculpt;
+    const std::filesystem::path folder = out;
+    if (const auto made = session::make_picture_folder(out, "--out"); !made) return made;
+    for (const char* part : {"part.stl", "part.ply"}) options.exports.push_back((folder / part).string());
+    if (options.pictures.empty()) options.pictures = out;
+    if (options.report.empty()) options.report = (folder / "report.json").string();
+    session::settle_room(options, false);
+    if (const auto carved = app::sculpt(options); !carved) return carved;
+    std::printf("left in %s\n", out.c_str());
+    return {};
+}
+
+Result<void> demo_world(const std::string& out) {
+    WorldExploration exploration;
+    exploration.world = asset_path("worlds/garden.toml");
+    exploration.stroke = asset_path("strokes/garden.csv");
+    exploration.pictures = out;
+    exploration.report = (std::filesystem::path(out) / "report.json").string();
+    if (const auto made = session::make_picture_folder(out, "--out"); !made) return made;
+    return explore_world(exploration);
+}
+
+Result<void> demo_study(const std::string& out) {
+    StudyInitOptions init;
+    init.places = {"kinesthetic-path", out};
+    init.seed = 1;
+    if (const auto made = study_init(init); !made) return made;
+    StudyRunOptions run;
+    run.study = out;
+    run.simulated = true;
+    if (const auto ran = study_run(run, {}); !ran) return ran;
+    return study_report(out);
+}
+
+Result<void> demo_hand(const std::string& out) {
+    HandSession session;
+    prepare_hand(session);
+    session.grasp = "whole";
+    session.session.live.outputs = out;
+    if (const auto made = session::make_picture_folder(out, "--out"); !made) return made;
+    return hand(session);
+}
+
+CommandAction add_demo_world(Command command) {
+    const auto out = std::make_shared<std::string>("out/demo-world");
+    command.option("--out", *out, "A folder for pictures and report").show_default();
+    return action([out] { return demo_world(*out); });
+}
+
+CommandAction add_demo_study(Command command) {
+    const auto out = std::make_shared<std::string>("out/demo-study");
+    command.option("--out", *out, "A new folder for it").show_default();
+    return action([out] { return demo_study(*out); });
+}
+
+CommandAction add_demo_hand(Command command) {
+    const auto out = std::make_shared<std::string>("out/demo-hand");
+    command.option("--out", *out, "A folder for pictures").show_default();
+    return action([out] { return demo_hand(*out); });
+}
+
+CommandAction add_demo_wand(Command command) {
+    const auto options = std::make_shared<CubeDemo>();
+    command.option("--out", options->out, "A folder for pictures, figures, table and report").required();
+    command.option("--world", options->world, "A world whose first object that is felt is the cube")
+        .asset(AssetRoom::worlds)
+        .show_default();
+    command.option("--wand", options->wand, "A wand's description (TOML); else the Quanser wand's")
+        .asset(AssetRoom::devices);
+    command.option("--radius", options->radius_m, "Radius of the balls that touch, in metres")
+        .within(1e-4, 0.02)
+        .show_default();
+    command.flag("--no-pictures", options->no_pictures, "Leave out the pictures, which need a Vulkan device");
+    return action([options] { return demo_wand(*options); });
+}
+
+// The ornament's options are those of burin sculpt, with another workpiece and stroke where none are given.
+struct OrnamentDemo {
+    session::SculptOptions sculpt = ornament();
+    std::string out = "out/demo";
+};
+
+CommandAction add_demo(Command command) {
+    const auto options = std::make_shared<OrnamentDemo>();
+    command.option("--out", options->out, "A folder for pictures, meshes and report").show_default();
+    add_carving_options(command, options->sculpt);
+    return add_commands(
+        command,
+        {{"world", "A simulated hand feels the objects of a garden", add_demo_world},
+         {"study", "A study of simulated learners, from its protocol to its report", add_demo_study},
+         {"hand", "A drawn hand grasps a ball, carries it and lets it go", add_demo_hand},
+         {"wand", "Press a wand's ends against a cube: forces, torques and their signs, with pictures and plots",
+          add_demo_wand}},
+        action([options] { return demo_ornament(options->sculpt, options->out); }));
+}
+
+}  // namespace
+
+CommandRow demo_row() {
+    return {"demo", "Carve an ornament into a ball with a simulated hand; other runs that show much", add_demo};
 }
 
 }  // namespace burin::app

@@ -5,28 +5,10 @@
 // force or a torque has another sign than the thesis says (activities/wand/cube_test.hpp).
 #pragma once
 
-#include <memory>
-
-#include "app/command_line.hpp"
-#include "base/error.hpp"
+#include "app/cli/command_table.hpp"
 
 namespace burin::app {
 
-class DemoCommand {
-public:
-    // Adds the command and its options; the command line must outlive the object.
-    explicit DemoCommand(Command app);
-    ~DemoCommand();
-    DemoCommand(const DemoCommand&) = delete;
-    DemoCommand& operator=(const DemoCommand&) = delete;
-
-    [[nodiscard]] bool parsed() const;
-    [[nodiscard]] Result<void> run() const;
-
-private:
-    struct Options;
-    std::unique_ptr<Options> options_;
-    Command command_, world_, study_, hand_, wand_;
-};
+[[nodiscard]] CommandRow demo_row();
 
 }  // namespace burin::app

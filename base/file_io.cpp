@@ -3,6 +3,7 @@
 
 #include "base/flush_folder.hpp"
 #include "base/places.hpp"
+#include "base/sha256.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -230,6 +231,12 @@ Result<std::string> read_text_file(const fs::path& path, std::uint64_t max_bytes
     bytes->erase(0, bytes->size() - text->size());
     unify_line_ends(*bytes);
     return bytes;
+}
+
+Result<std::string> file_digest(const fs::path& path) {
+    const Result<std::vector<std::byte>> bytes = read_file(path);
+    if (!bytes) return std::unexpected(bytes.error());
+    return sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
 Result<void> check_writable(const fs::path& path) {

@@ -37,6 +37,9 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{2} << 30;  // enoug
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path,
                                                  std::uint64_t max_bytes = kMaxFileBytes);
 
+// Returns the SHA-256 of a file's bytes, as sha256sum prints it.
+[[nodiscard]] Result<std::string> file_digest(const std::filesystem::path& path);
+
 // Writes the bytes under a temporary name in the target's folder, flushes them to the disk and then renames, so that
 // the target holds either its old content or all of the new, whatever happens. A symbolic link is followed; an existing
 // target keeps its permissions; a target that is not a regular file, or not writable, is refused. A failure leaves no

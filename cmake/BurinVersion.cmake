@@ -31,7 +31,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     endif()
   endif()
   file(CONFIGURE OUTPUT ${OUT} @ONLY CONTENT [[
-#include "app/version_report.hpp"
+#include "app/cli/version_report.hpp"
 
 namespace burin::app {
 

@@ -17,6 +17,9 @@ namespace burin::record {
 inline constexpr const char *kWandTextFact = "wand description", *kWandDigestFact = "wand sha256",
                             *kWandPointsFact = "wand points";
 
+// The fact that holds the digest of the world that was touched (scene/world_digest.hpp).
+inline constexpr const char* kWorldDigestFact = "world sha256";
+
 struct RecordedTick {
     std::int64_t tick = 0;
     Nanoseconds time_ns = 0, lateness_ns = 0;

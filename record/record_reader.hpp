@@ -75,6 +75,11 @@ public:
 
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] const std::map<std::string, std::string>& facts() const { return facts_; }
+    // Returns what a recording says of itself under this key; empty where it says nothing.
+    [[nodiscard]] std::string fact(const std::string& key) const {
+        const auto at = facts_.find(key);
+        return at == facts_.end() ? std::string() : at->second;
+    }
     [[nodiscard]] const std::vector<HandRecord>& hands() const { return hands_; }
     // Tables that were computed from the ticks later.
     [[nodiscard]] const std::vector<HandRecord>& derived() const { return derived_; }

@@ -197,11 +197,6 @@ Result<void> write_motion(RecordReader& reader, std::size_t table, const std::ve
     return file->finish();
 }
 
-std::string fact_of(const RecordReader& reader, const char* key) {
-    const auto found = reader.facts().find(key);
-    return found != reader.facts().end() ? found->second : std::string();
-}
-
 Json motion_json(const std::vector<BidsChannel>& channels, const BidsSpan& span, const RecordReader& reader,
                  const HandRecord& table, const BidsLabels& labels, std::uint64_t rows) {
     const double rate = span.rate_Hz(), whole = std::round(rate);
@@ -211,7 +206,7 @@ Json motion_json(const std::vector<BidsChannel>& channels, const BidsSpan& span,
     json["SamplingFrequencyEffective"] =
         span.duration_s() > 0.0 && rows > 1 ? static_cast<double>(rows - 1) / span.duration_s() : rate;
     json["TrackingSystemName"] = table.name;
-    const std::string device = fact_of(reader, "device"), version = fact_of(reader, "version");
+    const std::string device = reader.fact("device"), version = reader.fact("version");
     json["ManufacturersModelName"] = device.empty() ? table.name : device;
     if (!version.empty()) json["SoftwareVersions"] = "Burin " + version;  // else nobody knows: the key may be missing
     json["RecordingDuration"] = span.duration_s();
@@ -296,7 +291,7 @@ struct BidsPeople {
 };
 
 BidsPeople people_of(const RecordReader& reader, const std::string& subject) {
-    const std::string group = fact_of(reader, "study group");
+    const std::string group = reader.fact("study group");
     if (group.empty()) return {"participant_id\n" + subject + "\n", {}};
     Json json;
     json["group"]["Description"] = "the group of the study that the participant was allocated to";

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "base/text.hpp"
 #include "tests/house/house_rules.hpp"
@@ -34,6 +37,55 @@ Figure places_touched(const std::filesystem::path& root, const std::string& what
     return figure;
 }
 
+// Counts the files that lie in a folder itself, and not in one of its rooms.
+Figure flat_files(const std::filesystem::path& root, const std::string& folder, double bar) {
+    Figure figure{"flat files of " + folder, 0.0, bar, {}, ""};
+    for (const std::string& path : repository_files(root))
+        if (path.starts_with(folder) && !path.substr(folder.size()).contains('/')) figure.places.push_back(path);
+    figure.value = static_cast<double>(figure.places.size());
+    return figure;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+std::size_t indent_of(const std::string& line) { return std::min(line.find_first_not_of(' '), line.size()); }
+
+// Returns whether a function's body, or a lambda's at a statement's end, may begin behind this line, as clang-format
+// lays it out: it ends with a brace, and is indented by no more than a member is.
+bool opens_function(const std::string& line) {
+    if (!line.ends_with('{') || !line.contains(')') || indent_of(line) > 4 || line.starts_with('}')) return false;
+    const std::string begins = line.substr(indent_of(line));
+    for (const char* other : {"if ", "for ", "while ", "switch ", "namespace", "struct ", "class ", "enum "})
+        if (begins.starts_with(other)) return false;
+    return true;
+}
+
+// Finds the longest function of a folder, in lines from the one that opens its body to the one that closes it.
+Figure longest_function(const std::filesystem::path& root, const std::string& folder, double bar) {
+    Figure figure{"lines of the longest function in " + folder, 0.0, bar, {}, ""};
+    for (const std::string& path : repository_files(root)) {
+        if (!is_cpp(path) || !path.starts_with(folder)) continue;
+        const std::vector<std::string> lines = lines_of(read_text(root / path));
+        for (std::size_t first = 0; first < lines.size(); ++first) {
+            if (!opens_function(lines[first])) continue;
+            std::size_t last = first + 1;
+            const std::string end = std::string(indent_of(lines[first]), ' ') + '}';
+            while (last + 1 < lines.size() && !lines[last].starts_with(end)) ++last;
+            const auto length = static_cast<double>(last - first + 1);
+            if (length <= figure.value) continue;
+            figure.value = length;
+            figure.places = {formatted("%s:%zu", path.c_str(), first + 1)};
+            figure.remark = figure.places.front();
+        }
+    }
+    return figure;
+}
+
 }  // namespace
 
 std::vector<FolderFragments> fragments_by_folder(const std::filesystem::path& root) {
@@ -62,6 +114,8 @@ std::vector<Figure> house_figures(const std::filesystem::path& root) {
     figures.push_back(places_touched(root, "tracker", "devices/trackers/udp_tracker", "open_udp_tracker", 3.0));
     figures.push_back(
         places_touched(root, "haptic device", "devices/haptic/simulated_omni", "open_simulated_omni", 3.0));
+    figures.push_back(flat_files(root, "app/", 12.0));
+    figures.push_back(longest_function(root, "app/", 60.0));
     for (FolderFragments& folder : fragments_by_folder(root)) {
         Figure figure{formatted("%% of files under %zu lines in %s/", kFragmentLines, folder.folder.c_str()),
                       folder.percent(), std::nullopt, std::move(folder.fragments),

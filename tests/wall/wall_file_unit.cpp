@@ -7,7 +7,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "app/wall_commands.hpp"
+#include "app/walls/wall_commands.hpp"
 #include "base/json.hpp"
 #include "base/toml.hpp"
 #include "tests/support/places.hpp"

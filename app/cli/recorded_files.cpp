@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "app/cli/recorded_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "base/json.hpp"
+#include "record/export/table_export.hpp"
+#include "record/record_reader.hpp"
+#include "session/options/session_settings.hpp"
+#include "session/record/input_files.hpp"
+#include "session/record/session_log.hpp"
+
+namespace burin::app {
+namespace {
+
+constexpr std::size_t kMostHeadBytes = 1 << 16;  // of a text log's first line
+
+// Collects what a recording's options, facts and settings name, each by its word: a world with all that it reads.
+class NamedFiles {
+public:
+    void file(const std::string& path) { files_.file(path); }
+    void add(std::string_view word, const std::string& name) {
+        if (word == "world") {
+            files_.world(name);
+        } else if (word == "workpiece" || word == "source") {
+            if (!name.starts_with("block:") && !name.starts_with("ball:")) files_.mesh(name);
+        } else if (word == "tool" || word == "shape") {
+            files_.tool(name);
+        } else if (word == "device") {
+            files_.device(name);
+        } else {
+            files_.file(name);
+        }
+    }
+    void add_settings(const std::string& line) {
+        for (const std::string word : {"world", "workpiece", "tool", "wall", "device"})
+            if (const auto name = session::option_on(line, "--" + word)) add(word, *name);
+    }
+    // Of settings in JSON, and of their parts.
+    void add_json(const Json& json) {
+        add_keys(json);
+        if (json.is_object())
+            for (const Json& part : json) add_keys(part);
+    }
+    [[nodiscard]] const std::vector<std::string>& list() const { return files_.list(); }
+
+private:
+    void add_keys(const Json& json) {
+        if (!json.is_object()) return;
+        for (const char* key : {"source", "shape", "stroke", "world", "device"})
+            if (json.contains(key) && json[key].is_string()) add(key, json[key].get<std::string>());
+    }
+    session::InputFiles files_;
+};
+
+std::vector<std::string> named_by_session_file(const std::string& path) {
+    NamedFiles files;
+    for (const char* beside : {"-wal", "-shm", "-journal"}) files.file(path + beside);
+    const Result<record::RecordReader> reader = record::RecordReader::open(path);
+    if (!reader) return files.list();
+    for (const char* fact : {"world", "workpiece", "stroke", "device"}) files.add(fact, reader->fact(fact));
+    files.add_settings(session::settings_on(reader->fact(record::kLogHeaderFact)));
+    files.add_json(Json::parse(reader->fact("settings"), nullptr, false));
+    return files.list();
+}
+
+std::vector<std::string> named_by_text_log(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string head(kMostHeadBytes, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    head.resize(std::min(head.size(), head.find('\n')));
+    NamedFiles files;
+    const std::string settings = session::settings_on(head);
+    if (head.starts_with("burin-input ") && !settings.empty()) files.add_settings(settings);
+    return files.list();
+}
+
+}  // namespace
+
+std::vector<std::string> files_named_by(const std::string& recording) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(recording, ignored)) return {};
+    return session::is_database(recording) ? named_by_session_file(recording) : named_by_text_log(recording);
+}
+
+}  // namespace burin::app

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "app/recordings/live_replay.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+#include "activities/registry.hpp"
+#include "app/recordings/recorded_device.hpp"
+#include "base/file_io.hpp"
+#include "desk/draw/pictures.hpp"
+#include "desk/run/session.hpp"
+#include "document/document_file.hpp"
+#include "record/motion.hpp"
+#include "record/record_writer.hpp"
+#include "scene/vrml_world.hpp"
+#include "scene/world_digest.hpp"
+#include "session/drive/tick_comparison.hpp"
+#include "session/input/input_words.hpp"
+#include "session/options/session_settings.hpp"
+#include "session/record/log_outputs.hpp"
+#include "session/record/session_log.hpp"
+#include "session/record/session_recording.hpp"
+#include "session/work/opened_work.hpp"
+
+namespace burin::app {
+namespace {
+
+constexpr const char* kWorkpieceDigestFact = "workpiece sha256";
+constexpr const char* kToolDigestFact = "tool sha256";
+
+// The fact that holds the digest of the wand of a hand after the first.
+std::string wand_fact_of(const session::NamedDevice& hand) { return record::kWandDigestFact + (", hand " + hand.hand); }
+
+std::string hands_text(const std::vector<session::NamedDevice>& hands) {
+    std::string text;
+    for (const session::NamedDevice& one : hands) text += (text.empty() ? "" : " ") + one.hand + "=" + one.device;
+    return text;
+}
+
+std::string tool_file_of(const session::SculptOptions& options) {
+    const std::string& shape = options.tool.shape;
+    return shape.starts_with("mesh:") ? shape.substr(5) : std::string();
+}
+
+// Returns a device's name without what describes it: simulated-wand of simulated-wand:FILE.
+std::string kind_of(const std::string& device) { return device.substr(0, device.find(':')); }
+
+// Returns the digest of a file; nothing where there is none.
+std::optional<std::string> digest_of(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return {};
+    const Result<std::string> digest = file_digest(path);
+    return digest ? std::optional(*digest) : std::nullopt;
+}
+
+std::optional<std::string> digest_of_world(const std::string& path, const scene::WorldReading& reading) {
+    if (path.empty()) return {};
+    if (document::is_document_name(path)) {
+        const Result<session::OpenedWork> saved = session::open_document(path);
+        return saved && saved->world ? std::optional(scene::world_digest(saved->world->objects)) : std::nullopt;
+    }
+    // The session tells its remarks and problems.
+    const scene::WorldOrProblems world = scene::read_any_world(path, reading);
+    return world ? std::optional(scene::world_digest(world->objects)) : std::nullopt;
+}
+
+// A file that a recording depends on: the fact that holds its digest, what it is, and the option that names it.
+struct FileOfRecording {
+    const char* fact;
+    const char* what;
+    const char* option;
+};
+
+// Fails where the file is another one than was recorded, since its ticks could not be the same. Where the user has put
+// another in its place by --set, that is told and no more.
+Result<void> check_recorded_file(const record::RecordReader& reader, const FileOfRecording& file,
+                                 const std::string& path, const std::optional<std::string>& now,
+                                 const std::vector<std::string>& sets) {
+    const std::string recorded = reader.fact(file.fact);
+    if (recorded.empty() || !now || *now == recorded) return {};
+    const std::string what = "is another " + std::string(file.what) + " than the one that was recorded: SHA-256 " +
+                             *now + ", recorded: " + recorded;
+    const std::string set = std::string(file.option) + "=";
+    if (std::ranges::any_of(sets, [&](const std::string& given) { return given.starts_with(set); })) {
+        std::fprintf(stderr, "burin: %s: %s\n", path.c_str(), what.c_str());
+        return {};
+    }
+    return fail(path, what, "put the recorded one back, or try this one on purpose by --set " + set + path);
+}
+
+// Returns the settings with one of them changed, "OPTION=VALUE"; a value of nothing leaves an option out, and is a
+// flag's where it was not there.
+Result<std::string> with_setting(const std::string& settings, const std::string& change) {
+    const std::size_t equals = change.find('=');
+    if (equals == std::string::npos || equals == 0)
+        return fail("--set " + change, "changes nothing", "write OPTION=VALUE, such as friction=0.3");
+    const std::string name = "--" + change.substr(0, equals), value = change.substr(equals + 1);
+    const Result<std::vector<std::string>> words = session::words_of(settings, "the recording's settings");
+    if (!words) return std::unexpected(words.error());
+    std::string changed;
+    for (auto word = words->begin(); word != words->end(); ++word) {
+        const auto next = std::next(word);
+        const bool has_value = next != words->end() && !next->starts_with("--");
+        if (*word == name) {
+            if (has_value) ++word;
+            continue;
+        }
+        changed += (changed.empty() ? "" : " ") + (word->starts_with("--") ? *word : session::as_word(*word));
+    }
+    return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
+}
+
+// Likewise, and refuses what the option does not take on the command line either.
+Result<std::string> with_checked_setting(const std::string& settings, const std::string& change,
+                                         const session::SculptOptions& given) {
+    Result<std::string> changed = with_setting(settings, change);
+    if (!changed) return changed;
+    if (const auto known = session::options_as_recorded(*changed, given); !known)
+        return fail("--set " + change, known.error().what, "change an option of the session to a value that it takes");
+    return changed;
+}
+
+// Returns the settings with all changes, also of where files are now.
+Result<std::string> with_changes(std::string settings, const LiveReplay& how, const session::SculptOptions& given) {
+    std::vector<std::string> changes = how.sets;
+    if (!how.world.empty()) changes.push_back("world=" + how.world);
+    if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
+    for (const std::string& change : changes) {
+        Result<std::string> changed = with_checked_setting(settings, change, given);
+        if (!changed) return changed;
+        settings = std::move(*changed);
+    }
+    return settings;
+}
+
+// Checks that the files which the session read are those that were recorded.
+Result<void> check_files(const record::RecordReader& reader, const session::SculptOptions& own,
+                         const std::string& first_device, const std::vector<std::string>& sets) {
+    const std::string tool = tool_file_of(own), &workpiece = own.workpiece.source, &device = own.live.device;
+    if (const auto same = check_recorded_file(reader, {record::kWorldDigestFact, "world", "world"}, own.world,
+                                              digest_of_world(own.world, own.world_reading), sets);
+        !same)
+        return same;
+    if (const auto same = check_recorded_file(reader, {kWorkpieceDigestFact, "workpiece", "workpiece"}, workpiece,
+                                              digest_of(workpiece), sets);
+        !same)
+        return same;
+    if (const auto same =
+            check_recorded_file(reader, {kToolDigestFact, "tool", "tool"}, "mesh:" + tool, digest_of(tool), sets);
+        !same)
+        return same;
+    for (std::size_t i = 1; i < own.live.hands.size(); ++i) {
+        const session::NamedDevice& hand = own.live.hands[i];
+        const std::string fact = wand_fact_of(hand), what = "wand of hand " + hand.hand;
+        if (const auto same = check_recorded_file(reader, {fact.c_str(), what.c_str(), "hands"}, hand.device,
+                                                  digest_of(wand_file_of(hand.device)), sets);
+            !same)
+            return same;
+    }
+    const bool several = !own.live.hands.empty();
+    if (device == first_device)
+        return check_wand_file(reader, device,
+                               several ? "say where it is now by --set 'hands=" + hands_text(own.live.hands) +
+                                             "', with its place in there, or put it back"
+                                       : "say where it is now by --set device=simulated-wand:FILE, or put it back");
+    return check_recorded_file(reader, {record::kWandDigestFact, "wand", "device"}, device,
+                               digest_of(wand_file_of(device)), sets);
+}
+
+// Refuses changes that would have no effect on this recording: they would count as tried.
+Result<void> check_changes(const LiveReplay& how, const session::SculptOptions& recorded, bool brings_scene) {
+    const bool several = !recorded.live.hands.empty();
+    for (const std::string& set : how.sets)
+        if (several && set.starts_with("device="))
+            return fail("--set " + set, "the recording has several hands, each with its device",
+                        "change them by --set 'hands=" + hands_text(recorded.live.hands) + "'");
+        else if (set.starts_with("device=") && kind_of(set.substr(7)) != kind_of(recorded.live.device))
+            return fail("--set " + set,
+                        "is another device than the recorded one, " + recorded.live.device +
+                            ": where the hand was and what it gave is that one's",
+                        "feel the motion elsewhere by --through a world, or record a session with that device");
+    if (brings_scene && !how.world.empty())
+        return fail("--world " + how.world, "has no effect: the recording's scene is its study's", "leave it out");
+    if (recorded.no_workpiece && !how.workpiece.empty())
+        return fail("--workpiece " + how.workpiece, "has no effect: the recording has no workpiece", "leave it out");
+    return {};
+}
+
+// Makes the activity of a recorded session anew; none where it had none.
+Result<session::MadeActivity> activity_of(const record::RecordReader& reader, const std::string& settings_line) {
+    const Result<std::string> settings = session::activity_on(settings_line);
+    if (!settings) return std::unexpected(settings.error());
+    auto made = activities::activity_as_recorded(*settings, [&](const std::string& name) { return reader.fact(name); });
+    if (!made && made.error().where == "the recording")
+        return fail(reader.path(), made.error().what, made.error().remedy);
+    return made;
+}
+
+// What a recorded session is done again with.
+struct PreparedReplay {
+    session::InputLog log;
+    session::SculptOptions options;
+};
+
+// Reads the log, and makes the activity and the scene of the session anew.
+Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
+    Result<session::InputLog> log = session::read_session_log(reader);
+    if (!log) return std::unexpected(log.error());
+    if (log->torn_line || !log->threads)
+        return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
+    PreparedReplay prepared{std::move(*log), {}};
+    prepared.options.live.input = reader.path();
+    prepared.options.live.offscreen = true;
+    auto made = activity_of(reader, prepared.log.settings);
+    if (!made) return std::unexpected(made.error());
+    prepared.options.activity = std::move(made->activity);
+    prepared.options.scene = std::move(made->scene);
+    return prepared;
+}
+
+// Changes what is asked to be changed. Checks that all files of the session are there, and are those that were
+// recorded where nobody has put others in their place.
+Result<void> change_settings(const record::RecordReader& reader, const LiveReplay& how, PreparedReplay& prepared) {
+    session::InputLog& log = prepared.log;
+    session::SculptOptions& options = prepared.options;
+    const auto first = session::options_as_recorded(log.settings, options);
+    if (!first) return std::unexpected(first.error());
+    if (const auto ok = check_changes(how, first->options, options.scene != nullptr); !ok) return ok;
+    Result<std::string> changed = with_changes(log.settings, how, options);
+    if (!changed) return std::unexpected(changed.error());
+    log.settings = std::move(*changed);
+    options.live.refuses_exports = true;
+    options.live.screenshots = how.pictures;
+    if (!how.pictures.empty())
+        if (const auto made = session::make_picture_folder(how.pictures, "--pictures"); !made) return made;
+    const auto recorded = session::options_as_recorded(log.settings, options);
+    if (!recorded) return std::unexpected(recorded.error());
+    const std::string &device = first->options.live.device, &now = recorded->options.live.device;
+    if (const auto same = check_files(reader, recorded->options, device, how.sets); !same) return same;
+    if (now != device) log.device.clear();  // chosen anew
+    return session::check_commands(log, reader.path(), options.activity.get());
+}
+
+// Compares what was noted on the way: trials, and events.
+Result<void> compare_notes(record::RecordReader& reader, const session::SessionNotes& notes, bool whole) {
+    if (const auto same = session::compare_trials(reader, notes.trials, whole); !same) return same;
+    return session::compare_events(reader, notes.events, whole);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
+                                                               const std::string& command) {
+    std::vector<std::pair<std::string, std::string>> facts{{"program", "burin"},
+                                                           {"version", BURIN_VERSION},
+                                                           {"compiler", __VERSION__},
+                                                           {"command", command},
+                                                           {"time", "real"}};
+    if (!options.world.empty()) facts.emplace_back("world", options.world);
+    if (!options.no_workpiece) facts.emplace_back("workpiece", options.workpiece.source);
+    const auto add = [&](const char* fact, const std::optional<std::string>& digest) {
+        if (digest) facts.emplace_back(fact, *digest);
+    };
+    add(record::kWorldDigestFact, digest_of_world(options.world, options.world_reading));
+    if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
+    add(kToolDigestFact, digest_of(tool_file_of(options)));
+    std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));
+    for (std::size_t i = 1; i < options.live.hands.size(); ++i)
+        if (const auto digest = digest_of(wand_file_of(options.live.hands[i].device)))
+            facts.emplace_back(wand_fact_of(options.live.hands[i]), *digest);
+    return facts;
+}
+
+Result<void> run_recorded_session(const session::SculptOptions& given, const std::string& command) {
+    session::SculptOptions options = given;
+    options.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
+    if (!session::is_session_file(options.live.record)) return session::run_session(options);
+    if (const auto settled = session::settle_document(options); !settled) return settled;
+    if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
+    return session::run_session(options, facts_of_live(options, command));
+}
+
+std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
+    const Result<std::string> shape = session::option_on(live_settings_of(reader), "--tool");
+    if (!shape) return {};
+    const auto tool = sculpt::parse_tool_spec(*shape, "--tool");
+    if (!tool || tool->kind != sculpt::ToolKind::ball) return {};
+    return tool->sizes_m[0];
+}
+
+Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay& how, const record::TickRange& range) {
+    Result<PreparedReplay> prepared = read_recorded_session(reader);
+    if (!prepared) return std::unexpected(prepared.error());
+    if (const auto changed = change_settings(reader, how, *prepared); !changed) return std::unexpected(changed.error());
+    Result<session::TickComparison> judge =
+        session::TickComparison::create(reader, range,
+                                        how.pictures.empty() ? session::TickComparison::AtDifference::ends
+                                                             : session::TickComparison::AtDifference::goes_on);
+    if (!judge) return std::unexpected(judge.error());
+    session::ReplayManner manner;
+    manner.draws = !how.pictures.empty();
+    manner.only_compares = true;
+    manner.picture_every_ns = nanoseconds(how.every_s);
+    manner.witness = &*judge;
+    manner.ticks = &reader;
+    session::SessionNotes notes;
+    manner.notes = &notes;
+    const Result<void> done = session::run_as_recorded(prepared->options, std::move(prepared->log), manner);
+    LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
+    if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
+    std::uint64_t rows = 0;
+    for (const record::HandRecord& part : reader.hands()) rows += part.rows();
+    replayed.left = rows - std::min(rows, judge->repeated());
+    const bool whole = reader.is_closed() && replayed.left == 0 && replayed.unrecorded == 0;
+    if (!done || replayed.comparison.difference) return replayed;
+    if (const auto same = compare_notes(reader, notes, whole); !same) return std::unexpected(same.error());
+    return replayed;
+}
+
+}  // namespace burin::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "app/recordings/recorded_device.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+#include "app/recordings/wand_stroke.hpp"
+#include "base/file_io.hpp"
+#include "base/sha256.hpp"
+#include "devices/haptic/wand_choice.hpp"
+#include "devices/haptic/wand_file.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "record/export/table_export.hpp"
+#include "record/motion.hpp"
+#include "session/options/session_settings.hpp"
+#include "session/record/recordings.hpp"
+#include "session/record/session_recording.hpp"
+
+namespace burin::app {
+namespace {
+
+constexpr const char* kPutBack = "put the file back, unchanged, where it was";
+
+// The device's name and its points, as they were given on the command line.
+struct DeviceWords {
+    std::string device, points;
+};
+
+Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
+    const std::string activity = reader.fact(session::kActivityFact);
+    if (activity == kWandActivity) {
+        const Result<WorldExploration> stroke = recorded_wand_stroke(reader);
+        if (!stroke) return std::unexpected(stroke.error());
+        return DeviceWords{stroke->device, stroke->points};
+    }
+    if (const std::string points = reader.fact(record::kWandPointsFact); !points.empty())
+        return DeviceWords{std::string(devices::kSimulatedWand), points};
+    if (activity != session::kLiveActivity) return DeviceWords{};
+    const std::string settings = live_settings_of(reader);
+    const Result<std::string> device = session::option_on(settings, "--device");
+    const Result<std::string> points = session::option_on(settings, "--points");
+    if (!device) return std::unexpected(device.error());
+    if (!points) return std::unexpected(points.error());
+    return DeviceWords{*device, *points};
+}
+
+// Returns the description of a device that has a handle.
+Result<devices::WandDescription> described_now(const std::string& device) {
+    Result<devices::DeviceNature> nature = devices::nature_of_device(device, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    return nature->handle.value_or(devices::WandDescription{});
+}
+
+Result<devices::WandDescription> recorded_wand(const record::RecordReader& reader, const std::string& device) {
+    const std::string file = wand_file_of(device);
+    const std::string digest = reader.fact(record::kWandDigestFact);
+    if (const std::string text = reader.fact(record::kWandTextFact); !text.empty()) {
+        if (sha256(text) != digest)
+            return fail(reader.path(), "holds another description of its wand than its digest says",
+                        "read it from an unchanged copy of the recording");
+        devices::WandOrProblems wand = devices::parse_wand(text, reader.path() + ": " + record::kWandTextFact);
+        if (!wand) return std::unexpected(wand.error().front());
+        return std::move(*wand);
+    }
+    if (file.empty()) return described_now(device);
+    if (digest.empty())
+        return fail(reader.path(), "does not hold the description of its wand, " + file,
+                    "record the motion again: recordings of this version hold it");
+    if (const auto same = check_wand_file(reader, device, kPutBack); !same) return std::unexpected(same.error());
+    return described_now(device);
+}
+
+}  // namespace
+
+std::string wand_file_of(const std::string& device) { return devices::handle_file_of(device); }
+
+std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::string& device) {
+    const std::string file = wand_file_of(device);
+    if (file.empty()) return {};
+    const Result<std::vector<std::byte>> bytes = read_file(file);
+    if (!bytes) return {};
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    return {{record::kWandDigestFact, sha256(text)}, {record::kWandTextFact, text}};
+}
+
+Result<void> check_wand_file(const record::RecordReader& reader, const std::string& device, const std::string& remedy) {
+    const std::string file = wand_file_of(device), recorded = reader.fact(record::kWandDigestFact);
+    if (file.empty() || recorded.empty()) return {};
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        return fail(file, "is the description of the recording's wand, and is not there", remedy);
+    const Result<std::string> now = file_digest(file);
+    if (!now) return fail(now.error().where, now.error().what, remedy);
+    if (*now == recorded) return {};
+    return fail(file, "is another wand than the one that was recorded: SHA-256 " + *now + ", recorded: " + recorded,
+                remedy);
+}
+
+std::string live_settings_of(const record::RecordReader& reader) {
+    return session::settings_on(reader.fact(record::kLogHeaderFact));
+}
+
+Result<activities::RecordedDevice> recorded_device(const record::RecordReader& reader) {
+    const Result<DeviceWords> words = device_words_of(reader);
+    if (!words) return std::unexpected(words.error());
+    activities::RecordedDevice recorded;
+    if (!devices::has_handle(words->device, &session::session_recordings())) return recorded;
+    Result<devices::WandDescription> wand = recorded_wand(reader, words->device);
+    if (!wand) return std::unexpected(wand.error());
+    recorded.wand = std::move(*wand);
+    const bool is_stroke = reader.fact(session::kActivityFact) == kWandActivity;
+    if (words->points.empty() && !is_stroke) return recorded;
+    Result<std::vector<devices::WandPoint>> points = devices::points_named(
+        *recorded.wand, words->points.empty() ? devices::usual_points(*recorded.wand) : words->points);
+    if (!points) return fail(reader.path(), points.error().where + " " + points.error().what, points.error().remedy);
+    recorded.points = std::move(*points);
+    return recorded;
+}
+
+}  // namespace burin::app

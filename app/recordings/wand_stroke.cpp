@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "app/recordings/wand_stroke.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include "app/cli/temporary_folder.hpp"
+#include "app/recordings/recorded_device.hpp"
+#include "base/file_io.hpp"
+#include "base/json.hpp"
+#include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "record/motion.hpp"
+#include "scene/vrml_world.hpp"
+#include "scene/world_digest.hpp"
+#include "session/record/recordings.hpp"
+
+namespace burin::app {
+namespace {
+
+Result<scene::World> world_to_explore(const std::string& path) {
+    scene::WorldOrProblems world = scene::read_any_world(path);
+    if (world) return std::move(*world);
+    if (world.error().size() == 1) return std::unexpected(world.error().front());
+    for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
+    return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
+}
+
+// Fails where a file is another one than was recorded: its ticks could not be the same.
+Result<void> check_as_recorded(const record::RecordReader& reader, const std::string& file, const std::string& what,
+                               const std::string& now, const char* fact) {
+    const std::string recorded = reader.fact(fact);
+    if (recorded.empty() || recorded == now) return {};
+    return fail(file,
+                "is another " + what + " than the one that was recorded: SHA-256 " + now + ", recorded: " + recorded,
+                "put the recorded one back, or feel the motion in another world by --through");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options) {
+    auto opened = std::make_unique<WandWorld>();
+    Result<devices::DeviceNature> nature = devices::nature_of_device(options.device, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    if (!nature->handle) return fail("--device " + options.device, "has no handle with points", "name a wand");
+    opened->feel.wand = std::move(*nature->handle);
+    opened->feel.radius_m = options.radius_m;
+    Result<std::vector<devices::WandPoint>> points = devices::points_named(
+        opened->feel.wand, options.points.empty() ? devices::usual_points(opened->feel.wand) : options.points);
+    if (!points) return std::unexpected(points.error());
+    opened->feel.points = std::move(*points);
+    Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
+    if (!stroke) return std::unexpected(stroke.error());
+    opened->stroke = std::move(*stroke);
+    Result<scene::World> world = world_to_explore(options.world);
+    if (!world) return std::unexpected(world.error());
+    for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
+    for (const scene::SceneObject& object : world->objects) opened->ids.push_back(object.id);
+    opened->digest = scene::world_digest(world->objects);
+    Result<std::unique_ptr<scene::MeshPart>> part =
+        scene::MeshPart::create(std::move(world->objects), opened->materials);
+    if (!part) return std::unexpected(part.error());
+    opened->part = std::move(*part);
+    return opened;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExploration& options,
+                                                               const WandWorld& opened) {
+    const Json settings{{"world", options.world},
+                        {"stroke", options.stroke},
+                        {"device", options.device},
+                        {"points", options.points},
+                        {"radius_m", options.radius_m}};
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"program", "burin"},
+        {"version", BURIN_VERSION},
+        {"compiler", __VERSION__},
+        {"command", "world --stroke --device"},
+        {"time", "simulated"},
+        {"world", options.world},
+        {"stroke", options.stroke},
+        {"device", options.device},
+        {"activity", kWandActivity},
+        {"settings", settings.dump(-1, ' ', false, Json::error_handler_t::replace)},
+        {record::kWorldDigestFact, opened.digest}};
+    if (const auto digest = file_digest(options.stroke)) facts.emplace_back("stroke sha256", *digest);
+    std::ranges::move(facts_of_wand_file(options.device), std::back_inserter(facts));
+    return facts;
+}
+
+Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader) {
+    const auto settings = reader.facts().find("settings");
+    const Json json = settings == reader.facts().end() ? Json() : Json::parse(settings->second, nullptr, false);
+    WorldExploration options;
+    const auto text = [&](const char* key, std::string& to) {
+        if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return false;
+        to = json[key].get<std::string>();
+        return true;
+    };
+    const bool sound = text("world", options.world) && text("stroke", options.stroke) &&
+                       text("device", options.device) && text("points", options.points) && json.contains("radius_m") &&
+                       json["radius_m"].is_number();
+    if (!sound || !devices::has_handle(options.device, &session::session_recordings()))
+        return fail(reader.path(), "has no sound settings of a stroke with a wand",
+                    "replay what burin world --stroke --device simulated-wand --record has written");
+    options.radius_m = json["radius_m"].get<double>();
+    if (!(options.radius_m >= 1e-5 && options.radius_m <= 1.0))
+        return fail(reader.path(), "has a radius out of range", "it was changed");
+    return options;
+}
+
+Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
+                                       const std::string& stroke, const record::TickRange& range) {
+    Result<WorldExploration> recorded = recorded_wand_stroke(reader);
+    if (!recorded) return std::unexpected(recorded.error());
+    WorldExploration& options = *recorded;
+    if (!world.empty()) options.world = world;
+    if (!stroke.empty()) options.stroke = stroke;
+    const auto same = check_wand_file(reader, options.device, "put the file back, unchanged, where it was");
+    if (!same) return std::unexpected(same.error());
+    Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
+    if (!opened) return std::unexpected(opened.error());
+    WandWorld& again = **opened;
+    if (const auto as_was = check_as_recorded(reader, options.world, "world", again.digest, record::kWorldDigestFact);
+        !as_was)
+        return std::unexpected(as_was.error());
+    if (const auto now = file_digest(options.stroke)) {
+        const auto as_was = check_as_recorded(reader, options.stroke, "stroke", *now, "stroke sha256");
+        if (!as_was) return std::unexpected(as_was.error());
+    }
+    const Result<TemporaryFolder> folder = TemporaryFolder::create();
+    if (!folder) return std::unexpected(folder.error());
+    again.feel.record = *folder / "again.session";
+    const auto explored = activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {});
+    if (!explored) return std::unexpected(explored.error());
+    Result<record::RecordReader> other = record::RecordReader::open(again.feel.record);
+    if (!other) return std::unexpected(other.error());
+    return record::compare(reader, *other, {}, range);
+}
+
+}  // namespace burin::app

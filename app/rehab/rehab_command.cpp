@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+#include "app/rehab/rehab_command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "activities/rehab/exercise_kinds.hpp"
+#include "activities/rehab/progress/baseline.hpp"
+#include "activities/rehab/progress/page_texts.hpp"
+#include "activities/rehab/rehab.hpp"
+#include "app/cli/live_options.hpp"
+#include "app/cli/output_files.hpp"
+#include "app/cli/temporary_folder.hpp"
+#include "app/recordings/live_replay.hpp"
+#include "app/rehab/rehab_pages.hpp"
+#include "app/rehab/rehab_results.hpp"
+#include "base/assets.hpp"
+#include "base/file_io.hpp"
+#include "base/text.hpp"
+#include "devices/gloves/glove_device.hpp"
+#include "devices/gloves/glove_hand.hpp"
+#include "devices/gloves/grip_shape.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "session/record/input_files.hpp"
+#include "session/record/recordings.hpp"
+#include "session/record/session_log.hpp"
+
+namespace burin::app {
+namespace {
+
+using activities::ExerciseKind;
+using activities::SettingKind;
+using activities::SettingValues;
+
+constexpr const char *kScriptedHand = "scripted", *kWeakHand = "weak";
+
+Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& kind) {
+    if (path.empty()) return SettingValues(kind.settings);
+    const Result<std::string> text = read_text_file(path);
+    if (!text) return std::unexpected(text.error());
+    activities::ReadSettings read = activities::read_settings(*text, path, kind);
+    if (read.errors.empty()) return std::move(read.values);
+    if (read.errors.size() == 1) return std::unexpected(read.errors.front());
+    for (const Error& error : read.errors) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
+    return fail(path, formatted("%zu mistakes", read.errors.size()), "correct them; they are listed above");
+}
+
+Result<void> check_glove(const session::LiveOptions& live) {
+    if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    if (nature->is_worn) return {};
+    return fail("--device " + live.device, "is no glove",
+                "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
+}
+
+// Checks that the glove's pistons can give what the exercise asks for; a simulated hand gives way before that.
+Result<void> check_target(const activities::Exercise& exercise, bool is_simulated) {
+    const auto fingers = std::ranges::count(exercise.pressing_fingers(), true);
+    const double of_each_N = is_simulated ? devices::Grip::kHolds_N : devices::kMostPistonForce_N;
+    const double most_N = of_each_N * static_cast<double>(fingers);
+    if (exercise.target_N() <= most_N) return {};
+    return fail("--most-force",
+                formatted("makes a target of %g N, and %td fingers of this glove give %g N each, %g N together",
+                          exercise.target_N(), fingers, of_each_N, most_N),
+                "give less, or a lower --level");
+}
+
+// Returns when the time begins by default. led: by a script, which presses no button unless it says so.
+double usual_start(const ExerciseKind& kind, bool is_simulated, bool led) {
+    const bool presses = kind.make(SettingValues(kind.settings))->target_N() > 0.0;
+    if (!is_simulated && presses) return activities::kStartsPressed;
+    return led ? activities::kStartsAtOnce : activities::kStartsAsked;
+}
+
+// Writes the script that a participant of that seed follows, and has the session follow it.
+Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const ExerciseKind& kind, const SettingValues& values,
+                                      const std::string& hand, std::uint64_t seed) {
+    if (!live.input.empty()) return fail("--hand " + hand, "is led by no --input", "leave one of them out");
+    if (live.device != devices::kSimulatedGlove)
+        return fail("--hand " + hand, "is a simulated hand, and --device names " + live.device,
+                    "leave one of them out");
+    const Result<std::string> script = read_text_file(asset_path(kind.script));
+    if (!script) return std::unexpected(script.error());
+    Result<TemporaryFolder> folder = TemporaryFolder::create();
+    if (!folder) return std::unexpected(folder.error());
+    live.input = *folder / ("rehab-" + std::string(kind.name) + ".txt");
+    if (live.outputs.empty()) live.outputs = "rehab-" + std::string(kind.name) + "-outputs";
+    if (const auto written = write_text(live.input, kind.scripted(values, seed, *script)); !written)
+        return std::unexpected(written.error());
+    if (kind.course == nullptr) return folder;
+    const std::string course = *folder / (std::string(kind.name) + devices::kFingerCourseFiles);
+    live.device += ":" + course;
+    const auto person = hand == kWeakHand ? activities::SimulatedPerson::weak : activities::SimulatedPerson::healthy;
+    if (const auto written = write_text(course, kind.course(person)); !written) return std::unexpected(written.error());
+    return folder;
+}
+
+// Fits settings that nobody has given to the person by their baseline, and says so.
+Result<void> fit_to_person(SettingValues& values, const ResultsOptions& options,
+                           std::optional<Error> (*conflict)(const SettingValues&), Json& fitted_by) {
+    const Result<std::optional<activities::Baseline>> baseline = baseline_in(options);
+    if (!baseline) return std::unexpected(baseline.error());
+    if (!*baseline) return {};
+    activities::FittedValues fitted = activities::fitted_by(values, **baseline);
+    const std::string text = text_of(**baseline, fitted);
+    if (!fitted.left_out.empty())
+        std::fprintf(stderr, "burin: not taken of %s: %s\n", text.c_str(), fitted.left_out.c_str());
+    if (fitted.taken.empty()) return {};
+    if (const auto wrong = conflict(fitted.values)) {
+        std::fprintf(stderr, "burin: not taken: %s: %s\n", text.c_str(), wrong->what.c_str());
+        return {};
+    }
+    std::fprintf(stderr, "burin: fitted by %s\n", text.c_str());
+    fitted_by = {{"text", text}, {"date", (*baseline)->date}, {"time", (*baseline)->time}, {"settings", fitted.taken}};
+    values = std::move(fitted.values);
+    return {};
+}
+
+// Has a force that adapts begin where the participant's last run ended, and says so.
+Result<void> begin_where_it_ended(SettingValues& values, const ResultsOptions& options, const ExerciseKind& kind) {
+    if (!values.has("success") || values.number("success") == 0.0 || values.was_set("begin_N")) return {};
+    const Result<std::optional<double>> target_N = adapted_target_in(options, kind.name);
+    if (!target_N) return std::unexpected(target_N.error());
+    if (!*target_N) return {};
+    values.set("begin_N", **target_N);
+    std::fprintf(stderr, "burin: begins with %.2f N, where the last run that adapted ended\n", **target_N);
+    return {};
+}
+
+void print_score(const activities::Rehab& rehab) {
+    const activities::Exercise& exercise = rehab.exercise();
+    const activities::ExerciseCourse course = exercise.course();
+    std::string counts;
+    for (const auto& count : course.counts) {
+        std::string name = count.name;
+        name[0] = static_cast<char>(name[0] - 'A' + 'a');
+        counts += count.wanted > 0 ? formatted("%u of %u %s, ", count.number, count.wanted, name.c_str())
+                                   : formatted("%u %s, ", count.number, name.c_str());
+    }
+    std::string ended;
+    if (course.end == activities::ExerciseEnd::not_yet) {
+        const std::string why = rehab.failure();
+        ended = std::string(text_of(course.end)) + (why.empty() ? "" : ", since " + why) + ": ";
+    }
+    std::printf("%s: %s%sscore %.0f of 100, in %.1f s\n", exercise.name(), ended.c_str(), counts.c_str(), course.score,
+                course.time_s);
+    for (const std::string& note : course.notes) std::printf("%s: %s\n", exercise.name(), note.c_str());
+}
+
+// An exercise, with what it was given on the command line.
+struct AskedExercise {
+    explicit AskedExercise(const ExerciseKind& of) : kind(of), numbers(of.settings.size()), words(numbers.size()) {}
+
+    const ExerciseKind& kind;
+    session::SculptOptions session;
+    // Of each of the kind's settings; they overrule the file.
+    std::vector<std::optional<double>> numbers;
+    std::vector<std::string> words;
+    std::string settings, report, hand;
+    ResultsOptions results;
+    RunRemarks remarks;
+    std::uint64_t seed = 1;
+    bool print_config = false;
+
+    // Returns a mistake that names the options that were given in place of the settings' keys.
+    [[nodiscard]] Error by_option(Error error) const {
+        std::string named;
+        for (std::string_view rest = error.where; !rest.empty();) {
+            const std::string_view key = rest.substr(0, rest.find(", "));
+            rest.remove_prefix(std::min(key.size() + 2, rest.size()));
+            std::string name(key);
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                if (key == kind.settings[i].key && (numbers[i] || !words[i].empty() || settings.empty()))
+                    name = kind.settings[i].option;
+            named += (named.empty() ? "" : ", ") + name;
+        }
+        error.where = named;
+        return error;
+    }
+    // Returns the settings of the file with what the command line says.
+    [[nodiscard]] Result<SettingValues> values() const {
+        Result<SettingValues> values = settings_in(settings, kind);
+        if (!values) return values;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (numbers[i]) values->set(kind.settings[i].key, *numbers[i]);
+            if (words[i].empty()) continue;
+            if (const auto set = values->set(kind.settings[i].key, words[i]); !set)
+                return std::unexpected(by_option(set.error()));
+        }
+        if (const auto wrong = activities::problems(*values); !wrong.empty())
+            return std::unexpected(by_option(wrong.front()));
+        if (const auto conflict = kind.conflict(*values)) return std::unexpected(by_option(*conflict));
+        return values;
+    }
+};
+
+// Brings what a run begins with together: settings, of which some are fitted to the person. Of a recording nothing is
+// fitted, since it is done again as it was.
+struct FittedRun {
+    SettingValues values;
+    Json fitted;  // what was fitted by what; null: nothing
+};
+Result<FittedRun> fitted_run(SettingValues values, const AskedExercise& of, bool is_again) {
+    FittedRun run{std::move(values), {}};
+    if (is_again) return run;
+    if (const auto fits = fit_to_person(run.values, of.results, of.kind.conflict, run.fitted); !fits)
+        return std::unexpected(fits.error());
+    if (const auto begins = begin_where_it_ended(run.values, of.results, of.kind); !begins)
+        return std::unexpected(begins.error());
+    return run;
+}
+
+// Has the session's glove be led as asked: by nobody's script, by the scripted hand, or by the script of the exercise
+// where nobody sees it. Returns the folder of a script that was written; it must outlive the session.
+Result<std::optional<TemporaryFolder>> lead_glove(session::LiveOptions& live, const AskedExercise& of,
+                                                  SettingValues& values, bool is_simulated) {
+    const bool scripted = !of.hand.empty();
+    std::optional<TemporaryFolder> folder;
+    if (values.has("start") && values.number("start") == activities::kStartsByDevice)
+        values.set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
+    if (scripted) {
+        Result<TemporaryFolder> made = have_scripted(live, of.kind, values, of.hand, of.seed);
+        if (!made) return std::unexpected(made.error());
+        folder.emplace(std::move(*made));
+    }
+    if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
+    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(values));
+    return folder;
+}
+
+// Names the hand of a run. A run that a script led is kept as the script's, so that it never counts as a person's.
+std::string hand_of_run(const AskedExercise& of, const session::LiveOptions& live) {
+    if (of.hand == kWeakHand) return "scripted, a weak hand";
+    if (!of.hand.empty()) return formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed));
+    return !live.input.empty() ? "scripted, " + live.input : live.device;
+}
+
+// Keeps what the person has done, even where the session missed something else (`done`). One that never began leaves
+// an older report alone, and a replay that went another way than its recording is nobody's run.
+Result<void> keep_run(const AskedExercise& of, const activities::Rehab& exercise, ResultsOfRun& results, bool is_again,
+                      const Result<void>& done) {
+    const bool never_began = exercise.exercise().course().events.empty();
+    if (!done && (is_again || never_began)) {
+        results.discard();
+        return done;
+    }
+    if (never_began && exercise.failure().empty()) {
+        std::printf("%s: it was never begun, and nothing is kept of it\n", of.kind.name);
+        results.discard();
+        return done;
+    }
+    print_score(exercise);
+    const Json report = exercise.report();
+    const Result<void> written = write_output(of.report, json_text(report));
+    const Result<void> kept = results.keep(report);
+    return !done ? done : !written ? written : kept;
+}
+
+Result<void> run_exercise(const AskedExercise& of) {
+    Result<SettingValues> given = of.values();
+    if (!given) return std::unexpected(given.error());
+    // A recording is done again, and is whose it was; any other input is a script.
+    const bool is_again = session::is_database(of.session.live.input);
+    const std::string recording = is_again ? of.session.live.input : "";
+    if (const auto ok = check_results(of.results, !of.hand.empty(), recording); !ok) return ok;
+    if (const auto ok = check_remarks(of.remarks, !of.results.folder.empty()); !ok) return ok;
+    Result<FittedRun> run = fitted_run(std::move(*given), of, is_again);
+    if (!run) return std::unexpected(run.error());
+    SettingValues& values = run->values;
+    if (of.print_config) {
+        std::fputs(activities::table_text(of.kind.name, values).c_str(), stdout);
+        return {};
+    }
+    session::SculptOptions session = of.session;
+    session::LiveOptions& live = session.live;
+    if (const auto glove = check_glove(live); !glove) return glove;
+    const bool is_simulated = live.device == devices::kSimulatedGlove;
+    const Result<std::optional<TemporaryFolder>> folder = lead_glove(live, of, values, is_simulated);
+    if (!folder) return std::unexpected(folder.error());
+    if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
+    const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(values));
+    if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
+    exercise->describe(json_of(of.remarks));
+    if (!run->fitted.is_null()) exercise->fitted_by(std::move(run->fitted));
+    Result<ResultsOfRun> results = is_again ? ResultsOfRun::again(of.results, recording)
+                                            : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise);
+    if (!results) return std::unexpected(results.error());
+    session.activity = exercise;
+    const Result<void> done = run_recorded_session(session, "rehab");
+    return keep_run(of, *exercise, *results, is_again, done);
+}
+
+// Adds an option for each of the kind's settings.
+void add_setting_options(Command command, AskedExercise& of) {
+    command.option("--settings", of.settings,
+                   "A TOML file with the therapist's settings; what is given here goes before");
+    for (std::size_t i = 0; i < of.kind.settings.size(); ++i) {
+        const SettingKind& setting = of.kind.settings[i];
+        if (setting.words.empty())
+            command.option(setting.option, of.numbers[i], setting.help);
+        else
+            command.option(setting.option, of.words[i], setting.help).one_of(setting.words);
+    }
+}
+
+void add_hand_option(Command command, AskedExercise& of) {
+    if (of.kind.course == nullptr)
+        command.option("--hand", of.hand, "scripted: a simulated hand does it, not always well")
+            .one_of({kScriptedHand});
+    else
+        command
+            .option("--hand", of.hand,
+                    "scripted: a simulated hand does it; weak: one that goes half as far, whose index does not "
+                    "press and whose fingers follow each other")
+            .one_of({kScriptedHand, kWeakHand});
+}
+
+CommandAction add_exercise(Command command, const ExerciseKind& kind) {
+    const auto asked = std::make_shared<AskedExercise>(kind);
+    AskedExercise& of = *asked;
+    of.session.world = asset_path(kind.world);
+    of.session.no_workpiece = true;
+    of.session.live.device = devices::kSimulatedGlove;
+    of.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+    add_setting_options(command, of);
+    command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
+    add_hand_option(command, of);
+    command.option("--seed", of.seed, "Of the scripted hand").show_default();
+    command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
+    add_results_options(command, of.results);
+    add_remark_options(command, of.remarks);
+    add_live_options(command, of.session.live);
+    return action([asked] { return run_exercise(*asked); });
+}
+
+// The pages of a folder of results, and the language of all of them.
+struct AskedPages {
+    std::string folder, page, language;
+};
+
+CommandAction add_rehab_report(Command command) {
+    const auto options = std::make_shared<AskedPages>();
+    command.option("FOLDER", options->folder, "That --results was given").required();
+    command.option("--out", options->page, "The page that leads to theirs, if not FOLDER/report.html");
+    command.option("--language", options->language,
+                   "Of all pages: " + activities::PageTexts::listed() + "; each participant's own if not given");
+    return action([options] { return rehab_report(options->folder, options->page, options->language); });
+}
+
+CommandAction add_rehab_withdraw(Command command) {
+    const auto options = std::make_shared<RehabWithdrawOptions>();
+    command.option("FOLDER", options->folder, "That --results was given").required();
+    command.option("--participant", options->participant, "By number, 1 to 999").required();
+    command.flag("--erase", options->erase, "Erase all runs of the participant, too");
+    return action([options] { return rehab_withdraw(*options); });
+}
+
+CommandAction add_rehab(Command command) {
+    command.require_subcommand();
+    std::vector<CommandRow> rows;
+    for (const ExerciseKind& kind : activities::exercise_kinds())
+        rows.push_back({kind.name, kind.help, [&kind](Command of_kind) { return add_exercise(of_kind, kind); }});
+    rows.push_back({"report", "Write the pages of all participants' progress anew", add_rehab_report});
+    rows.push_back({"withdraw", "Take a participant off all pages, who is exercised no more", add_rehab_withdraw});
+    return add_commands(command, rows);
+}
+
+}  // namespace
+
+CommandRow rehab_row() { return {"rehab", "Exercises for a hand in a glove, with a score and a log", add_rehab}; }
+
+}  // namespace burin::app

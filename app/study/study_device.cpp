@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/study_device.hpp"
+
+#include <filesystem>
+
+#include "app/cli/output_files.hpp"
+#include "app/study/study_live.hpp"
+#include "base/text.hpp"
+#include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "session/record/recordings.hpp"
+
+namespace burin::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSamePoint_m = 1e-6;
+
+// The wand with its points where the protocol has them.
+Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& study) {
+    std::string text = "name = \"simulated wand\"\n";
+    text += formatted("\n[calibration]\ntolerance = %.9g\n", protocol.calibration_tolerance_m);
+    for (const devices::WandPoint& point : study::study_wand(protocol).points)
+        text += formatted("\n[[point]]\nname = \"%s\"\noffset = [%.9g, %.9g, %.9g]\n", point.name.c_str(),
+                          point.offset_m.x, point.offset_m.y, point.offset_m.z);
+    const std::string file = (study / "wand.toml").string();
+    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
+    return file;
+}
+
+// That the device's points are where the protocol has them.
+Result<void> check_points(const std::string& device, const devices::WandDescription& wand,
+                          const study::Protocol& protocol) {
+    const auto points = devices::points_named(wand, devices::usual_points(wand));
+    if (!points) return std::unexpected(points.error());
+    const std::vector<devices::WandPoint> wanted = study::study_wand(protocol).points;
+    if (points->size() != wanted.size())
+        return fail(
+            device,
+            formatted("touches with %zu points, and the protocol's wand with %zu", points->size(), wanted.size()),
+            "describe the points as the protocol's point_offset_m has them");
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Vec3& at_m = points->at(i).offset_m;
+        if (glm::distance(at_m, wanted[i].offset_m) > kSamePoint_m)
+            return fail(device,
+                        formatted("has its point %s %.1f mm above the handle's middle, and the protocol %.1f mm",
+                                  wanted[i].name.c_str(), 1e3 * at_m.y, 1e3 * wanted[i].offset_m.y),
+                        "describe the points as the protocol's point_offset_m has them");
+    }
+    return {};
+}
+
+// The device's name without the folders of its file: a journal names nobody, and a path may.
+std::string without_folders(const std::string& device) {
+    std::string file = devices::handle_file_of(device);
+    if (device.starts_with(std::string(devices::kRecordedDevice) + ":")) file = device.substr(device.find(':') + 1);
+    const std::size_t slash = file.rfind('/'), at = device.find(file);
+    if (file.empty() || slash == std::string::npos || at == std::string::npos) return device;
+    return device.substr(0, at) + device.substr(at + slash + 1);
+}
+
+// Who feels the tube is asked to feel it: a mouse or a SpaceMouse gives no force to whoever holds it.
+Result<void> check_force(const std::string& device, const devices::DeviceNature& nature, const study::Group& group) {
+    if (nature.has_force || !group.feels_tube) return {};
+    return fail("--device " + device, "gives no force, and group " + group.code + " feels the tube",
+                "name a device with force (burin devices lists those that are there), or try the visit without one: "
+                "--device " +
+                    std::string(devices::kSimulatedWand));
+}
+
+}  // namespace
+
+Result<ParticipantDevice> participant_device(const std::string& asked, const study::StudyFolder& study,
+                                             const study::Group& group) {
+    ParticipantDevice made{asked, {}, {without_folders(asked), {}}};
+    if (asked == devices::kDefaultHapticDevice || asked == devices::kSimulatedWand) {
+        const auto described = write_wand(study.protocol(), study.path());
+        if (!described) return std::unexpected(described.error());
+        made.held.device = devices::kSimulatedWand;
+        made.opened = made.held.device + ":" + *described;
+    }
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(made.opened, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    made.held.hand = study::hand_of(*nature);
+    if (const auto ok = check_force(asked, *nature, group); !ok) return std::unexpected(ok.error());
+    if (!nature->handle) return made;
+    if (const auto ok = check_points(asked, *nature->handle, study.protocol()); !ok) return std::unexpected(ok.error());
+    made.wand = *nature->handle;
+    return made;
+}
+
+activities::Provenance provenance_of(const StudyRunOptions& options) {
+    std::string settings = options.simulated            ? formatted("simulated learners, effect %g SD", options.effect)
+                           : options.live.input.empty() ? "a participant in a live session"
+                           : is_session_log(options.live.input) ? "a participant in a live session, by a log"
+                                                                : "a participant by a script";
+    if (options.resume) settings += ", --resume";
+    if (options.any_delay) settings += ", --any-delay";
+    return {{"program", "burin"},
+            {"version", BURIN_VERSION},
+            {"compiler", __VERSION__},
+            {"command", "study run"},
+            {"settings", settings}};
+}
+
+}  // namespace burin::app

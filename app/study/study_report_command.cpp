@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "app/study/study_command.hpp"
+#include "app/study/study_sections.hpp"
+#include "app/study/study_trials.hpp"
+#include "base/text.hpp"
+
+namespace burin::app {
+
+namespace fs = std::filesystem;
+
+Result<void> study_report(const std::string& folder) {
+    const auto made = make_trials(folder);
+    if (!made) return std::unexpected(made.error());
+    const fs::path reports = fs::path(folder) / "reports";
+    std::error_code error;
+    fs::create_directory(reports, error);
+    if (error) return fail(reports.string(), "cannot be made: " + error.message(), "see to its permissions");
+    fs::path report;
+    for (std::size_t n = 1; report.empty() || fs::exists(report, error); ++n) report = reports / formatted("%03zu", n);
+    StudyAnalyseOptions options;
+    options.data = (fs::path(folder) / "trials.csv").string();
+    options.out = report.string();
+    options.facts = made->facts;
+    options.groups = made->groups;
+    if (!made->simulated.empty()) options.notes.push_back(made->simulated);
+    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
+    if (!study) return std::unexpected(study.error());
+    options.sections = report_sections(*study);
+    options.title = study->protocol().title.empty() ? study->protocol().name : study->protocol().title;
+    for (const std::string& fact : made->facts) std::printf("%s\n", fact.c_str());
+    std::printf("\n");
+    if (const auto ok = study_analyse(options); !ok) return ok;
+    std::printf("\n%s\n", (report / "report.html").c_str());
+    return {};
+}
+
+namespace {
+
+CommandAction add_study_report(Command command) {
+    const auto study = std::make_shared<std::string>();
+    command.option("STUDY", *study, kStudyHelp).required();
+    return action([study] { return study_report(*study); });
+}
+
+}  // namespace
+
+CommandRow study_report_row() {
+    return {"report", "A new folder in reports/ with report.html, results.json and tables", add_study_report};
+}
+
+}  // namespace burin::app

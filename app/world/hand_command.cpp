@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "app/world/hand_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "activities/grasp/grasp.hpp"
+#include "app/cli/live_options.hpp"
+#include "app/recordings/live_replay.hpp"
+#include "base/assets.hpp"
+#include "base/text.hpp"
+#include "devices/gloves/glove_device.hpp"
+#include "devices/registry/device_registry.hpp"
+#include "session/record/input_files.hpp"
+#include "session/record/recordings.hpp"
+
+namespace burin::app {
+namespace {
+
+std::string scripted_world() { return asset_path("worlds/hand.toml"); }
+// Returns a script of what the arm does; the fingers close by the glove, or by the first button.
+std::string arm_script(const std::string& grasp) { return asset_path("sessions/hand-" + grasp + ".txt"); }
+
+// Returns whether the scripts were written for that world. Its file may be another copy of it.
+bool is_scripted_world(const std::string& world) { return session::is_same_file(world, scripted_world()); }
+
+std::string seconds_text(Nanoseconds from_ns, Nanoseconds to_ns) {
+    return formatted("%.1f s", seconds(to_ns - from_ns));
+}
+
+void print_grasps(const activities::Grasp& hand) {
+    for (const activities::Grasped& grasp : hand.grasps()) {
+        const bool is_held = grasp.ended_ns == 0;
+        std::printf(
+            "%s %s, carried %.0f mm%s\n", grasp.gesture == geometry::Gesture::pinch ? "pinched" : "grasped",
+            grasp.object.c_str(), 1e3 * glm::length(grasp.carried_m),
+            is_held ? ", and held at the end" : (", held for " + seconds_text(grasp.begun_ns, grasp.ended_ns)).c_str());
+    }
+    if (hand.grasps().empty()) std::printf("nothing was grasped\n");
+}
+
+// Has the hand go by the script of a grasp. Refuses what says otherwise.
+Result<void> lead_by_grasp(session::SculptOptions& session, const std::string& grasp) {
+    session::LiveOptions& live = session.live;
+    if (live.device != devices::kSimulatedGlove)
+        return fail("--grasp", "is of a simulated hand, and --device names " + live.device, "leave one of them out");
+    if (!live.input.empty())
+        return fail("--grasp " + grasp, "leads the hand by a script, and --input names another",
+                    "leave one of them out");
+    if (!is_scripted_world(session.world))
+        return fail("--grasp " + grasp,
+                    "goes by a script for " + scripted_world() + ", and " + session.world + " is another world",
+                    "lead the hand there with --input");
+    live.device = std::string(devices::kSimulatedGlove) + ":" + grasp;
+    live.input = arm_script(grasp);
+    live.offscreen = true;
+    return {};
+}
+
+// Checks that the device is a glove which can render as asked.
+Result<void> check_worn(const session::LiveOptions& live, activities::GloveRendering rendering, bool has_line) {
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
+    if (!nature) return std::unexpected(nature.error());
+    if (!nature->is_worn)
+        return fail("--device " + live.device, "is no glove",
+                    "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
+    if (rendering == activities::GloveRendering::local && !has_line)
+        return fail("--rendering local", "needs a glove's controller, and " + live.device + " has none",
+                    "name --device glove:PORT, or leave it out");
+    return {};
+}
+
+CommandAction add_hand(Command command) {
+    const auto options = std::make_shared<HandSession>();
+    HandSession& hand = *options;
+    prepare_hand(hand);
+    command.option("FILE", hand.session.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+        .asset(AssetRoom::worlds)
+        .show_default();
+    command
+        .option("--grasp", hand.grasp,
+                "A scripted hand, offscreen, which leaves pictures: whole: grasps and carries a ball; pinch: a card "
+                "between thumb and index; point: at the ball")
+        .one_of({"whole", "pinch", "point"});
+    command.option("--points", hand.options.points, "Of the patch by which a fingertip feels")
+        .within(1, static_cast<int>(activities::kMostFingertipPoints))
+        .show_default();
+    command
+        .option("--extent", hand.options.extent_mm, "From the patch's middle to its neighbours, along the skin, in mm")
+        .within(activities::kLeastExtent_mm, activities::kMostExtent_mm)
+        .show_default();
+    command.choice(
+        "--mesh", hand.options.stiffness,
+        "shared: the points of a patch share a surface's stiffness by their areas; literal: each has all of it",
+        {{"shared", activities::PatchStiffness::shared}, {"literal", activities::PatchStiffness::literal}});
+    command.choice(
+        "--rendering", hand.options.rendering,
+        "Where the force of a contact that rests is made: distributed: here; local: at the controller of a "
+        "glove on a line, which knows the piston's length alone",
+        {{"distributed", activities::GloveRendering::distributed}, {"local", activities::GloveRendering::local}});
+    add_live_options(command, hand.session.live);
+    return action([options] { return app::hand(*options); });
+}
+
+}  // namespace
+
+void prepare_hand(HandSession& hand) {
+    hand.session.world = scripted_world();
+    hand.session.live.device = devices::kSimulatedGlove;
+    hand.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+}
+
+Result<void> hand(const HandSession& options) {
+    session::SculptOptions session = options.session;
+    session::LiveOptions& live = session.live;
+    session.no_workpiece = true;
+    if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
+    if (!options.grasp.empty())
+        if (const auto led = lead_by_grasp(session, options.grasp); !led) return led;
+    const bool has_line = live.device.starts_with(std::string(devices::kGlove) + ":");
+    if (const auto glove = check_worn(live, options.options.rendering, has_line); !glove) return glove;
+    // A glove whose arm nobody leads grasps by a script; a simulated one closes by its script's buttons.
+    if (live.offscreen && live.input.empty() && !is_scripted_world(session.world))
+        return fail(
+            "--offscreen",
+            "has the arm go by a script for " + scripted_world() + ", and " + session.world + " is another world",
+            "lead the hand there with --input");
+    if (live.offscreen && live.input.empty()) live.input = arm_script(has_line ? "glove" : "whole");
+    const auto activity = std::make_shared<activities::Grasp>(options.options);
+    session.activity = activity;
+    const Result<void> done = run_recorded_session(session, "hand");
+    if (done) print_grasps(*activity);
+    return done;
+}
+
+CommandRow hand_row() { return {"hand", "Close, feel, grasp, carry and point with a drawn hand", add_hand}; }
+
+}  // namespace burin::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// burin hand [WORLD]: a hand in a glove, drawn and felt, among rigid things (activities/grasp/grasp.hpp).
+#pragma once
+
+#include <string>
+
+#include "activities/grasp/grasp_options.hpp"
+#include "app/cli/command_table.hpp"
+#include "base/error.hpp"
+#include "session/options/session_options.hpp"
+
+namespace burin::app {
+
+[[nodiscard]] CommandRow hand_row();
+
+struct HandSession {
+    session::SculptOptions session;
+    std::string grasp;  // a scripted hand that closes so; empty: none
+    activities::GraspOptions options;
+};
+void prepare_hand(HandSession& hand);  // its world, glove and tool, as they are where no option says else
+[[nodiscard]] Result<void> hand(const HandSession& options);
+
+}  // namespace burin::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "app/world/seek_command.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "activities/seek/seek.hpp"
+#include "app/cli/live_options.hpp"
+#include "app/cli/output_files.hpp"
+#include "app/recordings/live_replay.hpp"
+#include "session/record/input_files.hpp"
+
+namespace burin::app {
+
+namespace {
+
+// Its report is a JSON file; empty: none.
+struct SeekSession {
+    session::SculptOptions session;
+    unsigned targets = 0;
+    std::uint64_t seed = 1;
+    std::string report;
+};
+
+Result<void> seek_objects(const SeekSession& options) {
+    session::SculptOptions session = options.session;
+    session.no_workpiece = true;
+    if (!session.live.hands.empty())
+        return fail("--device", "gives several hands, and a search is one hand's", "name one device");
+    if (const auto ok = check_places(std::array{options.report}, session::inputs_of(session).list()); !ok) return ok;
+    const auto activity =
+        std::make_shared<activities::Seek>(activities::SeekOptions{.targets = options.targets, .seed = options.seed});
+    session.activity = activity;
+    const Result<void> done = run_recorded_session(session, "seek");
+    // What the person has done is kept, even where the session missed something else; one that never began leaves an
+    // older report alone.
+    if (!done && activity->found().empty()) return done;
+    const Result<void> written = write_output(options.report, json_text(activity->report()));
+    return done ? written : done;
+}
+
+CommandAction add_seek(Command command) {
+    const auto options = std::make_shared<SeekSession>();
+    SeekSession& seek = *options;
+    command.option("FILE", seek.session.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+        .asset(AssetRoom::worlds)
+        .required();
+    command.option("--targets", seek.targets, "How many objects are sought; 0: each that is seen and felt, once")
+        .show_default();
+    command.option("--seed", seek.seed, "Of the order in which they are named").show_default();
+    command.option("--report", seek.report, "A JSON file for the times and paths; - for standard output");
+    add_live_options(command, seek.session.live);
+    return action([options] { return seek_objects(*options); });
+}
+
+}  // namespace
+
+CommandRow seek_row() {
+    return {"seek", "Touch the objects of a world as they are named, against the clock", add_seek};
+}
+
+}  // namespace burin::app

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "app/world/world_wand.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "activities/wand/felt_wand.hpp"
+#include "activities/wand/wand_view.hpp"
+#include "app/cli/output_files.hpp"
+#include "app/cli/picture_folder.hpp"
+#include "app/world/rendered_report.hpp"
+#include "app/world/world_explore.hpp"
+#include "base/text.hpp"
+#include "record/record_writer.hpp"
+#include "session/felt/felt_figures.hpp"
+#include "session/record/input_files.hpp"
+
+namespace burin::app {
+namespace {
+
+constexpr std::size_t kMostWandPictures = 24;
+
+// A name that is safe in a file's name: letters, digits, dashes.
+std::string safe_word(const std::string& name) {
+    std::string word = name.substr(0, 40);
+    for (char& c : word)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '-';
+    return word;
+}
+
+activities::WandPose pose_felt(const activities::WandFelt& felt) {
+    activities::WandPose pose;
+    pose.scene_from_tool = felt.scene_from_tool;
+    for (const activities::PointFelt& point : felt.points) pose.points_scene.push_back(point.place_m);
+    pose.force_N = felt.given_force_N;
+    return pose;
+}
+
+// Draws the world where an object is first pressed, and at the end.
+class WandPictures {
+public:
+    WandPictures(const scene::MeshPart& part, const std::vector<scene::ObjectId>& ids, const WorldExploration& options,
+                 const devices::WandDescription& wand)
+        : view_(part, ids, options.radius_m), avatar_(wand, wand.gain, options.radius_m) {
+        const Vec3 size_m = view_.bounds_scene().extent();
+        camera_.middle_scene = view_.bounds_scene().center();
+        camera_.half_height_m = 0.55 * std::max({size_m.x, size_m.y, size_m.z});
+    }
+
+    Result<void> open(const std::string& folder) {
+        if (folder.empty()) return {};
+        Result<PictureFolder> made = PictureFolder::create(folder, "--pictures");
+        if (!made) return std::unexpected(made.error());
+        folder_.emplace(std::move(*made));
+        return {};
+    }
+    void take_updates(const std::vector<scene::ObjectUpdate>& updates) { view_.take(updates); }
+    Result<void> at(const activities::WandMoment& moment) {
+        if (!folder_ || moment.felt == nullptr) return {};
+        last_ = pose_felt(*moment.felt);
+        if (!moment.newly_touched || touched_ >= kMostWandPictures) return {};
+        return take("touched-" + std::to_string(++touched_) + "-" + safe_word(*moment.newly_touched) + ".png");
+    }
+    Result<void> finish() { return folder_ ? take("end.png") : Result<void>{}; }
+
+private:
+    Result<void> take(const std::string& name) {
+        return folder_->take(avatar_.close_scene(view_, last_, camera_), name);
+    }
+    activities::WorldView view_;
+    activities::WandView avatar_;
+    activities::WandCamera camera_;
+    std::optional<PictureFolder> folder_;
+    activities::WandPose last_;
+    std::size_t touched_ = 0;
+};
+
+void print_point_touches(const activities::WandExploredWorld& explored) {
+    std::size_t objects = 6, points = 5;
+    for (const activities::PointTouch& touch : explored.touches) {
+        objects = std::max(objects, touch.object_name.size());
+        points = std::max(points, touch.point_name.size());
+    }
+    const int first = static_cast<int>(std::min<std::size_t>(objects, 40)),
+              second = static_cast<int>(std::min<std::size_t>(points, 20));
+    std::printf("  %-*s  %-*s  first touched  touched  mean force  largest  %s\n", first, "object", second, "point",
+                kWallHead);
+    for (const activities::PointTouch& touch : explored.touches)
+        std::printf("  %-*s  %-*s  %11.2f s  %5.2f s  %8.2f N  %5.2f N  %s\n", first, touch.object_name.c_str(), second,
+                    touch.point_name.c_str(), touch.first_s, 0.01 * static_cast<double>(touch.updates),
+                    touch.force_mean_N, touch.force_max_N, wall_text(touch.wall).c_str());
+    if (explored.touches.empty()) std::printf("  nothing was touched\n");
+    const devices::WandSaturation& s = explored.run.saturation;
+    std::printf(
+        "largest force %.2f N, largest torque %.0f N mm; ticks at a limit: force %llu %llu %llu, torque %llu "
+        "%llu %llu of %llu\n",
+        explored.force_max_N, 1e3 * explored.torque_max_Nm, static_cast<unsigned long long>(s.force[0]),
+        static_cast<unsigned long long>(s.force[1]), static_cast<unsigned long long>(s.force[2]),
+        static_cast<unsigned long long>(s.torque[0]), static_cast<unsigned long long>(s.torque[1]),
+        static_cast<unsigned long long>(s.torque[2]), static_cast<unsigned long long>(explored.run.ticks));
+}
+
+Json report_of(const WorldExploration& options, const devices::WandDescription& wand,
+               const std::vector<devices::WandPoint>& points, const activities::WandExploredWorld& explored) {
+    Json names = Json::array(), touches = Json::array();
+    for (const devices::WandPoint& point : points) names.push_back(point.name);
+    for (const activities::PointTouch& touch : explored.touches) {
+        touches.push_back({{"object", touch.object_name},
+                           {"point", touch.point_name},
+                           {"first_touched_s", touch.first_s},
+                           {"touched_s", 0.01 * static_cast<double>(touch.updates)},
+                           {"force_max_N", touch.force_max_N},
+                           {"force_mean_N", touch.force_mean_N}});
+        add_wall(touches.back(), touch.wall);
+    }
+    const activities::WandRun& run = explored.run;
+    return {{"burin", BURIN_VERSION},
+            {"world", options.world},
+            {"stroke", options.stroke},
+            {"device", wand.name},
+            {"points", names},
+            {"radius_m", options.radius_m},
+            {"ticks", run.ticks},
+            {"ticks_in_contact", explored.ticks_in_contact},
+            {"ticks_without_force", explored.ticks_faulted},
+            {"force_max_N", explored.force_max_N},
+            {"torque_max_Nm", explored.torque_max_Nm},
+            {"ticks_at_force_limit", run.saturation.force},
+            {"ticks_at_torque_limit", run.saturation.torque},
+            {"amplifiers_tripped", run.trips},
+            {"motion_fitted", explored.fitted},
+            {"motion_scaled", explored.scene_from_device.scale},
+            {"touches", touches}};
+}
+
+Result<void> write_wand_report(const WorldExploration& options, const devices::WandDescription& wand,
+                               const std::vector<devices::WandPoint>& points, const scene::MeshPart& part,
+                               const activities::WandExploredWorld& explored) {
+    if (options.report.empty()) return {};
+    if (const auto done = write_text(session::felt_figure_path(options.report), wand_figure(explored, points)); !done)
+        return done;
+    if (const auto done = write_text(session::felt_table_path(options.report), wand_table(explored, part, points));
+        !done)
+        return done;
+    return write_text(options.report, json_text(report_of(options, wand, points, explored)));
+}
+
+}  // namespace
+
+Result<void> explore_world_with_wand(const WorldExploration& options) {
+    session::InputFiles inputs;
+    inputs.world(options.world).file(options.stroke).file(options.record).device(options.device);
+    if (const auto ok = make_folder_of(options.report); !ok) return ok;
+    if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
+    if (const auto ok = record::check_new_place(options.record); !ok) return ok;
+    Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
+    if (!opened) return std::unexpected(opened.error());
+    WandWorld& w = **opened;
+    w.feel.record = options.record;
+    if (!options.record.empty()) w.feel.facts = facts_of_wand(options, w);
+
+    tell_what_is_not_rendered(options.world, *w.part, w.ids, devices::device_of(w.feel.wand),
+                              probe_of(w.feel.wand, w.feel.points));
+    WandPictures pictures(*w.part, w.ids, options, w.feel.wand);
+    if (const auto ready = pictures.open(options.pictures); !ready) return ready;
+    const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(
+        *w.part, w.materials, w.stroke, w.feel, [&](const activities::WandMoment& moment) -> Result<void> {
+            pictures.take_updates(w.part->take_object_updates());
+            return pictures.at(moment);
+        });
+    if (!explored) return std::unexpected(explored.error());
+    if (explored->fitted)
+        std::fprintf(stderr, "burin: %s: leaves the wand's workspace; it is centred in it, scaled by %.3g\n",
+                     options.stroke.c_str(), explored->scene_from_device.scale);
+    if (const auto done = pictures.finish(); !done) return done;
+    print_point_touches(*explored);
+    print_motion_scaled(explored->scene_from_device.scale);
+    if (!options.record.empty())
+        std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(explored->run.ticks).c_str());
+    return write_wand_report(options, w.feel.wand, w.feel.points, *w.part, *explored);
+}
+
+}  // namespace burin::app

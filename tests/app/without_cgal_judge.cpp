@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "tests/app/cgal_judge.hpp"
-
-namespace burin::app {
-
-std::optional<CgalVerdict> judge_by_cgal(const std::string&) { return std::nullopt; }
-
-}  // namespace burin::app
