@@ -2,6 +2,7 @@
 #include "tests/house/house_figures.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "base/text.hpp"
 #include "tests/house/house_rules.hpp"
+#include "tests/house/session_figures.hpp"
 #include "tests/house/source_tree.hpp"
 #include "tests/house/structure_rules.hpp"
 
@@ -116,6 +118,7 @@ std::vector<Figure> house_figures(const std::filesystem::path& root) {
         places_touched(root, "haptic device", "devices/haptic/simulated_omni", "open_simulated_omni", 3.0));
     figures.push_back(flat_files(root, "app/", 12.0));
     figures.push_back(longest_function(root, "app/", 60.0));
+    std::ranges::move(session_figures(root), std::back_inserter(figures));
     for (FolderFragments& folder : fragments_by_folder(root)) {
         Figure figure{formatted("%% of files under %zu lines in %s/", kFragmentLines, folder.folder.c_str()),
                       folder.percent(), std::nullopt, std::move(folder.fragments),

@@ -108,14 +108,14 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     std::vector<std::string> members = private_members(session, "LiveSession");
     figures.push_back({"members of a LiveSession", static_cast<double>(members.size()), 48.0, std::move(members), ""});
     figures.push_back(
-        {"lines of live_session*", static_cast<double>(reading.lines_of("session/live/live_session")), 870.0, {}, ""});
+        {"lines of live_session*", static_cast<double>(reading.lines_of("session/live/live_session")), 861.0, {}, ""});
     figures.push_back({"sources that read haptics/channels.hpp",
                        reading.sources_that_read("haptics/channels.hpp"),
-                       400.0,
+                       266.0,
                        {},
                        "of the product"});
     for (const auto& [folder, bar] :
-         {std::pair("session/", 9300.0), std::pair("desk/", 9300.0), std::pair("app/", 9300.0)})
+         {std::pair("session/", 9650.0), std::pair("desk/", 8650.0), std::pair("app/", 7900.0)})
         figures.push_back({std::string("lines of our headers that a source reads in ") + folder,
                            reading.mean_lines(folder),
                            bar,

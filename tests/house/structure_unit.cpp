@@ -7,6 +7,7 @@
 
 #include "tests/house/asserting_tests.hpp"
 #include "tests/house/house_figures.hpp"
+#include "tests/house/session_figures.hpp"
 #include "tests/house/source_tree.hpp"
 #include "tests/house/structure_rules.hpp"
 
@@ -79,6 +80,31 @@ TEST(Figures, MissTheirBarsOnATreeThatBreaksTheRulesAndSayWhere) {
     EXPECT_EQ(missed, 4) << "twice, cycle, line and path\n" << table_of(figures);
     for (const char* place : {"burin::Room", "a -> b", "b/two.hpp:5", "docs/a.md:1", "MISSED"})
         EXPECT_TRUE(table_of(figures).contains(place)) << place << "\n" << table_of(figures);
+}
+
+TEST(Figures, OfThisRepositoryReachTheirBars) {
+    const auto figures = house_figures(BURIN_SOURCE_FOLDER);
+    EXPECT_TRUE(std::ranges::all_of(figures, &Figure::reached)) << table_of(figures);
+}
+
+TEST(SessionFigures, CountWhatAClassHolds) {
+    EXPECT_EQ(private_members("class A {\npublic:\n    int f_;\nprivate:\n    int f(int x_);\n    int a_ = 1, b_;\n"
+                              "    Map<int> c_{d()};  // e_\n};\nclass B {\nprivate:\n    int g_;\n};\n",
+                              "A"),
+              (Names{"a_", "b_", "c_"}));
+}
+
+TEST(SessionFigures, CountIncludesUpAndLinesThatAreRead) {
+    const ScratchFolder tree;
+    write_text(tree.path() / "session/a.hpp", "#include \"desk/b.hpp\"\n\n");
+    write_text(tree.path() / "session/a.cpp", "#include \"session/a.hpp\"\n");
+    write_text(tree.path() / "desk/b.hpp", "\n\n\n");
+    const auto figures = session_figures(tree.path());
+    EXPECT_EQ(figures.front().value, 1.0);
+    EXPECT_EQ(figures.front().places, Names{"session/a.hpp includes desk/b.hpp"});
+    const auto read = std::ranges::find(figures, "lines of our headers that a source reads in session/", &Figure::name);
+    ASSERT_NE(read, figures.end());
+    EXPECT_EQ(read->value, 5.0);
 }
 
 TEST(RoomRules, SeeACircleOfThreeRoomsAndNameTheIncludes) {
