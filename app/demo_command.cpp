@@ -19,6 +19,7 @@
 #include "app/world/hand_command.hpp"
 #include "app/world/world_explore.hpp"
 #include "base/assets.hpp"
+#include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "scene/vrml_world.hpp"
@@ -48,9 +49,8 @@ Result<void> open_cube(CubeWorld& to, const std::string& path) {
         for (const Vec3& p : object.mesh->positions_m) to.cube_scene_m.include(object.pose * (object.scale * p));
     }
     if (to.cube_scene_m.empty()) return fail(path, "has nothing to touch", "name a world with a cube");
-    auto part = scene::MeshPart::create(std::move(world->objects), to.materials);
-    if (!part) return std::unexpected(part.error());
-    to.part = std::move(*part);
+    BURIN_TRY(part, scene::MeshPart::create(std::move(world->objects), to.materials));
+    to.part = std::move(part);
     return {};
 }
 
@@ -65,8 +65,7 @@ activities::WandPose pose_in_case(const activities::CubeMeasure& measure) {
 
 Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& world, const activities::CubeTest& test,
                         const devices::WandDescription& wand, double radius_m) {
-    Result<PictureFolder> pictures = PictureFolder::create(folder.string(), "--out");
-    if (!pictures) return std::unexpected(pictures.error());
+    BURIN_TRY(pictures, PictureFolder::create(folder.string(), "--out"));
     const activities::WorldView view(*world.part, world.ids, radius_m);
     const activities::WandView avatar(wand, wand.gain, radius_m);
     activities::WandCamera camera;
@@ -77,7 +76,7 @@ Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& wo
     camera.half_height_m = world.cube_scene_m.extent().y;
     for (const auto& [which, name] : kPictured) {
         const activities::WandPose pose = pose_in_case(test.measures[static_cast<std::size_t>(which)]);
-        if (const auto taken = pictures->take(avatar.close_scene(view, pose, camera), name); !taken) return taken;
+        BURIN_TRY_DO(pictures.take(avatar.close_scene(view, pose, camera), name));
     }
     return {};
 }
@@ -126,7 +125,7 @@ Result<void> write_figures(const std::filesystem::path& folder, const activities
                                         std::pair("ticks.csv", activities::cube_table(test)),
                                         std::pair("report.json", json_text(cube_report(test, world)))}) {
         const std::string path = (folder / name).string();
-        if (const auto written = write_text(path, content); !written) return written;
+        BURIN_TRY_DO(write_text(path, content));
         std::printf("wrote %s\n", path.c_str());
     }
     return {};
@@ -140,20 +139,15 @@ struct CubeDemo {
 };
 
 Result<void> demo_wand(const CubeDemo& o) {
-    const Result<devices::WandDescription> described =
-        o.wand.empty() ? devices::WandDescription{} : devices::read_wand(o.wand);
-    if (!described) return std::unexpected(described.error());
+    BURIN_TRY(described, o.wand.empty() ? devices::WandDescription{} : devices::read_wand(o.wand));
     CubeWorld cube;
-    if (const auto opened = open_cube(cube, o.world); !opened) return opened;
-    if (const auto made = session::make_picture_folder(o.out, "--out"); !made) return made;
-    const Result<activities::CubeTest> test =
-        activities::run_cube_test(*cube.part, cube.materials, cube.cube_scene_m, *described, o.radius_m);
-    if (!test) return std::unexpected(test.error());
-    if (const auto written = write_figures(o.out, *test, o.world); !written) return written;
-    if (!o.no_pictures)
-        if (const auto drawn = draw_cases(o.out, cube, *test, *described, o.radius_m); !drawn) return drawn;
-    print_findings(*test);
-    if (test->holds()) return {};
+    BURIN_TRY_DO(open_cube(cube, o.world));
+    BURIN_TRY_DO(session::make_picture_folder(o.out, "--out"));
+    BURIN_TRY(test, activities::run_cube_test(*cube.part, cube.materials, cube.cube_scene_m, described, o.radius_m));
+    BURIN_TRY_DO(write_figures(o.out, test, o.world));
+    if (!o.no_pictures) BURIN_TRY_DO(draw_cases(o.out, cube, test, described, o.radius_m));
+    print_findings(test);
+    if (test.holds()) return {};
     std::fflush(stdout);
     return fail(o.out, "not all forces and torques are as expected", "see the lines that say WRONG");
 }
@@ -175,12 +169,12 @@ session::SculptOptions ornament() {
 Result<void> demo_ornament(const session::SculptOptions& sculpt, const std::string& out) {
     session::SculptOptions options = sculpt;
     const std::filesystem::path folder = out;
-    if (const auto made = session::make_picture_folder(out, "--out"); !made) return made;
+    BURIN_TRY_DO(session::make_picture_folder(out, "--out"));
     for (const char* part : {"part.stl", "part.ply"}) options.exports.push_back((folder / part).string());
     if (options.pictures.empty()) options.pictures = out;
     if (options.report.empty()) options.report = (folder / "report.json").string();
     session::settle_room(options, false);
-    if (const auto carved = app::sculpt(options); !carved) return carved;
+    BURIN_TRY_DO(app::sculpt(options));
     std::printf("left in %s\n", out.c_str());
     return {};
 }
@@ -191,7 +185,7 @@ Result<void> demo_world(const std::string& out) {
     exploration.stroke = asset_path("strokes/garden.csv");
     exploration.pictures = out;
     exploration.report = (std::filesystem::path(out) / "report.json").string();
-    if (const auto made = session::make_picture_folder(out, "--out"); !made) return made;
+    BURIN_TRY_DO(session::make_picture_folder(out, "--out"));
     return explore_world(exploration);
 }
 
@@ -199,11 +193,11 @@ Result<void> demo_study(const std::string& out) {
     StudyInitOptions init;
     init.places = {"kinesthetic-path", out};
     init.seed = 1;
-    if (const auto made = study_init(init); !made) return made;
+    BURIN_TRY_DO(study_init(init));
     StudyRunOptions run;
     run.study = out;
     run.simulated = true;
-    if (const auto ran = study_run(run, {}); !ran) return ran;
+    BURIN_TRY_DO(study_run(run, {}));
     return study_report(out);
 }
 
@@ -212,7 +206,7 @@ Result<void> demo_hand(const std::string& out) {
     prepare_hand(session);
     session.grasp = "whole";
     session.session.live.outputs = out;
-    if (const auto made = session::make_picture_folder(out, "--out"); !made) return made;
+    BURIN_TRY_DO(session::make_picture_folder(out, "--out"));
     return hand(session);
 }
 

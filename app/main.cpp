@@ -11,6 +11,7 @@
 #include "app/cli/command_table.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/version_report.hpp"
+#include "base/try.hpp"
 
 namespace burin::app {
 namespace {
@@ -18,8 +19,8 @@ namespace {
 Result<void> write_manual(const std::vector<ManualFile>& files, const std::string& folder) {
     for (const ManualFile& file : files) {
         const std::string path = (std::filesystem::path(folder) / file.name).string();
-        if (const auto made = make_folder_of(path); !made) return made;
-        if (const auto written = write_text(path, file.text); !written) return written;
+        BURIN_TRY_DO(make_folder_of(path));
+        BURIN_TRY_DO(write_text(path, file.text));
     }
     return {};
 }

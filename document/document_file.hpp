@@ -42,7 +42,7 @@ inline constexpr std::size_t kMostPageBytes = std::size_t{64} << 20, kMostTextBy
 
 struct Content {
     std::map<std::string, std::string> facts = {};
-    std::vector<std::string> commands = {};  // of a session (session/commands/command_table.hpp), in their order
+    std::vector<std::string> commands = {};  // of a session (session/state/command_table.hpp), in their order
     std::vector<scene::Pages> parts = {};
 };
 

@@ -108,7 +108,7 @@ bool put_piece(ToolShape& shape, const std::vector<Vec3>& corners, bool turned) 
     if (corners.empty() || shape.piece_count == ToolShape::kMostPieces) return false;
     const auto count =
         static_cast<std::uint32_t>(std::min<std::size_t>(corners.size(), ToolShape::kMostCorners - first));
-    // Where there are too many, every so manieth.
+    // Too many are thinned evenly, and `differs_m` measures what that takes.
     for (std::uint32_t i = 0; i < count; ++i) shape.corners[first + i] = corners[i * corners.size() / count];
     shape.pieces[shape.piece_count++] = {first, count, turned};
     return true;
@@ -145,42 +145,53 @@ void put_sides_of(ToolShape& shape, const geometry::TriangleMesh& mesh) {
     }
 }
 
-ToolShape shape_of(const compute::ToolShape& tool, double rounding_m, double inset_m) {
-    ToolShape shape;
-    shape.rounding_m = rounding_m;
-    shape.size_m = 2.0 * size_of(tool);
-    if (const auto* box = std::get_if<compute::BoxTool>(&tool)) {
-        std::vector<Vec3> corners;
-        const Vec3 half = box->half_size_m - inset_m;
-        for (int i = 0; i < 8; ++i)
-            corners.emplace_back((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
-                                 (i & 4) != 0 ? half.z : -half.z);
-        put_piece(shape, corners, false);
-        for (int axis = 0; axis < 3; ++axis)
-            for (const double side : {-1.0, 1.0}) {
-                Vec3 normal(0.0);
-                normal[axis] = side;
-                put_side(shape, normal);
-            }
-    } else if (const auto* mesh = std::get_if<compute::MeshTool>(&tool)) {
-        if (put_piece(shape, inset_corners(*mesh->mesh, inset_m), false)) put_sides_of(shape, *mesh->mesh);
-    } else {
-        if (put_piece(shape, inset_circles(outline_of(tool), inset_m), true)) put_turned_sides(shape);
-    }
+// Put what is felt of each kind of tool that is no ball, `inset_m` inside it all around. A kind without one does not
+// compile.
+void put_turned(ToolShape& shape, const Outline& outline, double inset_m) {
+    if (put_piece(shape, inset_circles(outline, inset_m), true)) put_turned_sides(shape);
+}
+void put_felt(ToolShape& shape, const compute::CylinderTool& tool, double inset_m) {
+    put_turned(shape, outline_of(tool), inset_m);
+}
+void put_felt(ToolShape& shape, const compute::ConeTool& tool, double inset_m) {
+    put_turned(shape, outline_of(tool), inset_m);
+}
+void put_felt(ToolShape& shape, const compute::BullNoseTool& tool, double inset_m) {
+    put_turned(shape, outline_of(tool), inset_m);
+}
+void put_felt(ToolShape& shape, const compute::BoxTool& tool, double inset_m) {
+    std::vector<Vec3> corners;
+    const Vec3 half = tool.half_size_m - inset_m;
+    for (int i = 0; i < 8; ++i)
+        corners.emplace_back((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                             (i & 4) != 0 ? half.z : -half.z);
+    put_piece(shape, corners, false);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 normal(0.0);
+            normal[axis] = side;
+            put_side(shape, normal);
+        }
+}
+void put_felt(ToolShape& shape, const compute::MeshTool& tool, double inset_m) {
+    if (put_piece(shape, inset_corners(*tool.mesh, inset_m), false)) put_sides_of(shape, *tool.mesh);
+}
+
+// Finds bounds, reach and middle of the pieces that were put.
+void bound_pieces(ToolShape& shape) {
     Vec3 sum(0.0);
     double count = 0.0;
     for (std::uint32_t k = 0; k < shape.piece_count; ++k)
         for (const Vec3& c : shape.corners_of(shape.pieces[k])) {
             const bool turned = shape.pieces[k].turned;
             const Vec3 most = turned ? Vec3(c.x, c.y, c.x) : c, least = turned ? Vec3(-c.x, c.y, -c.x) : c;
-            shape.bounds.include(most + rounding_m);
-            shape.bounds.include(least - rounding_m);
-            shape.reach_m = std::max(shape.reach_m, glm::length(c) + rounding_m);
+            shape.bounds.include(most + shape.rounding_m);
+            shape.bounds.include(least - shape.rounding_m);
+            shape.reach_m = std::max(shape.reach_m, glm::length(c) + shape.rounding_m);
             sum += turned ? Vec3(0.0, c.y, 0.0) : c;
             count += 1.0;
         }
     if (count > 0.0) shape.inside_m = sum / count;
-    return shape;
 }
 
 // How far the felt surface is from the tool's at most.
@@ -213,27 +224,38 @@ double differing_m(const ToolShape& shape, const geometry::TriangleMesh& mesh) {
     return most;
 }
 
-}  // namespace
-
-FeltTool felt_tool(const compute::ToolShape& shape) {
+FeltTool felt_as(const compute::BallTool& ball) {
+    // All balls are alike, and a session may change the radius in every frame.
+    static const haptics::ToolSurface kUnit = tool_surface(mesh_of(compute::BallTool{1.0}), 1.0);
     FeltTool felt;
-    if (const auto* ball = std::get_if<compute::BallTool>(&shape)) {
-        // All balls are alike, and a session may change the radius in every frame.
-        static const haptics::ToolSurface kUnit = tool_surface(mesh_of(compute::BallTool{1.0}), 1.0);
-        felt.probe = haptics::ball_probe(ball->radius_m);
-        felt.surface = scaled(kUnit, ball->radius_m);
-        return felt;
-    }
-    const geometry::TriangleMesh mesh = mesh_of(shape);
-    felt.surface = tool_surface(mesh, size_of(shape));
-    const double width_m = 2.0 * size_of(shape);
-    const double clearance_m = haptics::TickParameters{}.clearance_ratio * size_of(shape);
+    felt.probe = haptics::ball_probe(ball.radius_m);
+    felt.surface = scaled(kUnit, ball.radius_m);
+    return felt;
+}
+
+template <typename Tool>
+FeltTool felt_as(const Tool& tool) {
+    FeltTool felt;
+    const geometry::TriangleMesh mesh = mesh_of(tool);
+    const double size_m = size_of(tool), width_m = 2.0 * size_m;
+    felt.surface = tool_surface(mesh, size_m);
+    const double clearance_m = haptics::TickParameters{}.clearance_ratio * size_m;
     for (const double rounding : kRoundings) {
-        felt.shape = shape_of(shape, rounding * width_m, rounding * width_m + clearance_m);
+        felt.shape = {};
+        felt.shape.rounding_m = rounding * width_m;
+        felt.shape.size_m = width_m;
+        put_felt(felt.shape, tool, rounding * width_m + clearance_m);
+        bound_pieces(felt.shape);
         felt.differs_m = differing_m(felt.shape, mesh);
         if (felt.differs_m <= kDiffersLittle * width_m) break;
     }
     return felt;
+}
+
+}  // namespace
+
+FeltTool felt_tool(const compute::ToolShape& shape) {
+    return std::visit([](const auto& tool) { return felt_as(tool); }, shape);
 }
 
 }  // namespace burin::sculpt

@@ -17,34 +17,6 @@ constexpr double kStep = 0.12;               // longest edge, of the tool's size
 constexpr double kMostTriangles = 20'000.0;  // about
 constexpr int kSegments = 32;
 
-Outline turned_outline(const compute::BallTool& tool) {
-    Outline outline;
-    constexpr int kParts = 48;
-    for (int i = 0; i <= kParts; ++i) {
-        const double angle = std::numbers::pi * i / kParts;
-        outline.push_back({tool.radius_m * std::sin(angle), -tool.radius_m * std::cos(angle)});
-    }
-    return outline;
-}
-Outline turned_outline(const compute::CylinderTool& tool) {
-    return {{0.0, 0.0}, {tool.radius_m, 0.0}, {tool.radius_m, tool.length_m}, {0.0, tool.length_m}};
-}
-Outline turned_outline(const compute::ConeTool& tool) {
-    return {{0.0, 0.0}, {tool.tip_radius_m, 0.0}, {tool.top_radius_m, tool.length_m}, {0.0, tool.length_m}};
-}
-Outline turned_outline(const compute::BullNoseTool& tool) {
-    Outline outline{{0.0, 0.0}};
-    constexpr int kParts = 12;
-    const double corner = tool.corner_radius_m, flat = tool.radius_m - corner;
-    for (int i = 0; i <= kParts; ++i) {
-        const double angle = 0.5 * std::numbers::pi * i / kParts;
-        outline.push_back({flat + corner * std::sin(angle), corner * (1.0 - std::cos(angle))});
-    }
-    outline.push_back({tool.radius_m, tool.length_m});
-    outline.push_back({0.0, tool.length_m});
-    return outline;
-}
-
 // Divides a triangle evenly into parts no longer than step_m.
 void add_divided(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, double step_m) {
     const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
@@ -107,6 +79,60 @@ TriangleMesh box_of(const Vec3& half, double step_m) {
     return mesh;
 }
 
+// Triangles of each kind of tool, none longer than step_m. A kind without an operator here does not compile: none takes
+// "all others".
+struct Triangles {
+    double step_m = HUGE_VAL;
+    int segments = 0;
+    Seam seam = Seam::welded;
+
+    TriangleMesh operator()(const compute::BallTool& tool) const { return turned(tool); }
+    TriangleMesh operator()(const compute::CylinderTool& tool) const { return turned(tool); }
+    TriangleMesh operator()(const compute::ConeTool& tool) const { return turned(tool); }
+    TriangleMesh operator()(const compute::BullNoseTool& tool) const { return turned(tool); }
+    TriangleMesh operator()(const compute::BoxTool& tool) const { return box_of(tool.half_size_m, step_m); }
+    TriangleMesh operator()(const compute::MeshTool& tool) const {
+        if (step_m == HUGE_VAL) return *tool.mesh;
+        const std::vector<Vec3>& at_m = tool.mesh->positions_m;
+        TriangleMesh mesh;
+        for (const auto& [a, b, c] : tool.mesh->triangles) add_divided(mesh, at_m[a], at_m[b], at_m[c], step_m);
+        return mesh;
+    }
+
+private:
+    TriangleMesh turned(const auto& tool) const { return revolved(outline_of(tool), step_m, segments, seam); }
+};
+
+}  // namespace
+
+Outline outline_of(const compute::BallTool& tool) {
+    Outline outline;
+    constexpr int kParts = 48;
+    for (int i = 0; i <= kParts; ++i) {
+        const double angle = std::numbers::pi * i / kParts;
+        outline.push_back({tool.radius_m * std::sin(angle), -tool.radius_m * std::cos(angle)});
+    }
+    return outline;
+}
+Outline outline_of(const compute::CylinderTool& tool) {
+    return {{0.0, 0.0}, {tool.radius_m, 0.0}, {tool.radius_m, tool.length_m}, {0.0, tool.length_m}};
+}
+Outline outline_of(const compute::ConeTool& tool) {
+    return {{0.0, 0.0}, {tool.tip_radius_m, 0.0}, {tool.top_radius_m, tool.length_m}, {0.0, tool.length_m}};
+}
+Outline outline_of(const compute::BullNoseTool& tool) {
+    Outline outline{{0.0, 0.0}};
+    constexpr int kParts = 12;
+    const double corner = tool.corner_radius_m, flat = tool.radius_m - corner;
+    for (int i = 0; i <= kParts; ++i) {
+        const double angle = 0.5 * std::numbers::pi * i / kParts;
+        outline.push_back({flat + corner * std::sin(angle), corner * (1.0 - std::cos(angle))});
+    }
+    outline.push_back({tool.radius_m, tool.length_m});
+    outline.push_back({0.0, tool.length_m});
+    return outline;
+}
+
 Box bounds_of(const compute::ToolShape& shape) {
     const auto around_axis = [](double radius_m, double length_m) {
         return Box{{-radius_m, 0.0, -radius_m}, {radius_m, length_m, radius_m}};
@@ -127,20 +153,6 @@ Box bounds_of(const compute::ToolShape& shape) {
         }
     };
     return std::visit(Visitor{around_axis}, shape);
-}
-
-}  // namespace
-
-Outline outline_of(const compute::ToolShape& shape) {
-    return std::visit(
-        [](const auto& turned) {
-            using Shape = std::decay_t<decltype(turned)>;
-            if constexpr (std::is_same_v<Shape, compute::BoxTool> || std::is_same_v<Shape, compute::MeshTool>)
-                return Outline{};
-            else
-                return turned_outline(turned);
-        },
-        shape);
 }
 
 double size_of(const compute::ToolShape& shape) {
@@ -183,24 +195,14 @@ double shaft_height_m(const compute::ToolShape& shape) {
 
 TriangleMesh drawing_of(const compute::ToolShape& shape) {
     constexpr int kAround = 48;
-    if (const auto* box = std::get_if<compute::BoxTool>(&shape)) return box_of(box->half_size_m, HUGE_VAL);
-    if (const auto* tool = std::get_if<compute::MeshTool>(&shape)) return *tool->mesh;
-    return revolved(outline_of(shape), HUGE_VAL, kAround, Seam::welded);
+    return std::visit(Triangles{HUGE_VAL, kAround, Seam::welded}, shape);
 }
 
 TriangleMesh mesh_of(const compute::ToolShape& shape) {
     const Vec3 extent = bounds_of(shape).extent();
     const double area = 2.0 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
     const double step_m = std::max(kStep * size_of(shape), std::sqrt(2.0 * area / kMostTriangles));
-    if (const auto* box = std::get_if<compute::BoxTool>(&shape)) return box_of(box->half_size_m, step_m);
-    if (const auto* tool = std::get_if<compute::MeshTool>(&shape)) {
-        TriangleMesh mesh;
-        for (const auto& [a, b, c] : tool->mesh->triangles)
-            add_divided(mesh, tool->mesh->positions_m[a], tool->mesh->positions_m[b], tool->mesh->positions_m[c],
-                        step_m);
-        return mesh;
-    }
-    return revolved(outline_of(shape), step_m, kSegments, Seam::as_felt);
+    return std::visit(Triangles{step_m, kSegments, Seam::as_felt}, shape);
 }
 
 }  // namespace burin::sculpt

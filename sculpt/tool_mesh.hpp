@@ -14,8 +14,14 @@ struct OutlinePoint {
     double radius_m = 0.0, height_m = 0.0;
 };
 using Outline = std::vector<OutlinePoint>;  // from the lowest point outward and up
-// Of a ball, cylinder, cone or bull-nose; empty for others.
-[[nodiscard]] Outline outline_of(const compute::ToolShape& shape);
+// Return the outlines of the kinds that are turned. Others have none, and do not compile.
+[[nodiscard]] Outline outline_of(const compute::BallTool& tool);
+[[nodiscard]] Outline outline_of(const compute::CylinderTool& tool);
+[[nodiscard]] Outline outline_of(const compute::ConeTool& tool);
+[[nodiscard]] Outline outline_of(const compute::BullNoseTool& tool);
+
+// The box along the tool's axes that just contains it.
+[[nodiscard]] Box bounds_of(const compute::ToolShape& shape);
 
 // Half of the tool's least width: the length that its details are measured against. A ball's radius.
 [[nodiscard]] double size_of(const compute::ToolShape& shape);

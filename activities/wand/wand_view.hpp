@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Draws a wand in a world (session/hands/held_handle.hpp has what is drawn of it), seen from nearby. Frames: as
+// Draws a wand in a world (session/held/held_handle.hpp has what is drawn of it), seen from nearby. Frames: as
 // activities/world/world_view.hpp. Pure; any thread.
 #pragma once
 
 #include <vector>
 
 #include "activities/world/world_view.hpp"
-#include "session/hands/held_handle.hpp"
+#include "session/held/held_handle.hpp"
 
 namespace burin::activities {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "picture/frame_setup.hpp"
-#include "session/hands/staging.hpp"
+#include "session/held/staging.hpp"
 
 namespace burin::activities {
 namespace {

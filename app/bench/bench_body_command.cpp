@@ -8,6 +8,7 @@
 #include "app/cli/output_files.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "bench/body/body_bench.hpp"
 
 namespace burin::app {
@@ -22,9 +23,8 @@ struct BodyBench {
 // Reads the forces that another program has computed; an empty list where no file is named.
 Result<Json> calculix_forces(const std::string& path) {
     if (path.empty()) return Json::array();
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return std::unexpected(text.error());
-    Json forces = Json::parse(*text, nullptr, false);
+    BURIN_TRY(text, read_text_file(path));
+    Json forces = Json::parse(text, nullptr, false);
     const auto is_force = [](const Json& row) {
         return row.is_object() && row.contains("calculix_N") && row["calculix_N"].is_number() &&
                row.contains("closed_share_of_radius") && row["closed_share_of_radius"].is_number();
@@ -35,17 +35,15 @@ Result<Json> calculix_forces(const std::string& path) {
 }
 
 Result<void> run_body_bench(const BodyBench& options) {
-    if (const auto ok = check_places(std::array{options.json, options.svg, options.dents}); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{options.json, options.svg, options.dents}));
     if (!(options.task.still_s >= 1.0 && options.task.still_s <= 3600.0))
         return fail("--still", formatted("is %g", options.task.still_s), "ask for 1 to 3600 seconds");
-    const Result<Json> calculix = calculix_forces(options.calculix);
-    if (!calculix) return std::unexpected(calculix.error());
-    const auto figures = bench::measure_body(options.task);
-    if (!figures) return std::unexpected(figures.error());
-    if (options.json != kStandardOutput) std::fputs(bench::body_bench_table(*figures).c_str(), stdout);
-    if (const auto ok = write_output(options.svg, bench::body_force_svg(*figures, *calculix)); !ok) return ok;
-    if (const auto ok = write_output(options.dents, bench::paper_dents_svg()); !ok) return ok;
-    return write_output(options.json, json_text(bench::body_bench_json(*figures)));
+    BURIN_TRY(calculix, calculix_forces(options.calculix));
+    BURIN_TRY(figures, bench::measure_body(options.task));
+    if (options.json != kStandardOutput) std::fputs(bench::body_bench_table(figures).c_str(), stdout);
+    BURIN_TRY_DO(write_output(options.svg, bench::body_force_svg(figures, calculix)));
+    BURIN_TRY_DO(write_output(options.dents, bench::paper_dents_svg()));
+    return write_output(options.json, json_text(bench::body_bench_json(figures)));
 }
 
 CommandAction add_body_bench(Command command) {

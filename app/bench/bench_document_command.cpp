@@ -6,6 +6,7 @@
 
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/document/document_bench.hpp"
 #include "compute/rays/lattice.hpp"
 
@@ -18,11 +19,10 @@ struct DocumentBench {
 };
 
 Result<void> run_document_bench(const DocumentBench& options) {
-    if (const auto ok = check_places(std::array{options.json}, std::array{options.task.mesh}); !ok) return ok;
-    const Result<bench::DocumentFigures> figures = bench::measure_documents(options.task);
-    if (!figures) return std::unexpected(figures.error());
-    if (options.json != kStandardOutput) std::fputs(bench::document_table(*figures).c_str(), stdout);
-    return write_output(options.json, json_text(bench::document_json(*figures)));
+    BURIN_TRY_DO(check_places(std::array{options.json}, std::array{options.task.mesh}));
+    BURIN_TRY(figures, bench::measure_documents(options.task));
+    if (options.json != kStandardOutput) std::fputs(bench::document_table(figures).c_str(), stdout);
+    return write_output(options.json, json_text(bench::document_json(figures)));
 }
 
 CommandAction add_document_bench(Command command) {

@@ -9,6 +9,7 @@
 
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/frame/frame.hpp"
 #include "bench/frame/frame_peers.hpp"
 #include "gpu/driver_threads.hpp"
@@ -36,7 +37,7 @@ bench::FrameOptions frame_options(const FrameBench& options) {
 }
 
 Result<void> check(const FrameBench& options) {
-    if (const auto ok = check_places(std::array{options.json, options.csv, options.ratios}); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{options.json, options.csv, options.ratios}));
     std::error_code ignored;
     if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures, ignored)) {
         return fail(options.pictures, "is not a folder", "make it first");
@@ -67,29 +68,28 @@ Result<void> write_pictures(const bench::FrameReport& report, const std::filesys
     for (const bench::FrameTimes& times : report.times) {
         std::string name = times.subject + "-" + bench::name_of(times.motion) + "-" + bench::name_of(times.way);
         for (char& c : name) c = std::isalnum(c) == 0 ? '-' : static_cast<char>(std::tolower(c));
-        if (const auto done = picture::write_png(folder / (name + ".png"), side_by_side(times.pictures)); !done)
-            return done;
+        BURIN_TRY_DO(picture::write_png(folder / (name + ".png"), side_by_side(times.pictures)));
     }
     return {};
 }
 
 Result<void> run_frame_bench(const FrameBench& options) {
-    if (const auto ok = check(options); !ok) return ok;
+    BURIN_TRY_DO(check(options));
     gpu::leave_a_core_to_touch();  // as a session does, so that the figures are those of a session
-    const auto report = bench::run_frames(
-        frame_options(options), [](const std::string& part) { std::fprintf(stderr, "measuring: %s\n", part.c_str()); });
-    if (!report) return std::unexpected(report.error());
+    BURIN_TRY(report, bench::run_frames(frame_options(options), [](const std::string& part) {
+                  std::fprintf(stderr, "measuring: %s\n", part.c_str());
+              }));
     if (options.json != kStandardOutput && options.csv != kStandardOutput) {
-        std::fputs(bench::frame_table(*report).c_str(), stdout);
+        std::fputs(bench::frame_table(report).c_str(), stdout);
         std::printf("a software driver draws with %s thread(s), as in a session; LP_NUM_THREADS says otherwise\n",
                     gpu::driver_threads());
     }
     if (!options.pictures.empty()) {
-        if (const auto done = write_pictures(*report, options.pictures); !done) return done;
+        BURIN_TRY_DO(write_pictures(report, options.pictures));
     }
-    if (const auto done = write_output(options.csv, bench::frame_csv(*report)); !done) return done;
-    if (const auto done = add_ratios(*report, options.ratios); !done) return done;
-    Json json = bench::frame_json(*report);
+    BURIN_TRY_DO(write_output(options.csv, bench::frame_csv(report)));
+    BURIN_TRY_DO(add_ratios(report, options.ratios));
+    Json json = bench::frame_json(report);
     json["driver_threads"] = gpu::driver_threads();
     return write_output(options.json, json_text(json));
 }

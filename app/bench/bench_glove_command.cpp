@@ -9,6 +9,7 @@
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/assets.hpp"
+#include "base/try.hpp"
 #include "bench/glove/glove_output.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/gloves/glove_link.hpp"
@@ -27,14 +28,13 @@ struct GloveBench {
 
 // Counts the sets that come over the emulated glove's line in some seconds.
 Result<double> sets_per_s() {
-    auto port = devices::GlovePort::create();
-    if (!port) return std::unexpected(port.error());
+    BURIN_TRY(port, devices::GlovePort::create());
     std::atomic<bool> ends = false;
-    std::thread glove([&] { port->run({}, [&] { return ends.load(); }); });
+    std::thread glove([&] { port.run({}, [&] { return ends.load(); }); });
     MonotonicClock clock;
     double rate = 0.0;
     Result<void> opened;
-    if (auto link = devices::GloveLink::open(port->name(), clock)) {
+    if (auto link = devices::GloveLink::open(port.name(), clock)) {
         const auto number = [&] { return (*link)->newest().set.number; };
         const Nanoseconds from_ns = clock.now_ns();
         std::uint8_t last = number();
@@ -56,31 +56,27 @@ Result<double> sets_per_s() {
 }
 
 Result<void> run_glove_bench(const GloveBench& options) {
-    if (const auto ok = check_places(std::array{options.svg, options.json}, std::array{options.hand}); !ok) return ok;
-    auto hand = geometry::read_hand_model(options.hand);
-    if (!hand) return std::unexpected(hand.error());
-    for (int i = 0; i < kFinerSkins; ++i) *hand = geometry::with_finer_skin(*hand);
+    BURIN_TRY_DO(check_places(std::array{options.svg, options.json}, std::array{options.hand}));
+    BURIN_TRY(hand, geometry::read_hand_model(options.hand));
+    for (int i = 0; i < kFinerSkins; ++i) hand = geometry::with_finer_skin(hand);
     bench::GloveFigures figures;
-    auto press = bench::press_fingertip(*hand, geometry::Finger::index, figures.task);
-    if (!press) return std::unexpected(press.error());
-    figures.press = std::move(*press);
+    BURIN_TRY(press, bench::press_fingertip(hand, geometry::Finger::index, figures.task));
+    figures.press = std::move(press);
     const activities::GraspOptions usual;
     figures.default_points = usual.points;
     figures.default_extent_m = 1e-3 * usual.extent_mm;
     figures.lines = bench::compare_lines({9'600, 19'200, 38'400, 57'600, 115'200});
     if (!options.without_line) {
-        const auto rate = sets_per_s();
-        if (!rate) return std::unexpected(rate.error());
-        figures.measured_sets_per_s = *rate;
+        BURIN_TRY(rate, sets_per_s());
+        figures.measured_sets_per_s = rate;
         for (const bench::MadeAt at : {bench::MadeAt::controller, bench::MadeAt::host}) {
-            const auto trial = bench::try_line(at);
-            if (!trial) return std::unexpected(trial.error());
-            figures.trials.push_back(*trial);
+            BURIN_TRY(trial, bench::try_line(at));
+            figures.trials.push_back(trial);
         }
     }
     if (options.json != kStandardOutput && options.svg != kStandardOutput)
         std::fputs(bench::glove_table(figures).c_str(), stdout);
-    if (const auto done = write_output(options.svg, bench::glove_svg(figures)); !done) return done;
+    BURIN_TRY_DO(write_output(options.svg, bench::glove_svg(figures)));
     return write_output(options.json, json_text(bench::glove_json(figures)));
 }
 

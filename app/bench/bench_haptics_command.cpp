@@ -7,6 +7,7 @@
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "bench/haptics/groove_figure.hpp"
 #include "bench/haptics/haptics.hpp"
 
@@ -36,14 +37,12 @@ Result<void> draw_groove(const HapticsBench& options) {
                       csv = (folder / "groove.csv").string();
     const std::vector<std::string> read =
         options.before.empty() ? std::vector<std::string>{} : std::vector{options.before};
-    if (const auto ok = check_places(std::array{sinking, lifted, csv}, read); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{sinking, lifted, csv}, read));
     std::vector<bench::GroovePoint> before;
     if (!options.before.empty()) {
-        const auto text = read_text_file(options.before);
-        if (!text) return std::unexpected(text.error());
-        auto points = bench::groove_points(*text, options.before, "before");
-        if (!points) return std::unexpected(points.error());
-        before = std::move(*points);
+        BURIN_TRY(text, read_text_file(options.before));
+        BURIN_TRY(points, bench::groove_points(text, options.before, "before"));
+        before = std::move(points);
         std::erase_if(before, [](const bench::GroovePoint& point) { return point.kind != "lifted"; });
     }
     bench::GrooveOptions wanted;
@@ -55,8 +54,8 @@ Result<void> draw_groove(const HapticsBench& options) {
         wanted.lifted_resolution = 64;
     }
     const std::vector<bench::GroovePoint> points = bench::measure_groove(wanted, notify_measured);
-    if (const auto done = write_output(csv, bench::groove_csv(points)); !done) return done;
-    if (const auto done = write_output(sinking, bench::sinking_svg(points)); !done) return done;
+    BURIN_TRY_DO(write_output(csv, bench::groove_csv(points)));
+    BURIN_TRY_DO(write_output(sinking, bench::sinking_svg(points)));
     before.insert(before.end(), points.begin(), points.end());
     return write_output(lifted, bench::lifted_svg(before));
 }
@@ -65,15 +64,14 @@ Result<void> run_haptics_bench(const HapticsBench& options) {
     if (!options.groove.empty()) return draw_groove(options);
     if (!options.before.empty())
         return fail("--before " + options.before, "is drawn beside nothing", "give --groove FOLDER as well");
-    if (const auto ok = check_places(std::array{options.csv, options.svg, options.json}); !ok) return ok;
-    const auto all = bench::run_haptics(haptics_options(options), notify_measured);
-    if (!all) return std::unexpected(all.error());
+    BURIN_TRY_DO(check_places(std::array{options.csv, options.svg, options.json}));
+    BURIN_TRY(all, bench::run_haptics(haptics_options(options), notify_measured));
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
-        std::fputs(bench::haptics_table(*all).c_str(), stdout);
+        std::fputs(bench::haptics_table(all).c_str(), stdout);
     }
-    if (const auto done = write_output(options.csv, bench::haptics_csv(*all)); !done) return done;
-    if (const auto done = write_output(options.svg, bench::haptics_svg(*all)); !done) return done;
-    return write_output(options.json, json_text(bench::haptics_json(*all)));
+    BURIN_TRY_DO(write_output(options.csv, bench::haptics_csv(all)));
+    BURIN_TRY_DO(write_output(options.svg, bench::haptics_svg(all)));
+    return write_output(options.json, json_text(bench::haptics_json(all)));
 }
 
 CommandAction add_haptics_bench(Command command) {

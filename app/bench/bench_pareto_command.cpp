@@ -6,6 +6,7 @@
 #include "app/bench/bench_command.hpp"
 #include "app/bench/bench_limits.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/stroke/pareto.hpp"
 #include "compute/rays/lattice.hpp"
 
@@ -18,16 +19,16 @@ struct ParetoBench {
 };
 
 Result<void> run_pareto_bench(const ParetoBench& options) {
-    if (const auto ok = check_places(std::array{options.csv, options.svg, options.json}); !ok) return ok;
-    const auto compared = bench::run_pareto(
-        options.pareto, [](const std::string& line) { std::fprintf(stderr, "measured: %s\n", line.c_str()); });
-    if (!compared) return std::unexpected(compared.error());
-    Json report = {{"machine", compared->machine}, {"rows", compared->rows}, {"left_out", compared->left_out}};
+    BURIN_TRY_DO(check_places(std::array{options.csv, options.svg, options.json}));
+    BURIN_TRY(compared, bench::run_pareto(options.pareto, [](const std::string& line) {
+                  std::fprintf(stderr, "measured: %s\n", line.c_str());
+              }));
+    Json report = {{"machine", compared.machine}, {"rows", compared.rows}, {"left_out", compared.left_out}};
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
-        std::fputs(bench::pareto_table(*compared).c_str(), stdout);
+        std::fputs(bench::pareto_table(compared).c_str(), stdout);
     }
-    if (const auto written = write_output(options.csv, bench::pareto_csv(*compared)); !written) return written;
-    if (const auto written = write_output(options.svg, bench::pareto_svg(*compared)); !written) return written;
+    BURIN_TRY_DO(write_output(options.csv, bench::pareto_csv(compared)));
+    BURIN_TRY_DO(write_output(options.svg, bench::pareto_svg(compared)));
     return write_output(options.json, json_text(report));
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/recording/recording.hpp"
 
 namespace burin::app {
@@ -16,11 +17,10 @@ struct RecordBench {
 };
 
 Result<void> run_record_bench(const RecordBench& options) {
-    if (const auto ok = check_place(options.json); !ok) return ok;
-    const Result<bench::RecordFigures> figures = bench::measure_recording(options.task);
-    if (!figures) return std::unexpected(figures.error());
-    if (options.json != kStandardOutput) std::fputs(bench::recording_table(*figures).c_str(), stdout);
-    return write_output(options.json, json_text(bench::recording_json(*figures)));
+    BURIN_TRY_DO(check_place(options.json));
+    BURIN_TRY(figures, bench::measure_recording(options.task));
+    if (options.json != kStandardOutput) std::fputs(bench::recording_table(figures).c_str(), stdout);
+    return write_output(options.json, json_text(bench::recording_json(figures)));
 }
 
 CommandAction add_record_bench(Command command) {

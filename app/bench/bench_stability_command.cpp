@@ -5,6 +5,7 @@
 
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/stability/stability.hpp"
 
 namespace burin::app {
@@ -16,16 +17,15 @@ struct StabilityBench {
 };
 
 Result<void> run_stability_bench(const StabilityBench& options) {
-    if (const auto ok = check_places(std::array{options.csv, options.svg, options.figure7_svg, options.json}); !ok)
-        return ok;
+    BURIN_TRY_DO(check_places(std::array{options.csv, options.svg, options.figure7_svg, options.json}));
     const bench::Stability stability = bench::run_stability(options.quick);
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput &&
         options.figure7_svg != kStandardOutput) {
         std::fputs(bench::stability_table(stability).c_str(), stdout);
     }
-    if (const auto done = write_output(options.csv, bench::stability_csv(stability)); !done) return done;
-    if (const auto done = write_output(options.svg, bench::stability_svg(stability)); !done) return done;
-    if (const auto done = write_output(options.figure7_svg, bench::figure7_svg(stability.figure7)); !done) return done;
+    BURIN_TRY_DO(write_output(options.csv, bench::stability_csv(stability)));
+    BURIN_TRY_DO(write_output(options.svg, bench::stability_svg(stability)));
+    BURIN_TRY_DO(write_output(options.figure7_svg, bench::figure7_svg(stability.figure7)));
     return write_output(options.json, json_text(bench::stability_json(stability)));
 }
 

@@ -7,6 +7,7 @@
 #include "app/bench/bench_command.hpp"
 #include "app/bench/bench_limits.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/measure/timing.hpp"
 #include "bench/stroke/pareto.hpp"
 #include "bench/stroke/stroke_report.hpp"
@@ -40,7 +41,7 @@ private:
 Result<void> StrokeBench::check() const {
     session::InputFiles inputs;
     for (const std::string& scene : scenes) inputs.tool(scene);  // mesh:FILE, as tools are written
-    if (const auto ok = check_places(std::array{json, exported}, inputs.list()); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{json, exported}, inputs.list()));
     if (!exported.empty()) {
         const auto format = geometry::mesh_format_of(exported);
         if (!format || *format == geometry::MeshFormat::off) {
@@ -69,14 +70,12 @@ Result<void> StrokeBench::check() const {
 }
 
 Result<void> StrokeBench::add_peer(Json& report, const bench::CarveScene& scene) const {
-    const Result<compute::Lattice> lattice = compute::lattice_around({Vec3(0.0), Vec3(1.0)}, stroke.resolution);
-    if (!lattice) return std::unexpected(lattice.error());
+    BURIN_TRY(lattice, compute::lattice_around({Vec3(0.0), Vec3(1.0)}, stroke.resolution));
     const auto threads = report["threads"].get<unsigned>();
     for (const auto method : {bench::VdbMethod::csg_difference, bench::VdbMethod::leaf_brush}) {
-        const auto run = bench::run_openvdb(scene, *lattice, threads, method);
-        if (!run) return std::unexpected(run.error());
-        const auto errors = bench::measure(run->mesh, scene, lattice->spacing_m);
-        bench::add_openvdb(report, bench::describe(scene, *run, errors, lattice->spacing_m));
+        BURIN_TRY(run, bench::run_openvdb(scene, lattice, threads, method));
+        const auto errors = bench::measure(run.mesh, scene, lattice.spacing_m);
+        bench::add_openvdb(report, bench::describe(scene, run, errors, lattice.spacing_m));
     }
     return {};
 }
@@ -87,11 +86,9 @@ Result<bench::CarveScene> StrokeBench::scene_named(const std::string& name) cons
     if (name.starts_with(kMeshScene)) {
         const std::string file = name.substr(std::string(kMeshScene).size());
         // The scene is brought to a size of its own, whatever the file's unit.
-        Result<sculpt::ClosedMesh> closed =
-            sculpt::load_closed_mesh({.source = file, .close_holes = true, .units = LengthUnit::m});
-        if (!closed) return std::unexpected(closed.error());
+        BURIN_TRY(closed, sculpt::load_closed_mesh({.source = file, .close_holes = true, .units = LengthUnit::m}));
         const std::string stem = std::filesystem::path(file).stem().string();
-        Result<bench::CarveScene> on_mesh = bench::stroke_on_mesh_scene(stem, std::move(closed->mesh), swept);
+        Result<bench::CarveScene> on_mesh = bench::stroke_on_mesh_scene(stem, std::move(closed.mesh), swept);
         if (!on_mesh) return on_mesh;
         scene = std::move(*on_mesh);
     } else {
@@ -102,22 +99,20 @@ Result<bench::CarveScene> StrokeBench::scene_named(const std::string& name) cons
 }
 
 Result<Json> StrokeBench::report_of(const std::string& scene_name) const {
-    const Result<bench::CarveScene> scene = scene_named(scene_name);
-    if (!scene) return std::unexpected(scene.error());
+    BURIN_TRY(scene, scene_named(scene_name));
     const std::string on = bench::machine();
     bench::StrokeOptions run_options = stroke;
     run_options.with_undo = run_options.with_light = !plain;
-    const auto run = bench::run_stroke(*scene, run_options);
-    if (!run) return std::unexpected(run.error());
-    Json report = bench::describe(*scene, *run, bench::measure(run->mesh, *scene, run->cell_m),
-                                  bench::count_self_intersections(run->mesh, stroke.threads));
+    BURIN_TRY(run, bench::run_stroke(scene, run_options));
+    Json report = bench::describe(scene, run, bench::measure(run.mesh, scene, run.cell_m),
+                                  bench::count_self_intersections(run.mesh, stroke.threads));
     report["tool"] = tool;
     report["machine"] = on;
     if (!peer.empty()) {
-        if (const auto added = add_peer(report, *scene); !added) return std::unexpected(added.error());
+        BURIN_TRY_DO(add_peer(report, scene));
     }
     if (!exported.empty()) {
-        if (const auto written = geometry::export_mesh(run->mesh, exported); !written) {
+        if (const auto written = geometry::export_mesh(run.mesh, exported); !written) {
             return std::unexpected(written.error());
         }
     }
@@ -125,12 +120,11 @@ Result<Json> StrokeBench::report_of(const std::string& scene_name) const {
 }
 
 Result<void> StrokeBench::run() const {
-    if (const auto ok = check(); !ok) return ok;
+    BURIN_TRY_DO(check());
     std::vector<Json> reports;
     for (const std::string& scene : scenes) {
-        Result<Json> report = report_of(scene);
-        if (!report) return std::unexpected(report.error());
-        reports.push_back(std::move(*report));
+        BURIN_TRY(report, report_of(scene));
+        reports.push_back(std::move(report));
     }
     bench::sort_worst_first(reports);
     const bool one = reports.size() == 1;

@@ -16,6 +16,7 @@
 #include "base/file_io.hpp"
 #include "base/places.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/statistics/mann_whitney.hpp"
 #include "study/statistics/spearman.hpp"
 
@@ -60,29 +61,26 @@ Result<Json> whole_study(const StudyBench& options, const std::string& protocol,
     if (const auto made = study::create_study(folder, protocol, {options.seed, options.participants, {}}); !made)
         return std::unexpected(made.error());
     Result<Json> figures = [&]() -> Result<Json> {
-        auto study = study::StudyFolder::open(folder, study::StudyAccess::write);
-        if (!study) return std::unexpected(study.error());
+        BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::write));
         activities::SimulationOptions simulation;
         simulation.threads = options.threads;
         simulation.records = records;
         const Stopwatch run;
-        const auto went = activities::run_simulated(*study, simulation);
-        if (!went) return std::unexpected(went.error());
+        BURIN_TRY(went, activities::run_simulated(study, simulation));
         const double took_s = run.seconds(), processor_s = run.processor_s();
         Json json{{"motion_recorded", records},
-                  {"simulated_s", went->simulated_s},
-                  {"ticks", went->ticks},
+                  {"simulated_s", went.simulated_s},
+                  {"ticks", went.ticks},
                   {"wall_s", took_s},
-                  {"times_real_time", went->simulated_s / took_s},
+                  {"times_real_time", went.simulated_s / took_s},
                   {"processor_s", processor_s},
-                  {"us_a_tick_with_a_world", 1e6 * took_s / static_cast<double>(went->ticks)}};
+                  {"us_a_tick_with_a_world", 1e6 * took_s / static_cast<double>(went.ticks)}};
         if (!records) return json;
         json["bytes"] = bytes_in(folder / "data");
         json["bytes_a_second_of_motion"] =
-            static_cast<double>(bytes_in(folder / "data")) / (0.001 * static_cast<double>(went->ticks));
+            static_cast<double>(bytes_in(folder / "data")) / (0.001 * static_cast<double>(went.ticks));
         const Stopwatch again;
-        if (const auto ok = study_replay({folder.string(), "", options.threads, true}); !ok)
-            return std::unexpected(ok.error());
+        BURIN_TRY_DO(study_replay({folder.string(), "", options.threads, true}));
         json["replay_wall_s"] = again.seconds();
         return json;
     }();
@@ -97,14 +95,13 @@ Result<Json> ticks_alone(const study::Protocol& protocol, std::uint64_t seed) {
     for (const study::Stage& stage : protocol.stages) {
         const study::StudyWorld* world = protocol.world(stage.world);
         if (world == nullptr) continue;
-        const auto felt = study::FeltWorld::create(*world);
-        if (!felt) return std::unexpected(felt.error());
+        BURIN_TRY(felt, study::FeltWorld::create(*world));
         study::Random random(seed);
         const study::LearnerPopulation population;
         const study::Learner learner = study::draw_learner(population, false, random);
         const Stopwatch run;
         const activities::EndedStage went = activities::simulate_stage(
-            {protocol, stage, protocol.groups.front(), felt->get(), learner, population}, random, {});
+            {protocol, stage, protocol.groups.front(), felt.get(), learner, population}, random, {});
         const double took_s = run.seconds(), processor_s = run.processor_s();
         rows.push_back({{"stage", stage.name},
                         {"ticks", went.ticks},
@@ -154,20 +151,17 @@ void print_study_bench(const Json& json) {
 }
 
 Result<void> run_study_bench(const StudyBench& options) {
-    if (const auto ok = check_places(std::array{options.json}, std::array{options.protocol}); !ok) return ok;
-    const auto text = read_text_file(options.protocol, study::kMostProtocolBytes);
-    if (!text) return std::unexpected(text.error());
-    const study::ParsedProtocol parsed = study::parse_protocol(*text);
+    BURIN_TRY_DO(check_places(std::array{options.json}, std::array{options.protocol}));
+    BURIN_TRY(text, read_text_file(options.protocol, study::kMostProtocolBytes));
+    const study::ParsedProtocol parsed = study::parse_protocol(text);
     if (!parsed.faults.empty())
         return fail(line_of(parsed.faults.front(), options.protocol), "the protocol has faults", "burin study check");
     Json json{{"participants", options.participants}, {"threads", options.threads}, {"statistics", statistics_bench()}};
-    const auto stages = ticks_alone(parsed.protocol, options.seed);
-    if (!stages) return std::unexpected(stages.error());
-    json["stages"] = *stages;
+    BURIN_TRY(stages, ticks_alone(parsed.protocol, options.seed));
+    json["stages"] = stages;
     for (const bool records : {false, true}) {
-        const auto figures = whole_study(options, *text, records);
-        if (!figures) return std::unexpected(figures.error());
-        json[records ? "with_motion" : "without_motion"] = *figures;
+        BURIN_TRY(figures, whole_study(options, text, records));
+        json[records ? "with_motion" : "without_motion"] = figures;
     }
     if (options.json != kStandardOutput) print_study_bench(json);
     return write_output(options.json, json_text(json));

@@ -5,6 +5,7 @@
 
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/workspace/workspace.hpp"
 
 namespace burin::app {
@@ -16,7 +17,7 @@ struct WorkspaceBench {
 };
 
 Result<void> run_workspace_bench(const WorkspaceBench& options) {
-    if (const auto ok = check_places(std::array{options.csv, options.svg, options.json}); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{options.csv, options.svg, options.json}));
     std::vector<bench::WorkspaceFigures> figures;
     for (const bench::Approach& approach : bench::all_approaches()) {
         std::fprintf(stderr, "reaching: %s\n", approach.name.c_str());
@@ -25,8 +26,8 @@ Result<void> run_workspace_bench(const WorkspaceBench& options) {
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
         std::fputs((bench::assumptions(options.task) + "\n" + bench::workspace_table(figures)).c_str(), stdout);
     }
-    if (const auto done = write_output(options.csv, bench::workspace_csv(figures)); !done) return done;
-    if (const auto done = write_output(options.svg, bench::workspace_svg(figures, options.task)); !done) return done;
+    BURIN_TRY_DO(write_output(options.csv, bench::workspace_csv(figures)));
+    BURIN_TRY_DO(write_output(options.svg, bench::workspace_svg(figures, options.task)));
     return write_output(options.json, json_text(bench::workspace_json(figures, options.task)));
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/bench/bench_command.hpp"
 #include "app/cli/output_files.hpp"
+#include "base/try.hpp"
 #include "bench/world/world_bench.hpp"
 #include "session/record/input_files.hpp"
 
@@ -24,10 +25,9 @@ Result<void> run_world_bench(const WorldBench& options) {
         return ok;
     bench::WorldBenchTask task = options.task;
     if (!options.without_coin) task.coin = bench::coin_reader_beside_burin();
-    const Result<bench::WorldBenchFigures> figures = bench::measure_world(task);
-    if (!figures) return std::unexpected(figures.error());
-    if (options.json != kStandardOutput) std::fputs(bench::world_bench_table(*figures).c_str(), stdout);
-    return write_output(options.json, json_text(bench::world_bench_json(*figures)));
+    BURIN_TRY(figures, bench::measure_world(task));
+    if (options.json != kStandardOutput) std::fputs(bench::world_bench_table(figures).c_str(), stdout);
+    return write_output(options.json, json_text(bench::world_bench_json(figures)));
 }
 
 CommandAction add_world_bench(Command command) {

@@ -9,6 +9,7 @@
 #include "app/cli/live_options.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/assets.hpp"
+#include "base/try.hpp"
 #include "compute/rays/lattice.hpp"
 #include "desk/run/session.hpp"
 #include "session/record/input_files.hpp"
@@ -40,9 +41,8 @@ Result<ProfiledRun> run_once(const session::SculptOptions& options, bool for_a_d
     // The software driver reads the variable when the session opens its device.
     if (driver_threads)
         setenv("LP_NUM_THREADS", std::to_string(*driver_threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
-    auto record = session::time_session(options, for_a_device);
-    if (!record) return std::unexpected(record.error());
-    return ProfiledRun{driver_threads, std::move(*record)};
+    BURIN_TRY(record, session::time_session(options, for_a_device));
+    return ProfiledRun{driver_threads, std::move(record)};
 }
 
 // Parses "0,1,2" to a choice for each run; an empty text to one run that leaves the choice to the session.
@@ -64,17 +64,15 @@ Result<std::vector<std::optional<unsigned>>> parse_driver_threads(const std::str
 }
 
 Result<void> profile(const ProfileOptions& o) {
-    if (const auto ok = check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()));
     session::SculptOptions options = o.sculpt;
     options.live.offscreen = !o.window;
     options.no_workpiece = !options.world.empty();
-    const auto choices = parse_driver_threads(o.driver_threads);
-    if (!choices) return std::unexpected(choices.error());
+    BURIN_TRY(choices, parse_driver_threads(o.driver_threads));
     std::vector<Json> runs;
-    for (const std::optional<unsigned> threads : *choices) {
-        const auto run = run_once(options, !o.simulated_hand, threads);
-        if (!run) return std::unexpected(run.error());
-        runs.push_back(describe_run(*run));
+    for (const std::optional<unsigned> threads : choices) {
+        BURIN_TRY(run, run_once(options, !o.simulated_hand, threads));
+        runs.push_back(describe_run(run));
         if (o.json != kStandardOutput) std::printf("%s\n", profile_table(runs.back()).c_str());
     }
     if (o.json != kStandardOutput) std::fputs(comparison_table(runs).c_str(), stdout);

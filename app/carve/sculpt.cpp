@@ -11,6 +11,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/recordings/felt_recording.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "compute/tools/apply.hpp"
 #include "desk/draw/pictures.hpp"
 #include "desk/input/desk_input.hpp"
@@ -54,8 +55,8 @@ session::Staging staging_of(const sculpt::Stroke& stroke, const sculpt::Tool& to
 // Writes the plots of the felt stroke beside the report, and their names into it.
 Result<void> write_plots(const std::string& report_path, const session::FeltFigures& felt, Json& report) {
     const std::string figure = session::felt_figure_path(report_path), table = session::felt_table_path(report_path);
-    if (const auto written = write_text(figure, session::felt_figure(felt)); !written) return written;
-    if (const auto written = write_text(table, session::felt_table(felt)); !written) return written;
+    BURIN_TRY_DO(write_text(figure, session::felt_figure(felt)));
+    BURIN_TRY_DO(write_text(table, session::felt_table(felt)));
     report["feel"]["plots"] = {fs::path(figure).filename().string(), fs::path(table).filename().string()};
     return {};
 }
@@ -63,7 +64,7 @@ Result<void> write_plots(const std::string& report_path, const session::FeltFigu
 // Checks all places of outputs; the plots' too, where a report is wanted of a stroke that is felt.
 Result<void> check_all_outputs(const session::SculptOptions& options) {
     const std::vector<std::string> inputs = session::inputs_of(options).list();
-    if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
+    BURIN_TRY_DO(check_outputs(options.exports, options.report, inputs));
     if (options.stroke.empty() || options.hand != session::HandChoice::simulated) return {};
     return check_felt_report(options.report, inputs);
 }
@@ -90,9 +91,8 @@ void say_that_nothing_was_touched(const Box& box) {
 
 // Says how large the mesh of a tool's file is, and in which unit it was read.
 Result<std::string> size_of_file(const sculpt::ToolSpec& tool) {
-    const Result<geometry::ImportedMesh> read = geometry::import_mesh(tool.file, tool.units);
-    if (!read) return std::unexpected(read.error());
-    return geometry::describe_size(tool.file, read->report.size_m, read->report.unit);
+    BURIN_TRY(read, geometry::import_mesh(tool.file, tool.units));
+    return geometry::describe_size(tool.file, read.report.size_m, read.report.unit);
 }
 
 struct ChosenTool {
@@ -106,13 +106,11 @@ Result<ChosenTool> choose_tool(const session::SculptOptions& options, std::optio
     sculpt::ToolOptions wanted = options.tool;
     wanted.units = options.workpiece.units;
     if (longest_side_m) wanted = sculpt::with_tool(wanted, *longest_side_m);
-    Result<sculpt::ToolSettings> settings = sculpt::parse_tool_settings(wanted);
-    if (!settings) return std::unexpected(settings.error());
-    Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
-    if (!tool) return std::unexpected(tool.error());
-    const bool is_a_file = settings->shape.kind == sculpt::ToolKind::mesh;
-    if (const auto ok = sculpt::check_units(options.workpiece, is_a_file); !ok) return std::unexpected(ok.error());
-    return ChosenTool{std::move(wanted), std::move(*settings), std::move(*tool)};
+    BURIN_TRY(settings, sculpt::parse_tool_settings(wanted));
+    BURIN_TRY(tool, sculpt::make_tool(settings));
+    const bool is_a_file = settings.shape.kind == sculpt::ToolKind::mesh;
+    BURIN_TRY_DO(sculpt::check_units(options.workpiece, is_a_file));
+    return ChosenTool{std::move(wanted), std::move(settings), std::move(tool)};
 }
 
 // Tells the user what the tool's file was read as, and whether a tool that is used suits the workpiece; returns the
@@ -121,10 +119,9 @@ Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& mater
                        double cell_m, bool is_used) {
     Json report = sculpt::describe_tool(chosen.options, material);
     if (chosen.settings.shape.kind == sculpt::ToolKind::mesh) {
-        const auto size = size_of_file(chosen.settings.shape);
-        if (!size) return std::unexpected(size.error());
-        report["size"] = *size;
-        std::printf("%s\n", size->c_str());
+        BURIN_TRY(size, size_of_file(chosen.settings.shape));
+        report["size"] = size;
+        std::printf("%s\n", size.c_str());
     }
     const auto misfit = sculpt::misfit(chosen.settings, chosen.tool, longest_side_m, cell_m);
     if (!is_used || !misfit) return report;
@@ -144,13 +141,12 @@ std::vector<std::string> tell_notices(sculpt::Sculpture& carving) {
 Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
     carving.end_stroke();
     const std::size_t kept = carving.history()->undoable();
-    const Result<std::size_t> undone = carving.undo(strokes);
-    if (!undone) return std::unexpected(undone.error());
-    if (*undone < strokes) {
-        std::fprintf(stderr, "burin: %zu strokes could be undone, not %zu\n", *undone, strokes);
+    BURIN_TRY(undone, carving.undo(strokes));
+    if (undone < strokes) {
+        std::fprintf(stderr, "burin: %zu strokes could be undone, not %zu\n", undone, strokes);
     }
     return Json{
-        {"strokes_kept", kept}, {"strokes_undone", *undone}, {"strokes_dropped", carving.history()->dropped_strokes()}};
+        {"strokes_kept", kept}, {"strokes_undone", undone}, {"strokes_dropped", carving.history()->dropped_strokes()}};
 }
 
 // What a session file says of the program and the settings that it comes from. Digests are of files that are read.
@@ -180,8 +176,7 @@ Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenToo
     const geometry::Material material = sculpt::material_of(chosen.settings);
     chosen.tool.material = static_cast<std::uint8_t>(workpiece.solid.materials.size());
     workpiece.solid.materials.push_back(material);
-    if (const auto ok = compute::check_tool(workpiece.solid, chosen.tool.sweep(Pose{}, Pose{})); !ok)
-        return std::unexpected(ok.error());
+    BURIN_TRY_DO(compute::check_tool(workpiece.solid, chosen.tool.sweep(Pose{}, Pose{})));
     return material;
 }
 
@@ -194,19 +189,16 @@ struct StrokeInputs {
 
 // Finds everything that can be wrong with the input before the first long step.
 Result<StrokeInputs> read_inputs(const session::SculptOptions& options) {
-    if (const auto ok = check_for_a_stroke(options); !ok) return std::unexpected(ok.error());
-    Result<ChosenTool> chosen = choose_tool(options, std::nullopt);
-    if (!chosen) return std::unexpected(chosen.error());
-    Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
-    if (!feel) return std::unexpected(feel.error());
-    if (const auto ok = check_all_outputs(options); !ok) return std::unexpected(ok.error());
-    if (const auto ok = record::check_new_place(options.live.record); !ok) return std::unexpected(ok.error());
-    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return std::unexpected(ok.error());
-    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return std::unexpected(ok.error());
-    if (options.stroke.empty()) return StrokeInputs{std::move(*chosen), std::move(*feel), {}};
-    Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
-    if (!stroke) return std::unexpected(stroke.error());
-    return StrokeInputs{std::move(*chosen), std::move(*feel), std::move(*stroke)};
+    BURIN_TRY_DO(check_for_a_stroke(options));
+    BURIN_TRY(chosen, choose_tool(options, std::nullopt));
+    BURIN_TRY(feel, sculpt::parse_feel(options.feel));
+    BURIN_TRY_DO(check_all_outputs(options));
+    BURIN_TRY_DO(record::check_new_place(options.live.record));
+    BURIN_TRY_DO(sculpt::check_simplification(options.simplify_m));
+    BURIN_TRY_DO(sculpt::check_crumbs(options.crumbs_m));
+    if (options.stroke.empty()) return StrokeInputs{std::move(chosen), std::move(feel), {}};
+    BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
+    return StrokeInputs{std::move(chosen), std::move(feel), std::move(stroke)};
 }
 
 // A workpiece and the tool that suits it.
@@ -218,26 +210,21 @@ struct TakenUp {
 };
 
 Result<TakenUp> take_up_workpiece(const session::SculptOptions& options, const ChosenTool& stand_in, WorkerPool& pool) {
-    Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
-    if (!opened) return std::unexpected(opened.error());
-    if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
+    BURIN_TRY(opened, session::open_work(options.workpiece, pool));
+    if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());
     for (const std::string& path : options.exports)
-        if (const auto ok = sculpt::check_precision(path, opened->workpiece->solid.lattice); !ok)
-            return std::unexpected(ok.error());
-    const double longest_side_m = sculpt::longest_side_m(opened->workpiece->bounds_object);
-    Result<ChosenTool> chosen = options.tool.shape.empty() ? choose_tool(options, longest_side_m) : stand_in;
-    if (!chosen) return std::unexpected(chosen.error());
-    const Result<geometry::Material> material = take_up(*opened->workpiece, *chosen);
-    if (!material) return std::unexpected(material.error());
-    return TakenUp{std::move(*opened->workpiece), std::move(*chosen), *material, longest_side_m};
+        BURIN_TRY_DO(sculpt::check_precision(path, opened.workpiece->solid.lattice));
+    const double longest_side_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
+    BURIN_TRY(chosen, options.tool.shape.empty() ? choose_tool(options, longest_side_m) : stand_in);
+    BURIN_TRY(material, take_up(*opened.workpiece, chosen));
+    return TakenUp{std::move(*opened.workpiece), std::move(chosen), material, longest_side_m};
 }
 
 // Opens the folder of the pictures; none where none are asked for.
 Result<std::optional<session::Pictures>> open_pictures(const std::string& folder, const Box& bounds_object) {
     if (folder.empty()) return std::optional<session::Pictures>();
-    Result<session::Pictures> opened = session::Pictures::create(folder, bounds_object);
-    if (!opened) return std::unexpected(opened.error());
-    return std::optional<session::Pictures>(std::move(*opened));
+    BURIN_TRY(opened, session::Pictures::create(folder, bounds_object));
+    return std::optional<session::Pictures>(std::move(opened));
 }
 
 // Leads the tool along the stroke: exactly, or as a simulated hand feels its way. Returns what that has felt.
@@ -250,17 +237,15 @@ Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carvi
         // Only the surface after the stroke is read, so the device may keep it until then.
         if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth)
             carving.mesh_on_device();
-        if (const auto carved = sculpt::carve_rigidly(carving, inputs.stroke, tool, options.merge_rows); !carved)
-            return std::unexpected(carved.error());
+        BURIN_TRY_DO(sculpt::carve_rigidly(carving, inputs.stroke, tool, options.merge_rows));
         return std::optional<session::FeltFigures>();
     }
     session::FeltOptions felt_options{inputs.feel, options.real_time, options.live.record};
     if (!options.live.record.empty()) felt_options.facts = facts_of(options, chosen.options, carving.engine().name());
-    Result<session::FeltFigures> carved = session::carve_by_feel(carving, inputs.stroke, tool, felt_options);
-    if (!carved) return std::unexpected(carved.error());
+    BURIN_TRY(carved, session::carve_by_feel(carving, inputs.stroke, tool, felt_options));
     if (!options.live.record.empty())
-        std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved->ticks).c_str());
-    return std::optional<session::FeltFigures>(std::move(*carved));
+        std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved.ticks).c_str());
+    return std::optional<session::FeltFigures>(std::move(carved));
 }
 
 // What the carving has come to.
@@ -275,14 +260,12 @@ Result<CarvedStroke> carve(sculpt::Sculpture& carving, const session::SculptOpti
                            const StrokeInputs& inputs, const ChosenTool& chosen) {
     carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    Result<std::optional<session::FeltFigures>> felt = carve_along(carving, options, inputs, chosen);
-    if (!felt) return std::unexpected(felt.error());
+    BURIN_TRY(felt, carve_along(carving, options, inputs, chosen));
     carving.read_back();
-    CarvedStroke carved{std::move(*felt), tell_notices(carving), {}};
+    CarvedStroke carved{std::move(felt), tell_notices(carving), {}};
     if (options.undo == 0) return carved;
-    Result<Json> taken_back = take_back(carving, options.undo);
-    if (!taken_back) return std::unexpected(taken_back.error());
-    carved.undone = std::move(*taken_back);
+    BURIN_TRY(taken_back, take_back(carving, options.undo));
+    carved.undone = std::move(taken_back);
     return carved;
 }
 
@@ -307,7 +290,7 @@ Result<void> export_all(const session::SculptOptions& options, const sculpt::Fin
         return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
                     "use a smaller tool or a shorter stroke");
     for (const std::string& path : options.exports) {
-        if (const auto written = sculpt::export_finished(finished, path); !written) return written;
+        BURIN_TRY_DO(sculpt::export_finished(finished, path));
         report["exports"].push_back(fs::path(path).filename().string());
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
         if (sculpt::loses_colours(finished.mesh, path)) std::printf("  %s\n", sculpt::kColoursLeftOut);
@@ -320,8 +303,7 @@ Result<void> export_all(const session::SculptOptions& options, const sculpt::Fin
 Result<void> write_sculpt_report(const std::string& path, const std::optional<session::FeltFigures>& felt,
                                  Json& report) {
     if (path.empty()) return {};
-    if (felt)
-        if (const auto plotted = write_plots(path, *felt, report); !plotted) return plotted;
+    if (felt) BURIN_TRY_DO(write_plots(path, *felt, report));
     return write_report(path, report);
 }
 
@@ -336,74 +318,62 @@ bool records_a_felt_stroke(const session::SculptOptions& options) {
 }
 
 Result<void> sculpt(const session::SculptOptions& options) {
-    const Result<StrokeInputs> inputs = read_inputs(options);
-    if (!inputs) return std::unexpected(inputs.error());
+    BURIN_TRY(inputs, read_inputs(options));
     WorkerPool pool(options.threads);
-    Result<TakenUp> taken_up = take_up_workpiece(options, inputs->chosen, pool);
-    if (!taken_up) return std::unexpected(taken_up.error());
-    const ChosenTool& tool = taken_up->chosen;
-    const Box bounds_object = taken_up->workpiece.bounds_object;
-    Result<std::optional<session::Pictures>> pictures = open_pictures(options.pictures, bounds_object);
-    if (!pictures) return std::unexpected(pictures.error());
-    sculpt::ChosenEngine engine = sculpt::choose_engine(options.engine, std::move(taken_up->workpiece.solid), pool);
+    BURIN_TRY(taken_up, take_up_workpiece(options, inputs.chosen, pool));
+    const ChosenTool& tool = taken_up.chosen;
+    const Box bounds_object = taken_up.workpiece.bounds_object;
+    BURIN_TRY(pictures, open_pictures(options.pictures, bounds_object));
+    sculpt::ChosenEngine engine = sculpt::choose_engine(options.engine, std::move(taken_up.workpiece.solid), pool);
     sculpt::Sculpture carving(std::move(engine.engine), pool);
-    if (*pictures)
-        if (const auto taken = (*pictures)->take_before(carving); !taken) return taken;
+    if (pictures) BURIN_TRY_DO((pictures)->take_before(carving));
     const double cell_m = carving.surface().lattice().spacing_m;
-    Result<Json> tool_report =
-        introduce(tool, taken_up->material, taken_up->longest_side_m, cell_m, !inputs->stroke.empty());
-    if (!tool_report) return std::unexpected(tool_report.error());
-    std::printf("%s\n", taken_up->workpiece.size.c_str());
-    const Result<CarvedStroke> carved = carve(carving, options, *inputs, tool);
-    if (!carved) return std::unexpected(carved.error());
+    BURIN_TRY(tool_report, introduce(tool, taken_up.material, taken_up.longest_side_m, cell_m, !inputs.stroke.empty()));
+    std::printf("%s\n", taken_up.workpiece.size.c_str());
+    BURIN_TRY(carved, carve(carving, options, inputs, tool));
 
-    const LengthUnit export_unit = options.export_units.value_or(taken_up->workpiece.unit);
-    const Result<sculpt::FinishedMesh> finished =
-        sculpt::finish_mesh(carving.surface(), carving.engine().solid(), export_unit, options.simplify_m,
-                            options.crumbs_m.value_or(sculpt::kCrumbCells * cell_m), pool);
-    if (!finished) return std::unexpected(finished.error());
-    Json report = {{"burin", BURIN_VERSION}, {"workpiece", taken_up->workpiece.report}};
-    report["tool"] = std::move(*tool_report);
+    const LengthUnit export_unit = options.export_units.value_or(taken_up.workpiece.unit);
+    BURIN_TRY(finished,
+              sculpt::finish_mesh(carving.surface(), carving.engine().solid(), export_unit, options.simplify_m,
+                                  options.crumbs_m.value_or(sculpt::kCrumbCells * cell_m), pool));
+    Json report = {{"burin", BURIN_VERSION}, {"workpiece", taken_up.workpiece.report}};
+    report["tool"] = std::move(tool_report);
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", engine.device}, {"chosen_because", engine.reason}};
-    if (!carved->notices.empty()) report["notices"] = carved->notices;
+    if (!carved.notices.empty()) report["notices"] = carved.notices;
     if (const auto traffic = carving.engine().traffic()) report["engine"]["traffic"] = describe_traffic(*traffic);
     report["carving"] = describe_carving(carving);
-    if (!inputs->stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
-    describe_finished(report, *finished, export_unit);
-    if (!carved->undone.is_null()) report["undo"] = carved->undone;
-    const std::optional<session::FeltFigures>& felt = carved->felt;
-    if (felt) report["feel"] = describe_feel(*felt, inputs->feel);
+    if (!inputs.stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
+    describe_finished(report, finished, export_unit);
+    if (!carved.undone.is_null()) report["undo"] = carved.undone;
+    const std::optional<session::FeltFigures>& felt = carved.felt;
+    if (felt) report["feel"] = describe_feel(*felt, inputs.feel);
     report["timing"] = describe_timing(carving, felt ? &*felt : nullptr);
-    if (const auto exported = export_all(options, *finished, export_unit, report); !exported) return exported;
-    if (*pictures) {
-        const auto taken = (*pictures)->take_after(carving, staging_of(inputs->stroke, tool.tool, felt));
+    BURIN_TRY_DO(export_all(options, finished, export_unit, report));
+    if (pictures) {
+        const auto taken = (pictures)->take_after(carving, staging_of(inputs.stroke, tool.tool, felt));
         if (!taken) return taken;
-        report["pictures"] = {{"device", (*pictures)->device_name()}, {"scene_scale", (*pictures)->scene_scale()}};
+        report["pictures"] = {{"device", (pictures)->device_name()}, {"scene_scale", (pictures)->scene_scale()}};
     }
-    if (const auto written = write_sculpt_report(options.report, felt, report); !written) return written;
+    BURIN_TRY_DO(write_sculpt_report(options.report, felt, report));
     print_table(report);
     return {};
 }
 
 Result<void> record_again(const session::SculptOptions& options) {
-    const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
-    if (!feel) return std::unexpected(feel.error());
-    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
-    if (!stroke) return std::unexpected(stroke.error());
+    BURIN_TRY(feel, sculpt::parse_feel(options.feel));
+    BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
     WorkerPool pool(options.threads);
-    Result<session::OpenedWork> opened = session::open_work(options.workpiece, pool);
-    if (!opened) return std::unexpected(opened.error());
-    sculpt::LoadedWorkpiece* const workpiece = &*opened->workpiece;
-    Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
-    if (!chosen_tool) return std::unexpected(chosen_tool.error());
-    if (const auto taken = take_up(*workpiece, *chosen_tool); !taken) return std::unexpected(taken.error());
+    BURIN_TRY(opened, session::open_work(options.workpiece, pool));
+    sculpt::LoadedWorkpiece* const workpiece = &*opened.workpiece;
+    BURIN_TRY(chosen_tool, choose_tool(options, std::nullopt));
+    BURIN_TRY_DO(take_up(*workpiece, chosen_tool));
     sculpt::ChosenEngine chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
     sculpt::Sculpture carving(std::move(chosen.engine), pool);
     carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    const session::FeltOptions felt{*feel, false, options.live.record};
-    const auto carved = session::carve_by_feel(carving, *stroke, chosen_tool->tool, felt);
+    const session::FeltOptions felt{feel, false, options.live.record};
+    const auto carved = session::carve_by_feel(carving, stroke, chosen_tool.tool, felt);
     static_cast<void>(tell_notices(carving));
     if (!carved) return std::unexpected(carved.error());
     return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/cli/live_options.hpp"
 
+#include "base/try.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "sculpt/workpiece.hpp"
@@ -12,9 +13,8 @@ void add_mouse_option(Command command, session::LiveOptions& options) {
         "--mouse",
         [&options](const std::vector<std::string>& given) -> Result<void> {
             if (given.empty()) return {};
-            const auto mode = session::parse_mouse_mode(given.back(), "--mouse " + given.back());
-            if (!mode) return std::unexpected(mode.error());
-            options.mouse = *mode;
+            BURIN_TRY(mode, session::parse_mouse_mode(given.back(), "--mouse " + given.back()));
+            options.mouse = mode;
             return {};
         },
         "surface: the tool is where the cursor points, as usual for a person who carves; free: the mouse moves it "
@@ -26,9 +26,8 @@ void add_edge_option(Command command, session::LiveOptions& options) {
         "--edge-comfort",
         [&options](const std::vector<std::string>& given) -> Result<void> {
             if (given.empty()) return {};
-            const auto comfort = session::parse_edge_comfort(given.back(), "--edge-comfort " + given.back());
-            if (!comfort) return std::unexpected(comfort.error());
-            options.edge_comfort = *comfort;
+            BURIN_TRY(comfort, session::parse_edge_comfort(given.back(), "--edge-comfort " + given.back()));
+            options.edge_comfort = comfort;
             return {};
         },
         "on: what stands before a lone screen is shown flatter towards its edges, which spares the eyes and is not its "
@@ -147,9 +146,8 @@ void add_mirror_option(Command command, session::SculptOptions& options) {
         "--mirror",
         [&options](const std::vector<std::string>& given) -> Result<void> {
             if (given.empty()) return {};
-            const auto mirror = sculpt::parse_mirror(given.back(), "--mirror " + given.back());
-            if (!mirror) return std::unexpected(mirror.error());
-            options.mirror = *mirror;
+            BURIN_TRY(mirror, sculpt::parse_mirror(given.back(), "--mirror " + given.back()));
+            options.mirror = mirror;
             return {};
         },
         "Carve the other side as well, across planes through the workpiece's middle: x, y, z, or several such as xz");

@@ -8,6 +8,7 @@
 
 #include "app/cli/recorded_files.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "session/felt/felt_figures.hpp"
 #include "session/record/input_files.hpp"
@@ -64,8 +65,8 @@ Result<void> check_places(std::span<const std::string> outputs, std::span<const 
     std::vector<std::string> before;
     for (const std::string& path : outputs) {
         if (path.empty() || path == kStandardOutput) continue;
-        if (const auto ok = check_place(path); !ok) return ok;
-        if (const auto ok = check_overwrites_none(path, inputs); !ok) return ok;
+        BURIN_TRY_DO(check_place(path));
+        BURIN_TRY_DO(check_overwrites_none(path, inputs));
         for (const std::string& other : before)
             if (session::is_same_file(path, other))
                 return fail(path, "is named for two outputs, of which one would overwrite the other",
@@ -84,7 +85,7 @@ Result<void> check_outputs(std::span<const std::string> exports, const std::stri
                         "name it .stl, .ply or .obj");
         }
     }
-    if (const auto ok = check_is_a_file(report); !ok) return ok;
+    BURIN_TRY_DO(check_is_a_file(report));
     std::vector<std::string> outputs(exports.begin(), exports.end());
     outputs.push_back(report);
     return check_places(outputs, inputs);
@@ -92,7 +93,7 @@ Result<void> check_outputs(std::span<const std::string> exports, const std::stri
 
 Result<void> check_felt_report(const std::string& report, std::span<const std::string> inputs) {
     if (report.empty()) return {};
-    if (const auto ok = check_is_a_file(report); !ok) return ok;
+    BURIN_TRY_DO(check_is_a_file(report));
     return check_places(std::array{report, session::felt_figure_path(report), session::felt_table_path(report),
                                    session::felt_depth_path(report)},
                         inputs);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "picture/png.hpp"
 
@@ -15,23 +16,21 @@ constexpr ImageSize kFolderPictureSize{1280, 960};
 }  // namespace
 
 Result<PictureFolder> PictureFolder::create(const std::string& folder, const std::string& option) {
-    if (const auto made = session::make_picture_folder(folder, option); !made) return std::unexpected(made.error());
+    BURIN_TRY_DO(session::make_picture_folder(folder, option));
     Result<gpu::Device> device = gpu::Device::create();
     if (!device) {
         Error e = device.error();
         e.what += ", and " + option + " needs one";
         return std::unexpected(e);
     }
-    Result<renderer::Renderer> renderer = renderer::Renderer::create(*device, kFolderPictureSize);
-    if (!renderer) return std::unexpected(renderer.error());
-    return PictureFolder(folder, std::move(*device), std::move(*renderer));
+    BURIN_TRY(renderer, renderer::Renderer::create(*device, kFolderPictureSize));
+    return PictureFolder(folder, std::move(*device), std::move(renderer));
 }
 
 Result<void> PictureFolder::take(const picture::Picture& scene, const std::string& name) {
-    const auto image = renderer_.render(scene);
-    if (!image) return std::unexpected(image.error());
+    BURIN_TRY(image, renderer_.render(scene));
     const std::filesystem::path path = std::filesystem::path(folder_) / name;
-    if (const auto written = picture::write_png(path, image->left); !written) return written;
+    BURIN_TRY_DO(picture::write_png(path, image.left));
     std::printf("wrote %s\n", path.string().c_str());
     return {};
 }

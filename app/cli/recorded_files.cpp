@@ -9,9 +9,9 @@
 #include "base/json.hpp"
 #include "record/export/table_export.hpp"
 #include "record/record_reader.hpp"
-#include "session/options/session_settings.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/session_log.hpp"
+#include "session/state/session_settings.hpp"
 
 namespace burin::app {
 namespace {

@@ -14,6 +14,7 @@
 #include "app/devices/device_check.hpp"
 #include "base/clock.hpp"
 #include "base/json.hpp"
+#include "base/try.hpp"
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/emulators/emulator_registry.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -60,7 +61,7 @@ Json described(const std::string& device, const std::vector<CheckLine>& lines) {
 }
 
 Result<void> list_devices(const std::string& json) {
-    if (const auto place = check_place(json); !place) return place;
+    BURIN_TRY_DO(check_place(json));
     const auto all = devices::look_for_devices();
     if (json != kStandardOutput) print(all);
     return write_output(json, json_text(described(all)));
@@ -120,30 +121,26 @@ Result<int> test_device(const AskedCheck& asked) {
     CheckOptions check = asked.check;
     check.watch_s = asked.watch_s.value_or(check.by_itself ? 15.0 : 60.0);
     check.seed = asked.seed ? *asked.seed : std::random_device{}();
-    const auto nature = devices::nature_of_device(asked.device, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    if (nature->is_played)
+    BURIN_TRY(nature, devices::nature_of_device(asked.device, &session::session_recordings()));
+    if (nature.is_played)
         return fail(where, "is a recording, which moves whatever is asked of it and takes no force",
                     "play it in a session: burin sculpt --device " + asked.device);
     if (!check.by_itself && !TerminalGuide::is_there())
         return fail(where, "asks a person at a terminal, and there is none",
                     "run it in a terminal, or with --yes for a device that is emulated or held");
-    if (const auto place = check_place(asked.json); !place) return std::unexpected(place.error());
+    BURIN_TRY_DO(check_place(asked.json));
     MonotonicClock clock;
     // Leads the handle of a simulated device as emulated ones are led.
-    auto hand = devices::SimulatedHand::create(devices::circling_hand(), devices::HandPath::monotone_cubic);
-    if (!hand) return std::unexpected(hand.error());
-    auto device = devices::open_haptic_device(asked.device, {clock, std::move(*hand)});
-    if (!device) return std::unexpected(device.error());
+    BURIN_TRY(hand, devices::SimulatedHand::create(devices::circling_hand(), devices::HandPath::monotone_cubic));
+    BURIN_TRY(device, devices::open_haptic_device(asked.device, {clock, std::move(hand)}));
     // The check is the haptic loop here; where real-time priority is refused it goes on without.
     static_cast<void>(haptics::ask_for_realtime());
     std::vector<CheckLine> lines;
     {
         TerminalGuide guide(asked.json == kStandardOutput, !check.by_itself);
-        lines = check_device(*device, clock, guide, check);
+        lines = check_device(device, clock, guide, check);
     }
-    if (const auto written = write_output(asked.json, json_text(described(asked.device, lines))); !written)
-        return std::unexpected(written.error());
+    BURIN_TRY_DO(write_output(asked.json, json_text(described(asked.device, lines))));
     const auto outcome = outcome_of(where, lines);
     if (outcome && *outcome == kCannotTell)
         std::fprintf(stderr, "burin: %s: cannot tell: %s; the lines above say what to do, then try again\n",

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/clock.hpp"
+#include "base/try.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "session/drive/end_signals.hpp"
 
@@ -27,9 +28,8 @@ struct AskedGlove {
 Result<void> emulate_glove(const AskedGlove& asked) {
     if (asked.silent_for_s > 0.0 && asked.silent_from_s == 0.0)
         return fail("--silent-for", "says for how long, and nothing says from when on", "give --silent-from too");
-    auto port = devices::GlovePort::create();
-    if (!port) return std::unexpected(port.error());
-    std::printf("%s\n", port->name().c_str());
+    BURIN_TRY(port, devices::GlovePort::create());
+    std::printf("%s\n", port.name().c_str());
     std::fflush(stdout);
     const session::EndSignals signals;
     MonotonicClock clock;
@@ -38,14 +38,14 @@ Result<void> emulate_glove(const AskedGlove& asked) {
     std::uint8_t dead = 0;
     for (std::size_t i = 0; i < kDeadNames.size(); ++i)
         if (asked.dead == kDeadNames[i]) dead = static_cast<std::uint8_t>(1u << i);
-    port->run({.motion = asked.motion,
-               .silent_from_s = asked.silent_from_s,
-               .silent_for_s = asked.silent_for_s,
-               .motors_on = !asked.motors_off,
-               .in_pairs = asked.in_pairs,
-               .dead = dead,
-               .version = static_cast<std::uint8_t>(asked.version)},
-              [&] { return signals.came() || (for_s > 0.0 && seconds(clock.now_ns() - begun_ns) >= for_s); });
+    port.run({.motion = asked.motion,
+              .silent_from_s = asked.silent_from_s,
+              .silent_for_s = asked.silent_for_s,
+              .motors_on = !asked.motors_off,
+              .in_pairs = asked.in_pairs,
+              .dead = dead,
+              .version = static_cast<std::uint8_t>(asked.version)},
+             [&] { return signals.came() || (for_s > 0.0 && seconds(clock.now_ns() - begun_ns) >= for_s); });
     return {};
 }
 

@@ -14,6 +14,7 @@
 #include "app/cli/output_files.hpp"
 #include "base/clock.hpp"
 #include "base/length_unit.hpp"
+#include "base/try.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/lattice.hpp"
 #include "compute/rays/scan_convert.hpp"
@@ -88,13 +89,11 @@ Result<BothMeshes> load_both(const CombineOptions& options) {
         return sculpt::load_closed_mesh(
             {.source = file, .close_holes = options.close_holes, .units = options.units, .weld_m = options.weld_m});
     };
-    Result<sculpt::ClosedMesh> a = load(options.a);
-    if (!a) return std::unexpected(a.error());
-    Result<sculpt::ClosedMesh> b = load(options.b);
-    if (!b) return std::unexpected(b.error());
-    name_materials(*a, options.a, {205, 195, 178});
-    name_materials(*b, options.b, {224, 142, 54});
-    return BothMeshes{std::move(*a), std::move(*b)};
+    BURIN_TRY(a, load(options.a));
+    BURIN_TRY(b, load(options.b));
+    name_materials(a, options.a, {205, 195, 178});
+    name_materials(b, options.b, {224, 142, 54});
+    return BothMeshes{std::move(a), std::move(b)};
 }
 
 // Returns a lattice that holds both. Fails where an export could not hold its numbers.
@@ -105,19 +104,16 @@ Result<compute::Lattice> lattice_of(const BothMeshes& both, const CombineOptions
     bounds.include(of_b.hi);
     Result<compute::Lattice> lattice = compute::lattice_around(bounds, options.resolution);
     if (!lattice) return lattice;
-    for (const std::string& path : options.exports)
-        if (const auto ok = sculpt::check_precision(path, *lattice); !ok) return std::unexpected(ok.error());
+    for (const std::string& path : options.exports) BURIN_TRY_DO(sculpt::check_precision(path, *lattice));
     return lattice;
 }
 
 // Converts both onto the lattice and combines them. Adds to the report what converting has found.
 Result<compute::Solid> combine_solids(BothMeshes& both, const compute::Lattice& lattice, const CombineOptions& options,
                                       WorkerPool& pool, Json& report) {
-    const Result<compute::Solid> a = convert_onto(both.a, options.a, lattice, pool, report["a"]);
-    if (!a) return std::unexpected(a.error());
-    const Result<compute::Solid> b = convert_onto(both.b, options.b, lattice, pool, report["b"]);
-    if (!b) return std::unexpected(b.error());
-    return compute::combine(*a, *b, options.operation, pool);
+    BURIN_TRY(a, convert_onto(both.a, options.a, lattice, pool, report["a"]));
+    BURIN_TRY(b, convert_onto(both.b, options.b, lattice, pool, report["b"]));
+    return compute::combine(a, b, options.operation, pool);
 }
 
 // Fails where nothing is left that could be exported.
@@ -137,7 +133,7 @@ Result<void> check_something_is_left(const sculpt::FinishedMesh& finished, const
 Result<void> export_combined(const sculpt::FinishedMesh& finished, const CombineOptions& options, LengthUnit unit,
                              Json& report) {
     for (const std::string& path : options.exports) {
-        if (const auto written = sculpt::export_finished(finished, path); !written) return written;
+        BURIN_TRY_DO(sculpt::export_finished(finished, path));
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(unit).plural);
         if (sculpt::loses_colours(finished.mesh, path)) std::printf("  %s\n", sculpt::kColoursLeftOut);
         report["exports"].push_back(std::filesystem::path(path).filename().string());
@@ -148,36 +144,31 @@ Result<void> export_combined(const sculpt::FinishedMesh& finished, const Combine
 Result<void> combine_files(const CombineOptions& options) {
     session::InputFiles inputs;
     inputs.mesh(options.a).mesh(options.b);
-    if (const auto ok = check_outputs(options.exports, options.report, inputs.list()); !ok) return ok;
-    Result<BothMeshes> both = load_both(options);
-    if (!both) return std::unexpected(both.error());
-    const Result<compute::Lattice> lattice = lattice_of(*both, options);
-    if (!lattice) return std::unexpected(lattice.error());
+    BURIN_TRY_DO(check_outputs(options.exports, options.report, inputs.list()));
+    BURIN_TRY(both, load_both(options));
+    BURIN_TRY(lattice, lattice_of(both, options));
 
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
     WorkerPool pool(options.threads);
     Json report = {{"burin", BURIN_VERSION}, {"operation", text(options.operation)}};
-    const Result<compute::Solid> result = combine_solids(*both, *lattice, options, pool, report);
-    if (!result) return std::unexpected(result.error());
-    compute::Surface surface(*lattice);
-    surface.mesh_all(*result, pool);
-    const LengthUnit unit = options.export_units.value_or(both->a.unit);
-    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(surface, *result, unit, std::nullopt, 0.0, pool);
-    if (!finished) return std::unexpected(finished.error());
-    if (const auto left = check_something_is_left(*finished, *both, options); !left) return left;
-    report["lattice_cells"] = lattice->cells;
-    report["lattice_spacing_m"] = lattice->spacing_m;
+    BURIN_TRY(result, combine_solids(both, lattice, options, pool, report));
+    compute::Surface surface(lattice);
+    surface.mesh_all(result, pool);
+    const LengthUnit unit = options.export_units.value_or(both.a.unit);
+    BURIN_TRY(finished, sculpt::finish_mesh(surface, result, unit, std::nullopt, 0.0, pool));
+    BURIN_TRY_DO(check_something_is_left(finished, both, options));
+    report["lattice_cells"] = lattice.cells;
+    report["lattice_spacing_m"] = lattice.spacing_m;
     report["disagreeing_edges"] = surface.disagreeing_edges();
-    report["mesh"] = describe_mesh(finished->mesh, unit);
-    report["mesh"]["self_intersections"] = finished->self_intersections;
-    report["slivers"] = finished->slivers;
+    report["mesh"] = describe_mesh(finished.mesh, unit);
+    report["mesh"]["self_intersections"] = finished.self_intersections;
+    report["slivers"] = finished.slivers;
     report["export_unit"] = name_of(unit);
-    std::printf("%s\n%s\n", both->a.size.c_str(), both->b.size.c_str());
-    if (const auto exported = export_combined(*finished, options, unit, report); !exported) return exported;
+    std::printf("%s\n%s\n", both.a.size.c_str(), both.b.size.c_str());
+    BURIN_TRY_DO(export_combined(finished, options, unit, report));
     report["timing"] = {{"total_ms", static_cast<double>(clock.now_ns() - start_ns) * 1e-6}};
-    if (!options.report.empty())
-        if (const auto written = write_report(options.report, report); !written) return written;
+    if (!options.report.empty()) BURIN_TRY_DO(write_report(options.report, report));
     print(report);
     return {};
 }

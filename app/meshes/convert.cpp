@@ -15,6 +15,7 @@
 #include "app/meshes/convert_placing.hpp"
 #include "app/meshes/document_command.hpp"
 #include "app/recordings/session_export.hpp"
+#include "base/try.hpp"
 #include "compute/repair/rounding.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -56,7 +57,7 @@ Result<void> place(geometry::TriangleMesh& mesh, const geometry::Placing& placin
     if (placing.changes_nothing()) return {};
     geometry::place_mesh(mesh, placing);
     const Box bounds = geometry::bounds_of(mesh);
-    if (const auto ok = check_reach(bounds, unit); !ok) return ok;
+    BURIN_TRY_DO(check_reach(bounds, unit));
     std::printf("%s\n", placed_in_words(bounds, placing).c_str());
     print_health(mesh);
     return {};
@@ -84,7 +85,7 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
                                            LengthUnit unit, WorkerPool& pool) {
     const auto format = geometry::mesh_format_of(out).value_or(geometry::MeshFormat::obj);  // check_outputs() knows it
     geometry::FileNumbers numbers = geometry::numbers_of_file(mesh_m, format, unit);
-    if (const auto ok = check_precision(numbers, out); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_precision(numbers, out));
     if (numbers.steps_apart > 0)
         std::printf("  vertices that fall together by rounding were moved apart by %zu steps of a float\n",
                     numbers.steps_apart);
@@ -123,7 +124,7 @@ void tell_colours(const std::string& out, const geometry::FileColours& colours, 
 // Checks that the file of an OBJ's materials, which nobody has named, replaces nothing but another that Burin wrote,
 // and that the OBJ can name it.
 Result<void> check_materials(const std::string& materials, std::span<const std::string> inputs) {
-    if (const auto ok = check_places(std::array{materials}, inputs); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{materials}, inputs));
     const std::string name = std::filesystem::path(materials).filename().string();
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '\\'; };
     if (std::ranges::any_of(name, is_control) || name.front() == ' ')
@@ -146,9 +147,8 @@ Result<void> write_mesh(const ConvertOptions& options, const geometry::TriangleM
     const bool is_obj = geometry::mesh_format_of(options.out) == geometry::MeshFormat::obj;
     const bool has_materials = is_obj && !colours.of_faces.empty();
     const std::string materials = geometry::material_file_of(options.out).string();
-    if (has_materials)
-        if (const auto ok = check_materials(materials, inputs); !ok) return ok;
-    if (const auto written = geometry::export_numbers(numbers, options.out, unit, corners); !written) return written;
+    if (has_materials) BURIN_TRY_DO(check_materials(materials, inputs));
+    BURIN_TRY_DO(geometry::export_numbers(numbers, options.out, unit, corners));
     std::printf("%s: written in %s%s\n", options.out.c_str(), descriptor_of(unit).plural,
                 has_materials ? (", the colours of its faces in " + materials).c_str() : "");
     return {};
@@ -199,48 +199,44 @@ void close_mesh(geometry::ImportedMesh& imported, const ConvertOptions& options)
 // Makes fewer triangles of the file's numbers, and says how many.
 Result<void> simplify(geometry::TriangleMesh& numbers, geometry::ImportedMesh& imported, LengthUnit unit,
                       double simplify_m, WorkerPool& pool) {
-    auto simplified = sculpt::simplify_with_progress(numbers, unit, simplify_m, pool);
-    if (!simplified) return std::unexpected(simplified.error());
+    BURIN_TRY(simplified, sculpt::simplify_with_progress(numbers, unit, simplify_m, pool));
     std::printf("  simplified from %zu to %zu triangles, at most %s away (asked: %s)\n", imported.mesh.triangles.size(),
-                simplified->mesh.triangles.size(),
-                in_millimetres(simplified->figures["error_max_m"].get<double>()).c_str(),
+                simplified.mesh.triangles.size(),
+                in_millimetres(simplified.figures["error_max_m"].get<double>()).c_str(),
                 in_millimetres(simplify_m).c_str());
-    numbers = std::move(simplified->mesh);
+    numbers = std::move(simplified.mesh);
     follow_triangles(imported, true);
     print_health(numbers, unit);
     return {};
 }
 
 Result<void> convert_mesh(const ConvertOptions& options) {
-    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
-    const Result<geometry::Placing> placing = placing_of(options);
-    if (!placing) return std::unexpected(placing.error());
+    BURIN_TRY_DO(sculpt::check_simplification(options.simplify_m));
+    BURIN_TRY(placing, placing_of(options));
     const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
-    if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
-    if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(
-        options.in, options.units, placing->middle_m ? geometry::MeshOrigin::middle : geometry::MeshOrigin::of_file);
-    if (!imported) return std::unexpected(imported.error());
-    geometry::TriangleMesh& mesh = imported->mesh;
-    std::printf("%s: %s, %zu triangles, %zu vertices\n", options.in.c_str(), imported->report.format.c_str(),
+    BURIN_TRY_DO(check_overwrites_none(options.out, inputs));
+    BURIN_TRY_DO(check_outputs(std::array{options.out}, "", inputs));
+    BURIN_TRY(imported,
+              geometry::import_mesh(options.in, options.units,
+                                    placing.middle_m ? geometry::MeshOrigin::middle : geometry::MeshOrigin::of_file));
+    geometry::TriangleMesh& mesh = imported.mesh;
+    std::printf("%s: %s, %zu triangles, %zu vertices\n", options.in.c_str(), imported.report.format.c_str(),
                 mesh.triangles.size(), mesh.positions_m.size());
-    const geometry::ImportReport& report = imported->report;
+    const geometry::ImportReport& report = imported.report;
     std::printf("%s\n", geometry::describe_size(options.in, report.size_m, report.unit).c_str());
     const double longest_side_m = std::max({report.size_m.x, report.size_m.y, report.size_m.z});
-    if (const auto ok = sculpt::check_weld(options.weld_m, longest_side_m); !ok) return ok;
-    for (const std::string& remark : imported->report.remarks) std::printf("  %s\n", remark.c_str());
+    BURIN_TRY_DO(sculpt::check_weld(options.weld_m, longest_side_m));
+    for (const std::string& remark : imported.report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
-    if (options.close_holes || options.weld_m) close_mesh(*imported, options);
+    if (options.close_holes || options.weld_m) close_mesh(imported, options);
     const LengthUnit unit = options.export_units.value_or(report.unit.unit);
-    if (const auto ok = place(mesh, *placing, unit); !ok) return ok;
+    BURIN_TRY_DO(place(mesh, placing, unit));
     // Without shared vertices every edge would be a border, and decimation keeps borders.
     if (options.simplify_m) weld(mesh);
     WorkerPool pool;
-    Result<geometry::TriangleMesh> numbers = rounded_for(options.out, mesh, unit, pool);
-    if (!numbers) return std::unexpected(numbers.error());
-    if (options.simplify_m)
-        if (const auto ok = simplify(*numbers, *imported, unit, *options.simplify_m, pool); !ok) return ok;
-    return write_mesh(options, *numbers, unit, *imported, inputs);
+    BURIN_TRY(numbers, rounded_for(options.out, mesh, unit, pool));
+    if (options.simplify_m) BURIN_TRY_DO(simplify(numbers, imported, unit, *options.simplify_m, pool));
+    return write_mesh(options, numbers, unit, imported, inputs);
 }
 
 // Refuses what a mesh or a document alone can be asked for.
@@ -259,7 +255,7 @@ Result<void> check_for_a_session(const ConvertOptions& options) {
 }
 
 Result<void> convert_session(const ConvertOptions& options) {
-    if (const auto ok = check_for_a_session(options); !ok) return ok;
+    BURIN_TRY_DO(check_for_a_session(options));
     return export_session({.in = options.in,
                            .out = options.out,
                            .to = options.to,

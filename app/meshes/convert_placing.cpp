@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "compute/mesher/surface.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "sculpt/workpiece.hpp"
@@ -48,7 +49,7 @@ Result<geometry::Placing> placing_of(const ConvertOptions& options) {
     if (options.center && options.place_m)
         return fail("--center", "and --place both say where the mesh goes", "give one of them");
     if (options.center) placing.middle_m = Vec3(0.0);
-    if (const auto ok = geometry::check_scale(placing.scale); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(geometry::check_scale(placing.scale));
     return placing;
 }
 
@@ -65,7 +66,7 @@ Result<void> place_solid(compute::Solid& solid, const geometry::Placing& placing
         lattice.origin_object = way;
         bounds = {bounds.lo + way, bounds.hi + way};
     }
-    if (const auto ok = check_reach(bounds, unit); !ok) return ok;
+    BURIN_TRY_DO(check_reach(bounds, unit));
     const Box seen = placing.mirrors() ? Box{Vec3(0.0) - bounds.hi, Vec3(0.0) - bounds.lo} : bounds;
     std::printf("%s\n", placed_in_words(seen, placing).c_str());
     return {};

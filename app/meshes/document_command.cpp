@@ -11,6 +11,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/meshes/convert_placing.hpp"
 #include "base/length_unit.hpp"
+#include "base/try.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
 #include "session/record/input_files.hpp"
@@ -62,23 +63,21 @@ struct InfoOptions {
 };
 
 Result<void> document_info(const InfoOptions& options) {
-    if (const auto ok = check_places(std::array{options.json}, std::array{options.file}); !ok) return ok;
-    Result<document::DocumentReader> reader = document::DocumentReader::open(options.file);
-    if (!reader) return std::unexpected(reader.error());
+    BURIN_TRY_DO(check_places(std::array{options.json}, std::array{options.file}));
+    BURIN_TRY(reader, document::DocumentReader::open(options.file));
     const bool prints = options.json != kStandardOutput;
-    Json json{{"file", options.file}, {"facts", Json::object()}, {"commands", reader->commands()}};
-    for (const auto& [key, value] : reader->facts()) json["facts"][key] = value;
+    Json json{{"file", options.file}, {"facts", Json::object()}, {"commands", reader.commands()}};
+    for (const auto& [key, value] : reader.facts()) json["facts"][key] = value;
     if (prints) std::printf("%s: a document\n", options.file.c_str());
-    for (const auto& [key, value] : reader->facts())
+    for (const auto& [key, value] : reader.facts())
         if (prints) std::printf("  %-20s %s\n", key.c_str(), value.c_str());
-    for (const std::string& command : reader->commands())
+    for (const std::string& command : reader.commands())
         if (prints) std::printf("  %-20s %s\n", "command", command.c_str());
-    for (const document::PartPlace& part : reader->parts()) {
-        const Result<scene::Pages> pages = reader->pages(part);
-        if (!pages) return std::unexpected(pages.error());
-        if (prints) print_part(part, *pages);
-        Json& told = json["parts"].emplace_back(part_json(part, *pages));
-        tell_steps(*reader, part, prints, told);
+    for (const document::PartPlace& part : reader.parts()) {
+        BURIN_TRY(pages, reader.pages(part));
+        if (prints) print_part(part, pages);
+        Json& told = json["parts"].emplace_back(part_json(part, pages));
+        tell_steps(reader, part, prints, told);
     }
     // Missing pages show only when the work is made of all of them.
     const Result<session::OpenedWork> opened =
@@ -92,8 +91,7 @@ Result<void> document_info(const InfoOptions& options) {
     json["unsaved"] = recovered;
     json["lost"] = lost;
     if (prints && !recovered.empty()) std::printf("  %s\n", recovered.c_str());
-    if (!options.json.empty())
-        if (const auto written = write_output(options.json, json_text(json)); !written) return written;
+    if (!options.json.empty()) BURIN_TRY_DO(write_output(options.json, json_text(json)));
     std::fflush(stdout);
     if (!opened) return std::unexpected(opened.error());
     if (lost.empty()) return {};
@@ -112,42 +110,38 @@ CommandAction add_info(Command command) {
 CommandRow info_row() { return {"info", "What is in a document, and from where it came", add_info}; }
 
 Result<void> convert_document(const ConvertOptions& options) {
-    if (const auto ok = check_for_a_document(options); !ok) return ok;
-    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
-    const Result<geometry::Placing> placing = placing_of(options);
-    if (!placing) return std::unexpected(placing.error());
+    BURIN_TRY_DO(check_for_a_document(options));
+    BURIN_TRY_DO(sculpt::check_simplification(options.simplify_m));
+    BURIN_TRY(placing, placing_of(options));
     const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
     for (const std::string& file : inputs)
         if (file != options.in && session::is_same_file(options.out, file))
             return fail(options.out, "is the mesh of which " + options.in + " was made, and would be overwritten",
                         "choose another place, or remove it first");
-    if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
-    if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
+    BURIN_TRY_DO(check_overwrites_none(options.out, inputs));
+    BURIN_TRY_DO(check_outputs(std::array{options.out}, "", inputs));
     WorkerPool pool;
-    Result<session::OpenedWork> opened = session::open_work({.source = options.in}, pool);
-    if (!opened) return std::unexpected(opened.error());
-    compute::Solid& solid = opened->workpiece->solid;
-    std::printf("%s\n", opened->workpiece->size.c_str());
-    if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
-    const LengthUnit unit = options.export_units.value_or(opened->workpiece->unit);
-    if (const auto ok = place_solid(solid, *placing, unit, pool); !ok) return ok;
-    if (const auto ok = sculpt::check_precision(options.out, solid.lattice); !ok) return ok;
+    BURIN_TRY(opened, session::open_work({.source = options.in}, pool));
+    compute::Solid& solid = opened.workpiece->solid;
+    std::printf("%s\n", opened.workpiece->size.c_str());
+    if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());
+    const LengthUnit unit = options.export_units.value_or(opened.workpiece->unit);
+    BURIN_TRY_DO(place_solid(solid, placing, unit, pool));
+    BURIN_TRY_DO(sculpt::check_precision(options.out, solid.lattice));
     compute::Surface surface(solid.lattice);
     surface.mesh_all(solid, pool);
     constexpr double kAllCrumbs_m = 0.0;  // what a document holds is converted whole
-    Result<sculpt::FinishedMesh> finished =
-        sculpt::finish_mesh(surface, solid, unit, options.simplify_m, kAllCrumbs_m, pool);
-    if (!finished) return std::unexpected(finished.error());
-    if (finished->mesh.triangles.empty())
+    BURIN_TRY(finished, sculpt::finish_mesh(surface, solid, unit, options.simplify_m, kAllCrumbs_m, pool));
+    if (finished.mesh.triangles.empty())
         return fail(options.in,
-                    finished->too_thin.empty() ? "has been carved away altogether, so there is nothing to convert"
-                                               : "has nothing to convert: " + finished->too_thin,
+                    finished.too_thin.empty() ? "has been carved away altogether, so there is nothing to convert"
+                                              : "has nothing to convert: " + finished.too_thin,
                     "open it, and undo some strokes");
-    if (placing->mirrors()) mirror(finished->mesh);
-    if (const auto written = sculpt::export_finished(*finished, options.out); !written) return written;
-    std::printf("%s: %zu triangles, in %s\n", options.out.c_str(), finished->mesh.triangles.size(),
+    if (placing.mirrors()) mirror(finished.mesh);
+    BURIN_TRY_DO(sculpt::export_finished(finished, options.out));
+    std::printf("%s: %zu triangles, in %s\n", options.out.c_str(), finished.mesh.triangles.size(),
                 descriptor_of(unit).plural);
-    if (sculpt::loses_colours(finished->mesh, options.out)) std::printf("  %s\n", sculpt::kColoursLeftOut);
+    if (sculpt::loses_colours(finished.mesh, options.out)) std::printf("  %s\n", sculpt::kColoursLeftOut);
     return {};
 }
 

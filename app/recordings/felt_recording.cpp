@@ -7,6 +7,7 @@
 #include "app/cli/temporary_folder.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
+#include "base/try.hpp"
 #include "session/options/option_bounds.hpp"
 
 namespace burin::app {
@@ -153,9 +154,8 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     reader.text("session", "engine", engine);
     reader.flag("session", "undo", undo);
     reader.flag("session", "real_time", o.real_time);
-    const Result<sculpt::Mirror> planes = sculpt::parse_mirror(mirror, where);
-    if (!planes) return std::unexpected(planes.error());
-    o.mirror = *planes;
+    BURIN_TRY(planes, sculpt::parse_mirror(mirror, where));
+    o.mirror = planes;
     if (!reader.missing().empty())
         return fail(where, "its settings have no sound value for " + reader.missing(),
                     "replay a recording that burin sculpt --hand simulated --record has written");
@@ -179,28 +179,24 @@ std::optional<double> felt_ball_radius_m(const std::string& settings) {
 Result<record::Comparison> replay_felt(record::RecordReader& reader, const FeltFiles& files,
                                        const record::TickRange& range) {
     const auto settings = reader.facts().find("settings");
-    Result<session::SculptOptions> options =
-        read_felt_settings(settings == reader.facts().end() ? "" : settings->second, reader.path());
-    if (!options) return std::unexpected(options.error());
-    if (options->real_time)
+    BURIN_TRY(options, read_felt_settings(settings == reader.facts().end() ? "" : settings->second, reader.path()));
+    if (options.real_time)
         return fail(reader.path(), "was felt in real time, and does not hold which tick saw which carving",
                     "replay a stroke that was felt in simulated time; the data can be read and converted");
-    if (!files.stroke.empty()) options->stroke = files.stroke;
-    if (!files.workpiece.empty()) options->workpiece.source = files.workpiece;
-    if (files.engine) options->engine = *files.engine;
-    const std::string& shape = options->tool.shape;
+    if (!files.stroke.empty()) options.stroke = files.stroke;
+    if (!files.workpiece.empty()) options.workpiece.source = files.workpiece;
+    if (files.engine) options.engine = *files.engine;
+    const std::string& shape = options.tool.shape;
     const std::string tool_file = shape.starts_with("mesh:") ? shape.substr(5) : std::string();
-    for (const auto& ok : {check_same_file(reader, "stroke sha256", options->stroke, "--stroke"),
-                           check_same_file(reader, "workpiece sha256", options->workpiece.source, "--workpiece"),
+    for (const auto& ok : {check_same_file(reader, "stroke sha256", options.stroke, "--stroke"),
+                           check_same_file(reader, "workpiece sha256", options.workpiece.source, "--workpiece"),
                            check_same_file(reader, "tool sha256", tool_file, "putting it where it was")})
         if (!ok) return std::unexpected(ok.error());
-    const Result<TemporaryFolder> folder = TemporaryFolder::create();
-    if (!folder) return std::unexpected(folder.error());
-    options->live.record = *folder / "again.session";
-    if (const auto done = record_again(*options); !done) return std::unexpected(done.error());
-    Result<record::RecordReader> again = record::RecordReader::open(options->live.record);
-    if (!again) return std::unexpected(again.error());
-    return record::compare(reader, *again, {}, range);
+    BURIN_TRY(folder, TemporaryFolder::create());
+    options.live.record = folder / "again.session";
+    BURIN_TRY_DO(record_again(options));
+    BURIN_TRY(again, record::RecordReader::open(options.live.record));
+    return record::compare(reader, again, {}, range);
 }
 
 }  // namespace burin::app

@@ -11,6 +11,7 @@
 #include "base/file_io.hpp"
 #include "base/places.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "picture/png.hpp"
 #include "renderer/film.hpp"
 
@@ -53,20 +54,17 @@ Result<void> join_pictures(const FilmOptions& options) {
     const std::string ending = fs::path(options.out).extension().string();
     if (ending != ".png" && ending != ".apng")
         return fail(options.out, "is no name for an animated PNG", "let it end in .png or .apng");
-    const auto pictures = pictures_in(options.folder);
-    if (!pictures) return std::unexpected(pictures.error());
+    BURIN_TRY(pictures, pictures_in(options.folder));
     renderer::Film made(static_cast<std::uint16_t>(std::lround(1000.0 / options.pictures_a_second)));
-    for (const fs::path& path : *pictures) {
-        const auto picture = picture::load_png(path);
-        if (!picture) return std::unexpected(picture.error());
-        if (const auto added = made.add(*picture); !added)
+    for (const fs::path& path : pictures) {
+        BURIN_TRY(picture, picture::load_png(path));
+        if (const auto added = made.add(picture); !added)
             return fail(path.string(), added.error().what, added.error().remedy);
     }
-    const auto bytes = made.finish();
-    if (!bytes) return std::unexpected(bytes.error());
-    if (const auto written = write_file_atomically(options.out, *bytes); !written) return written;
+    BURIN_TRY(bytes, made.finish());
+    BURIN_TRY_DO(write_file_atomically(options.out, bytes));
     std::printf("%s: %zu picture(s), %.1f MB\n", options.out.c_str(), made.pictures(),
-                1e-6 * static_cast<double>(bytes->size()));
+                1e-6 * static_cast<double>(bytes.size()));
     return {};
 }
 

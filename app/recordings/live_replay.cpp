@@ -11,6 +11,7 @@
 #include "activities/registry.hpp"
 #include "app/recordings/recorded_device.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "desk/run/session.hpp"
 #include "document/document_file.hpp"
@@ -20,10 +21,10 @@
 #include "scene/world_digest.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/input/input_words.hpp"
-#include "session/options/session_settings.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/state/session_settings.hpp"
 #include "session/work/opened_work.hpp"
 
 namespace burin::app {
@@ -99,12 +100,11 @@ Result<std::string> with_setting(const std::string& settings, const std::string&
     if (equals == std::string::npos || equals == 0)
         return fail("--set " + change, "changes nothing", "write OPTION=VALUE, such as friction=0.3");
     const std::string name = "--" + change.substr(0, equals), value = change.substr(equals + 1);
-    const Result<std::vector<std::string>> words = session::words_of(settings, "the recording's settings");
-    if (!words) return std::unexpected(words.error());
+    BURIN_TRY(words, session::words_of(settings, "the recording's settings"));
     std::string changed;
-    for (auto word = words->begin(); word != words->end(); ++word) {
+    for (auto word = words.begin(); word != words.end(); ++word) {
         const auto next = std::next(word);
-        const bool has_value = next != words->end() && !next->starts_with("--");
+        const bool has_value = next != words.end() && !next->starts_with("--");
         if (*word == name) {
             if (has_value) ++word;
             continue;
@@ -192,9 +192,8 @@ Result<void> check_changes(const LiveReplay& how, const session::SculptOptions& 
 
 // Makes the activity of a recorded session anew; none where it had none.
 Result<session::MadeActivity> activity_of(const record::RecordReader& reader, const std::string& settings_line) {
-    const Result<std::string> settings = session::activity_on(settings_line);
-    if (!settings) return std::unexpected(settings.error());
-    auto made = activities::activity_as_recorded(*settings, [&](const std::string& name) { return reader.fact(name); });
+    BURIN_TRY(settings, session::activity_on(settings_line));
+    auto made = activities::activity_as_recorded(settings, [&](const std::string& name) { return reader.fact(name); });
     if (!made && made.error().where == "the recording")
         return fail(reader.path(), made.error().what, made.error().remedy);
     return made;
@@ -208,17 +207,15 @@ struct PreparedReplay {
 
 // Reads the log, and makes the activity and the scene of the session anew.
 Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
-    Result<session::InputLog> log = session::read_session_log(reader);
-    if (!log) return std::unexpected(log.error());
-    if (log->torn_line || !log->threads)
+    BURIN_TRY(log, session::read_session_log(reader));
+    if (log.torn_line || !log.threads)
         return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
-    PreparedReplay prepared{std::move(*log), {}};
+    PreparedReplay prepared{std::move(log), {}};
     prepared.options.live.input = reader.path();
     prepared.options.live.offscreen = true;
-    auto made = activity_of(reader, prepared.log.settings);
-    if (!made) return std::unexpected(made.error());
-    prepared.options.activity = std::move(made->activity);
-    prepared.options.scene = std::move(made->scene);
+    BURIN_TRY(made, activity_of(reader, prepared.log.settings));
+    prepared.options.activity = std::move(made.activity);
+    prepared.options.scene = std::move(made.scene);
     return prepared;
 }
 
@@ -227,27 +224,23 @@ Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
 Result<void> change_settings(const record::RecordReader& reader, const LiveReplay& how, PreparedReplay& prepared) {
     session::InputLog& log = prepared.log;
     session::SculptOptions& options = prepared.options;
-    const auto first = session::options_as_recorded(log.settings, options);
-    if (!first) return std::unexpected(first.error());
-    if (const auto ok = check_changes(how, first->options, options.scene != nullptr); !ok) return ok;
-    Result<std::string> changed = with_changes(log.settings, how, options);
-    if (!changed) return std::unexpected(changed.error());
-    log.settings = std::move(*changed);
+    BURIN_TRY(first, session::options_as_recorded(log.settings, options));
+    BURIN_TRY_DO(check_changes(how, first.options, options.scene != nullptr));
+    BURIN_TRY(changed, with_changes(log.settings, how, options));
+    log.settings = std::move(changed);
     options.live.refuses_exports = true;
     options.live.screenshots = how.pictures;
-    if (!how.pictures.empty())
-        if (const auto made = session::make_picture_folder(how.pictures, "--pictures"); !made) return made;
-    const auto recorded = session::options_as_recorded(log.settings, options);
-    if (!recorded) return std::unexpected(recorded.error());
-    const std::string &device = first->options.live.device, &now = recorded->options.live.device;
-    if (const auto same = check_files(reader, recorded->options, device, how.sets); !same) return same;
+    if (!how.pictures.empty()) BURIN_TRY_DO(session::make_picture_folder(how.pictures, "--pictures"));
+    BURIN_TRY(recorded, session::options_as_recorded(log.settings, options));
+    const std::string &device = first.options.live.device, &now = recorded.options.live.device;
+    BURIN_TRY_DO(check_files(reader, recorded.options, device, how.sets));
     if (now != device) log.device.clear();  // chosen anew
     return session::check_commands(log, reader.path(), options.activity.get());
 }
 
 // Compares what was noted on the way: trials, and events.
 Result<void> compare_notes(record::RecordReader& reader, const session::SessionNotes& notes, bool whole) {
-    if (const auto same = session::compare_trials(reader, notes.trials, whole); !same) return same;
+    BURIN_TRY_DO(session::compare_trials(reader, notes.trials, whole));
     return session::compare_events(reader, notes.events, whole);
 }
 
@@ -279,8 +272,8 @@ Result<void> run_recorded_session(const session::SculptOptions& given, const std
     session::SculptOptions options = given;
     options.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
     if (!session::is_session_file(options.live.record)) return session::run_session(options);
-    if (const auto settled = session::settle_document(options); !settled) return settled;
-    if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
+    BURIN_TRY_DO(session::settle_document(options));
+    BURIN_TRY_DO(record::check_new_place(options.live.record));
     return session::run_session(options, facts_of_live(options, command));
 }
 
@@ -293,31 +286,29 @@ std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
 }
 
 Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay& how, const record::TickRange& range) {
-    Result<PreparedReplay> prepared = read_recorded_session(reader);
-    if (!prepared) return std::unexpected(prepared.error());
-    if (const auto changed = change_settings(reader, how, *prepared); !changed) return std::unexpected(changed.error());
-    Result<session::TickComparison> judge =
-        session::TickComparison::create(reader, range,
-                                        how.pictures.empty() ? session::TickComparison::AtDifference::ends
-                                                             : session::TickComparison::AtDifference::goes_on);
-    if (!judge) return std::unexpected(judge.error());
+    BURIN_TRY(prepared, read_recorded_session(reader));
+    BURIN_TRY_DO(change_settings(reader, how, prepared));
+    BURIN_TRY(judge,
+              session::TickComparison::create(reader, range,
+                                              how.pictures.empty() ? session::TickComparison::AtDifference::ends
+                                                                   : session::TickComparison::AtDifference::goes_on));
     session::ReplayManner manner;
     manner.draws = !how.pictures.empty();
     manner.only_compares = true;
     manner.picture_every_ns = nanoseconds(how.every_s);
-    manner.witness = &*judge;
+    manner.witness = &judge;
     manner.ticks = &reader;
     session::SessionNotes notes;
     manner.notes = &notes;
-    const Result<void> done = session::run_as_recorded(prepared->options, std::move(prepared->log), manner);
-    LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
+    const Result<void> done = session::run_as_recorded(prepared.options, std::move(prepared.log), manner);
+    LiveReplayed replayed{judge.found(), judge.unrecorded(), 0};
     if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
     std::uint64_t rows = 0;
     for (const record::HandRecord& part : reader.hands()) rows += part.rows();
-    replayed.left = rows - std::min(rows, judge->repeated());
+    replayed.left = rows - std::min(rows, judge.repeated());
     const bool whole = reader.is_closed() && replayed.left == 0 && replayed.unrecorded == 0;
     if (!done || replayed.comparison.difference) return replayed;
-    if (const auto same = compare_notes(reader, notes, whole); !same) return std::unexpected(same.error());
+    BURIN_TRY_DO(compare_notes(reader, notes, whole));
     return replayed;
 }
 

@@ -7,14 +7,15 @@
 #include "app/recordings/wand_stroke.hpp"
 #include "base/file_io.hpp"
 #include "base/sha256.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"
-#include "session/options/session_settings.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/state/session_settings.hpp"
 
 namespace burin::app {
 namespace {
@@ -29,9 +30,8 @@ struct DeviceWords {
 Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
     const std::string activity = reader.fact(session::kActivityFact);
     if (activity == kWandActivity) {
-        const Result<WorldExploration> stroke = recorded_wand_stroke(reader);
-        if (!stroke) return std::unexpected(stroke.error());
-        return DeviceWords{stroke->device, stroke->points};
+        BURIN_TRY(stroke, recorded_wand_stroke(reader));
+        return DeviceWords{stroke.device, stroke.points};
     }
     if (const std::string points = reader.fact(record::kWandPointsFact); !points.empty())
         return DeviceWords{std::string(devices::kSimulatedWand), points};
@@ -46,9 +46,8 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
 
 // Returns the description of a device that has a handle.
 Result<devices::WandDescription> described_now(const std::string& device) {
-    Result<devices::DeviceNature> nature = devices::nature_of_device(device, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    return nature->handle.value_or(devices::WandDescription{});
+    BURIN_TRY(nature, devices::nature_of_device(device, &session::session_recordings()));
+    return nature.handle.value_or(devices::WandDescription{});
 }
 
 Result<devices::WandDescription> recorded_wand(const record::RecordReader& reader, const std::string& device) {
@@ -66,7 +65,7 @@ Result<devices::WandDescription> recorded_wand(const record::RecordReader& reade
     if (digest.empty())
         return fail(reader.path(), "does not hold the description of its wand, " + file,
                     "record the motion again: recordings of this version hold it");
-    if (const auto same = check_wand_file(reader, device, kPutBack); !same) return std::unexpected(same.error());
+    BURIN_TRY_DO(check_wand_file(reader, device, kPutBack));
     return described_now(device);
 }
 
@@ -101,17 +100,15 @@ std::string live_settings_of(const record::RecordReader& reader) {
 }
 
 Result<activities::RecordedDevice> recorded_device(const record::RecordReader& reader) {
-    const Result<DeviceWords> words = device_words_of(reader);
-    if (!words) return std::unexpected(words.error());
+    BURIN_TRY(words, device_words_of(reader));
     activities::RecordedDevice recorded;
-    if (!devices::has_handle(words->device, &session::session_recordings())) return recorded;
-    Result<devices::WandDescription> wand = recorded_wand(reader, words->device);
-    if (!wand) return std::unexpected(wand.error());
-    recorded.wand = std::move(*wand);
+    if (!devices::has_handle(words.device, &session::session_recordings())) return recorded;
+    BURIN_TRY(wand, recorded_wand(reader, words.device));
+    recorded.wand = std::move(wand);
     const bool is_stroke = reader.fact(session::kActivityFact) == kWandActivity;
-    if (words->points.empty() && !is_stroke) return recorded;
+    if (words.points.empty() && !is_stroke) return recorded;
     Result<std::vector<devices::WandPoint>> points = devices::points_named(
-        *recorded.wand, words->points.empty() ? devices::usual_points(*recorded.wand) : words->points);
+        *recorded.wand, words.points.empty() ? devices::usual_points(*recorded.wand) : words.points);
     if (!points) return fail(reader.path(), points.error().where + " " + points.error().what, points.error().remedy);
     recorded.points = std::move(*points);
     return recorded;

@@ -24,7 +24,7 @@ namespace burin::app {
 [[nodiscard]] Result<void> check_wand_file(const record::RecordReader& reader, const std::string& device,
                                            const std::string& remedy);
 
-// Returns the line of a live session's settings (session/options/session_settings.hpp); empty: it was none.
+// Returns the line of a live session's settings (session/state/session_settings.hpp); empty: it was none.
 [[nodiscard]] std::string live_settings_of(const record::RecordReader& reader);
 
 // Returns the device with which a motion was recorded, and which of its points touched: of a wand as the recording

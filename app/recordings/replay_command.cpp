@@ -15,6 +15,7 @@
 #include "app/recordings/recorded_device.hpp"
 #include "app/recordings/replay_through.hpp"
 #include "app/recordings/wand_stroke.hpp"
+#include "base/try.hpp"
 #include "record/examination.hpp"
 #include "record/motion.hpp"
 #include "session/drive/tick_comparison.hpp"
@@ -43,15 +44,14 @@ Result<record::Comparison> replay_world(record::RecordReader& reader, const std:
     if (path.empty()) return fail(reader.path(), "does not name its world", "name it by --world FILE");
     if (std::error_code ignored; !std::filesystem::exists(path, ignored))
         return fail(path, "is the world of the recording, and is not there", "say where it is now by --world FILE");
-    Result<std::unique_ptr<OpenedWorld>> world = open_world(path, {});
-    if (!world) return std::unexpected(world.error());
+    BURIN_TRY(world, open_world(path, {}));
     const std::string recorded = reader.fact(record::kWorldDigestFact);
-    if ((*world)->digest != recorded)
+    if ((world)->digest != recorded)
         return fail(path,
-                    "is another world than the one that was recorded: SHA-256 " + (*world)->digest +
+                    "is another world than the one that was recorded: SHA-256 " + (world)->digest +
                         ", recorded: " + (recorded.empty() ? "none" : recorded),
                     "name the same world by --world, or feel the motion in this one by --through");
-    return activities::repeat_world(reader, *(*world)->part, (*world)->materials, range);
+    return activities::repeat_world(reader, *(world)->part, (world)->materials, range);
 }
 
 Result<void> tell(const record::RecordReader& reader, const record::Comparison& found, double took_s,
@@ -64,7 +64,7 @@ Result<void> tell(const record::RecordReader& reader, const record::Comparison& 
                               {"column", found.difference->column},
                               {"recorded", found.difference->first},
                               {"again", found.difference->second}};
-    if (const auto ok = write_output(json_path, json_text(json)); !ok) return ok;
+    BURIN_TRY_DO(write_output(json_path, json_text(json)));
     if (found.difference) {
         const record::Difference& d = *found.difference;
         const std::string whose = reader.hands().size() > 1 ? d.hand + ", " : "";
@@ -102,11 +102,10 @@ struct AskedReplay {
 };
 
 Result<void> AskedReplay::replay() const {
-    Result<record::RecordReader> reader = record::RecordReader::open(file);
-    if (!reader) return std::unexpected(reader.error());
-    if (const auto some = record::check_ticks(*reader, range()); !some) return some;
-    const std::string activity = reader->fact(activities::kActivityFact);
-    if (activity == session::kLiveActivity) return replay_session(*reader);
+    BURIN_TRY(reader, record::RecordReader::open(file));
+    BURIN_TRY_DO(record::check_ticks(reader, range()));
+    const std::string activity = reader.fact(activities::kActivityFact);
+    if (activity == session::kLiveActivity) return replay_session(reader);
     std::optional<sculpt::EngineChoice> engine;
     if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=cpu"}) engine = sculpt::EngineChoice::cpu;
     if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=vulkan"})
@@ -120,36 +119,32 @@ Result<void> AskedReplay::replay() const {
         return fail(file, "does not hold what a replay needs",
                     "replay what burin world --record or burin sculpt --record has written; other "
                     "motions can be felt --through a world");
-    if (const auto ok = check_build(*reader); !ok) return ok;
+    BURIN_TRY_DO(check_build(reader));
     const auto begun = std::chrono::steady_clock::now();
-    const Result<record::Comparison> found =
-        activity == activities::kWorldActivity ? replay_world(*reader, world, range())
-        : activity == kWandActivity            ? replay_wand(*reader, world, stroke, range())
-                                               : replay_felt(*reader, {stroke, workpiece, engine}, range());
-    if (!found) return std::unexpected(found.error());
-    if (!found->difference && found->ticks > 0 && is_whole())
-        if (const auto untouched = session::check_unchanged(*reader); !untouched) return untouched;
-    return tell(*reader, *found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
+    BURIN_TRY(found, activity == activities::kWorldActivity ? replay_world(reader, world, range())
+                     : activity == kWandActivity            ? replay_wand(reader, world, stroke, range())
+                                                 : replay_felt(reader, {stroke, workpiece, engine}, range()));
+    if (!found.difference && found.ticks > 0 && is_whole()) BURIN_TRY_DO(session::check_unchanged(reader));
+    return tell(reader, found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
 }
 
 // Does a live session again.
 Result<void> AskedReplay::replay_session(record::RecordReader& reader) const {
     if (!stroke.empty())
         return fail("--stroke", "belongs to a felt stroke, and this is a live session", "leave it out");
-    if (const auto ok = check_build(reader); !ok) return ok;
+    BURIN_TRY_DO(check_build(reader));
     const auto begun = std::chrono::steady_clock::now();
-    const Result<LiveReplayed> found = replay_live(reader, {world, workpiece, sets, pictures, every_s}, range());
-    if (!found) return std::unexpected(found.error());
-    if (!found->comparison.difference && found->comparison.ticks > 0 && is_whole())
-        if (const auto untouched = session::check_unchanged(reader); !untouched) return untouched;
+    BURIN_TRY(found, replay_live(reader, {world, workpiece, sets, pictures, every_s}, range()));
+    if (!found.comparison.difference && found.comparison.ticks > 0 && is_whole())
+        BURIN_TRY_DO(session::check_unchanged(reader));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    if (!found->comparison.difference && found->unrecorded > 0)
+    if (!found.comparison.difference && found.unrecorded > 0)
         std::fprintf(stderr, "burin: %s: %llu ticks of its log have no columns: they were lost\n", file.c_str(),
-                     static_cast<unsigned long long>(found->unrecorded));
-    if (!found->comparison.difference && found->left > 0)
+                     static_cast<unsigned long long>(found.unrecorded));
+    if (!found.comparison.difference && found.left > 0)
         std::fprintf(stderr, "burin: %s: its log was torn off: the last %llu ticks are not compared\n", file.c_str(),
-                     static_cast<unsigned long long>(found->left));
-    return tell(reader, found->comparison, took.count(), json);
+                     static_cast<unsigned long long>(found.left));
+    return tell(reader, found.comparison, took.count(), json);
 }
 
 // Returns what is wrong with the usage; empty where nothing is.
@@ -169,7 +164,7 @@ std::string misuse_of(const AskedReplay& o) {
 Result<void> run_replay(const AskedReplay& o) {
     session::InputFiles inputs;
     inputs.file(o.file).world(o.through).world(o.world).file(o.stroke).mesh(o.workpiece);
-    if (const auto ok = check_outputs({}, o.json == kStandardOutput ? "" : o.json, inputs.list()); !ok) return ok;
+    BURIN_TRY_DO(check_outputs({}, o.json == kStandardOutput ? "" : o.json, inputs.list()));
     return o.through.empty() ? o.replay()
                              : replay_through({o.file, o.through, o.radius_m, o.materials, o.range(), o.json});
 }

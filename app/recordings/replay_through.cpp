@@ -15,11 +15,12 @@
 #include "app/recordings/recorded_device.hpp"
 #include "app/recordings/wand_stroke.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/derived.hpp"
 #include "record/examination.hpp"
 #include "record/motion.hpp"
 #include "scene/world_digest.hpp"
-#include "session/objects/world_side.hpp"
+#include "session/live/world_side.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::app {
@@ -43,18 +44,16 @@ public:
         sink.columns_ = table.columns;
         sink.name_ = table.name;
         if (sink.there_) return sink;
-        Result<record::DerivedWriter> writer = record::DerivedWriter::create(std::move(table));
-        if (!writer) return std::unexpected(writer.error());
-        sink.writer_.emplace(std::move(*writer));
+        BURIN_TRY(writer, record::DerivedWriter::create(std::move(table)));
+        sink.writer_.emplace(std::move(writer));
         return sink;
     }
     [[nodiscard]] bool compares() const { return there_.has_value(); }
 
     Result<void> take(const record::RecordedTick& tick, const std::vector<record::Word>& row) {
         if (writer_) return writer_->add(tick.tick, tick.time_ns, row);
-        const Result<bool> more = there_->next();
-        if (!more) return std::unexpected(more.error());
-        if (!*more) return fail(name_, "has no tick " + std::to_string(tick.tick), "it is there from another range");
+        BURIN_TRY(more, there_->next());
+        if (!more) return fail(name_, "has no tick " + std::to_string(tick.tick), "it is there from another range");
         for (std::size_t c = 0; c < row.size(); ++c) {
             if (there_->at(c) == row[c]) continue;
             const auto d = record::difference_of(name_, columns_[c], tick.tick, there_->at(c), row[c]);
@@ -65,9 +64,8 @@ public:
     }
     Result<void> finish(const std::string& path) {
         if (writer_) return writer_->finish(path);
-        const Result<bool> more = there_->next();
-        if (!more) return std::unexpected(more.error());
-        if (*more) return fail(name_, "has more ticks than were computed", "it is there from another range");
+        BURIN_TRY(more, there_->next());
+        if (more) return fail(name_, "has more ticks than were computed", "it is there from another range");
         return {};
     }
 
@@ -163,13 +161,11 @@ Result<double> recorded_radius_m(const record::RecordReader& reader) {
     const std::string activity = reader.fact(activities::kActivityFact);
     std::optional<double> ball_m;
     if (activity == activities::kWorldActivity) {
-        const auto own = activities::recorded_settings(reader);
-        if (!own) return std::unexpected(own.error());
-        ball_m = own->tool_radius_m;
+        BURIN_TRY(own, activities::recorded_settings(reader));
+        ball_m = own.tool_radius_m;
     } else if (activity == kWandActivity) {
-        const auto stroke = recorded_wand_stroke(reader);
-        if (!stroke) return std::unexpected(stroke.error());
-        ball_m = stroke->radius_m;
+        BURIN_TRY(stroke, recorded_wand_stroke(reader));
+        ball_m = stroke.radius_m;
     } else if (activity == kFeltActivity) {
         ball_m = felt_ball_radius_m(reader.fact(activities::kSettingsFact));
     } else if (activity == session::kLiveActivity) {
@@ -180,11 +176,9 @@ Result<double> recorded_radius_m(const record::RecordReader& reader) {
 }
 
 Result<activities::ThroughProbe> probe_of(const record::RecordReader& reader, const std::optional<double>& radius_m) {
-    const Result<double> ball_m = radius_m ? Result<double>(*radius_m) : recorded_radius_m(reader);
-    if (!ball_m) return std::unexpected(ball_m.error());
-    Result<activities::RecordedDevice> device = recorded_device(reader);
-    if (!device) return std::unexpected(device.error());
-    return activities::ThroughProbe{std::move(*device), *ball_m};
+    BURIN_TRY(ball_m, radius_m ? Result<double>(*radius_m) : recorded_radius_m(reader));
+    BURIN_TRY(device, recorded_device(reader));
+    return activities::ThroughProbe{std::move(device), ball_m};
 }
 
 record::DerivedTable table_of(const ThroughOptions& options, const OpenedWorld& world,
@@ -212,18 +206,16 @@ record::DerivedTable table_of(const ThroughOptions& options, const OpenedWorld& 
 }  // namespace
 
 Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path, const MaterialOverride& materials) {
-    Result<scene::World> world = session::read_sound_world(path);
-    if (!world) return std::unexpected(world.error());
+    BURIN_TRY(world, session::read_sound_world(path));
     auto opened = std::make_unique<OpenedWorld>();
-    for (scene::SceneObject& object : world->objects) {
+    for (scene::SceneObject& object : world.objects) {
         materials.apply(object.material);
         opened->ids.push_back(object.id);
         opened->objects.push_back({static_cast<std::int64_t>(object.id), object.name});
     }
-    opened->digest = scene::world_digest(world->objects);
-    auto part = scene::MeshPart::create(std::move(world->objects), opened->materials);
-    if (!part) return std::unexpected(part.error());
-    opened->part = std::move(*part);
+    opened->digest = scene::world_digest(world.objects);
+    BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), opened->materials));
+    opened->part = std::move(part);
     return opened;
 }
 
@@ -241,37 +233,34 @@ Result<void> check_is_of_no_study(const std::string& file) {
 }  // namespace
 
 Result<void> replay_through(const ThroughOptions& options) {
-    if (const auto free = check_is_of_no_study(options.file); !free) return free;
-    Result<record::RecordReader> reader = record::RecordReader::open(options.file);
-    if (!reader) return std::unexpected(reader.error());
-    if (const auto some = record::check_ticks(*reader, options.range); !some) return some;
-    const Result<activities::ThroughProbe> probe = probe_of(*reader, options.radius_m);
-    if (!probe) return std::unexpected(probe.error());
-    Result<std::unique_ptr<OpenedWorld>> world = open_world(options.world, options.materials);
-    if (!world) return std::unexpected(world.error());
-    record::DerivedTable table = table_of(options, **world, *probe);
+    BURIN_TRY_DO(check_is_of_no_study(options.file));
+    BURIN_TRY(reader, record::RecordReader::open(options.file));
+    BURIN_TRY_DO(record::check_ticks(reader, options.range));
+    BURIN_TRY(probe, probe_of(reader, options.radius_m));
+    BURIN_TRY(world, open_world(options.world, options.materials));
+    record::DerivedTable table = table_of(options, *world, probe);
     const std::string name = table.name;
     const std::size_t columns = table.columns.size();
-    Result<DerivedSink> sink = DerivedSink::create(*reader, std::move(table));
-    if (!sink) return std::unexpected(sink.error());
-    const auto figures = activities::feel_through(
-        *reader, *(*world)->part, (*world)->ids, (*world)->materials, *probe, options.range,
-        [&](const record::RecordedTick& tick, const std::vector<record::Word>& row) { return sink->take(tick, row); });
-    if (!figures) return std::unexpected(figures.error());
-    if (figures->ticks == 0)
+    BURIN_TRY(sink, DerivedSink::create(reader, std::move(table)));
+    BURIN_TRY(figures,
+              activities::feel_through(reader, *(world)->part, (world)->ids, (world)->materials, probe, options.range,
+                                       [&](const record::RecordedTick& tick, const std::vector<record::Word>& row) {
+                                           return sink.take(tick, row);
+                                       }));
+    if (figures.ticks == 0)
         return fail(options.file, "has no ticks in this range", "burin session info tells which there are");
-    if (const auto kept = sink->finish(options.file); !kept) return kept;
-    const bool has_torque = probe->device.wand.has_value();
+    BURIN_TRY_DO(sink.finish(options.file));
+    const bool has_torque = probe.device.wand.has_value();
     Json report{{"file", options.file}, {"through", options.world}, {"table", name}, {"program", kProgram}};
-    report["was_there"] = sink->compares();
-    report["figures"] = through_json(*figures, has_torque);
-    if (const auto ok = write_output(options.json, json_text(report)); !ok) return ok;
+    report["was_there"] = sink.compares();
+    report["figures"] = through_json(figures, has_torque);
+    BURIN_TRY_DO(write_output(options.json, json_text(report)));
     if (options.json == kStandardOutput) return {};
     std::printf("%s: %llu ticks, %zu columns: %s\n", options.file.c_str(),
-                static_cast<unsigned long long>(figures->ticks), columns,
-                sink->compares() ? "equal to the bit with the derived table that is there" : "a new derived table");
+                static_cast<unsigned long long>(figures.ticks), columns,
+                sink.compares() ? "equal to the bit with the derived table that is there" : "a new derived table");
     std::printf("  %s, by %s\n", name.c_str(), kProgram);
-    print_through(*figures, has_torque);
+    print_through(figures, has_torque);
     return {};
 }
 

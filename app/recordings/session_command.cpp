@@ -10,6 +10,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/recordings/session_words.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/compare.hpp"
 #include "record/examination.hpp"
 #include "record/store_reading.hpp"
@@ -56,47 +57,45 @@ void print_hand(const record::HandRecord& hand, const record::HandSummary& summa
 }
 
 Result<void> session_info(const std::string& path, const std::string& json_path) {
-    if (const auto ok = check_places(std::array{json_path}, std::array{path}); !ok) return ok;
-    Result<record::RecordReader> reader = record::RecordReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    const auto trials = reader->trials();
-    const auto clocks = reader->clocks();
-    const auto lines = reader->lines();
+    BURIN_TRY_DO(check_places(std::array{json_path}, std::array{path}));
+    BURIN_TRY(reader, record::RecordReader::open(path));
+    const auto trials = reader.trials();
+    const auto clocks = reader.clocks();
+    const auto lines = reader.lines();
     if (!trials) return std::unexpected(trials.error());
     if (!clocks) return std::unexpected(clocks.error());
     if (!lines) return std::unexpected(lines.error());
-    const auto digest = reader->last_digest();
-    if (!digest) return std::unexpected(digest.error());
+    BURIN_TRY(digest, reader.last_digest());
     const double moved_s = seconds(record::wall_clock_moved_ns(*clocks));
-    Json json{{"file", path}, {"closed", reader->is_closed()}};
-    json["last_digest"] = *digest;
+    Json json{{"file", path}, {"closed", reader.is_closed()}};
+    json["last_digest"] = digest;
     json["facts"] = Json::object();
-    for (const auto& [key, value] : reader->facts()) json["facts"][key] = value;
+    for (const auto& [key, value] : reader.facts()) json["facts"][key] = value;
     json["lines"] = *lines;
     json["trials"] = Json::array();
     for (const record::TrialRecord& trial : *trials)
         json["trials"].push_back({{"name", trial.name}, {"state", trial.state}});
     json["wall_clock_moved_s"] = moved_s;
     json["hands"] = Json::array();
-    for (const record::HandRecord& hand : reader->hands())
+    for (const record::HandRecord& hand : reader.hands())
         json["hands"].push_back(hand_json(hand, record::summary_of(hand)));
     json["derived"] = Json::array();
-    for (const record::HandRecord& table : reader->derived()) {
+    for (const record::HandRecord& table : reader.derived()) {
         json["derived"].push_back(hand_json(table, record::summary_of(table)));
         json["derived"].back()["program"] = table.program;
     }
     if (json_path != kStandardOutput) {
         std::printf("%s: %s\n", path.c_str(),
-                    reader->is_closed() ? "a session" : "a session that was not closed: what was acknowledged is here");
-        for (const auto& [key, value] : reader->facts())
+                    reader.is_closed() ? "a session" : "a session that was not closed: what was acknowledged is here");
+        for (const auto& [key, value] : reader.facts())
             std::printf("  %-22s %s\n", key.c_str(), shown_fact(value).c_str());
         std::printf("  %-22s %s, %s; the wall clock moved by %g s against the monotonic one\n", "lines, trials, clock",
                     counted(*lines, "line", "lines").c_str(), counted(trials->size(), "trial", "trials").c_str(),
                     moved_s);
-        if (!digest->empty())
-            std::printf("  %-22s %s (noted elsewhere, it shows a cut end)\n", "last digest", digest->c_str());
-        for (const record::HandRecord& hand : reader->hands()) print_hand(hand, record::summary_of(hand));
-        for (const record::HandRecord& table : reader->derived()) {
+        if (!digest.empty())
+            std::printf("  %-22s %s (noted elsewhere, it shows a cut end)\n", "last digest", digest.c_str());
+        for (const record::HandRecord& hand : reader.hands()) print_hand(hand, record::summary_of(hand));
+        for (const record::HandRecord& table : reader.derived()) {
             std::printf("derived by %s: ", table.program.c_str());
             print_hand(table, record::summary_of(table));
         }
@@ -115,60 +114,55 @@ void print_ticks_due(const record::HandExamination& found, const std::string& na
 
 // Prints what the chain of digests shows. Returns how many places it names.
 Result<std::size_t> check_chain(record::RecordReader& reader) {
-    const Result<record::ChainExamination> chain = reader.examine_chain();
-    if (!chain) return std::unexpected(chain.error());
+    BURIN_TRY(chain, reader.examine_chain());
     const char* file = reader.path().c_str();
-    if (!chain->is_there) {
+    if (!chain.is_there) {
         std::printf(
             "%s: has no chain of digests, since an earlier version wrote it: what was changed later stays unseen\n",
             file);
         return std::size_t{0};
     }
-    for (const std::string& fault : chain->faults) std::printf("%s: %s\n", file, fault.c_str());
+    for (const std::string& fault : chain.faults) std::printf("%s: %s\n", file, fault.c_str());
     std::printf("%s: %s chained, %s; the last digest is %s\n", file,
-                counted(static_cast<std::uint64_t>(chain->links), "transaction", "transactions").c_str(),
-                counted(chain->faults.size(), "place is", "places are").append(" other than recorded").c_str(),
-                chain->last_digest.c_str());
-    return chain->faults.size();
+                counted(static_cast<std::uint64_t>(chain.links), "transaction", "transactions").c_str(),
+                counted(chain.faults.size(), "place is", "places are").append(" other than recorded").c_str(),
+                chain.last_digest.c_str());
+    return chain.faults.size();
 }
 
 Result<void> check_session(const std::string& path) {
-    Result<record::RecordReader> reader = record::RecordReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    const Result<std::string> structure = reader->structure_fault();
-    if (!structure) return std::unexpected(structure.error());
-    std::size_t damaged = structure->empty() ? 0 : 1;
+    BURIN_TRY(reader, record::RecordReader::open(path));
+    BURIN_TRY(structure, reader.structure_fault());
+    std::size_t damaged = structure.empty() ? 0 : 1;
     std::vector<std::string_view> empty;  // tables without ticks
-    if (!structure->empty()) std::printf("%s: %s\n", path.c_str(), structure->c_str());
-    for (std::size_t h = 0; h < reader->tables(); ++h) {
-        const record::HandExamination found = record::examine(*reader, h);
+    if (!structure.empty()) std::printf("%s: %s\n", path.c_str(), structure.c_str());
+    for (std::size_t h = 0; h < reader.tables(); ++h) {
+        const record::HandExamination found = record::examine(reader, h);
         for (const Error& error : found.damaged) std::printf("%s\n", error.line().c_str());
         for (const record::TickGap& gap : found.gaps)
-            std::printf("%s: after tick %lld: %lld missing\n", reader->table(h).name.c_str(),
+            std::printf("%s: after tick %lld: %lld missing\n", reader.table(h).name.c_str(),
                         static_cast<long long>(gap.after_tick), static_cast<long long>(gap.missing));
         std::printf("%s: %s read, %s damaged, %s, %s that run backwards, %s that are no numbers\n",
-                    reader->table(h).name.c_str(), counted(found.ticks, "tick", "ticks").c_str(),
+                    reader.table(h).name.c_str(), counted(found.ticks, "tick", "ticks").c_str(),
                     counted(found.damaged.size(), "block", "blocks").c_str(),
                     counted(found.gaps.size(), "gap", "gaps").c_str(),
                     counted(found.backward_times, "time", "times").c_str(),
                     counted(found.not_finite, "value", "values").c_str());
-        print_ticks_due(found, reader->table(h).name);
+        print_ticks_due(found, reader.table(h).name);
         damaged += found.damaged.size();
-        if (found.ticks == 0 && found.damaged.empty()) empty.push_back(reader->table(h).name);
+        if (found.ticks == 0 && found.damaged.empty()) empty.push_back(reader.table(h).name);
     }
-    const Result<std::size_t> changed = check_chain(*reader);
-    if (!changed) return std::unexpected(changed.error());
-    if (!reader->is_closed())
-        std::printf("%s: was not closed; ticks of the last second may be missing\n", path.c_str());
+    BURIN_TRY(changed, check_chain(reader));
+    if (!reader.is_closed()) std::printf("%s: was not closed; ticks of the last second may be missing\n", path.c_str());
     if (record::lacks_its_log(path))
         return fail(path, "has no log " + path + "-wal beside it: what was recorded last is missing",
                     "put the log, with which the file was left, beside it again");
-    if (damaged == 0 && *changed > 0 && empty.empty()) {
+    if (damaged == 0 && changed > 0 && empty.empty()) {
         std::fflush(stdout);
-        return fail(path, "is not as it was recorded: " + counted(*changed, "place was", "places were") + " changed",
+        return fail(path, "is not as it was recorded: " + counted(changed, "place was", "places were") + " changed",
                     "take the file as it was recorded, from a copy");
     }
-    if (damaged == 0 && empty.empty() && !reader->hands().empty()) return {};
+    if (damaged == 0 && empty.empty() && !reader.hands().empty()) return {};
     std::fflush(stdout);
     if (damaged == 0)
         return fail(path, "holds no ticks" + (empty.empty() ? std::string() : " of " + joined(empty)),
@@ -180,15 +174,14 @@ Result<void> compare_sessions(const std::string& a, const std::string& b, const 
     Result<record::RecordReader> first = record::RecordReader::open(a), second = record::RecordReader::open(b);
     if (!first) return std::unexpected(first.error());
     if (!second) return std::unexpected(second.error());
-    const Result<record::Comparison> found = record::compare(*first, *second, columns);
-    if (!found) return std::unexpected(found.error());
-    if (found->ticks == 0 && !found->difference)
+    BURIN_TRY(found, record::compare(*first, *second, columns));
+    if (found.ticks == 0 && !found.difference)
         return fail(b, "holds no ticks, nor does " + a, "compare recordings of something");
-    if (found->difference)
-        return fail(b, "differs from " + a + " after " + counted(found->ticks, "equal tick", "equal ticks") + ": " +
-                           found->difference->line());
-    std::printf("%s, %s: equal to the bit\n", counted(found->ticks, "tick", "ticks").c_str(),
-                counted(found->columns, "column", "columns").c_str());
+    if (found.difference)
+        return fail(b, "differs from " + a + " after " + counted(found.ticks, "equal tick", "equal ticks") + ": " +
+                           found.difference->line());
+    std::printf("%s, %s: equal to the bit\n", counted(found.ticks, "tick", "ticks").c_str(),
+                counted(found.columns, "column", "columns").c_str());
     return {};
 }
 

@@ -10,6 +10,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/recordings/session_words.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 #include "record/record_reader.hpp"
@@ -49,42 +50,38 @@ Result<record::ExportReport> export_table(record::RecordReader& reader, const Se
     if (options.to == "log" && reader.facts().contains(record::kLogHeaderFact))
         return session::export_session_log(reader, out);
     if (options.to == "log") return record::export_log(reader, out);
-    const Result<std::size_t> table = find_table(reader, options.part);
-    if (!table) return std::unexpected(table.error());
-    const auto columns = record::choose_columns(reader.table(*table).columns, options.columns);
-    if (!columns) return std::unexpected(columns.error());
+    BURIN_TRY(table, find_table(reader, options.part));
+    BURIN_TRY(columns, record::choose_columns(reader.table(table).columns, options.columns));
     Result<record::TickTimes> times;
     if (!options.trials.empty()) times = record::times_of_trials(reader, options.trials);
     if (!times) return std::unexpected(times.error());
-    if (options.to == "npy") return record::export_npy(reader, *table, *columns, out, *times);
-    if (options.to == "hdf5") return record::export_hdf5(reader, *table, *columns, out, *times);
-    if (options.to == "mat") return record::export_mat(reader, *table, *columns, out, *times);
+    if (options.to == "npy") return record::export_npy(reader, table, columns, out, *times);
+    if (options.to == "hdf5") return record::export_hdf5(reader, table, columns, out, *times);
+    if (options.to == "mat") return record::export_mat(reader, table, columns, out, *times);
     if (options.to == "bids")
-        return record::export_bids(reader, *table, *columns, out, {options.subject, options.task}, *times);
-    return record::export_csv(reader, *table, *columns, out, *times);
+        return record::export_bids(reader, table, columns, out, {options.subject, options.task}, *times);
+    return record::export_csv(reader, table, columns, out, *times);
 }
 
 }  // namespace
 
 Result<void> export_session(const SessionExport& options) {
     const std::string out = output_of(options);
-    if (const auto ok = check_overwrites_none(out, std::array{options.in}); !ok) return ok;
-    if (const auto ok = record::check_no_file(out); !ok) return ok;
+    BURIN_TRY_DO(check_overwrites_none(out, std::array{options.in}));
+    BURIN_TRY_DO(record::check_no_file(out));
     if (options.to == "log" && !(options.columns.empty() && options.part.empty() && options.trials.empty()))
         return fail("--to log", "has no columns, parts or trials to choose",
                     "leave --columns, --part and --trials out");
-    Result<record::RecordReader> reader = record::RecordReader::open(options.in);
-    if (!reader) return std::unexpected(reader.error());
-    const Result<record::ExportReport> report = export_table(*reader, options, out);
-    if (!report) return std::unexpected(report.error());
-    for (const Error& error : report->damaged) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
+    BURIN_TRY(reader, record::RecordReader::open(options.in));
+    BURIN_TRY(report, export_table(reader, options, out));
+    for (const Error& error : report.damaged) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
     if (out != kStandardOutput && options.to == "log")
-        std::printf("%s: %s\n", out.c_str(), counted(report->rows, "line", "lines").c_str());
+        std::printf("%s: %s\n", out.c_str(), counted(report.rows, "line", "lines").c_str());
     else if (out != kStandardOutput)
-        std::printf("%s: %s, %s\n", out.c_str(), counted(report->rows, "tick", "ticks").c_str(),
-                    counted(report->columns, "column", "columns").c_str());
-    if (report->damaged.empty()) return {};
-    return fail(options.in, counted(report->damaged.size(), "block is", "blocks are") + " damaged and left out",
+        std::printf("%s: %s, %s\n", out.c_str(), counted(report.rows, "tick", "ticks").c_str(),
+                    counted(report.columns, "column", "columns").c_str());
+    if (report.damaged.empty()) return {};
+    return fail(options.in, counted(report.damaged.size(), "block is", "blocks are") + " damaged and left out",
                 "the rest has been written");
 }
 

@@ -10,6 +10,7 @@
 #include "app/recordings/recorded_device.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/motion.hpp"
@@ -42,27 +43,22 @@ Result<void> check_as_recorded(const record::RecordReader& reader, const std::st
 
 Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options) {
     auto opened = std::make_unique<WandWorld>();
-    Result<devices::DeviceNature> nature = devices::nature_of_device(options.device, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    if (!nature->handle) return fail("--device " + options.device, "has no handle with points", "name a wand");
-    opened->feel.wand = std::move(*nature->handle);
+    BURIN_TRY(nature, devices::nature_of_device(options.device, &session::session_recordings()));
+    if (!nature.handle) return fail("--device " + options.device, "has no handle with points", "name a wand");
+    opened->feel.wand = std::move(*nature.handle);
     opened->feel.radius_m = options.radius_m;
-    Result<std::vector<devices::WandPoint>> points = devices::points_named(
-        opened->feel.wand, options.points.empty() ? devices::usual_points(opened->feel.wand) : options.points);
-    if (!points) return std::unexpected(points.error());
-    opened->feel.points = std::move(*points);
-    Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
-    if (!stroke) return std::unexpected(stroke.error());
-    opened->stroke = std::move(*stroke);
-    Result<scene::World> world = world_to_explore(options.world);
-    if (!world) return std::unexpected(world.error());
-    for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
-    for (const scene::SceneObject& object : world->objects) opened->ids.push_back(object.id);
-    opened->digest = scene::world_digest(world->objects);
-    Result<std::unique_ptr<scene::MeshPart>> part =
-        scene::MeshPart::create(std::move(world->objects), opened->materials);
-    if (!part) return std::unexpected(part.error());
-    opened->part = std::move(*part);
+    BURIN_TRY(points,
+              devices::points_named(opened->feel.wand, options.points.empty() ? devices::usual_points(opened->feel.wand)
+                                                                              : options.points));
+    opened->feel.points = std::move(points);
+    BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
+    opened->stroke = std::move(stroke);
+    BURIN_TRY(world, world_to_explore(options.world));
+    for (const std::string& remark : world.remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
+    for (const scene::SceneObject& object : world.objects) opened->ids.push_back(object.id);
+    opened->digest = scene::world_digest(world.objects);
+    BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), opened->materials));
+    opened->part = std::move(part);
     return opened;
 }
 
@@ -113,31 +109,24 @@ Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader
 
 Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
                                        const std::string& stroke, const record::TickRange& range) {
-    Result<WorldExploration> recorded = recorded_wand_stroke(reader);
-    if (!recorded) return std::unexpected(recorded.error());
-    WorldExploration& options = *recorded;
+    BURIN_TRY(recorded, recorded_wand_stroke(reader));
+    WorldExploration& options = recorded;
     if (!world.empty()) options.world = world;
     if (!stroke.empty()) options.stroke = stroke;
-    const auto same = check_wand_file(reader, options.device, "put the file back, unchanged, where it was");
-    if (!same) return std::unexpected(same.error());
-    Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
-    if (!opened) return std::unexpected(opened.error());
-    WandWorld& again = **opened;
+    BURIN_TRY_DO(check_wand_file(reader, options.device, "put the file back, unchanged, where it was"));
+    BURIN_TRY(opened, open_wand_world(options));
+    WandWorld& again = *opened;
     if (const auto as_was = check_as_recorded(reader, options.world, "world", again.digest, record::kWorldDigestFact);
         !as_was)
         return std::unexpected(as_was.error());
     if (const auto now = file_digest(options.stroke)) {
-        const auto as_was = check_as_recorded(reader, options.stroke, "stroke", *now, "stroke sha256");
-        if (!as_was) return std::unexpected(as_was.error());
+        BURIN_TRY_DO(check_as_recorded(reader, options.stroke, "stroke", *now, "stroke sha256"));
     }
-    const Result<TemporaryFolder> folder = TemporaryFolder::create();
-    if (!folder) return std::unexpected(folder.error());
-    again.feel.record = *folder / "again.session";
-    const auto explored = activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {});
-    if (!explored) return std::unexpected(explored.error());
-    Result<record::RecordReader> other = record::RecordReader::open(again.feel.record);
-    if (!other) return std::unexpected(other.error());
-    return record::compare(reader, *other, {}, range);
+    BURIN_TRY(folder, TemporaryFolder::create());
+    again.feel.record = folder / "again.session";
+    BURIN_TRY(explored, activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {}));
+    BURIN_TRY(other, record::RecordReader::open(again.feel.record));
+    return record::compare(reader, other, {}, range);
 }
 
 }  // namespace burin::app

@@ -23,6 +23,7 @@
 #include "base/assets.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/gloves/glove_hand.hpp"
 #include "devices/gloves/grip_shape.hpp"
@@ -42,9 +43,8 @@ constexpr const char *kScriptedHand = "scripted", *kWeakHand = "weak";
 
 Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& kind) {
     if (path.empty()) return SettingValues(kind.settings);
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return std::unexpected(text.error());
-    activities::ReadSettings read = activities::read_settings(*text, path, kind);
+    BURIN_TRY(text, read_text_file(path));
+    activities::ReadSettings read = activities::read_settings(text, path, kind);
     if (read.errors.empty()) return std::move(read.values);
     if (read.errors.size() == 1) return std::unexpected(read.errors.front());
     for (const Error& error : read.errors) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
@@ -53,9 +53,8 @@ Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& k
 
 Result<void> check_glove(const session::LiveOptions& live) {
     if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    if (nature->is_worn) return {};
+    BURIN_TRY(nature, devices::nature_of_device(live.device, &session::session_recordings()));
+    if (nature.is_worn) return {};
     return fail("--device " + live.device, "is no glove",
                 "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
 }
@@ -86,30 +85,26 @@ Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const Exercise
     if (live.device != devices::kSimulatedGlove)
         return fail("--hand " + hand, "is a simulated hand, and --device names " + live.device,
                     "leave one of them out");
-    const Result<std::string> script = read_text_file(asset_path(kind.script));
-    if (!script) return std::unexpected(script.error());
-    Result<TemporaryFolder> folder = TemporaryFolder::create();
-    if (!folder) return std::unexpected(folder.error());
-    live.input = *folder / ("rehab-" + std::string(kind.name) + ".txt");
+    BURIN_TRY(script, read_text_file(asset_path(kind.script)));
+    BURIN_TRY(folder, TemporaryFolder::create());
+    live.input = folder / ("rehab-" + std::string(kind.name) + ".txt");
     if (live.outputs.empty()) live.outputs = "rehab-" + std::string(kind.name) + "-outputs";
-    if (const auto written = write_text(live.input, kind.scripted(values, seed, *script)); !written)
-        return std::unexpected(written.error());
-    if (kind.course == nullptr) return folder;
-    const std::string course = *folder / (std::string(kind.name) + devices::kFingerCourseFiles);
+    BURIN_TRY_DO(write_text(live.input, kind.scripted(values, seed, script)));
+    if (kind.course == nullptr) return std::move(folder);
+    const std::string course = folder / (std::string(kind.name) + devices::kFingerCourseFiles);
     live.device += ":" + course;
     const auto person = hand == kWeakHand ? activities::SimulatedPerson::weak : activities::SimulatedPerson::healthy;
-    if (const auto written = write_text(course, kind.course(person)); !written) return std::unexpected(written.error());
-    return folder;
+    BURIN_TRY_DO(write_text(course, kind.course(person)));
+    return std::move(folder);
 }
 
 // Fits settings that nobody has given to the person by their baseline, and says so.
 Result<void> fit_to_person(SettingValues& values, const ResultsOptions& options,
                            std::optional<Error> (*conflict)(const SettingValues&), Json& fitted_by) {
-    const Result<std::optional<activities::Baseline>> baseline = baseline_in(options);
-    if (!baseline) return std::unexpected(baseline.error());
-    if (!*baseline) return {};
-    activities::FittedValues fitted = activities::fitted_by(values, **baseline);
-    const std::string text = text_of(**baseline, fitted);
+    BURIN_TRY(baseline, baseline_in(options));
+    if (!baseline) return {};
+    activities::FittedValues fitted = activities::fitted_by(values, *baseline);
+    const std::string text = text_of(*baseline, fitted);
     if (!fitted.left_out.empty())
         std::fprintf(stderr, "burin: not taken of %s: %s\n", text.c_str(), fitted.left_out.c_str());
     if (fitted.taken.empty()) return {};
@@ -118,7 +113,7 @@ Result<void> fit_to_person(SettingValues& values, const ResultsOptions& options,
         return {};
     }
     std::fprintf(stderr, "burin: fitted by %s\n", text.c_str());
-    fitted_by = {{"text", text}, {"date", (*baseline)->date}, {"time", (*baseline)->time}, {"settings", fitted.taken}};
+    fitted_by = {{"text", text}, {"date", (baseline)->date}, {"time", (baseline)->time}, {"settings", fitted.taken}};
     values = std::move(fitted.values);
     return {};
 }
@@ -126,11 +121,10 @@ Result<void> fit_to_person(SettingValues& values, const ResultsOptions& options,
 // Has a force that adapts begin where the participant's last run ended, and says so.
 Result<void> begin_where_it_ended(SettingValues& values, const ResultsOptions& options, const ExerciseKind& kind) {
     if (!values.has("success") || values.number("success") == 0.0 || values.was_set("begin_N")) return {};
-    const Result<std::optional<double>> target_N = adapted_target_in(options, kind.name);
-    if (!target_N) return std::unexpected(target_N.error());
-    if (!*target_N) return {};
-    values.set("begin_N", **target_N);
-    std::fprintf(stderr, "burin: begins with %.2f N, where the last run that adapted ended\n", **target_N);
+    BURIN_TRY(target_N, adapted_target_in(options, kind.name));
+    if (!target_N) return {};
+    values.set("begin_N", *target_N);
+    std::fprintf(stderr, "burin: begins with %.2f N, where the last run that adapted ended\n", *target_N);
     return {};
 }
 
@@ -210,10 +204,8 @@ struct FittedRun {
 Result<FittedRun> fitted_run(SettingValues values, const AskedExercise& of, bool is_again) {
     FittedRun run{std::move(values), {}};
     if (is_again) return run;
-    if (const auto fits = fit_to_person(run.values, of.results, of.kind.conflict, run.fitted); !fits)
-        return std::unexpected(fits.error());
-    if (const auto begins = begin_where_it_ended(run.values, of.results, of.kind); !begins)
-        return std::unexpected(begins.error());
+    BURIN_TRY_DO(fit_to_person(run.values, of.results, of.kind.conflict, run.fitted));
+    BURIN_TRY_DO(begin_where_it_ended(run.values, of.results, of.kind));
     return run;
 }
 
@@ -226,9 +218,8 @@ Result<std::optional<TemporaryFolder>> lead_glove(session::LiveOptions& live, co
     if (values.has("start") && values.number("start") == activities::kStartsByDevice)
         values.set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
     if (scripted) {
-        Result<TemporaryFolder> made = have_scripted(live, of.kind, values, of.hand, of.seed);
-        if (!made) return std::unexpected(made.error());
-        folder.emplace(std::move(*made));
+        BURIN_TRY(made, have_scripted(live, of.kind, values, of.hand, of.seed));
+        folder.emplace(std::move(made));
     }
     if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
     if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(values));
@@ -264,37 +255,33 @@ Result<void> keep_run(const AskedExercise& of, const activities::Rehab& exercise
 }
 
 Result<void> run_exercise(const AskedExercise& of) {
-    Result<SettingValues> given = of.values();
-    if (!given) return std::unexpected(given.error());
+    BURIN_TRY(given, of.values());
     // A recording is done again, and is whose it was; any other input is a script.
     const bool is_again = session::is_database(of.session.live.input);
     const std::string recording = is_again ? of.session.live.input : "";
-    if (const auto ok = check_results(of.results, !of.hand.empty(), recording); !ok) return ok;
-    if (const auto ok = check_remarks(of.remarks, !of.results.folder.empty()); !ok) return ok;
-    Result<FittedRun> run = fitted_run(std::move(*given), of, is_again);
-    if (!run) return std::unexpected(run.error());
-    SettingValues& values = run->values;
+    BURIN_TRY_DO(check_results(of.results, !of.hand.empty(), recording));
+    BURIN_TRY_DO(check_remarks(of.remarks, !of.results.folder.empty()));
+    BURIN_TRY(run, fitted_run(std::move(given), of, is_again));
+    SettingValues& values = run.values;
     if (of.print_config) {
         std::fputs(activities::table_text(of.kind.name, values).c_str(), stdout);
         return {};
     }
     session::SculptOptions session = of.session;
     session::LiveOptions& live = session.live;
-    if (const auto glove = check_glove(live); !glove) return glove;
+    BURIN_TRY_DO(check_glove(live));
     const bool is_simulated = live.device == devices::kSimulatedGlove;
-    const Result<std::optional<TemporaryFolder>> folder = lead_glove(live, of, values, is_simulated);
-    if (!folder) return std::unexpected(folder.error());
-    if (const auto ok = check_places(std::array{of.report}, session::inputs_of(session).list()); !ok) return ok;
+    BURIN_TRY(folder, lead_glove(live, of, values, is_simulated));
+    BURIN_TRY_DO(check_places(std::array{of.report}, session::inputs_of(session).list()));
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(values));
-    if (const auto ok = check_target(exercise->exercise(), is_simulated); !ok) return ok;
+    BURIN_TRY_DO(check_target(exercise->exercise(), is_simulated));
     exercise->describe(json_of(of.remarks));
-    if (!run->fitted.is_null()) exercise->fitted_by(std::move(run->fitted));
-    Result<ResultsOfRun> results = is_again ? ResultsOfRun::again(of.results, recording)
-                                            : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise);
-    if (!results) return std::unexpected(results.error());
+    if (!run.fitted.is_null()) exercise->fitted_by(std::move(run.fitted));
+    BURIN_TRY(results, is_again ? ResultsOfRun::again(of.results, recording)
+                                : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise));
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
-    return keep_run(of, *exercise, *results, is_again, done);
+    return keep_run(of, *exercise, results, is_again, done);
 }
 
 // Adds an option for each of the kind's settings.

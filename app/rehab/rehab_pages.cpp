@@ -11,6 +11,7 @@
 #include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/progress/patient_page.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::app {
 namespace {
@@ -36,11 +37,10 @@ std::string date_today() {
 
 Result<void> write_of_participant(const fs::path& folder, const std::vector<const KeptRun*>& runs,
                                   const std::string& language) {
-    const Result<PageTexts> texts = PageTexts::in(language.empty() ? activities::language_of(runs) : language);
-    if (!texts) return std::unexpected(texts.error());
+    BURIN_TRY(texts, PageTexts::in(language.empty() ? activities::language_of(runs) : language));
     const fs::path page = folder / page_of_participant(runs.front()->participant);
-    const std::string html = activities::patient_page(runs, activities::levels_of, *texts, kPagesProgram);
-    if (const auto written = activities::write_private(page, html); !written) return written;
+    const std::string html = activities::patient_page(runs, activities::levels_of, texts, kPagesProgram);
+    BURIN_TRY_DO(activities::write_private(page, html));
     return activities::write_private(fs::path(page).replace_extension(".csv"), activities::patient_table(runs));
 }
 
@@ -72,29 +72,25 @@ Json json_of(const RunRemarks& remarks) {
 }
 
 Result<void> check_stays(const std::string& folder, unsigned participant) {
-    const Result<activities::Withdrawals> withdrawn = activities::read_withdrawals(folder);
-    if (!withdrawn) return std::unexpected(withdrawn.error());
-    if (!activities::has_withdrawn(*withdrawn, participant)) return {};
+    BURIN_TRY(withdrawn, activities::read_withdrawals(folder));
+    if (!activities::has_withdrawn(withdrawn, participant)) return {};
     return fail(formatted("--participant %u", participant), "has withdrawn from " + folder,
                 "give the number of somebody who takes part; a number is given to nobody else");
 }
 
 Result<std::string> write_pages(const PagesToWrite& pages) {
-    const Result<activities::KeptRuns> kept = activities::read_runs(pages.folder);
-    if (!kept) return std::unexpected(kept.error());
-    const Result<activities::Withdrawals> withdrawn = activities::read_withdrawals(pages.folder);
-    if (!withdrawn) return std::unexpected(withdrawn.error());
+    BURIN_TRY(kept, activities::read_runs(pages.folder));
+    BURIN_TRY(withdrawn, activities::read_withdrawals(pages.folder));
     std::map<unsigned, std::vector<const KeptRun*>> people;
-    for (const KeptRun& run : kept->runs)
-        if (!activities::has_withdrawn(*withdrawn, run.participant) &&
+    for (const KeptRun& run : kept.runs)
+        if (!activities::has_withdrawn(withdrawn, run.participant) &&
             pages.participant.value_or(run.participant) == run.participant)
             people[run.participant].push_back(&run);
     for (const auto& [participant, runs] : people)
-        if (const auto written = write_of_participant(pages.folder, runs, pages.language); !written)
-            return std::unexpected(written.error());
+        BURIN_TRY_DO(write_of_participant(pages.folder, runs, pages.language));
     const std::string index = pages.index.empty() ? (fs::path(pages.folder) / "report.html").string() : pages.index;
-    const std::string html = activities::index_page(*kept, *withdrawn, kPagesProgram, page_of_participant);
-    if (const auto written = activities::write_private(index, html); !written) return std::unexpected(written.error());
+    const std::string html = activities::index_page(kept, withdrawn, kPagesProgram, page_of_participant);
+    BURIN_TRY_DO(activities::write_private(index, html));
     return index;
 }
 

@@ -12,6 +12,7 @@
 #include "activities/rehab/progress/progress.hpp"
 #include "app/rehab/rehab_pages.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/record_reader.hpp"
 #include "session/record/session_recording.hpp"
 
@@ -55,11 +56,10 @@ Result<RecordedRun> recorded_run(record::RecordReader& reader) {
         if (!run.date.empty() && !run.time.empty() && !run.hand.empty()) return run;
         return fail(reader.path(), "its fact \"" + std::string(kRunFact) + "\" is damaged", "restore it from a copy");
     }
-    const Result<std::vector<record::ClockPair>> clocks = reader.clocks();
-    if (!clocks) return std::unexpected(clocks.error());
-    if (clocks->empty())
+    BURIN_TRY(clocks, reader.clocks());
+    if (clocks.empty())
         return fail(reader.path(), "does not say when it was recorded", "do it again without --results");
-    const auto at = static_cast<std::time_t>(clocks->front().utc_ns / 1'000'000'000);
+    const auto at = static_cast<std::time_t>(clocks.front().utc_ns / 1'000'000'000);
     run.date = time_as("%Y-%m-%d", at);
     run.time = time_as("%H:%M:%S", at);
     const auto device = reader.facts().find(session::kDeviceFact);
@@ -101,7 +101,7 @@ Result<void> check_results(const ResultsOptions& options, bool scripted, const s
                         "is for runs that are kept and that no person does: " +
                             std::string(scripted ? "there is no --results" : "there is no --hand scripted"),
                         "leave it out: a person's run has today's date");
-        if (const auto date = activities::check_date(options.date); !date) return date;
+        BURIN_TRY_DO(activities::check_date(options.date));
         if (options.date > now_as("%Y-%m-%d"))
             return fail("--date " + options.date, "is still to come", "name a day that has been");
     }
@@ -114,15 +114,13 @@ Result<void> check_results(const ResultsOptions& options, bool scripted, const s
 }
 
 Result<std::optional<activities::Baseline>> baseline_in(const ResultsOptions& options) {
-    const Result<activities::KeptRuns> kept = runs_until_now(options);
-    if (!kept) return std::unexpected(kept.error());
-    return activities::baseline_of(kept->runs, options.participant.value_or(0));
+    BURIN_TRY(kept, runs_until_now(options));
+    return activities::baseline_of(kept.runs, options.participant.value_or(0));
 }
 
 Result<std::optional<double>> adapted_target_in(const ResultsOptions& options, const std::string& exercise) {
-    const Result<activities::KeptRuns> kept = runs_until_now(options);
-    if (!kept) return std::unexpected(kept.error());
-    return activities::adapted_target_N(kept->runs, options.participant.value_or(0), exercise);
+    BURIN_TRY(kept, runs_until_now(options));
+    return activities::adapted_target_N(kept.runs, options.participant.value_or(0), exercise);
 }
 
 Result<ResultsOfRun> ResultsOfRun::begin(const ResultsOptions& options, const std::string& hand,
@@ -132,12 +130,10 @@ Result<ResultsOfRun> ResultsOfRun::begin(const ResultsOptions& options, const st
                     now_as("%H:%M:%S"), hand, exercise->report()};
     Json fact{{"date", results.run_.date}, {"time", results.run_.time}, {"hand", hand}};
     if (!options.folder.empty()) {
-        if (const auto ready = activities::prepare_results(options.folder, *options.participant); !ready)
-            return std::unexpected(ready.error());
-        auto journal = activities::RunJournal::begin(options.folder, results.run_);
-        if (!journal) return std::unexpected(journal.error());
+        BURIN_TRY_DO(activities::prepare_results(options.folder, *options.participant));
+        BURIN_TRY(journal, activities::RunJournal::begin(options.folder, results.run_));
         results.folder_ = options.folder;
-        results.journal_ = std::move(*journal);
+        results.journal_ = std::move(journal);
         tell_of(results.journal_->left());
         exercise->keep_with([journal = results.journal_](const Json& report, const Json& new_events) {
             return journal->add(report, new_events);
@@ -152,25 +148,22 @@ Result<ResultsOfRun> ResultsOfRun::begin(const ResultsOptions& options, const st
 Result<ResultsOfRun> ResultsOfRun::again(const ResultsOptions& options, const std::string& recording) {
     ResultsOfRun results;
     if (options.folder.empty()) return results;
-    Result<record::RecordReader> reader = record::RecordReader::open(recording);
-    if (!reader) return std::unexpected(reader.error());
-    const Result<RecordedRun> recorded = recorded_run(*reader);
-    if (!recorded) return std::unexpected(recorded.error());
-    if (options.participant && recorded->participant && *options.participant != *recorded->participant)
+    BURIN_TRY(reader, record::RecordReader::open(recording));
+    BURIN_TRY(recorded, recorded_run(reader));
+    if (options.participant && recorded.participant && *options.participant != *recorded.participant)
         return fail("--participant",
                     formatted("is %u, and %s is of participant %u", *options.participant, recording.c_str(),
-                              *recorded->participant),
+                              *recorded.participant),
                     "leave it out");
-    const std::optional<unsigned> participant = recorded->participant ? recorded->participant : options.participant;
+    const std::optional<unsigned> participant = recorded.participant ? recorded.participant : options.participant;
     if (!participant)
         return fail("--results " + options.folder, "does not say whose run it keeps, nor does " + recording,
                     "give --participant, a number");
-    results.run_ = {*participant, recorded->date, recorded->time, recorded->hand, {}};
+    results.run_ = {*participant, recorded.date, recorded.time, recorded.hand, {}};
     results.folder_ = options.folder;
-    results.name_ = recorded->name;
-    if (const auto stays = check_stays(options.folder, *participant); !stays) return std::unexpected(stays.error());
-    if (const auto ready = activities::prepare_results(options.folder, *participant); !ready)
-        return std::unexpected(ready.error());
+    results.name_ = recorded.name;
+    BURIN_TRY_DO(check_stays(options.folder, *participant));
+    BURIN_TRY_DO(activities::prepare_results(options.folder, *participant));
     return results;
 }
 
@@ -193,10 +186,9 @@ Result<void> ResultsOfRun::keep(const Json& report) {
         return std::unexpected(path.error());
     }
     std::printf("kept as %s\n", path->c_str());
-    const Result<activities::KeptRuns> kept = activities::read_runs(folder_);
-    if (!kept) return std::unexpected(kept.error());
+    BURIN_TRY(kept, activities::read_runs(folder_));
     std::vector<const KeptRun*> own;
-    for (const KeptRun& other : kept->runs)
+    for (const KeptRun& other : kept.runs)
         if (other.participant == run_.participant && other.report.at("exercise") == report.at("exercise"))
             own.push_back(&other);
     const Result<std::string> index =
@@ -217,19 +209,16 @@ void ResultsOfRun::discard() {
 Result<void> rehab_report(const std::string& folder, const std::string& page, const std::string& language) {
     if (folder.empty()) return fail("FOLDER", "is empty", "name the folder that --results was given");
     tell_of(activities::take_up_left_runs(folder));
-    const Result<activities::KeptRuns> kept = activities::read_runs(folder);
-    if (!kept) return std::unexpected(kept.error());
-    const Result<activities::Withdrawals> withdrawn = activities::read_withdrawals(folder);
-    if (!withdrawn) return std::unexpected(withdrawn.error());
-    if (kept->runs.empty() && kept->errors.empty() && withdrawn->empty())
+    BURIN_TRY(kept, activities::read_runs(folder));
+    BURIN_TRY(withdrawn, activities::read_withdrawals(folder));
+    if (kept.runs.empty() && kept.errors.empty() && withdrawn.empty())
         return fail(folder, "holds no runs", "name the folder that --results was given");
-    const Result<std::string> index = write_pages({.folder = folder, .index = page, .language = language});
-    if (!index) return std::unexpected(index.error());
-    std::printf("%zu %s: %s\n", kept->runs.size(), kept->runs.size() == 1 ? "run" : "runs", index->c_str());
-    if (kept->errors.empty()) return {};
-    for (std::size_t i = 1; i < kept->errors.size(); ++i)
-        std::fprintf(stderr, "burin: left out: %s\n", kept->errors[i].line().c_str());
-    return std::unexpected(kept->errors.front());
+    BURIN_TRY(index, write_pages({.folder = folder, .index = page, .language = language}));
+    std::printf("%zu %s: %s\n", kept.runs.size(), kept.runs.size() == 1 ? "run" : "runs", index.c_str());
+    if (kept.errors.empty()) return {};
+    for (std::size_t i = 1; i < kept.errors.size(); ++i)
+        std::fprintf(stderr, "burin: left out: %s\n", kept.errors[i].line().c_str());
+    return std::unexpected(kept.errors.front());
 }
 
 }  // namespace burin::app

@@ -14,6 +14,7 @@
 #include "app/study/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "base/places.hpp"
+#include "base/try.hpp"
 #include "study/analysis/analysis.hpp"
 #include "study/folder/study_folder.hpp"
 #include "study/published/published.hpp"
@@ -52,16 +53,15 @@ Result<study::TrialTable> read_table(StudyAnalyseOptions& options) {
     const bool chosen = options.chosen.day || !options.chosen.stage.empty();
     Result<std::string> text;
     if (chosen) {
-        const auto some = chosen_trials(options.study, options.chosen);
-        if (!some) return std::unexpected(some.error());
-        text = some->table;
-        if (!some->simulated.empty()) options.notes.push_back(some->simulated);
+        BURIN_TRY(some, chosen_trials(options.study, options.chosen));
+        text = some.table;
+        if (!some.simulated.empty()) options.notes.push_back(some.simulated);
     } else {
         text = read_text_file(options.data, study::kMostTableBytes);
         if (!text) return std::unexpected(text.error());
     }
     study::ParsedTable parsed = study::parse_trials(*text);
-    if (const auto ok = list_faults(parsed.faults, options.data); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(list_faults(parsed.faults, options.data));
     return std::move(parsed.table);
 }
 
@@ -69,10 +69,9 @@ Result<study::TrialTable> read_table(StudyAnalyseOptions& options) {
 Result<std::vector<study::PublishedComparison>> comparisons(const std::string& file, const study::TrialTable& table) {
     std::vector<study::PublishedComparison> found;
     if (!file.empty()) {
-        const auto text = read_text_file(file, study::kMostTableBytes);
-        if (!text) return std::unexpected(text.error());
-        const study::ParsedPublished parsed = study::parse_published(*text);
-        if (const auto ok = list_faults(parsed.faults, file); !ok) return std::unexpected(ok.error());
+        BURIN_TRY(text, read_text_file(file, study::kMostTableBytes));
+        const study::ParsedPublished parsed = study::parse_published(text);
+        BURIN_TRY_DO(list_faults(parsed.faults, file));
         found.push_back(study::compare_published(parsed.study, table));
         return found;
     }
@@ -93,8 +92,7 @@ bool is_of_study(const fs::path& file, const std::string& study) {
 }
 
 Result<void> check_json(const StudyAnalyseOptions& options) {
-    if (const auto ok = check_places(std::array{options.json}, std::array{options.data, options.published}); !ok)
-        return ok;
+    BURIN_TRY_DO(check_places(std::array{options.json}, std::array{options.data, options.published}));
     if (options.study.empty() || options.json.empty() || options.json == kStandardOutput) return {};
     if (!is_of_study(options.json, options.study)) return {};
     return fail(options.json, "is a file of the study, and would be overwritten", "choose another place");
@@ -142,43 +140,39 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
     if (!options.study.empty()) {
         options.data = (fs::path(options.study) / "trials.csv").string();
     }
-    if (const auto ok = check_json(options); !ok) return ok;
+    BURIN_TRY_DO(check_json(options));
     if (!options.study.empty()) {
-        const auto made = make_trials(options.study);
-        if (!made) return std::unexpected(made.error());
-        options.groups = made->groups;
-        if (!chosen && !made->simulated.empty()) options.notes.push_back(made->simulated);
-        if (!chosen && !made->pooled.empty()) options.notes.push_back(made->pooled);
+        BURIN_TRY(made, make_trials(options.study));
+        options.groups = made.groups;
+        if (!chosen && !made.simulated.empty()) options.notes.push_back(made.simulated);
+        if (!chosen && !made.pooled.empty()) options.notes.push_back(made.pooled);
     }
     std::string out = options.out;
     while (out.size() > 1 && out.ends_with('/')) out.pop_back();
-    if (const auto ok = check_new_folder(out); !ok) return ok;
-    auto table = read_table(options);
-    if (!table) return std::unexpected(table.error());
-    const auto published = comparisons(options.published, *table);
-    if (!published) return std::unexpected(published.error());
+    BURIN_TRY_DO(check_new_folder(out));
+    BURIN_TRY(table, read_table(options));
+    BURIN_TRY(published, comparisons(options.published, table));
 
-    const std::string order = order_groups(*table, options.groups);
-    study::Analysis analysis = study::analyse(std::move(*table), options.seed);
+    const std::string order = order_groups(table, options.groups);
+    study::Analysis analysis = study::analyse(std::move(table), options.seed);
     if (analysis.table.groups.size() > 1) options.notes.push_back(order);
     analysis.notes.insert(analysis.notes.begin(), options.notes.begin(), options.notes.end());
     Json json = study::analysis_json(analysis);
-    for (const study::PublishedComparison& one : *published) json["published"].push_back(study::published_json(one));
+    for (const study::PublishedComparison& one : published) json["published"].push_back(study::published_json(one));
     if (options.json != kStandardOutput) {
         std::fputs(study::analysis_text(analysis).c_str(), stdout);
-        for (const study::PublishedComparison& one : *published)
-            std::printf("\n%s", study::published_text(one).c_str());
+        for (const study::PublishedComparison& one : published) std::printf("\n%s", study::published_text(one).c_str());
     }
     if (!out.empty()) {
         std::vector<study::NamedText> files = study::analysis_tables(analysis);
         files.push_back({"results.json", json_text(json)});
-        files.push_back({"report.html", study::html_report(analysis, *published,
+        files.push_back({"report.html", study::html_report(analysis, published,
                                                            {.data = fs::path(options.data).filename().string(),
                                                             .program = std::string("Burin ") + BURIN_VERSION,
                                                             .facts = options.facts,
                                                             .sections = options.sections,
                                                             .title = options.title})});
-        if (const auto ok = write_folder(out, files); !ok) return ok;
+        BURIN_TRY_DO(write_folder(out, files));
     }
     return write_output(options.json, json_text(json));
 }

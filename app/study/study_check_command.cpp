@@ -7,6 +7,7 @@
 #include "app/study/study_reach.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "study/felt/stage_touch.hpp"
 #include "study/folder/interruption.hpp"
 #include "study/folder/study_folder.hpp"
@@ -20,10 +21,9 @@ namespace {
 Result<void> place_worlds(const study::Protocol& protocol) {
     const devices::WandDescription wand = study::study_wand(protocol);
     for (const study::StudyWorld& world : protocol.worlds) {
-        const auto felt = study::FeltWorld::create(world);
-        if (!felt) return std::unexpected(felt.error());
+        BURIN_TRY(felt, study::FeltWorld::create(world));
         const Vec3 moved_m =
-            devices::scene_from_device(wand).position_m - study::world_from_wand(wand, (*felt)->bounds()).position_m;
+            devices::scene_from_device(wand).position_m - study::world_from_wand(wand, (felt)->bounds()).position_m;
         const study::CapBox cap = study::start_cap(world);
         const Vec3 middle_m = cap.centre_m + 0.5 * cap.depth_m * cap.z + moved_m;
         if (moved_m == Vec3(0.0))
@@ -38,37 +38,35 @@ Result<void> place_worlds(const study::Protocol& protocol) {
 }
 
 Result<void> check_protocol(const std::string& file) {
-    const auto text = read_text_file(file, study::kMostProtocolBytes);
-    if (!text) return std::unexpected(text.error());
-    const study::ParsedProtocol parsed = study::parse_protocol(*text);
+    BURIN_TRY(text, read_text_file(file, study::kMostProtocolBytes));
+    const study::ParsedProtocol parsed = study::parse_protocol(text);
     for (const study::ProtocolFault& f : parsed.faults) std::printf("%s\n", line_of(f, file).c_str());
     std::fflush(stdout);
     if (!parsed.faults.empty())
         return fail(file, std::to_string(parsed.faults.size()) + " faults", "correct what is listed");
     const study::Protocol& p = parsed.protocol;
-    if (const auto ok = check_reach(p, file); !ok) return ok;
+    BURIN_TRY_DO(check_reach(p, file));
     std::printf("%s: %zu groups, %zu strata, %zu worlds, %zu stages, %zu days; no faults\n", file.c_str(),
                 p.groups.size(), p.strata.size(), p.worlds.size(), p.stages.size(), p.days.size());
     return place_worlds(p);
 }
 
 Result<void> check_folder(const std::string& folder) {
-    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    std::size_t faults = study->journal().faults.size(), files = 0;
-    const auto& entries = study->journal().entries;
+    BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::read));
+    warn_of_journal(study);
+    std::size_t faults = study.journal().faults.size(), files = 0;
+    const auto& entries = study.journal().entries;
     if (entries.empty() || entries.front().value.value("event", std::string()) != "study made") {
         ++faults;
         std::fprintf(stderr,
                      "%s/journal.jsonl: has lost its beginning, which says how the study was made; restore it\n",
                      folder.c_str());
     }
-    if (const auto ok = study->check_allocation(); !ok) {
+    if (const auto ok = study.check_allocation(); !ok) {
         ++faults;
         std::fprintf(stderr, "%s\n", ok.error().line().c_str());
     }
-    for (const study::Participant& p : study->participants()) {
+    for (const study::Participant& p : study.participants()) {
         for (const study::StageVisit& visit : p.visits) {
             if (p.erased || visit.status != study::StageStatus::ended) continue;
             const auto look = [&](const auto& checked) {
@@ -77,16 +75,16 @@ Result<void> check_folder(const std::string& folder) {
                 ++faults;
                 std::fprintf(stderr, "%s\n", checked.error().line().c_str());
             };
-            if (!visit.file.empty()) look(study->recorded(visit));
-            if (!visit.recording.empty()) look(study->check_recording(visit));
+            if (!visit.file.empty()) look(study.recorded(visit));
+            if (!visit.recording.empty()) look(study.check_recording(visit));
         }
     }
-    for (const study::UnnamedFile& unnamed : study::unnamed_files(*study)) {
+    for (const study::UnnamedFile& unnamed : study::unnamed_files(study)) {
         ++faults;
         std::fprintf(stderr, "%s\n",
-                     Error{unnamed.what, (study->path() / unnamed.file).string(), unnamed.remedy}.line().c_str());
+                     Error{unnamed.what, (study.path() / unnamed.file).string(), unnamed.remedy}.line().c_str());
     }
-    const std::vector<study::Interruption> interruptions = study::interruptions_of(*study);
+    const std::vector<study::Interruption> interruptions = study::interruptions_of(study);
     for (const study::Interruption& one : interruptions) {
         faults += one.unreadable ? 1 : 0;
         std::fprintf(stderr, "interrupted: %s\n", one.text().c_str());
@@ -95,9 +93,9 @@ Result<void> check_folder(const std::string& folder) {
         return fail(folder, std::to_string(faults) + " faults", "see above; what is not named there can be used");
     std::printf(
         "%s: protocol as frozen, %zu lines of journal chained, %zu files of data as recorded, %zu stages interrupted\n",
-        folder.c_str(), study->journal().entries.size(), files, interruptions.size());
-    if (const auto ok = check_reach(study->protocol(), folder); !ok) return ok;
-    return place_worlds(study->protocol());
+        folder.c_str(), study.journal().entries.size(), files, interruptions.size());
+    BURIN_TRY_DO(check_reach(study.protocol(), folder));
+    return place_worlds(study.protocol());
 }
 
 }  // namespace

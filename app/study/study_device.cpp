@@ -6,6 +6,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/study/study_live.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/recordings.hpp"
@@ -25,23 +26,22 @@ Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& 
         text += formatted("\n[[point]]\nname = \"%s\"\noffset = [%.9g, %.9g, %.9g]\n", point.name.c_str(),
                           point.offset_m.x, point.offset_m.y, point.offset_m.z);
     const std::string file = (study / "wand.toml").string();
-    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(write_text(file, text));
     return file;
 }
 
 // That the device's points are where the protocol has them.
 Result<void> check_points(const std::string& device, const devices::WandDescription& wand,
                           const study::Protocol& protocol) {
-    const auto points = devices::points_named(wand, devices::usual_points(wand));
-    if (!points) return std::unexpected(points.error());
+    BURIN_TRY(points, devices::points_named(wand, devices::usual_points(wand)));
     const std::vector<devices::WandPoint> wanted = study::study_wand(protocol).points;
-    if (points->size() != wanted.size())
+    if (points.size() != wanted.size())
         return fail(
             device,
-            formatted("touches with %zu points, and the protocol's wand with %zu", points->size(), wanted.size()),
+            formatted("touches with %zu points, and the protocol's wand with %zu", points.size(), wanted.size()),
             "describe the points as the protocol's point_offset_m has them");
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const Vec3& at_m = points->at(i).offset_m;
+        const Vec3& at_m = points.at(i).offset_m;
         if (glm::distance(at_m, wanted[i].offset_m) > kSamePoint_m)
             return fail(device,
                         formatted("has its point %s %.1f mm above the handle's middle, and the protocol %.1f mm",
@@ -75,18 +75,16 @@ Result<ParticipantDevice> participant_device(const std::string& asked, const stu
                                              const study::Group& group) {
     ParticipantDevice made{asked, {}, {without_folders(asked), {}}};
     if (asked == devices::kDefaultHapticDevice || asked == devices::kSimulatedWand) {
-        const auto described = write_wand(study.protocol(), study.path());
-        if (!described) return std::unexpected(described.error());
+        BURIN_TRY(described, write_wand(study.protocol(), study.path()));
         made.held.device = devices::kSimulatedWand;
-        made.opened = made.held.device + ":" + *described;
+        made.opened = made.held.device + ":" + described;
     }
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(made.opened, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    made.held.hand = study::hand_of(*nature);
-    if (const auto ok = check_force(asked, *nature, group); !ok) return std::unexpected(ok.error());
-    if (!nature->handle) return made;
-    if (const auto ok = check_points(asked, *nature->handle, study.protocol()); !ok) return std::unexpected(ok.error());
-    made.wand = *nature->handle;
+    BURIN_TRY(nature, devices::nature_of_device(made.opened, &session::session_recordings()));
+    made.held.hand = study::hand_of(nature);
+    BURIN_TRY_DO(check_force(asked, nature, group));
+    if (!nature.handle) return made;
+    BURIN_TRY_DO(check_points(asked, *nature.handle, study.protocol()));
+    made.wand = *nature.handle;
     return made;
 }
 

@@ -5,6 +5,7 @@
 #include "app/study/study_command.hpp"
 #include "app/study/study_reach.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "study/folder/study_folder.hpp"
 
 namespace burin::app {
@@ -39,24 +40,22 @@ Result<void> study_init(const StudyInitOptions& options) {
                     "write: burin study init PROTOCOL STUDY; PROTOCOL is a file, or kinesthetic-path");
     const std::string protocol = by_place ? options.places.front() : options.protocol;
     const std::string folder = options.places.back();
-    const auto text = protocol_named(protocol);
-    if (!text) return std::unexpected(text.error());
-    const study::ParsedProtocol parsed = study::parse_protocol(*text);
+    BURIN_TRY(text, protocol_named(protocol));
+    const study::ParsedProtocol parsed = study::parse_protocol(text);
     for (const study::ProtocolFault& f : parsed.faults) std::printf("%s\n", line_of(f, protocol).c_str());
     std::fflush(stdout);
     if (!parsed.faults.empty())
         return fail(protocol, std::to_string(parsed.faults.size()) + " faults", "correct what is listed");
-    if (const auto ok = check_reach(parsed.protocol, protocol); !ok) return ok;
+    BURIN_TRY_DO(check_reach(parsed.protocol, protocol));
     study::StudyMaking making;
     making.participants = options.participants;
     making.key = options.key;
     if (options.seed) making.seed = *options.seed;
-    if (const auto ok = study::create_study(folder, *text, making); !ok) return ok;
-    const auto made = study::StudyFolder::open(folder, study::StudyAccess::read);
-    if (!made) return std::unexpected(made.error());
+    BURIN_TRY_DO(study::create_study(folder, text, making));
+    BURIN_TRY(made, study::StudyFolder::open(folder, study::StudyAccess::read));
     std::printf("%s: protocol %s, SHA-256 %s, %u places in each stratum\n", folder.c_str(),
-                made->protocol().name.c_str(), made->facts().protocol_digest.c_str(), options.participants);
-    warn_of_blocks(made->protocol(), options.participants);
+                made.protocol().name.c_str(), made.facts().protocol_digest.c_str(), options.participants);
+    warn_of_blocks(made.protocol(), options.participants);
     if (options.seed)
         std::printf("The allocation is drawn with seed %llu: whoever knows the seed can know the list.\n",
                     static_cast<unsigned long long>(*options.seed));

@@ -15,6 +15,7 @@
 #include "app/study/study_trials.hpp"
 #include "base/places.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "desk/run/session.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "session/record/session_recording.hpp"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 // done again.
 Result<void> check_record(const std::string& record, const fs::path& study) {
     if (record.empty()) return {};
-    if (const auto ok = check_working_folder(record); !ok) return ok;
+    BURIN_TRY_DO(check_working_folder(record));
     const fs::path there = resolved_path(record).value_or(record), folder = resolved_path(study).value_or(study);
     if (const auto below = there.lexically_relative(folder); !below.empty() && *below.begin() != "..")
         return fail(record,
@@ -74,48 +75,44 @@ session::SculptOptions participant_session(const session::LiveOptions& live,
 }
 
 Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options) {
-    if (const auto ok = check_record(options.live.record, study.path()); !ok) return ok;
-    const auto plan =
-        activities::plan_visit(study, options.participant,
-                               {.resumes_late = options.resume, .any_delay = options.any_delay}, study::now_utc_ns());
-    if (!plan) return std::unexpected(plan.error());
-    const std::vector<study::StagePlace>& places = plan->places;
+    BURIN_TRY_DO(check_record(options.live.record, study.path()));
+    BURIN_TRY(plan, activities::plan_visit(study, options.participant,
+                                           {.resumes_late = options.resume, .any_delay = options.any_delay},
+                                           study::now_utc_ns()));
+    const std::vector<study::StagePlace>& places = plan.places;
     const auto people = study.participants();
     const auto person = std::ranges::find(people, options.participant, &study::Participant::id);
     const auto group = std::ranges::find(study.protocol().groups, person->group, &study::Group::code);
     if (group == study.protocol().groups.end())
         return fail(options.participant, "is in a group that the protocol has not", "restore the journal from a copy");
-    const auto worlds = activities::felt_worlds(study.protocol());
-    if (!worlds) return std::unexpected(worlds.error());
+    BURIN_TRY(worlds, activities::felt_worlds(study.protocol()));
     session::LiveOptions live = options.live;
     if (!live.hands.empty())
         return fail("--device", "gives several hands, and a participant's visit has one", "name one device");
-    const auto device = participant_device(live.device, study, *group);
-    if (!device) return std::unexpected(device.error());
-    live.device = device->opened;
-    const std::optional<devices::WandDescription>& wand = device->wand;
-    activities::VisitPlan begun = *plan;
-    if (group->feels_tube && !device->held.felt_by_person())
+    BURIN_TRY(device, participant_device(live.device, study, *group));
+    live.device = device.opened;
+    const std::optional<devices::WandDescription>& wand = device.wand;
+    activities::VisitPlan begun = plan;
+    if (group->feels_tube && !device.held.felt_by_person())
         begun.deviations.push_back("group " + group->code + " feels the tube, and the visit was with " +
-                                   text_of(device->held));
+                                   text_of(device.held));
     activities::StageOnDisk disk(
         study, options.participant, *group,
         options.without_motion ? activities::StageOnDisk::Motion::none : activities::StageOnDisk::Motion::session_ticks,
-        device->held, provenance_of(options));
+        device.held, provenance_of(options));
     bool has_begun = false;
     const activities::StageKeeper keeper{
         [&](const activities::TrainingRun& run) -> Result<void> {
             // A visit whose device or window did not open, or that began no stage, has not been.
             if (!std::exchange(has_begun, true))
-                if (const auto ok = activities::begin_visit(study, options.participant, device->held, begun); !ok)
-                    return ok;
+                BURIN_TRY_DO(activities::begin_visit(study, options.participant, device.held, begun));
             return disk.begin(run);
         },
         [&](const activities::TrainingRun::Ticked& ticked) { disk.take(ticked); },
         [&](const std::vector<activities::RunEvent>& events) { return disk.take(events); },
         [&](const activities::EndedStage& ended) { return disk.end(ended); }, [&] { return disk.close(); }};
     const auto activity = std::make_shared<activities::StudyActivity>(
-        study.protocol(), *group, *worlds, places,
+        study.protocol(), *group, worlds, places,
         activities::visit_settings(study.facts().protocol_digest, *group, places),
         activities::StudyDevice{wand, options.participant}, keeper,
         std::vector<std::pair<std::string, std::string>>{{activities::kProtocolTextFact, study.protocol_text()}});

@@ -10,6 +10,7 @@
 #include "app/cli/output_files.hpp"
 #include "base/plot/svg.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "gpu/device.hpp"
 #include "picture/png.hpp"
@@ -59,14 +60,13 @@ Result<StageMoments> moments_of(const study::StudyFolder& study, const study::St
                                 const study::FeltWorld& world) {
     StageMoments moments;
     std::uint64_t ticks = 0;
-    const auto replayed =
-        study::replay_stage(study.path() / visit.recording, study.protocol(), study.facts().protocol_digest, world,
-                            [&](const study::StageSession& session, const haptics::TickRecord& record) {
-                                if (ticks++ % kLookEvery != 0) return;
-                                moments.all.push_back(activities::moment_of(world, session, record));
-                                moments.running.push_back(session.state().phase == study::StagePhase::running);
-                            });
-    if (!replayed) return std::unexpected(replayed.error());
+    BURIN_TRY(replayed,
+              study::replay_stage(study.path() / visit.recording, study.protocol(), study.facts().protocol_digest,
+                                  world, [&](const study::StageSession& session, const haptics::TickRecord& record) {
+                                      if (ticks++ % kLookEvery != 0) return;
+                                      moments.all.push_back(activities::moment_of(world, session, record));
+                                      moments.running.push_back(session.state().phase == study::StagePhase::running);
+                                  }));
     return moments;
 }
 
@@ -109,7 +109,7 @@ Result<void> draw_pages(const study::StudyFolder& study, const std::filesystem::
     for (const study::StagePlace& at : study::places_of(study.protocol())) {
         if (at.stage->kind != study::StageKind::page) continue;
         const std::string name = formatted("day%zu-%02zu-%s.svg", at.day, at.place, at.stage->name.c_str());
-        if (const auto ok = write_text((folder / name).string(), page_picture(at.stage->page_text)); !ok) return ok;
+        BURIN_TRY_DO(write_text((folder / name).string(), page_picture(at.stage->page_text)));
         std::printf("wrote %s\n", (folder / name).c_str());
     }
     return {};
@@ -119,12 +119,11 @@ Result<void> draw_pages(const study::StudyFolder& study, const std::filesystem::
 
 Result<void> draw_stages(const study::StudyFolder& study) {
     const std::filesystem::path folder = study.path() / "pictures";
-    if (const auto made = session::make_picture_folder(folder, "--pictures"); !made) return made;
-    if (const auto drawn = draw_pages(study, folder); !drawn) return drawn;
+    BURIN_TRY_DO(session::make_picture_folder(folder, "--pictures"));
+    BURIN_TRY_DO(draw_pages(study, folder));
     auto device = gpu::Device::create();
     if (!device) return fail("--pictures", device.error().what, device.error().remedy);
-    auto renderer = renderer::Renderer::create(*device, kStagePicture);
-    if (!renderer) return std::unexpected(renderer.error());
+    BURIN_TRY(renderer, renderer::Renderer::create(*device, kStagePicture));
     const std::vector<study::Participant> people = study.participants();
     std::map<std::string, std::unique_ptr<const study::FeltWorld>> worlds;
     for (const study::Group& group : study.protocol().groups) {
@@ -134,20 +133,17 @@ Result<void> draw_stages(const study::StudyFolder& study) {
             if (visit == nullptr || world == nullptr) continue;
             auto& felt = worlds[world->name];
             if (!felt) {
-                auto made = study::FeltWorld::create(*world);
-                if (!made) return std::unexpected(made.error());
-                felt = std::move(*made);
+                BURIN_TRY(made, study::FeltWorld::create(*world));
+                felt = std::move(made);
             }
-            const auto moments = moments_of(study, *visit, *felt);
-            if (!moments) return std::unexpected(moments.error());
-            const activities::StageMoment* moment = moments->chosen(world->spine_m);
+            BURIN_TRY(moments, moments_of(study, *visit, *felt));
+            const activities::StageMoment* moment = moments.chosen(world->spine_m);
             if (moment == nullptr) continue;
             activities::StageView view(*felt, study.protocol(), *at.stage, group);
-            const auto image = renderer->render(view.scene(*moment));
-            if (!image) return std::unexpected(image.error());
+            BURIN_TRY(image, renderer.render(view.scene(*moment)));
             const std::string name =
                 formatted("%s-day%zu-%02zu-%s.png", group.code.c_str(), at.day, at.place, at.stage->name.c_str());
-            if (const auto ok = picture::write_png(folder / name, image->left); !ok) return ok;
+            BURIN_TRY_DO(picture::write_png(folder / name, image.left));
             std::printf("wrote %s\n", (folder / name).c_str());
         }
     }

@@ -5,6 +5,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/study/study_command.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/report/power_report.hpp"
 
 namespace burin::app {
@@ -24,7 +25,7 @@ Result<void> show_power(const StudyPowerOptions& options, const study::PowerOpti
 }  // namespace
 
 Result<void> study_power(const StudyPowerOptions& options) {
-    if (const auto ok = check_place(options.json); !ok) return ok;
+    BURIN_TRY_DO(check_place(options.json));
     if (options.participants && options.target)
         return fail("--target", "cannot be asked for together with --participants", "give one of the two");
     const bool null = options.effect == 0.0;

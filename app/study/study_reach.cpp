@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "base/try.hpp"
 #include "study/felt/felt_world.hpp"
 #include "study/felt/reach.hpp"
 
@@ -11,13 +12,12 @@ namespace burin::app {
 Result<void> check_reach(const study::Protocol& protocol, const std::string& name) {
     std::size_t faults = 0;
     for (const study::StudyWorld& world : protocol.worlds) {
-        const auto felt = study::FeltWorld::create(world);
-        if (!felt) return std::unexpected(felt.error());
-        for (const study::ReachFault& fault : study::reach_faults(protocol, world, (*felt)->bounds())) {
+        BURIN_TRY(felt, study::FeltWorld::create(world));
+        for (const study::ReachFault& fault : study::reach_faults(protocol, world, (felt)->bounds())) {
             ++faults;
             std::printf("%s: %s; %s\n", name.c_str(), fault.what.c_str(), fault.remedy.c_str());
         }
-        for (const std::string& warning : study::reach_warnings(protocol, world, (*felt)->bounds()))
+        for (const std::string& warning : study::reach_warnings(protocol, world, (felt)->bounds()))
             std::printf("%s\n", warning.c_str());
     }
     std::fflush(stdout);

@@ -10,6 +10,7 @@
 #include "app/study/study_command.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/record_reader.hpp"
 #include "study/folder/study_folder.hpp"
 #include "study/people/recorded_trial.hpp"
@@ -31,9 +32,8 @@ public:
 
     Result<void> make_worlds() {
         for (const study::StudyWorld& world : study_.protocol().worlds) {
-            auto felt = study::FeltWorld::create(world);
-            if (!felt) return std::unexpected(felt.error());
-            worlds_[world.name] = std::move(*felt);
+            BURIN_TRY(felt, study::FeltWorld::create(world));
+            worlds_[world.name] = std::move(felt);
         }
         return {};
     }
@@ -117,10 +117,9 @@ void tell_replays(const Replays& replays, std::size_t count, std::size_t without
 }  // namespace
 
 Result<void> study_replay(const StudyReplayOptions& options) {
-    const auto study = study::StudyFolder::open(options.study, study::StudyAccess::read);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    const std::vector<study::Participant> people = study->participants();
+    BURIN_TRY(study, study::StudyFolder::open(options.study, study::StudyAccess::read));
+    warn_of_journal(study);
+    const std::vector<study::Participant> people = study.participants();
     std::vector<Recording> recordings;
     std::size_t erased = 0;
     for (const study::Participant& person : people) {
@@ -128,7 +127,7 @@ Result<void> study_replay(const StudyReplayOptions& options) {
         for (const study::StageVisit& visit : person.visits) {
             if (visit.recording.empty()) continue;
             std::error_code error;
-            const std::filesystem::path file = study->path() / visit.recording;
+            const std::filesystem::path file = study.path() / visit.recording;
             const bool gone = !std::filesystem::exists(file, error);
             const bool aborted = visit.status == study::StageStatus::aborted;
             // Killed before the first transaction: there is nothing yet, or the beginning of a file.
@@ -142,8 +141,8 @@ Result<void> study_replay(const StudyReplayOptions& options) {
     }
     if (recordings.empty()) return fail(options.study, "has no recorded motion", "run it first: burin study run");
     const std::size_t count = recordings.size();
-    Replays replays(*study, std::move(recordings));
-    if (const auto ok = replays.make_worlds(); !ok) return ok;
+    Replays replays(study, std::move(recordings));
+    BURIN_TRY_DO(replays.make_worlds());
     {
         const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
         const std::size_t threads = std::min<std::size_t>(options.threads > 0 ? options.threads : cores, count);

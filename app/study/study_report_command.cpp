@@ -8,14 +8,14 @@
 #include "app/study/study_sections.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::app {
 
 namespace fs = std::filesystem;
 
 Result<void> study_report(const std::string& folder) {
-    const auto made = make_trials(folder);
-    if (!made) return std::unexpected(made.error());
+    BURIN_TRY(made, make_trials(folder));
     const fs::path reports = fs::path(folder) / "reports";
     std::error_code error;
     fs::create_directory(reports, error);
@@ -25,16 +25,15 @@ Result<void> study_report(const std::string& folder) {
     StudyAnalyseOptions options;
     options.data = (fs::path(folder) / "trials.csv").string();
     options.out = report.string();
-    options.facts = made->facts;
-    options.groups = made->groups;
-    if (!made->simulated.empty()) options.notes.push_back(made->simulated);
-    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
-    if (!study) return std::unexpected(study.error());
-    options.sections = report_sections(*study);
-    options.title = study->protocol().title.empty() ? study->protocol().name : study->protocol().title;
-    for (const std::string& fact : made->facts) std::printf("%s\n", fact.c_str());
+    options.facts = made.facts;
+    options.groups = made.groups;
+    if (!made.simulated.empty()) options.notes.push_back(made.simulated);
+    BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::read));
+    options.sections = report_sections(study);
+    options.title = study.protocol().title.empty() ? study.protocol().name : study.protocol().title;
+    for (const std::string& fact : made.facts) std::printf("%s\n", fact.c_str());
     std::printf("\n");
-    if (const auto ok = study_analyse(options); !ok) return ok;
+    BURIN_TRY_DO(study_analyse(options));
     std::printf("\n%s\n", (report / "report.html").c_str());
     return {};
 }

@@ -16,6 +16,7 @@
 #include "app/study/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::app {
 namespace {
@@ -81,14 +82,12 @@ Result<void> take_learners(study::StudyFolder& study, const StudyRunOptions& opt
         std::fflush(stdout);
     };
     const auto begun = std::chrono::steady_clock::now();
-    const auto went = activities::run_simulated(study, simulation);
-    if (!went) return std::unexpected(went.error());
+    BURIN_TRY(went, activities::run_simulated(study, simulation));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    const auto made = make_trials(options.study);
-    if (!made) return std::unexpected(made.error());
+    BURIN_TRY(made, make_trials(options.study));
     std::printf("%zu stages, %.0f s of simulated time in %.1f s, %.0f times real time; %s/trials.csv: %s\n",
-                went->stages, went->simulated_s, took.count(), went->simulated_s / took.count(), options.study.c_str(),
-                made->count_text().c_str());
+                went.stages, went.simulated_s, took.count(), went.simulated_s / took.count(), options.study.c_str(),
+                made.count_text().c_str());
     return {};
 }
 
@@ -129,10 +128,8 @@ private:
 };
 
 Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& options) {
-    const auto text = read_text_file(options.live.input, kMostScriptBytes);
-    if (!text) return std::unexpected(text.error());
-    const auto script = activities::parse_visit_script(*text, options.live.input);
-    if (!script) return std::unexpected(script.error());
+    BURIN_TRY(text, read_text_file(options.live.input, kMostScriptBytes));
+    BURIN_TRY(script, activities::parse_visit_script(text, options.live.input));
     std::printf("%s by a script, in simulated time: hand and wand are simulated.\n", options.participant.c_str());
     activities::VisitOptions visit;
     visit.records = !options.without_motion;
@@ -145,35 +142,33 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
         return {};
     };
     visit.tell = [](double time_s, const std::string& line) { std::printf("%9.3f s  %s\n", time_s, line.c_str()); };
-    const auto went = activities::run_scripted_visit(study, options.participant, *script, visit);
-    if (!went) return std::unexpected(went.error());
-    std::printf("%zu stages ended in %.1f s of simulated time, %llu ticks; %zu of the day are left%s\n", went->stages,
-                went->simulated_s, static_cast<unsigned long long>(went->ticks), went->left,
-                went->interrupted ? "; the script ended within a stage, which is to be done again" : "");
+    BURIN_TRY(went, activities::run_scripted_visit(study, options.participant, script, visit));
+    std::printf("%zu stages ended in %.1f s of simulated time, %llu ticks; %zu of the day are left%s\n", went.stages,
+                went.simulated_s, static_cast<unsigned long long>(went.ticks), went.left,
+                went.interrupted ? "; the script ended within a stage, which is to be done again" : "");
     // Before the first trial there is no table.
     if (const auto made = make_trials(options.study))
         std::printf("%s/trials.csv: %s\n", options.study.c_str(), made->count_text().c_str());
-    if (went->without_effect == 0) return {};
+    if (went.without_effect == 0) return {};
     std::fflush(stdout);
-    return fail(options.live.input, formatted("%zu of its words had no effect, as told above", went->without_effect),
+    return fail(options.live.input, formatted("%zu of its words had no effect, as told above", went.without_effect),
                 "correct the script; the visit's stages are kept");
 }
 
 }  // namespace
 
 Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given) {
-    if (const auto ok = check_usage(options); !ok) return ok;
-    if (const auto ok = check_effect(options, given); !ok) return ok;
-    if (const auto ok = check_visit_input(options.live.input); !ok) return ok;
-    auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    study->use_key(options.key);
-    const auto went = options.simulated  ? take_learners(*study, options)
-                      : is_live(options) ? run_live_visit(*study, options)
-                                         : take_participant(*study, options);
+    BURIN_TRY_DO(check_usage(options));
+    BURIN_TRY_DO(check_effect(options, given));
+    BURIN_TRY_DO(check_visit_input(options.live.input));
+    BURIN_TRY(study, study::StudyFolder::open(options.study, study::StudyAccess::write));
+    warn_of_journal(study);
+    study.use_key(options.key);
+    const auto went = options.simulated  ? take_learners(study, options)
+                      : is_live(options) ? run_live_visit(study, options)
+                                         : take_participant(study, options);
     if (!went) return went;
-    return options.pictures ? draw_stages(*study) : Result<void>();
+    return options.pictures ? draw_stages(study) : Result<void>();
 }
 
 namespace {

@@ -5,18 +5,18 @@
 #include "app/study/study_command.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/folder/interruption.hpp"
 #include "study/folder/unnamed_files.hpp"
 
 namespace burin::app {
 
 Result<void> study_status(const std::string& folder) {
-    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    for (const std::string& fact : study_facts(*study)) std::printf("%s\n", fact.c_str());
-    const std::size_t stages = study::places_of(study->protocol()).size();
-    for (const study::Participant& p : study->participants()) {
+    BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::read));
+    warn_of_journal(study);
+    for (const std::string& fact : study_facts(study)) std::printf("%s\n", fact.c_str());
+    const std::size_t stages = study::places_of(study.protocol()).size();
+    for (const study::Participant& p : study.participants()) {
         std::size_t ended = 0;
         std::string aborted;
         for (const study::StageVisit& v : p.visits) {
@@ -31,13 +31,13 @@ Result<void> study_status(const std::string& folder) {
                     : p.withdrawn ? "; withdrawn"
                                   : "");
     }
-    for (const study::Participant& p : study->participants())
+    for (const study::Participant& p : study.participants())
         for (const study::ProtocolDeviation& d : p.withdrawn ? std::vector<study::ProtocolDeviation>{} : p.deviations)
             std::printf("deviation from the protocol: %s, %s: %s\n", p.id.c_str(), d.utc.c_str(), d.text.c_str());
-    for (const study::Interruption& one : study::interruptions_of(*study))
+    for (const study::Interruption& one : study::interruptions_of(study))
         std::printf("interrupted: %s\n", one.text().c_str());
     std::size_t unnamed = 0;
-    for (const study::UnnamedFile& one : study::unnamed_files(*study)) {
+    for (const study::UnnamedFile& one : study::unnamed_files(study)) {
         if (one.file == study::kDataFolder)
             std::printf("%s: %s; %s\n", one.file.c_str(), one.what.c_str(), one.remedy.c_str());
         else
@@ -45,7 +45,7 @@ Result<void> study_status(const std::string& folder) {
     }
     if (unnamed > 0)
         std::printf("%zu files of data stand in no line of the journal: burin study check names them\n", unnamed);
-    std::printf("last digest of the journal: %s\n", study->journal().last_digest.c_str());
+    std::printf("last digest of the journal: %s\n", study.journal().last_digest.c_str());
     return {};
 }
 

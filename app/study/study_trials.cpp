@@ -10,6 +10,7 @@
 
 #include "app/cli/output_files.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/people/trial_rows.hpp"
 
 namespace burin::app {
@@ -140,17 +141,16 @@ void warn_of_journal(const study::StudyFolder& study) {
 }
 
 Result<TrialsMade> make_trials(const std::string& folder) {
-    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    const study::TrialRows made = rows_of(*study);
+    BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::read));
+    warn_of_journal(study);
+    const study::TrialRows made = rows_of(study);
     if (made.rows.empty()) return fail(folder, "has no trial yet", "run it first: burin study run");
-    const std::string path = (study->path() / "trials.csv").string();
-    if (const auto ok = write_text(path, study::trials_csv(made.rows)); !ok) return std::unexpected(ok.error());
+    const std::string path = (study.path() / "trials.csv").string();
+    BURIN_TRY_DO(write_text(path, study::trials_csv(made.rows)));
     std::vector<std::string> groups;
-    for (const study::Group& group : study->protocol().groups) groups.push_back(group.code);
-    return TrialsMade{made.valid(),      made.rows.size() - made.valid(),  study_facts(*study),
-                      std::move(groups), study::simulated_fact(made.rows), pooled_fact(study->protocol())};
+    for (const study::Group& group : study.protocol().groups) groups.push_back(group.code);
+    return TrialsMade{made.valid(),      made.rows.size() - made.valid(),  study_facts(study),
+                      std::move(groups), study::simulated_fact(made.rows), pooled_fact(study.protocol())};
 }
 
 std::string TrialsMade::count_text() const {
@@ -159,9 +159,8 @@ std::string TrialsMade::count_text() const {
 }
 
 Result<ChosenTrials> chosen_trials(const std::string& folder, const TrialChoice& choice) {
-    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
-    if (!study) return std::unexpected(study.error());
-    const study::Protocol& protocol = study->protocol();
+    BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::read));
+    const study::Protocol& protocol = study.protocol();
     if (choice.day && (*choice.day == 0 || *choice.day > protocol.days.size()))
         return fail(formatted("--day %u", *choice.day), formatted("the protocol has %zu days", protocol.days.size()),
                     "count them from 1");
@@ -169,7 +168,7 @@ Result<ChosenTrials> chosen_trials(const std::string& folder, const TrialChoice&
     if (!choice.stage.empty() && (stage == nullptr || !stage->outcome))
         return fail("--stage " + choice.stage, "is no stage with outcome = true in the protocol",
                     "name one whose trials are analysed");
-    std::vector<study::TrialRow> rows = rows_of(*study).rows;
+    std::vector<study::TrialRow> rows = rows_of(study).rows;
     std::erase_if(rows, [&](const study::TrialRow& row) { return !is_chosen(choice, row); });
     if (std::ranges::none_of(rows, [](const study::TrialRow& row) { return row.reason.empty(); }))
         return fail(folder, "has no valid trial of that day and stage", "leave --day or --stage out");

@@ -4,21 +4,20 @@
 
 #include "app/study/study_command.hpp"
 #include "app/study/study_trials.hpp"
+#include "base/try.hpp"
 #include "study/folder/study_folder.hpp"
 
 namespace burin::app {
 
 Result<void> study_withdraw(const StudyWithdrawOptions& options) {
-    auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    const auto deleted = study->withdraw(options.id, options.erase);
-    if (!deleted) return std::unexpected(deleted.error());
+    BURIN_TRY(study, study::StudyFolder::open(options.study, study::StudyAccess::write));
+    warn_of_journal(study);
+    BURIN_TRY(deleted, study.withdraw(options.id, options.erase));
     std::printf("%s: withdrawn%s\n", options.id.c_str(),
                 options.erase ? ", data and the journal's words about it erased; its code, its group and that it has "
                                 "withdrawn stay"
                               : "");
-    for (const std::string& one : *deleted)
+    for (const std::string& one : deleted)
         std::printf("%s/%s told of it, and was deleted; make it anew with what is left\n", options.study.c_str(),
                     one.c_str());
     // Without a valid trial of somebody else there is no table.

@@ -12,6 +12,7 @@
 #include "base/csv.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
+#include "base/try.hpp"
 #include "wall/wall_file.hpp"
 
 namespace burin::app {
@@ -74,9 +75,8 @@ bool skipped(std::string_view line) { return line.empty() || line.front() == '#'
 
 Result<std::vector<wall::CalibrationSample>> read_samples(const WallCalibrationOptions& options, double unit_m) {
     if (options.samples == kStandardOutput) return guided_samples(std::cin, std::cerr, unit_m);
-    const auto text = read_text_file(options.samples, 1 << 24);
-    if (!text) return std::unexpected(text.error());
-    return parse_samples(*text, options.samples, unit_m);
+    BURIN_TRY(text, read_text_file(options.samples, 1 << 24));
+    return parse_samples(text, options.samples, unit_m);
 }
 
 Result<std::size_t> find_screen(const wall::WallSetup& setup, const WallCalibrationOptions& options) {
@@ -140,9 +140,8 @@ Result<std::vector<wall::CalibrationSample>> parse_samples(std::string_view text
         const bool head = first && (is_header(line) || declared_separator(line));
         first = first && declared_separator(line);
         if (head) continue;
-        auto sample = parse_sample(line, name + ":" + std::to_string(number), "", unit_m);
-        if (!sample) return std::unexpected(sample.error());
-        samples.push_back(std::move(*sample));
+        BURIN_TRY(sample, parse_sample(line, name + ":" + std::to_string(number), "", unit_m));
+        samples.push_back(std::move(sample));
     }
     return samples;
 }
@@ -179,32 +178,27 @@ std::vector<wall::CalibrationSample> guided_samples(std::istream& in, std::ostre
 
 Result<void> calibrate_wall(const WallCalibrationOptions& options) {
     const std::array outputs{options.out, options.json};
-    if (const auto ok = check_places(outputs, std::array{options.samples}); !ok) return ok;
+    BURIN_TRY_DO(check_places(outputs, std::array{options.samples}));
     // The new wall file may take the old one's place; the residuals may not.
-    if (const auto ok = check_overwrites_none(options.json, std::array{options.wall}); !ok) return ok;
-    auto setup = wall::read_wall(options.wall);
-    if (!setup) return std::unexpected(setup.error());
-    const auto index = find_screen(*setup, options);
-    if (!index) return std::unexpected(index.error());
-    wall::WallScreen& screen = setup->screens[*index];
-    const auto samples = read_samples(options, metres_in(setup->unit));
-    if (!samples) return std::unexpected(samples.error());
+    BURIN_TRY_DO(check_overwrites_none(options.json, std::array{options.wall}));
+    BURIN_TRY(setup, wall::read_wall(options.wall));
+    BURIN_TRY(index, find_screen(setup, options));
+    wall::WallScreen& screen = setup.screens[index];
+    BURIN_TRY(samples, read_samples(options, metres_in(setup.unit)));
     std::optional<wall::ScreenSize> size;
     if (options.keep_size) {
         size = wall::ScreenSize{glm::length(screen.lower_right_tracker - screen.lower_left_tracker),
                                 glm::length(screen.upper_left_tracker - screen.lower_left_tracker)};
     }
-    const auto fit = wall::fit_screen(*samples, size);
-    if (!fit) return std::unexpected(fit.error());
-    const auto before = wall::distances_from(screen, *samples);
-    if (!before) return std::unexpected(before.error());
-    if (options.json != kStandardOutput) print(*fit, *before, screen.name);
-    screen.lower_left_tracker = fit->lower_left_tracker;
-    screen.lower_right_tracker = fit->lower_right_tracker;
-    screen.upper_left_tracker = fit->upper_left_tracker;
-    if (const auto ok = refuse_errors(*setup, screen.name); !ok) return ok;
-    if (const auto ok = write_text(options.out, wall::wall_text(*setup)); !ok) return ok;
-    return write_output(options.json, json_text(describe(*fit, *before)));
+    BURIN_TRY(fit, wall::fit_screen(samples, size));
+    BURIN_TRY(before, wall::distances_from(screen, samples));
+    if (options.json != kStandardOutput) print(fit, before, screen.name);
+    screen.lower_left_tracker = fit.lower_left_tracker;
+    screen.lower_right_tracker = fit.lower_right_tracker;
+    screen.upper_left_tracker = fit.upper_left_tracker;
+    BURIN_TRY_DO(refuse_errors(setup, screen.name));
+    BURIN_TRY_DO(write_text(options.out, wall::wall_text(setup)));
+    return write_output(options.json, json_text(describe(fit, before)));
 }
 
 namespace {

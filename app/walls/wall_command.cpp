@@ -9,6 +9,7 @@
 
 #include "app/cli/output_files.hpp"
 #include "app/walls/wall_commands.hpp"
+#include "base/try.hpp"
 #include "desk/view/session_tracker.hpp"
 #include "wall/wall.hpp"
 #include "wall/wall_figures.hpp"
@@ -29,42 +30,38 @@ Result<wall::WallSetup> with_tracker(wall::WallSetup setup, const std::string& f
     session::LiveOptions options;
     options.wall = file;
     options.tracker = tracker;
-    const auto heard = session::session_tracker(options, setup);
-    if (!heard) return std::unexpected(heard.error());
+    BURIN_TRY(heard, session::session_tracker(options, setup));
     setup.tracker_toml.clear();
-    if (heard->described) {
-        devices::TrackerDescription described = *heard->described;
-        described.address = heard->where.substr(0, heard->where.find(','));
+    if (heard.described) {
+        devices::TrackerDescription described = *heard.described;
+        described.address = heard.where.substr(0, heard.where.find(','));
         setup.tracker_toml = devices::tracker_text(described, "tracker");
-    } else if (!heard->where.empty()) {
-        setup.tracker_toml = "# --tracker " + heard->where + ": its bodies have the names that its settings say\n";
+    } else if (!heard.where.empty()) {
+        setup.tracker_toml = "# --tracker " + heard.where + ": its bodies have the names that its settings say\n";
     }
     return setup;
 }
 
 Result<void> show_wall(const ShownWall& shown) {
-    if (const auto ok = check_places(std::array{shown.svg, shown.json}, std::array{shown.file}); !ok) return ok;
-    const auto setup = wall::read_wall(shown.file);
-    if (!setup) return std::unexpected(setup.error());
+    BURIN_TRY_DO(check_places(std::array{shown.svg, shown.json}, std::array{shown.file}));
+    BURIN_TRY(setup, wall::read_wall(shown.file));
     if (shown.print_config) {
-        const auto whole = with_tracker(*setup, shown.file, shown.tracker);
-        if (!whole) return std::unexpected(whole.error());
-        std::fputs(wall::wall_text(*whole).c_str(), stdout);
+        BURIN_TRY(whole, with_tracker(setup, shown.file, shown.tracker));
+        std::fputs(wall::wall_text(whole).c_str(), stdout);
         return {};
     }
-    const auto figures = wall::wall_figures(*setup);
+    const auto figures = wall::wall_figures(setup);
     if (shown.json != kStandardOutput && shown.svg != kStandardOutput)
         std::fputs(wall::wall_table(figures).c_str(), stdout);
-    if (const auto ok = write_output(shown.svg, wall::wall_drawing(*setup)); !ok) return ok;
+    BURIN_TRY_DO(write_output(shown.svg, wall::wall_drawing(setup)));
     return write_output(shown.json, json_text(figures));
 }
 
 Result<void> check_wall(const std::string& file) {
-    const auto setup = wall::read_wall(file);
-    if (!setup) return std::unexpected(setup.error());
-    if (const auto whole = with_tracker(*setup, file, {}); !whole) return std::unexpected(whole.error());
-    std::vector<wall::WallProblem> problems = wall::check(*setup);
-    for (wall::WallProblem& problem : wall::check_modes(*setup)) problems.push_back(std::move(problem));
+    BURIN_TRY(setup, wall::read_wall(file));
+    BURIN_TRY_DO(with_tracker(setup, file, {}));
+    std::vector<wall::WallProblem> problems = wall::check(setup);
+    for (wall::WallProblem& problem : wall::check_modes(setup)) problems.push_back(std::move(problem));
     for (const wall::WallProblem& p : problems) std::printf("%s\n", line_of(p).c_str());
     const auto errors = std::ranges::count(problems, true, &wall::WallProblem::error);
     if (errors > 0) {

@@ -10,6 +10,7 @@
 #include "app/recordings/live_replay.hpp"
 #include "base/assets.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/input_files.hpp"
@@ -60,9 +61,8 @@ Result<void> lead_by_grasp(session::SculptOptions& session, const std::string& g
 
 // Checks that the device is a glove which can render as asked.
 Result<void> check_worn(const session::LiveOptions& live, activities::GloveRendering rendering, bool has_line) {
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(live.device, &session::session_recordings());
-    if (!nature) return std::unexpected(nature.error());
-    if (!nature->is_worn)
+    BURIN_TRY(nature, devices::nature_of_device(live.device, &session::session_recordings()));
+    if (!nature.is_worn)
         return fail("--device " + live.device, "is no glove",
                     "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
     if (rendering == activities::GloveRendering::local && !has_line)
@@ -116,10 +116,9 @@ Result<void> hand(const HandSession& options) {
     session::LiveOptions& live = session.live;
     session.no_workpiece = true;
     if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
-    if (!options.grasp.empty())
-        if (const auto led = lead_by_grasp(session, options.grasp); !led) return led;
+    if (!options.grasp.empty()) BURIN_TRY_DO(lead_by_grasp(session, options.grasp));
     const bool has_line = live.device.starts_with(std::string(devices::kGlove) + ":");
-    if (const auto glove = check_worn(live, options.options.rendering, has_line); !glove) return glove;
+    BURIN_TRY_DO(check_worn(live, options.options.rendering, has_line));
     // A glove whose arm nobody leads grasps by a script; a simulated one closes by its script's buttons.
     if (live.offscreen && live.input.empty() && !is_scripted_world(session.world))
         return fail(

@@ -10,6 +10,7 @@
 #include "app/cli/live_options.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/recordings/live_replay.hpp"
+#include "base/try.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
@@ -29,7 +30,7 @@ Result<void> seek_objects(const SeekSession& options) {
     session.no_workpiece = true;
     if (!session.live.hands.empty())
         return fail("--device", "gives several hands, and a search is one hand's", "name one device");
-    if (const auto ok = check_places(std::array{options.report}, session::inputs_of(session).list()); !ok) return ok;
+    BURIN_TRY_DO(check_places(std::array{options.report}, session::inputs_of(session).list()));
     const auto activity =
         std::make_shared<activities::Seek>(activities::SeekOptions{.targets = options.targets, .seed = options.seed});
     session.activity = activity;

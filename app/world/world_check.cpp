@@ -21,7 +21,7 @@
 #include "scene/vrml_world.hpp"
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
-#include "session/objects/world_side.hpp"
+#include "session/live/world_side.hpp"
 
 namespace burin::app {
 namespace {

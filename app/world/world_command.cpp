@@ -20,6 +20,7 @@
 #include "app/world/world_explore.hpp"
 #include "app/world/world_wand.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "compute/rays/lattice.hpp"
 #include "desk/run/session.hpp"
 #include "devices/haptic/wand_choice.hpp"
@@ -52,8 +53,8 @@ struct CheckedFiles {
 Result<void> check_worlds(const CheckedFiles& asked) {
     session::InputFiles inputs;
     for (const std::string& file : asked.files) inputs.world(file);
-    if (const auto ok = make_folder_of(asked.json); !ok) return ok;
-    if (const auto ok = check_places(std::array{asked.json}, inputs.list()); !ok) return ok;
+    BURIN_TRY_DO(make_folder_of(asked.json));
+    BURIN_TRY_DO(check_places(std::array{asked.json}, inputs.list()));
     Json report{{"files", Json::array()}};
     std::size_t faults = 0, faulty_files = 0;
     for (const std::string& file : asked.files) {
@@ -62,7 +63,7 @@ Result<void> check_worlds(const CheckedFiles& asked) {
         faulty_files += checked.faults > 0 ? 1 : 0;
         report["files"].push_back(checked.json);
     }
-    if (const auto ok = write_output(asked.json, json_text(report)); !ok) return ok;
+    BURIN_TRY_DO(write_output(asked.json, json_text(report)));
     if (faults == 0) return {};
     std::fflush(stdout);
     return fail(faulty_files == 1 && asked.files.size() == 1
@@ -150,10 +151,8 @@ Result<void> open_session(const WorldVisit& visit) {
     if (devices::has_handle(session.live.device, &session::session_recordings())) {
         session.points = visit.exploration.points;
         if (session.points.empty()) {
-            const Result<devices::DeviceNature> nature =
-                devices::nature_of_device(session.live.device, &session::session_recordings());
-            if (!nature) return std::unexpected(nature.error());
-            session.points = devices::usual_points(*nature->handle);
+            BURIN_TRY(nature, devices::nature_of_device(session.live.device, &session::session_recordings()));
+            session.points = devices::usual_points(*nature.handle);
         }
         if (session.tool.shape.empty()) session.tool.shape = formatted("ball:%g", visit.exploration.radius_m);
     }

@@ -15,6 +15,7 @@
 #include "app/world/rendered_report.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "gpu/device.hpp"
@@ -23,7 +24,7 @@
 #include "record/record_writer.hpp"
 #include "renderer/frame/renderer.hpp"
 #include "scene/world_digest.hpp"
-#include "session/objects/world_side.hpp"
+#include "session/live/world_side.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
@@ -47,29 +48,25 @@ class WorldPictures {
 public:
     static Result<std::optional<WorldPictures>> create(const std::string& folder) {
         if (folder.empty()) return std::optional<WorldPictures>();
-        if (const auto made = session::make_picture_folder(folder, "--pictures"); !made)
-            return std::unexpected(made.error());
+        BURIN_TRY_DO(session::make_picture_folder(folder, "--pictures"));
         Result<gpu::Device> device = gpu::Device::create();
         if (!device) {
             Error e = device.error();
             e.what += ", and --pictures needs one";
             return std::unexpected(e);
         }
-        Result<renderer::Renderer> renderer = renderer::Renderer::create(*device, kPictureSize);
-        if (!renderer) return std::unexpected(renderer.error());
-        return std::optional<WorldPictures>(WorldPictures(folder, std::move(*device), std::move(*renderer)));
+        BURIN_TRY(renderer, renderer::Renderer::create(*device, kPictureSize));
+        return std::optional<WorldPictures>(WorldPictures(folder, std::move(*device), std::move(renderer)));
     }
 
     // Writes one picture, as seen from the middle between the eyes.
     Result<void> take(const picture::Picture& scene, const std::string& name) {
-        const auto image = renderer_.render(scene);
-        if (!image) return std::unexpected(image.error());
-        return write(name, image->left);
+        BURIN_TRY(image, renderer_.render(scene));
+        return write(name, image.left);
     }
     Result<void> take_both_eyes(const picture::Picture& scene, const std::string& name) {
-        const auto image = renderer_.render(scene);
-        if (!image) return std::unexpected(image.error());
-        return write(name, side_by_side(*image));
+        BURIN_TRY(image, renderer_.render(scene));
+        return write(name, side_by_side(image));
     }
 
 private:
@@ -77,7 +74,7 @@ private:
         : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {}
     Result<void> write(const std::string& name, const Image& image) {
         const std::filesystem::path path = std::filesystem::path(folder_) / name;
-        if (const auto written = picture::write_png(path, image); !written) return written;
+        BURIN_TRY_DO(picture::write_png(path, image));
         std::printf("wrote %s\n", path.string().c_str());
         return {};
     }
@@ -118,9 +115,9 @@ Result<void> write_world_report(const WorldExploration& options, const activitie
     const std::string figure = session::felt_figure_path(options.report),
                       table = session::felt_table_path(options.report),
                       depth = session::felt_depth_path(options.report);
-    if (const auto written = write_text(figure, activities::world_figure(figures)); !written) return written;
-    if (const auto written = write_text(table, session::felt_table(figures.felt)); !written) return written;
-    if (const auto written = write_text(depth, activities::depth_figure(figures)); !written) return written;
+    BURIN_TRY_DO(write_text(figure, activities::world_figure(figures)));
+    BURIN_TRY_DO(write_text(table, session::felt_table(figures.felt)));
+    BURIN_TRY_DO(write_text(depth, activities::depth_figure(figures)));
     const session::FeltFigures& felt = figures.felt;
     const Json report{
         {"burin", BURIN_VERSION},
@@ -169,56 +166,49 @@ void print_motion_scaled(double scene_from_device_scale) {
 Result<void> explore_world(const WorldExploration& options) {
     session::InputFiles inputs;
     inputs.world(options.world).file(options.stroke).file(options.record);
-    if (const auto ok = make_folder_of(options.report); !ok) return ok;
-    if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
-    if (const auto ok = record::check_new_place(options.record); !ok) return ok;
-    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
-    if (!stroke) return std::unexpected(stroke.error());
-    Result<scene::World> world = session::read_sound_world(options.world);
-    if (!world) return std::unexpected(world.error());
+    BURIN_TRY_DO(make_folder_of(options.report));
+    BURIN_TRY_DO(check_felt_report(options.report, inputs.list()));
+    BURIN_TRY_DO(record::check_new_place(options.record));
+    BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
+    BURIN_TRY(world, session::read_sound_world(options.world));
     activities::ExploreOptions explore;
     explore.tool_radius_m = options.radius_m;
     explore.record = options.record;
     if (!options.record.empty()) {
-        auto facts = facts_of_world(options, *world);
-        if (!facts) return std::unexpected(facts.error());
-        explore.facts = std::move(*facts);
+        BURIN_TRY(facts, facts_of_world(options, world));
+        explore.facts = std::move(facts);
     }
     std::vector<scene::ObjectId> ids;
-    for (const scene::SceneObject& object : world->objects) ids.push_back(object.id);
+    for (const scene::SceneObject& object : world.objects) ids.push_back(object.id);
     scene::MaterialTable materials;
-    Result<std::unique_ptr<scene::MeshPart>> part = scene::MeshPart::create(std::move(world->objects), materials);
-    if (!part) return std::unexpected(part.error());
+    BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), materials));
 
-    tell_what_is_not_rendered(options.world, **part, ids, devices::description_of({}),
+    tell_what_is_not_rendered(options.world, *part, ids, devices::description_of({}),
                               haptics::ball_probe(options.radius_m));
 
-    Result<std::optional<WorldPictures>> pictures = WorldPictures::create(options.pictures);
-    if (!pictures) return std::unexpected(pictures.error());
-    activities::WorldView view(**part, ids, options.radius_m);
+    BURIN_TRY(pictures, WorldPictures::create(options.pictures));
+    activities::WorldView view(*part, ids, options.radius_m);
     std::set<std::string> pictured;
     bool began = false;
     const auto frame = [&](double, const activities::WorldMoment& moment) -> Result<void> {
-        view.take((*part)->take_object_updates());
-        if (!*pictures) return {};
-        if (!std::exchange(began, true)) return (*pictures)->take(view.close_scene({}), "world.png");
+        view.take((part)->take_object_updates());
+        if (!pictures) return {};
+        if (!std::exchange(began, true)) return (pictures)->take(view.close_scene({}), "world.png");
         if (!moment.newly_touched || pictured.size() >= kMostTouchPictures) return {};
         pictured.insert(*moment.newly_touched);
-        return (*pictures)->take(view.close_scene(moment.tool), "touched-" + std::to_string(pictured.size()) + "-" +
-                                                                    file_word(*moment.newly_touched) + ".png");
+        return (pictures)->take(view.close_scene(moment.tool), "touched-" + std::to_string(pictured.size()) + "-" +
+                                                                   file_word(*moment.newly_touched) + ".png");
     };
-    const Result<activities::WorldFigures> figures =
-        activities::explore_by_feel(**part, ids, materials, *stroke, explore, frame);
-    if (!figures) return std::unexpected(figures.error());
-    if (*pictures) {
-        const auto done = (*pictures)->take_both_eyes(view.wall_scene(figures->felt.last_tool), "stereo.png");
+    BURIN_TRY(figures, activities::explore_by_feel(*part, ids, materials, stroke, explore, frame));
+    if (pictures) {
+        const auto done = (pictures)->take_both_eyes(view.wall_scene(figures.felt.last_tool), "stereo.png");
         if (!done) return done;
     }
     if (!options.record.empty())
-        std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(figures->felt.ticks).c_str());
-    print_touches(*figures);
-    print_motion_scaled(figures->felt.object_from_device.scale);
-    return write_world_report(options, *figures);
+        std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(figures.felt.ticks).c_str());
+    print_touches(figures);
+    print_motion_scaled(figures.felt.object_from_device.scale);
+    return write_world_report(options, figures);
 }
 
 }  // namespace burin::app

@@ -16,6 +16,7 @@
 #include "app/world/rendered_report.hpp"
 #include "app/world/world_explore.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/record_writer.hpp"
 #include "session/felt/felt_figures.hpp"
 #include "session/record/input_files.hpp"
@@ -54,9 +55,8 @@ public:
 
     Result<void> open(const std::string& folder) {
         if (folder.empty()) return {};
-        Result<PictureFolder> made = PictureFolder::create(folder, "--pictures");
-        if (!made) return std::unexpected(made.error());
-        folder_.emplace(std::move(*made));
+        BURIN_TRY(made, PictureFolder::create(folder, "--pictures"));
+        folder_.emplace(std::move(made));
         return {};
     }
     void take_updates(const std::vector<scene::ObjectUpdate>& updates) { view_.take(updates); }
@@ -142,8 +142,7 @@ Result<void> write_wand_report(const WorldExploration& options, const devices::W
                                const std::vector<devices::WandPoint>& points, const scene::MeshPart& part,
                                const activities::WandExploredWorld& explored) {
     if (options.report.empty()) return {};
-    if (const auto done = write_text(session::felt_figure_path(options.report), wand_figure(explored, points)); !done)
-        return done;
+    BURIN_TRY_DO(write_text(session::felt_figure_path(options.report), wand_figure(explored, points)));
     if (const auto done = write_text(session::felt_table_path(options.report), wand_table(explored, part, points));
         !done)
         return done;
@@ -155,19 +154,18 @@ Result<void> write_wand_report(const WorldExploration& options, const devices::W
 Result<void> explore_world_with_wand(const WorldExploration& options) {
     session::InputFiles inputs;
     inputs.world(options.world).file(options.stroke).file(options.record).device(options.device);
-    if (const auto ok = make_folder_of(options.report); !ok) return ok;
-    if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
-    if (const auto ok = record::check_new_place(options.record); !ok) return ok;
-    Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
-    if (!opened) return std::unexpected(opened.error());
-    WandWorld& w = **opened;
+    BURIN_TRY_DO(make_folder_of(options.report));
+    BURIN_TRY_DO(check_felt_report(options.report, inputs.list()));
+    BURIN_TRY_DO(record::check_new_place(options.record));
+    BURIN_TRY(opened, open_wand_world(options));
+    WandWorld& w = *opened;
     w.feel.record = options.record;
     if (!options.record.empty()) w.feel.facts = facts_of_wand(options, w);
 
     tell_what_is_not_rendered(options.world, *w.part, w.ids, devices::device_of(w.feel.wand),
                               probe_of(w.feel.wand, w.feel.points));
     WandPictures pictures(*w.part, w.ids, options, w.feel.wand);
-    if (const auto ready = pictures.open(options.pictures); !ready) return ready;
+    BURIN_TRY_DO(pictures.open(options.pictures));
     const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(
         *w.part, w.materials, w.stroke, w.feel, [&](const activities::WandMoment& moment) -> Result<void> {
             pictures.take_updates(w.part->take_object_updates());
@@ -177,7 +175,7 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
     if (explored->fitted)
         std::fprintf(stderr, "burin: %s: leaves the wand's workspace; it is centred in it, scaled by %.3g\n",
                      options.stroke.c_str(), explored->scene_from_device.scale);
-    if (const auto done = pictures.finish(); !done) return done;
+    BURIN_TRY_DO(pictures.finish());
     print_point_touches(*explored);
     print_motion_scaled(explored->scene_from_device.scale);
     if (!options.record.empty())

@@ -75,7 +75,7 @@ struct NamedProbe {
 // balls of more than 20 mm.
 [[nodiscard]] std::vector<NamedProbe> probes_on(double mean_edge_m);
 
-// Returns the parameters of a tick as a live session sets them (parameters_of in session/live/session_state.cpp), with
+// Returns the parameters of a tick as a live session sets them (parameters_of in session/state/session_state.cpp), with
 // the medium material, or with its friction taken away.
 [[nodiscard]] haptics::TickParameters session_parameters(const haptics::Probe& probe, bool friction);
 

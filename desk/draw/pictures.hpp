@@ -8,7 +8,7 @@
 
 #include "renderer/frame/renderer.hpp"
 #include "sculpt/sculpture.hpp"
-#include "session/hands/staging.hpp"
+#include "session/held/staging.hpp"
 
 namespace burin::session {
 

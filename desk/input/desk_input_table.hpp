@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "session/commands/actions.hpp"
+#include "session/input/actions.hpp"
 #include "session/input/input_event.hpp"
 
 namespace burin::session {

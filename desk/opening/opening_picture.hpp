@@ -10,7 +10,7 @@
 #include "desk/opening/opening_work.hpp"
 #include "desk/panel/panel.hpp"
 #include "desk/present/presenter.hpp"
-#include "session/live/session_state.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 

@@ -18,9 +18,9 @@
 #include "desk/panel/panel_pointer.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "session/hands/session_hands.hpp"
-#include "session/live/session_state.hpp"
 #include "session/notices/message_log.hpp"
 #include "session/record/input_source.hpp"
+#include "session/state/session_state.hpp"
 #include "wall/head_prediction.hpp"
 
 namespace burin::session {

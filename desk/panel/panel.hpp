@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Panel of the live session: shows a PanelModel and returns the user's wishes as commands. It changes nothing itself:
-// whoever runs the commands (session/commands/command_table.hpp) makes the next model, so that panel, keys, scripts and
+// whoever runs the commands (session/state/command_table.hpp) makes the next model, so that panel, keys, scripts and
 // replays take the same path.
 //
 //   auto panel = Panel::create({.size = {340, 1080}, .scale = 1.0});

@@ -12,9 +12,9 @@
 #include "haptics/stability/safety_gate.hpp"
 #include "scene/rendered_material.hpp"
 #include "session/activity/activity.hpp"
-#include "session/commands/command_table.hpp"
 #include "session/notices/message_kind.hpp"
 #include "session/record/panel_measured.hpp"
+#include "session/state/command_table.hpp"
 
 namespace burin::session {
 

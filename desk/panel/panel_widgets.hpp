@@ -13,7 +13,7 @@
 
 #include "desk/panel/panel_look.hpp"
 #include "desk/panel/panel_model.hpp"
-#include "session/commands/command_table.hpp"
+#include "session/state/command_table.hpp"
 
 namespace burin::session::panel {
 

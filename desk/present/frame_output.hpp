@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a session's frames go: outputs on screens, of which pictures are drawn. Presenter (presenter.hpp) has a
-// graphics device for it; OffscreenOutput (offscreen_output.hpp) opens one with the first picture that is asked for. Thread: the frame's.
+// graphics device for it; OffscreenOutput (offscreen_output.hpp) opens one with the first picture that is asked for.
+// Thread: the frame's.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frames of a session in real time: of one that somebody sees, as late as the display allows and only when something
-// has changed, and of one that nobody sees, at the pace of a common display. Thread: the frame's.
+// The frames of a session in real time: of one that somebody sees, as late as the display allows and only when
+// something has changed, and of one that nobody sees, at the pace of a common display. Thread: the frame's.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 #include "desk/run/session_frames.hpp"
 #include "desk/timing/session_times.hpp"
 #include "devices/trackers/tracker.hpp"
-#include "session/notices/session_watch.hpp"
+#include "session/live/session_watch.hpp"
 
 namespace burin::session {
 

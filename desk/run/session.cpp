@@ -14,11 +14,11 @@
 #include "session/drive/session_streams.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/live/opened_room.hpp"
-#include "session/options/session_settings.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"
+#include "session/state/session_settings.hpp"
 #include "session/work/journal_folder.hpp"
 
 namespace burin::session {

@@ -41,7 +41,8 @@ public:
     }
 
 protected:
-    // Returns the next frame's input; nothing at the end. Waits for it in real time, and has the output know where it is.
+    // Returns the next frame's input; nothing at the end. Waits for it in real time, and has the output look where it
+    // is.
     [[nodiscard]] virtual std::optional<FrameInput> next_input() = 0;
     // Looks for a signal, and reports that what follows in the log is lost by it.
     [[nodiscard]] bool look_for_signal();

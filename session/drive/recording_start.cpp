@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "session/drive/thread_recorder.hpp"
-#include "session/options/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 
 namespace burin::session {
 namespace {

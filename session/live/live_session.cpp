@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <iterator>
 
-#include "desk/view/view_cube.hpp"
-#include "session/commands/governed.hpp"
-#include "session/notices/session_events.hpp"
+#include "session/live/session_events.hpp"
+#include "session/state/governed.hpp"
+#include "session/state/view_cube.hpp"
 
 namespace burin::session {
 namespace {

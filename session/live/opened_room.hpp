@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "session/live/session_state.hpp"
 #include "session/options/session_options.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bounds of a session's numbers. One list: the command line refuses what is beyond them, and so does whoever reads
-// the options of a recording (session/options/session_settings.hpp). Bounds of tool and material are sculpt's.
+// the options of a recording (session/state/session_settings.hpp). Bounds of tool and material are sculpt's.
 #pragma once
 
 #include <initializer_list>

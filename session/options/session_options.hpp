@@ -16,7 +16,7 @@
 #include "sculpt/mirror.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/commands/actions.hpp"
+#include "session/input/actions.hpp"
 #include "session/options/edge_comfort.hpp"
 
 namespace burin::scene {

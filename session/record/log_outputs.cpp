@@ -13,8 +13,8 @@
 #include "document/document_file.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "session/input/input_words.hpp"
-#include "session/live/session_state.hpp"
 #include "session/record/input_files.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 namespace {

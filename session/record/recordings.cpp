@@ -8,8 +8,8 @@
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"
-#include "session/options/session_settings.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/state/session_settings.hpp"
 
 namespace burin::session {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "haptics/channels.hpp"
-#include "session/live/session_state.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 

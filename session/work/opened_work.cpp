@@ -14,10 +14,10 @@
 #include "scene/saved_objects.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
-#include "session/commands/command_table.hpp"
-#include "session/hands/held_tool.hpp"
+#include "session/held/held_tool.hpp"
 #include "session/input/input_words.hpp"
-#include "session/options/session_settings.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_settings.hpp"
 #include "session/work/opened_history.hpp"
 
 namespace burin::session {

@@ -14,8 +14,8 @@
 #include "document/document_reader.hpp"
 #include "scene/world_file.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/live/session_state.hpp"
 #include "session/options/session_options.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 

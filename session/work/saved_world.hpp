@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The objects of a session's world as a part of its document. They are values that the frame has whole
-// (session/objects/world_objects.hpp), so their pages are made there, and the scene's thread is not asked: which objects
-// have changed since they were saved, their addresses say.
+// (session/objects/world_objects.hpp), so their pages are made there, and the scene's thread is not asked: which
+// objects have changed since they were saved, their addresses say.
 // Thread: the frame's.
 #pragma once
 

@@ -3,7 +3,7 @@
 // its plinth.
 #include <array>
 
-#include "desk/view/view_cube.hpp"
+#include "session/state/view_cube.hpp"
 #include "tests/desk/mouse_desk.hpp"
 
 namespace burin::session {

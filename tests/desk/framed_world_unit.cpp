@@ -9,7 +9,7 @@
 #include "session/drive/driver.hpp"
 #include "session/live/live_session.hpp"
 #include "session/objects/object_turn.hpp"
-#include "session/options/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/projection.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "devices/trackers/udp_tracker.hpp"
 #include "session/input/input_line.hpp"
-#include "session/notices/session_watch.hpp"
+#include "session/live/session_watch.hpp"
 
 namespace burin::session {
 namespace {

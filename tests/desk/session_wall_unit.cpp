@@ -5,7 +5,7 @@
 #include <random>
 
 #include "desk/draw/presented_parts.hpp"
-#include "session/live/session_state.hpp"
+#include "session/state/session_state.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/wall_file.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From the haptic thread's tool state to what is drawn of tool and workspace.
-#include "session/hands/staging.hpp"
+#include "session/held/staging.hpp"
 
 #include <gtest/gtest.h>
 

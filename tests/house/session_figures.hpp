@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of the middle of the house: how far session/ and desk/ are apart, and how much of our own a source reads. Bars
-// are what has been reached: they may only fall. Pure reading; one thread.
+// Figures of the middle of the house: how far session/ and desk/ are apart, and how much of our own a source reads.
+// Bars are what has been reached: they may only fall. Pure reading; one thread.
 #pragma once
 
 #include <filesystem>

@@ -11,9 +11,9 @@
 #include <tuple>
 
 #include "desk/run/session_frames.hpp"
-#include "session/commands/governed.hpp"
 #include "session/live/live_session.hpp"
-#include "session/options/session_settings.hpp"
+#include "session/state/governed.hpp"
+#include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

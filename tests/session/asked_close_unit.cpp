@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A person closes the window, saves, names a file: nothing that was carved is lost without a word.
-#include "session/commands/asked_close.hpp"
+#include "session/state/asked_close.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where a user's saves go: to the file that was opened or written before, and never over another's.
-#include "session/work/document_side.hpp"
+#include "session/live/document_side.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/live/live_session.hpp"
-#include "session/options/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::session {

@@ -12,7 +12,7 @@
 #include "scene/saved_objects.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/tool_options.hpp"
-#include "session/work/document_side.hpp"
+#include "session/live/document_side.hpp"
 #include "session/work/journal_folder.hpp"
 #include "session/work/saved_world.hpp"
 #include "tests/support/run_command.hpp"

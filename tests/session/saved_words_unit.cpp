@@ -12,8 +12,8 @@
 
 #include "document/document_store.hpp"
 #include "sculpt/sculpture.hpp"
-#include "session/commands/command_table.hpp"
 #include "session/live/live_session.hpp"
+#include "session/state/command_table.hpp"
 #include "session/work/saved_world.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/uneven_poses.hpp"

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "sculpt/tool_options.hpp"
-#include "session/commands/command_table.hpp"
 #include "session/input/input_words.hpp"
+#include "session/state/command_table.hpp"
 
 namespace burin::session {
 namespace {

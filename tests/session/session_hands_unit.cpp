@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "session/activity/activity_side.hpp"
+#include "session/live/activity_side.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/uneven_poses.hpp"
 

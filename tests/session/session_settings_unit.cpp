@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The first line of a recording: what an option takes there is what it takes on the command line.
-#include "session/options/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "haptics/tick.hpp"
-#include "session/live/session_state.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
-#include "session/options/session_settings.hpp"
 #include "session/record/tick_source.hpp"
+#include "session/state/session_settings.hpp"
 #include "tests/session/threads_seen.hpp"
 #include "tests/support/run_command.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shift when a stroke of the mouse begins: the tool smooths, and afterwards does what it did before.
-#include "session/commands/smooth_stroke.hpp"
+#include "session/state/smooth_stroke.hpp"
 
 #include "tests/desk/mouse_desk.hpp"
 

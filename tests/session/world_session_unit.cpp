@@ -7,7 +7,7 @@
 
 #include "desk/run/session_frames.hpp"
 #include "session/live/live_session.hpp"
-#include "session/options/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

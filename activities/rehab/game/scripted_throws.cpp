@@ -26,7 +26,7 @@ constexpr double kAsideFrom_s = 0.12, kAside_s = 2.0;
 constexpr double kClosesAgain_s = 0.21;
 
 // In a window of the usual size the desk leads the hand by kPixel_m a pixel, less kPixelLess of a metre for each metre
-// by which its z is above kThumbAhead_m, and by kWheelStep_m a step of the wheel (session/live/session_state.cpp,
+// by which its z is above kThumbAhead_m, and by kWheelStep_m a step of the wheel (session/state/session_state.cpp,
 // session/live/opened_room.cpp).
 constexpr double kPixel_m = 0.0011377, kPixelLess = 0.00159, kThumbAhead_m = 0.0287, kWheelStep_m = 0.01;
 constexpr double kRest_y_m = 0.2209, kRest_z_m = 0.131;  // where the grip is at first

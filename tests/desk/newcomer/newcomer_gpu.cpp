@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A newcomer's first session, step by step: what each step's picture and the part itself must show.
-#include "desk/view/view_cube.hpp"
 #include "geometry/files/mesh_import.hpp"
+#include "session/state/view_cube.hpp"
 #include "tests/desk/newcomer/newcomer_desk.hpp"
 
 namespace burin::session {

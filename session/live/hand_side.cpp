@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/hand_side.hpp"
+
+#include <utility>
+
+namespace burin::session {
+namespace {
+
+// Returns where a hand rests in its device.
+const Vec3& rest_device(const SessionState& state, std::size_t hand) {
+    return hand == state.hand ? state.desk.target_device_m : state.hands[hand].target.position_device_m;
+}
+
+}  // namespace
+
+Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock) {
+    std::vector<HandToOpen> wanted;
+    for (const NamedDevice& hand : devices_of(live)) {
+        const std::size_t i = wanted.size();
+        wanted.push_back({hand.hand, hand.device, {rest_device(state, i), room.of(i).desk.rest_device}});
+    }
+    return hands_.open(wanted, clock, live.stands_in);
+}
+
+std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state, const Room& room,
+                                                       double spacing_m) const {
+    std::vector<SceneSide::Beginning> all;
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
+        // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
+        // ends of a handle are swung as well, at 6 rad/s.
+        const double scale = parameters_of(state, room, hand).workspace.object_from_device.scale;
+        const double reach_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m;
+        all.push_back({place_at_rest(hand, state, room), reach_m, spread_of(hand, state, room)});
+    }
+    return all;
+}
+
+void HandSide::publish_parameters(const SessionState& state, const Room& room, const ActivitySide& activity) {
+    for (std::size_t part = 0; part < hands_.parts(); ++part) {
+        const PartOfHand of = hands_.part_of_hand(part);
+        haptics::TickParameters parameters = parameters_of(state, room, of.hand, hands_.device(part));
+        activity.adjust(of, parameters);
+        hands_.publish(part, std::move(parameters));
+    }
+}
+
+void HandSide::spread(const SessionState& state, const Room& room, SceneSide& scene,
+                      const SceneSide::Give& give) const {
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) scene.spread(hand, spread_of(hand, state, room), give);
+}
+
+// How far a handle's points are from the first of them, in the scene as large as it is shown now.
+double HandSide::spread_of(std::size_t hand, const SessionState& state, const Room& room) const {
+    return handles_[hand]
+               ? handles_[hand]->spread_m() * parameters_of(state, room, hand).workspace.object_from_device.scale
+               : 0.0;
+}
+
+// Returns where a hand's tool is before the first tick.
+Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const Room& room) const {
+    const Vec3& rest_device_m = rest_device(state, hand);
+    const Vec3 first_device_m =
+        handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room.of(hand).desk.rest_device})
+                       : rest_device_m;
+    if (hand == state.hand && state.mouse == MouseMode::surface)
+        return parameters_of(state, room, hand).workspace.object_from_device * first_device_m;
+    return inverse(state.world_from_object) * (hand_of(state, hand).world_from_device * first_device_m);
+}
+
+}  // namespace burin::session

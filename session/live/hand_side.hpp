@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The hands of a live session as its state sees them: where each begins, with which handle, and what the ticks of each
+// of its parts are told. Thread: the frame's.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "session/hands/session_hands.hpp"
+#include "session/live/activity_side.hpp"
+#include "session/live/scene_side.hpp"
+#include "session/options/session_options.hpp"
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+
+class HandSide {
+public:
+    // Handles by hand (OpenedRoom); null: a stylus, or one that holds a tool.
+    using Handles = std::vector<std::shared_ptr<const HeldHandle>>;
+
+    // As SessionHands.
+    HandSide(std::size_t records, double pace) : hands_(records, pace) {}
+
+    void use(Handles handles) { handles_ = std::move(handles); }
+    // Opens the devices, each with its hand where the state has it.
+    [[nodiscard]] Result<void> open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock);
+    // Returns where the hands' tools are before the first tick. spacing_m: of the workpiece's lattice.
+    [[nodiscard]] std::vector<SceneSide::Beginning> beginnings(const SessionState& state, const Room& room,
+                                                               double spacing_m) const;
+    // Tells the ticks of all parts what the state says, and what the activity adds.
+    void publish_parameters(const SessionState& state, const Room& room, const ActivitySide& activity);
+    // Has what is known around each hand reach all points of its handle: the scene has been scaled, or the motion.
+    void spread(const SessionState& state, const Room& room, SceneSide& scene, const SceneSide::Give& give) const;
+
+    [[nodiscard]] SessionHands& all() { return hands_; }
+    [[nodiscard]] const SessionHands& all() const { return hands_; }
+    [[nodiscard]] const Handles& handles() const { return handles_; }
+
+private:
+    [[nodiscard]] double spread_of(std::size_t hand, const SessionState& state, const Room& room) const;
+    [[nodiscard]] Vec3 place_at_rest(std::size_t hand, const SessionState& state, const Room& room) const;
+
+    SessionHands hands_;
+    Handles handles_;
+};
+
+}  // namespace burin::session

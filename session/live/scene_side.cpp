@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/scene_side.hpp"
+
+#include <utility>
+
+namespace burin::session {
+
+Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes, std::span<const Beginning> hands,
+                              scene::ScenePart* brought, SampleTap* tap, Nanoseconds start_ns) {
+    std::vector<scene::ScenePart*> parts;
+    if (carving_) {
+        carved_.emplace(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
+        for (std::size_t part = 0; part < hands_.parts(); ++part) carved_->order(use, part);
+        parts.push_back(&*carved_);
+    }
+    tools_around_m_.assign(hands_.hands(), sculpt::around_m(use.tool));
+    if (world_) {
+        for (std::size_t part = 0; part < hands_.parts(); ++part) world_->part().grip_with(part, kGrips);
+        parts.push_back(&world_->part());
+    }
+    if (brought != nullptr) parts.push_back(brought);
+    if (tap != nullptr) parts.push_back(tap);
+    for (const Beginning& hand : hands) spreads_m_.push_back(hand.spread_m);
+    std::vector<scene::SceneHand> touched;
+    for (std::size_t part = 0; part < hands_.parts(); ++part) {
+        const PartOfHand of = hands_.part_of_hand(part);
+        const Beginning& hand = hands[of.hand];
+        touched.push_back(
+            {&hands_.channels(part), hand.at_scene, tools_around_m_[of.hand] + hand.spread_m, hand.reach_m, of});
+    }
+    service_.emplace(std::move(parts), std::move(touched));
+    news_.report_of(*service_);
+    return service_->update(start_ns);
+}
+
+SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand) {
+    return [this, order = std::move(order), hand, spread_m = spreads_m_[hand]] {
+        const std::size_t first = hands_.first_part(hand), parts = hands_.parts_of(hand);
+        const auto* use = std::get_if<sculpt::UseTool>(&order);
+        if (carved_ && use == nullptr) carved_->order(order);
+        if (use == nullptr) return;
+        for (std::size_t part = first; carved_ && part < first + parts; ++part) carved_->order(*use, part);
+        tools_around_m_[hand] = carved_ ? carved_->around_m(first) : sculpt::around_m(use->tool);
+        for (std::size_t part = first; part < first + parts; ++part)
+            service_->use_probe(part, tools_around_m_[hand] + spread_m);
+    };
+}
+
+SceneSide::Order SceneSide::saving(document::SaveRequest request, document::DocumentWriter& writer) {
+    auto wanted = std::make_shared<document::SaveRequest>(std::move(request));
+    sculpt::SaveScene save{[this, wanted, &writer] {
+        if (carved_ && !wanted->refused) {  // a part that gives its pages counts them as saved
+            scene::Pages pages{.whole = !wanted->changed_alone};
+            if (const Result<void> saved = carved_->save(pages); !saved) wanted->refused = saved.error();
+            wanted->content.parts.insert(wanted->content.parts.begin(), std::move(pages));
+            wanted->state += carved_->state();
+        }
+        writer.save(std::move(*wanted));
+    }};
+    return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };
+}
+
+SceneSide::Order SceneSide::noting(document::Change change, document::DocumentWriter& writer) {
+    to_be_noted_.fetch_add(1, std::memory_order_relaxed);
+    return [this, change = std::move(change), &writer]() mutable {
+        writer.note(std::move(change));
+        to_be_noted_.fetch_sub(1, std::memory_order_relaxed);
+    };
+}
+
+SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
+    return [this, content = std::move(content), &writer]() mutable {
+        // The workpiece is the first part.
+        if (!carved_ || carved_->copy(*content.parts.emplace(content.parts.begin())))
+            writer.begin_anew(std::move(content));
+    };
+}
+
+SceneSide::Order SceneSide::editing(WorldOrder order) {
+    return [this, order = std::move(order)] {
+        if (const auto done = world_->part().edit(order.object, order.edit); !done) news_.notify(done.error().line());
+    };
+}
+
+SceneSide::Order SceneSide::holding(HoldOrder order) {
+    return [this, order = std::move(order)] {
+        scene::MeshPart& part = world_->part();
+        const auto done =
+            order.parts.empty() ? part.let_go(order.object) : part.take_hold(order.object, order.parts, order.felt);
+        if (!done) news_.notify(done.error().line());
+    };
+}
+
+void SceneSide::spread(std::size_t hand, double spread_m, const Give& give) {
+    if (spread_m == spreads_m_[hand]) return;
+    spreads_m_[hand] = spread_m;
+    give([this, hand, spread_m] {
+        service_->use_probe(hands_.first_part(hand), tools_around_m_[hand] + spread_m);  // a handle is one part
+    });
+}
+
+}  // namespace burin::session

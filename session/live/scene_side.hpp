@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What the hands of a session touch: the carved workpiece, the objects of a world, the service of both, and what they
+// report. Makes the orders that the scene's thread carries out, by the hands' own numbers.
+// Threads: opened and asked by the frame's; orders are carried out, and collect() is called, by the scene's.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "document/document_writer.hpp"
+#include "scene/scene_thread.hpp"
+#include "sculpt/carved_part.hpp"
+#include "session/hands/session_hands.hpp"
+#include "session/live/sample_tap.hpp"
+#include "session/live/scene_news.hpp"
+#include "session/live/world_side.hpp"
+
+namespace burin::session {
+
+class SceneSide {
+public:
+    // The stylus' second button takes hold of an object.
+    static constexpr std::uint32_t kGrips = 2;
+    using Order = scene::SceneThread::Order;
+    using Give = std::function<void(Order)>;
+
+    // The hands must outlive it.
+    explicit SceneSide(SessionHands& hands) : hands_(hands) {}
+
+    // Takes what is there to be touched, before begin().
+    void take(std::unique_ptr<sculpt::Sculpture> carving) { carving_ = std::move(carving); }
+    void take(std::unique_ptr<WorldSide> world) { world_ = std::move(world); }
+    // How a hand begins, by the numbers of the scene.
+    struct Beginning {
+        Vec3 at_scene{0.0};
+        double reach_m = 0.0;   // how far it may move until the next update
+        double spread_m = 0.0;  // of its points, from the first
+    };
+    // Makes the scene of all hands, which begin with one tool, and updates it for the first time. brought: a part that
+    // an activity brings, which must outlive this; tap: what the activity listens by. Null: none.
+    [[nodiscard]] Result<void> begin(const sculpt::UseTool& use, std::size_t undo_bytes,
+                                     std::span<const Beginning> hands, scene::ScenePart* brought, SampleTap* tap,
+                                     Nanoseconds start_ns);
+
+    // Orders for the scene's thread. A tool is the one of the hand in use.
+    [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);
+    // Adds the pages of the workpiece, before those of the request, and has all saved; where that cannot be, nothing
+    // is.
+    [[nodiscard]] Order saving(document::SaveRequest request, document::DocumentWriter& writer);
+    // Notes a change for the journal, in its turn among the saves.
+    [[nodiscard]] Order noting(document::Change change, document::DocumentWriter& writer);
+    // Returns how many changes have been ordered so and are not noted yet.
+    [[nodiscard]] std::int64_t to_be_noted() const { return to_be_noted_.load(std::memory_order_relaxed); }
+    // Has a journal begin anew with the workpiece as it is then, before what is in the content, unless a stroke goes
+    // on.
+    [[nodiscard]] Order journalling(document::Content content, document::DocumentWriter& writer);
+    [[nodiscard]] Order editing(WorldOrder order);
+    [[nodiscard]] Order holding(HoldOrder order);
+    // Has what is known around a hand's first point reach its others, at this distance, where that is new.
+    void spread(std::size_t hand, double spread_m, const Give& give);
+
+    [[nodiscard]] scene::SceneService& service() { return *service_; }
+    [[nodiscard]] SceneNews& news() { return news_; }
+    [[nodiscard]] const SceneNews& news() const { return news_; }
+    // Null: there is no workpiece, or no world.
+    [[nodiscard]] const sculpt::Sculpture* workpiece() const { return carving_.get(); }
+    [[nodiscard]] sculpt::CarvedPart* carved() { return carved_ ? &*carved_ : nullptr; }
+    [[nodiscard]] WorldSide* world() { return world_.get(); }
+    [[nodiscard]] const WorldSide* world() const { return world_.get(); }
+    // Of the workpiece's lattice; 0 without one.
+    [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
+    [[nodiscard]] Vec3 lattice_origin_object() const {
+        return carving_ ? carving_->surface().lattice().origin_object : Vec3(0.0);
+    }
+
+private:
+    SessionHands& hands_;
+    std::unique_ptr<sculpt::Sculpture> carving_;
+    std::optional<sculpt::CarvedPart> carved_;  // with carving_
+    std::unique_ptr<WorldSide> world_;
+    std::optional<scene::SceneService> service_;
+    SceneNews news_;
+    std::vector<double> spreads_m_;  // of each hand, as the scene's thread has been told
+    std::atomic<std::int64_t> to_be_noted_ = 0;
+    std::vector<double> tools_around_m_;  // of each hand's tool; the scene's thread's
+};
+
+}  // namespace burin::session

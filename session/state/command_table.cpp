@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: MIT
+#include "session/state/command_table.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/text.hpp"
+#include "document/document_file.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/input/input_words.hpp"
+
+namespace burin::session {
+
+namespace {
+
+using Parsed = Result<SessionCommand>;
+using CommandWords = std::span<const std::string>;
+
+// The input log's bound on all lengths.
+constexpr double kMostLength_m = 10.0;
+
+std::unexpected<Error> no_argument(std::string_view command, std::string_view given, const std::string& remedy) {
+    return fail("command " + std::string(command) + (given.empty() ? "" : " " + std::string(given)),
+                given.empty() ? "says not what" : "is not known", remedy);
+}
+
+std::string listed(const auto& names) {
+    std::string text;
+    for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+    return text;
+}
+
+// Returns the index of a word in a list of names.
+Result<std::size_t> choice(std::string_view command, std::string_view word, std::span<const std::string_view> names) {
+    const auto at = std::ranges::find(names, word);
+    if (at == names.end()) {
+        return no_argument(command, word,
+                           "did you mean " + std::string(nearest_name(word, names)) + "? There are " + listed(names));
+    }
+    return static_cast<std::size_t>(at - names.begin());
+}
+
+// Returns the descriptor in a table with this name.
+template <typename Descriptor>
+Result<Descriptor> choice_of(std::string_view command, std::string_view word, std::span<const Descriptor> table) {
+    std::vector<std::string_view> names;
+    for (const Descriptor& descriptor : table) names.push_back(descriptor.name);
+    const auto at = choice(command, word, names);
+    if (!at) return std::unexpected(at.error());
+    return table[*at];
+}
+
+Result<bool> parse_switch(std::string_view command, std::string_view word) {
+    constexpr std::array<std::string_view, 4> kWords{"off", "on", "no", "yes"};
+    const auto at = choice(command, word, kWords);
+    if (!at) return std::unexpected(at.error());
+    return *at % 2 == 1;
+}
+
+Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) {
+    const std::string where = "command " + std::string(range.name) + " " + word;
+    const auto number = sculpt::parse_numbers(word, 1, where);
+    std::string remedy = "write a number from " + as_input(SetQuantity{range.quantity, range.least}).arguments[0] +
+                         " to " + as_input(SetQuantity{range.quantity, range.most}).arguments[0];
+    if (!range.unit.empty()) remedy += ", in " + std::string(range.unit);
+    if (!number) return fail(where, "is not a number", remedy);
+    if ((*number)[0] < range.least || (*number)[0] > range.most) return fail(where, "is out of bounds", remedy);
+    return SetQuantity{range.quantity, (*number)[0]};
+}
+
+Parsed parse_tool(CommandWords words) {
+    const std::string& text = words[0];
+    // Looks the kind up first, because this error offers the nearest name.
+    const auto kind = choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds());
+    if (!kind) return std::unexpected(kind.error());
+    const std::string where = "command tool " + text;
+    auto tool = sculpt::parse_tool_spec(text, where);
+    if (!tool) return std::unexpected(tool.error());
+    if (std::ranges::any_of(tool->sizes_m, [](double size_m) { return size_m > kMostLength_m; })) {
+        return fail(where, "is larger than 10 m", "give sizes in metres");
+    }
+    return SetTool{std::move(*tool)};
+}
+
+Parsed parse_operation(CommandWords words) {
+    const auto operation = choice_of("operation", words[0], sculpt::operations());
+    if (!operation) return std::unexpected(operation.error());
+    return SetOperation{operation->operation};
+}
+
+Parsed parse_colour(CommandWords words) {
+    const std::string where = "command colour " + words[0];
+    const char* const remedy = "write red,green,blue from 0 to 1, such as 0.8,0.2,0.1";
+    const auto numbers = sculpt::parse_numbers(words[0], 3, where);
+    if (!numbers) return fail(where, "is no colour", remedy);
+    if (std::ranges::any_of(*numbers, [](double part) { return part < 0.0 || part > 1.0; })) {
+        return fail(where, "is out of bounds", remedy);
+    }
+    return SetColour{{(*numbers)[0], (*numbers)[1], (*numbers)[2]}};
+}
+
+Parsed parse_material(CommandWords words) {
+    const auto preset = choice_of("material", words[0], sculpt::feel_presets());
+    if (!preset) return std::unexpected(preset.error());
+    return SetMaterial{preset->preset};
+}
+
+Parsed parse_technique(CommandWords words) {
+    const auto technique = choice_of("technique", words[0], techniques());
+    if (!technique) return std::unexpected(technique.error());
+    return SetTechnique{technique->technique};
+}
+
+// Makes the error of another parser name the command; these parsers do not know it.
+template <typename T>
+Result<T> of_command(Result<T> result, const std::string& command) {
+    if (!result) result.error().where = "command " + command;
+    return result;
+}
+
+Parsed parse_mode(CommandWords words) {
+    const auto mode = of_command(wall::parse_stereo_mode(words[0]), "stereo-mode " + words[0]);
+    if (!mode) return std::unexpected(mode.error());
+    return SetStereoMode{*mode};
+}
+
+Parsed parse_pattern(CommandWords words) {
+    const auto pattern = of_command(wall::parse_test_pattern(words[0]), "test-pattern " + words[0]);
+    if (!pattern) return std::unexpected(pattern.error());
+    return SetTestPattern{*pattern};
+}
+
+Parsed parse_eye_swap(CommandWords words) {
+    if (words.empty()) return RunAction{Action::swap_eyes};
+    const auto on = parse_switch("swap-eyes", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetEyeSwap{*on};
+}
+
+Parsed parse_edges(CommandWords words) {
+    const auto comfort =
+        of_command(parse_edge_comfort(words[0], "edge-comfort " + words[0]), "edge-comfort " + words[0]);
+    if (!comfort) return std::unexpected(comfort.error());
+    return SetEdgeComfort{*comfort};
+}
+
+Parsed parse_force(CommandWords words) {
+    const auto on = parse_switch("force", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetForce{*on};
+}
+
+Parsed parse_amplifiers(CommandWords words) {
+    const auto on = parse_switch("amplifiers", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetAmplifiers{*on};
+}
+
+Parsed parse_force_shown(CommandWords words) {
+    const auto on = parse_switch("show-force", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetForceShown{*on};
+}
+
+Parsed parse_catch_drill(CommandWords words) {
+    const auto on = parse_switch("catch-drill", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetCatchDrill{*on};
+}
+
+Result<std::string> parse_path(std::string_view command, const std::string& path, const char* example) {
+    if (path.empty() || path.contains('\0')) {
+        return no_argument(command, "", "name a file, such as " + std::string(example));
+    }
+    return path;
+}
+
+Parsed parse_export(CommandWords words) {
+    auto path = parse_path("export", words[0], "part.stl");
+    if (!path) return std::unexpected(path.error());
+    return ExportTo{std::move(*path)};
+}
+
+Result<void> check_document_name(const std::string& command, const std::string& path) {
+    if (document::is_document_name(path)) return {};
+    return fail("command " + command + " " + path, "is no name of a document",
+                "name it .burin; export FILE writes a mesh");
+}
+
+Parsed parse_save(CommandWords words) {
+    if (words.empty()) return SaveTo{};
+    auto path = parse_path("save", words[0], "bust.burin");
+    if (!path) return std::unexpected(path.error());
+    if (const auto named = check_document_name("save", *path); !named) return std::unexpected(named.error());
+    return SaveTo{std::move(*path)};
+}
+
+Parsed parse_save_as(CommandWords words) {
+    if (words.empty()) return RunAction{Action::save_as};
+    auto path = parse_path("save-as", words[0], "bust.burin");
+    if (!path) return std::unexpected(path.error());
+    if (const auto named = check_document_name("save-as", *path); !named) return std::unexpected(named.error());
+    if (words.size() == 1) return SaveAs{std::move(*path)};
+    const auto is = choice("save-as " + words[0], words[1], name_states());
+    if (!is) return std::unexpected(is.error());
+    return SaveAs{std::move(*path), static_cast<NameIs>(*is)};
+}
+
+Result<std::size_t> parse_count(std::string_view word, const std::string& where) {
+    std::size_t count = 0;
+    const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (failed == std::errc{} && end == word.data() + word.size()) return count;
+    return fail(where, "is not a count", "write a whole number, such as 3");
+}
+
+Parsed parse_document(CommandWords words) {
+    const auto is = choice("document", words[0], document_states());
+    if (!is) return std::unexpected(is.error());
+    DocumentTold told{.is = static_cast<DocumentIs>(*is), .name = words[1]};
+    const auto place = choice("document", words[2], std::array<std::string_view, 2>{"new", "file"});
+    if (!place) return std::unexpected(place.error());
+    told.has_file = *place == 1;
+    const std::string& kept = words[3];
+    const std::size_t slash = kept.find('/');
+    told.keeps = kept != "none";
+    if (told.keeps && slash == std::string::npos)
+        return no_argument("document", kept, "write how many of how many strokes are kept, such as 3/4, or none");
+    const auto first = parse_count(told.keeps ? kept.substr(0, slash) : "0", "command document " + kept);
+    const auto of = parse_count(told.keeps ? kept.substr(slash + 1) : "0", "command document " + kept);
+    const auto saves = parse_count(words[4], "command document " + words[4]);
+    for (const auto* const count : {&first, &of, &saves})
+        if (!*count) return std::unexpected(count->error());
+    told.kept = *first;
+    told.strokes = *of;
+    told.saves = *saves;
+    return TellDocument{std::move(told)};
+}
+
+Parsed parse_quit(CommandWords words) {
+    if (words.empty()) return RunAction{Action::quit};
+    if (words[0] == "discard") return QuitDiscard{};
+    if (words[0] == "save") return QuitSave{};
+    if (words[0] == "stay") return QuitStay{};
+    return no_argument("quit", words[0], "write quit, quit save, or quit discard, which forgets what was not saved");
+}
+
+Parsed parse_screenshot(CommandWords words) {
+    auto path = parse_path("screenshot", words[0], "wall.png");
+    if (!path) return std::unexpected(path.error());
+    return ScreenshotTo{std::move(*path)};
+}
+
+Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& property, const std::string& word,
+                                         const std::string& where) {
+    scene::PropertyValue value{};
+    if (property.numbers == 0) {
+        const auto on = of_command(parse_switch("object", word), where.substr(8));
+        if (!on) return std::unexpected(on.error());
+        value[0] = *on ? 1.0 : 0.0;
+        return value;
+    }
+    constexpr const char* kOpacityRemedy = "write a number from 0, clear as glass, to 1, which hides what is behind";
+    const bool is_opacity = property.property == scene::ObjectProperty::opacity;
+    const auto numbers = sculpt::parse_numbers(word, property.numbers, where);
+    if (!numbers) {
+        const std::string unit = property.unit.empty() ? "" : ", in " + std::string(property.unit);
+        return fail(where, property.numbers == 1 ? "is not a number" : "is not " + std::string(property.argument),
+                    is_opacity ? kOpacityRemedy : "write " + std::string(property.argument) + unit);
+    }
+    std::ranges::copy(*numbers, value.begin());
+    const auto is_part = [](double part) { return part >= 0.0 && part <= 1.0; };
+    if (property.property == scene::ObjectProperty::colour && !std::ranges::all_of(*numbers, is_part))
+        return fail(where, "is out of bounds", "write R,G,B from 0 to 1, such as 0.8,0.2,0.1");
+    if (is_opacity && !is_part(value[0])) return fail(where, "is out of bounds", kOpacityRemedy);
+    if (property.property == scene::ObjectProperty::orientation && !(Vec3(value[0], value[1], value[2]) != Vec3(0.0)))
+        return fail(where, "has an axis without length", "write an axis and an angle in radians, such as 0,1,0,1.57");
+    return value;
+}
+
+Parsed parse_object(CommandWords words) {
+    const auto property = choice_of("object " + words[0], words[1], scene::object_properties());
+    if (!property) return std::unexpected(property.error());
+    const std::string where = "command object " + words[0] + " " + words[1] + " " + words[2];
+    const auto value = parse_value(*property, words[2], where);
+    if (!value) return std::unexpected(value.error());
+    return EditObject{words[0], property->property, *value};
+}
+
+Parsed parse_act(CommandWords words) { return DoAct{{words.begin(), words.end()}}; }
+
+Parsed parse_select(CommandWords words) { return SelectObject{words[0]}; }
+
+Parsed parse_hand(CommandWords words) { return LeadHand{words[0]}; }
+
+Parsed parse_calibrate(CommandWords words) {
+    if (words.empty()) return CalibrateHandle{};
+    if (words[0] == "reset") return CalibrateHandle{.reset = true};
+    return no_argument("calibrate", words[0], "write calibrate, or calibrate reset");
+}
+
+Parsed parse_mouse(CommandWords words) {
+    const auto at = choice("mouse", words[0], mouse_mode_names());
+    if (!at) return std::unexpected(at.error());
+    return SetMouse{static_cast<MouseMode>(*at)};
+}
+
+Parsed parse_mirror(CommandWords words) {
+    const auto mirror = sculpt::parse_mirror(words[0], "command mirror " + words[0]);
+    if (!mirror) return std::unexpected(mirror.error());
+    return SetMirror{*mirror};
+}
+
+template <Quantity quantity>
+Parsed parse_number_of(CommandWords words) {
+    return parse_quantity(descriptor_of(quantity), words[0]);
+}
+
+struct Entry {
+    CommandSpec spec;
+    Parsed (*parse)(CommandWords);
+};
+
+template <Quantity quantity>
+Entry entry_of() {
+    const QuantityDescriptor& q = descriptor_of(quantity);
+    return {{q.name, q.argument, std::string(q.help)}, parse_number_of<quantity>};
+}
+
+// Lists the commands that take an argument.
+const std::vector<Entry>& entries() {
+    using sculpt::alternatives, sculpt::names_in;
+    static const std::vector<Entry> all{
+        {{"tool", "SHAPE", "Take a tool: " + listed(sculpt::tool_synopses())}, parse_tool},
+        entry_of<Quantity::radius>(),
+        {{"operation", "WHAT", "What the tool does: " + alternatives(names_in(sculpt::operations()))}, parse_operation},
+        {{"colour", "R,G,B", "Colour of what the tool leaves, each part from 0 to 1"}, parse_colour},
+        {{"material", "NAME", "What the workpiece feels like: " + alternatives(names_in(sculpt::feel_presets()))},
+         parse_material},
+        entry_of<Quantity::hardness>(),
+        entry_of<Quantity::friction>(),
+        entry_of<Quantity::stiffness>(),
+        {{"force", "on|off", "Whether the device gives force"}, parse_force},
+        {{"amplifiers", "on|off", "Enable the device's amplifiers again after a trip, or switch them off"},
+         parse_amplifiers},
+        entry_of<Quantity::velocity_filter>(),
+        entry_of<Quantity::force_filter>(),
+        {{"technique", "NAME", "How the workspace moves: " + alternatives(names_in(techniques()))}, parse_technique},
+        entry_of<Quantity::scale>(),
+        {{"stereo-mode", "NAME", "How the two eyes' pictures are shown, such as anaglyph_red_cyan"}, parse_mode},
+        {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
+        {{"edge-comfort", "auto|on|off", "Whether depth fades towards the edge of a lone screen, for the eyes' ease"},
+         parse_edges},
+        {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
+        entry_of<Quantity::eye_distance>(),
+        {{"mirror", "AXES",
+          "Carve the other side as well, across planes through the workpiece's middle: x, y, z, several such as xz, or "
+          "none"},
+         parse_mirror},
+        {{"object", "NAME WHAT VALUE",
+          "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
+         parse_object},
+        {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
+        {{"mouse", "surface|free",
+          "Whether the tool is where the cursor points, or the mouse moves it along the screen"},
+         parse_mouse},
+        entry_of<Quantity::strength>(),
+        {{"hand", "NAME", "Lead the hand of this name with mouse and keys, of several"}, parse_hand},
+        {{"do", "ACT...", "Tell the activity something, as the buttons of its section do"}, parse_act},
+        {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
+        {{"calibrate", "[reset]", "Take the wand, now in its jig, for being where that is; or take that back"},
+         parse_calibrate},
+        {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
+        {{"save", "[FILE]", "Save the work as a document, FILE.burin; without a name into the one that it has"},
+         parse_save},
+        {{"save-as", "[FILE] [given|free|taken|replaced]",
+          "Ask for the name of a file, or save the work under one: what is known of it stands behind"},
+         parse_save_as},
+        {{"document", "STATE NAME PLACE KEPT SAVES", "What the program tells of the document, for a replay"},
+         parse_document},
+        {{"quit", "[save|discard|stay]",
+          "Quit; what was not saved is asked about, or else kept for the next session, saved or discarded"},
+         parse_quit},
+        {{"export", "FILE", "Write the mesh to a file"}, parse_export},
+        {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},
+    };
+    return all;
+}
+
+constexpr std::size_t kActions = static_cast<std::size_t>(Action::quit) + 1;
+
+std::string_view help_of(Action action) {
+    if (action == Action::first_steps) return "Show what the mouse does, in four pictures";  // the one without a key
+    const auto cut = std::ranges::find(short_cuts(), action, &ShortCut::action);
+    return cut == short_cuts().end() ? std::string_view{} : cut->description;
+}
+
+// Lists commands with arguments and actions. swap-eyes, save-as and quit are actions that also take an argument, and
+// are listed once.
+const std::vector<CommandSpec>& all_commands() {
+    static const std::vector<CommandSpec> all = [] {
+        std::vector<CommandSpec> list;
+        for (const Entry& entry : entries()) list.push_back(entry.spec);
+        for (std::size_t i = 0; i < kActions; ++i) {
+            const auto action = static_cast<Action>(i);
+            if (action != Action::swap_eyes && action != Action::save_as && action != Action::quit)
+                list.push_back({name_of(action), "", std::string(help_of(action))});
+        }
+        return list;
+    }();
+    return all;
+}
+
+Parsed parse_action(const CommandInput& input) {
+    const auto names = action_names();
+    const auto at = std::ranges::find(names, std::string_view(input.name));
+    if (at == names.end()) {
+        std::vector<std::string_view> known;
+        for (const CommandSpec& spec : all_commands()) known.push_back(spec.name);
+        return fail("command " + input.name, "is not known",
+                    "did you mean " + std::string(nearest_name(input.name, known)) + "? F1 lists all commands");
+    }
+    if (!input.arguments.empty()) {
+        return fail("command " + input.name, "takes no argument",
+                    "leave out " + burin::session::quoted(input.arguments[0]));
+    }
+    return RunAction{static_cast<Action>(at - names.begin())};
+}
+
+}  // namespace
+
+std::span<const CommandSpec> commands() { return all_commands(); }
+
+Result<SessionCommand> parse_command(const CommandInput& input) {
+    const auto entry = std::ranges::find_if(entries(), [&](const Entry& e) { return e.spec.name == input.name; });
+    if (entry == entries().end()) return parse_action(input);
+    const bool optional = entry->spec.arguments.starts_with('[');
+    const auto wanted = static_cast<std::size_t>(1 + std::ranges::count(entry->spec.arguments, ' '));
+    const std::size_t given = input.arguments.size();
+    const bool more = entry->spec.arguments.ends_with("...");
+    if ((given > wanted && !more) || (given < wanted && !optional)) {
+        const std::string count = wanted == 1 ? "takes one argument" : "takes " + std::to_string(wanted) + " arguments";
+        return fail("command " + input.name, given == 0 ? "lacks its argument" : count,
+                    "write " + input.name + " " + std::string(entry->spec.arguments));
+    }
+    return entry->parse(input.arguments);
+}
+
+Result<SessionCommand> parse_command_line(std::string_view line) {
+    auto words = words_of(line, "command");
+    if (!words) return std::unexpected(words.error());
+    if (words->empty()) return fail("command", "the line is empty", "write a command; F1 lists them");
+    CommandInput input{words->front(), {words->begin() + 1, words->end()}};
+    return parse_command(input);
+}
+
+}  // namespace burin::session

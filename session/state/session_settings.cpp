@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "session/state/session_settings.hpp"
+
+#include <array>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "session/activity/activity.hpp"
+#include "session/input/input_words.hpp"
+#include "session/options/option_bounds.hpp"
+
+namespace burin::session {
+namespace {
+
+// Before the command, which stands before the options. In older recordings the command is "sculpt" in all of them.
+constexpr std::string_view kProgram = "burin ";
+constexpr const char* kActivity = "--activity";  // behind it Activity::settings(); no option of the command line
+
+// All options by name; behind a number its bounds.
+template <typename Options, typename Visit>
+void visit_settings(Options& o, Visit&& visit) {
+    visit("--world", o.world);
+    visit("--world-units", o.world_reading.unit);
+    visit("--world-root", o.world_reading.root);
+    visit("--no-workpiece", o.no_workpiece);
+    visit("--points", o.points);
+    visit("--workpiece", o.workpiece.source);
+    visit("--units", o.workpiece.units);
+    visit("--export-units", o.export_units);
+    visit("--close-holes", o.workpiece.close_holes);
+    visit("--weld", o.workpiece.weld_m);
+    visit("--resolution", o.workpiece.resolution, kResolutionBounds);
+    visit("--room", o.workpiece.room, kRoomBounds);
+    visit("--crumbs", o.crumbs_m);
+    visit("--tool", o.tool.shape);
+    visit("--operation", o.tool.operation);
+    visit("--material", o.tool.material);
+    visit("--sweep-tolerance", o.tool.sweep_tolerance_cells, kSweepToleranceBounds);
+    visit("--smooth-strength", o.tool.smooth_strength, kSmoothStrengthBounds);
+    visit("--mirror", o.mirror);
+    visit("--hardness", o.feel.hardness);
+    visit("--yield", o.feel.yield_kPa);
+    visit("--grain", o.feel.grain_mm);
+    visit("--stiffness", o.feel.stiffness_N_per_m);
+    visit("--friction", o.feel.friction);
+    visit("--undo-memory", o.undo_memory_MiB, kUndoMemoryBounds);
+    visit("--device", o.live.device);
+    visit("--hands", o.live.hands);
+    visit("--mouse", o.live.mouse);
+    visit("--wall", o.live.wall);
+    visit("--stereo", o.live.stereo);
+    visit("--swap-eyes", o.live.swap_eyes);
+    visit("--edge-comfort", o.live.edge_comfort);
+    visit("--width", o.live.width, kPictureBounds);
+    visit("--height", o.live.height, kPictureBounds);
+    visit("--panel-window", o.live.panel_window);
+    visit("--panel-scale", o.live.panel_scale, kPanelScaleBounds);
+    visit("--first-steps", o.live.first_steps);
+    visit("--frames-world", o.live.frames_world);
+    visit("--samples", o.live.samples, kSampleCounts);
+}
+
+// ---- Text of an option's value; none: the option is absent. A flag that is present has an empty text.
+
+std::optional<std::string> text(const std::string& value) {
+    return value.empty() ? std::nullopt : std::optional(value);
+}
+std::optional<std::string> text(bool on) { return on ? std::optional<std::string>("") : std::nullopt; }
+std::optional<std::string> text(compute::Operation operation) {
+    return std::string(sculpt::descriptor_of(operation).name);
+}
+std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
+std::optional<std::string> text(const sculpt::Mirror& mirror) {
+    return mirror.any() ? std::optional(sculpt::name_of(mirror)) : std::nullopt;
+}
+std::optional<std::string> text(EdgeComfort comfort) {
+    return comfort == EdgeComfort::automatic ? std::nullopt : std::optional(std::string(name_of(comfort)));
+}
+std::optional<std::string> text(MouseMode mode) { return std::string(name_of(mode)); }
+std::optional<std::string> text(const std::vector<NamedDevice>& hands) {
+    if (hands.empty()) return std::nullopt;
+    std::string all;
+    for (const NamedDevice& one : hands) all += (all.empty() ? "" : " ") + as_word(one.hand + "=" + one.device);
+    return all;
+}
+template <typename T>
+std::optional<std::string> text(T number) {
+    std::array<char, 32> digits;
+    return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+template <typename T>
+std::optional<std::string> text(const std::optional<T>& value) {
+    return value ? text(*value) : std::nullopt;
+}
+
+bool read(const std::string& text, std::string& value) {
+    value = text;
+    return true;
+}
+// As words, each of a hand: "right=simulated left=simulated-wand:w.toml".
+bool read(const std::string& text, std::vector<NamedDevice>& hands) {
+    const Result<std::vector<std::string>> words = words_of(text, "--hands");
+    if (!words || words->size() > kMostHands) return false;
+    for (const std::string& word : *words) {
+        Result<NamedDevice> named = parse_named_device(word);
+        if (!named) return false;
+        hands.push_back(std::move(*named));
+    }
+    return true;
+}
+bool read(const std::string& text, bool& on) { return on = text.empty(); }
+bool read(const std::string& text, compute::Operation& value) {
+    for (const sculpt::OperationDescriptor& known : sculpt::operations()) {
+        value = known.operation;
+        if (known.name == text) return true;
+    }
+    return false;
+}
+bool read(const std::string& text, sculpt::Mirror& value) {
+    const Result<sculpt::Mirror> mirror = sculpt::parse_mirror(text, "--mirror " + text);
+    value = mirror.value_or(sculpt::Mirror{});
+    return mirror.has_value();
+}
+bool read(const std::string& text, MouseMode& value) {
+    const Result<MouseMode> mode = parse_mouse_mode(text, "--mouse " + text);
+    value = mode.value_or(MouseMode::free);
+    return mode.has_value();
+}
+bool read(const std::string& text, EdgeComfort& value) {
+    const Result<EdgeComfort> comfort = parse_edge_comfort(text, "--edge-comfort " + text);
+    value = comfort.value_or(EdgeComfort::automatic);
+    return comfort.has_value();
+}
+bool read(const std::string& text, LengthUnit& value) {
+    const auto unit = length_unit(text);
+    value = unit.value_or(LengthUnit::m);
+    return unit.has_value();
+}
+template <typename T>
+bool read(const std::string& text, T& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+template <typename T>
+bool read(const std::string& text, std::optional<T>& value) {
+    return read(text, value.emplace());
+}
+
+// ---- What is beyond a number's bounds: in words what it should be; empty: it is within them.
+
+template <typename T>
+std::string beyond(const T&) {
+    return {};
+}
+template <typename T, typename B>
+std::string beyond(const T& value, const Bounds<B>& bounds) {
+    const double number = static_cast<double>(value);
+    if (number >= static_cast<double>(bounds.least) && number <= static_cast<double>(bounds.most)) return {};
+    return "from " + *text(bounds.least) + " to " + *text(bounds.most);
+}
+template <typename T, typename B>
+std::string beyond(const std::optional<T>& value, const Bounds<B>& bounds) {
+    return value ? beyond(*value, bounds) : std::string();
+}
+template <typename T>
+std::string beyond(const T& value, const std::initializer_list<int>& known) {
+    std::string all;
+    for (const int number : known) {
+        if (value == static_cast<T>(number)) return {};
+        all += (all.empty() ? "" : ", ") + std::to_string(number);
+    }
+    return "one of " + all;
+}
+
+// The usual device is written by no recording: those from before there were others do not name it either.
+bool is_usual(const std::string& option, const std::string& value) {
+    return option == "--device" && value == devices::kDefaultHapticDevice;
+}
+
+using OptionWords = std::map<std::string, std::string>;
+
+// Returns the values of all options that are present, by option.
+OptionWords words_behind(const SculptOptions& options) {
+    OptionWords words;
+    visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
+        if (const auto behind = text(value); behind && !is_usual(name, *behind)) words.emplace(name, *behind);
+    });
+    return words;
+}
+
+Result<OptionWords> words_on(const std::string& line) {
+    Result<std::vector<std::string>> all = words_of(line, "the recording's first line");
+    if (!all) return std::unexpected(all.error());
+    OptionWords words;
+    std::string option;
+    for (const std::string& word : *all) {
+        if (word.starts_with("--")) {
+            option = word;
+            words[option] = "";
+        } else if (!option.empty()) {
+            words[std::exchange(option, {})] = word;
+        }
+    }
+    return words;
+}
+
+std::string shown(const std::string& name, const OptionWords& words) {
+    const auto found = words.find(name);
+    if (found == words.end()) return "no " + name;
+    return found->second.empty() ? name : name + " " + as_word(found->second);
+}
+
+// Takes the activity out of the words, and checks that it is the given one: the log does not hold what it does.
+Result<void> check_activity(OptionWords& words, const Activity* given) {
+    const auto recorded = words.extract(kActivity);
+    const std::string then = recorded ? recorded.mapped() : "", now = given != nullptr ? given->settings() : "";
+    if (then == now) return {};
+    const auto named = [](const std::string& settings) {
+        return settings.empty() ? "no activity" : "the activity " + as_word(settings);
+    };
+    return fail("the recording", "is of " + named(then) + ", and this session has " + named(now),
+                then.empty() ? "replay it with burin sculpt or burin world"
+                             : "do a session file again with burin replay FILE; a log as text with the command that "
+                               "recorded it: burin " +
+                                   then);
+}
+
+// Completes the options of a recording that names no unit. Every recording has named one since there are units; before,
+// files were read in metres, and a session without a --tool had a ball of 10 mm.
+void as_before_units(SculptOptions& options) {
+    options.from_before_units = !options.workpiece.units.has_value();
+    if (!options.from_before_units) return;
+    options.workpiece.units = LengthUnit::m;
+    if (options.tool.shape.empty()) options.tool.shape = "ball:0.01";
+}
+
+// Returns whether options stand behind the program and its command.
+bool has_options(std::string_view line) {
+    if (!line.starts_with(kProgram)) return false;
+    const std::size_t behind = line.find(' ', kProgram.size());
+    return behind != std::string_view::npos && line.substr(behind).starts_with(" --");
+}
+
+// Returns the command that begins such a session.
+std::string command_of(const SculptOptions& options) {
+    if (options.activity) {
+        const std::string settings = options.activity->settings();
+        return settings.substr(0, settings.find(' '));
+    }
+    return options.no_workpiece && !options.world.empty() ? "world" : "sculpt";
+}
+
+}  // namespace
+
+std::string settings_on(const std::string& header) {
+    const std::size_t at = header.find(" " + std::string(kProgram));
+    return at == std::string::npos ? std::string() : header.substr(at + 1);
+}
+
+std::string settings_line(const SculptOptions& options) {
+    std::string line = std::string(kProgram) + command_of(options);
+    visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
+        const auto behind = text(value);
+        if (!behind || is_usual(name, *behind)) return;
+        line += std::string(" ") + name;
+        if (!behind->empty()) line += " " + as_word(*behind);
+    });
+    if (options.activity) line += std::string(" ") + kActivity + " " + as_word(options.activity->settings());
+    return line;
+}
+
+Result<std::string> option_on(const std::string& line, const std::string& option) {
+    if (!has_options(line)) return "";
+    Result<OptionWords> words = words_on(line);
+    if (!words) return std::unexpected(words.error());
+    const auto found = words->find(option);
+    return found == words->end() ? "" : found->second;
+}
+
+Result<std::vector<NamedDevice>> hands_on(const std::string& line) {
+    const Result<std::string> several = option_on(line, "--hands"), one = option_on(line, "--device");
+    if (!several) return std::unexpected(several.error());
+    if (!one) return std::unexpected(one.error());
+    std::vector<NamedDevice> hands;
+    if (!read(*several, hands))
+        return fail("the recording's first line", "--hands " + *several + " is no value of that option");
+    if (hands.empty()) hands.push_back({"", one->empty() ? devices::kDefaultHapticDevice : *one});
+    return hands;
+}
+
+Result<std::string> activity_on(const std::string& line) { return option_on(line, kActivity); }
+
+Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
+    RecordedOptions recorded{given, {}};
+    if (!has_options(line)) {  // recorded without options
+        as_before_units(recorded.options);
+        return recorded;
+    }
+    Result<OptionWords> words = words_on(line);
+    if (!words) return std::unexpected(words.error());
+    if (const auto same = check_activity(*words, given.activity.get()); !same) return std::unexpected(same.error());
+    const SculptOptions defaults;
+    const OptionWords given_words = words_behind(given), left_out = words_behind(defaults);
+    std::string wrong;
+    visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value, const auto&... bounds) {
+        const std::string now = shown(name, given_words), then = shown(name, *words);
+        if (now != then && now != shown(name, left_out))
+            recorded.overruled.push_back("it was recorded with " + then + ", which is done again; " + now +
+                                         " does not count");
+        value = T{};
+        const auto found = words->extract(name);
+        if (!found || !wrong.empty()) return;
+        if (!read(found.mapped(), value))
+            wrong = then + " is no value of that option";
+        else if (const std::string wanted = beyond(value, bounds...); !wanted.empty())
+            wrong = then + " is not " + wanted;
+    });
+    if (!words->empty()) wrong = words->begin()->first + " is no option that a session knows";
+    if (!wrong.empty()) return fail("the recording's first line", wrong, "replay it with the program that recorded it");
+    if (recorded.options.live.device.empty()) recorded.options.live.device = devices::kDefaultHapticDevice;
+    if (!recorded.options.live.hands.empty()) recorded.options.live.device = recorded.options.live.hands.front().device;
+    as_before_units(recorded.options);
+    return recorded;
+}
+
+}  // namespace burin::session
