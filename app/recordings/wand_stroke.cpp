@@ -124,7 +124,7 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
     }
     BURIN_TRY(folder, TemporaryFolder::create());
     again.feel.record = folder / "again.session";
-    BURIN_TRY(explored, activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {}));
+    BURIN_TRY_DO(activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {}));
     BURIN_TRY(other, record::RecordReader::open(again.feel.record));
     return record::compare(reader, other, {}, range);
 }

@@ -60,13 +60,12 @@ Result<StageMoments> moments_of(const study::StudyFolder& study, const study::St
                                 const study::FeltWorld& world) {
     StageMoments moments;
     std::uint64_t ticks = 0;
-    BURIN_TRY(replayed,
-              study::replay_stage(study.path() / visit.recording, study.protocol(), study.facts().protocol_digest,
-                                  world, [&](const study::StageSession& session, const haptics::TickRecord& record) {
-                                      if (ticks++ % kLookEvery != 0) return;
-                                      moments.all.push_back(activities::moment_of(world, session, record));
-                                      moments.running.push_back(session.state().phase == study::StagePhase::running);
-                                  }));
+    BURIN_TRY_DO(study::replay_stage(study.path() / visit.recording, study.protocol(), study.facts().protocol_digest,
+                                     world, [&](const study::StageSession& session, const haptics::TickRecord& record) {
+                                         if (ticks++ % kLookEvery != 0) return;
+                                         moments.all.push_back(activities::moment_of(world, session, record));
+                                         moments.running.push_back(session.state().phase == study::StagePhase::running);
+                                     }));
     return moments;
 }
 
