@@ -2,6 +2,7 @@
 // Shows short cuts, mouse and commands from the tables that act on them, so that help cannot differ from what happens.
 #include <algorithm>
 
+#include "desk/input/desk_input_table.hpp"
 #include "desk/panel/panel_sections.hpp"
 
 namespace burin::session::panel {

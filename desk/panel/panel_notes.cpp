@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "desk/input/desk_input_table.hpp"
 #include "desk/panel/panel_sections.hpp"
 
 namespace burin::session::panel {

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/text.hpp"
+#include "desk/input/desk_input_table.hpp"
 #include "document/document_file.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/input_words.hpp"

@@ -103,7 +103,7 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     const Reading reading(root);
     std::vector<Figure> figures;
     std::vector<std::string> up = reading.includes_up("session/", "desk/");
-    figures.push_back({"includes from session/ up to desk/", static_cast<double>(up.size()), 14.0, std::move(up), ""});
+    figures.push_back({"includes from session/ up to desk/", static_cast<double>(up.size()), 15.0, std::move(up), ""});
     const std::string session = read_text(root / "session/live/live_session.hpp");
     std::vector<std::string> members = private_members(session, "LiveSession");
     figures.push_back({"members of a LiveSession", static_cast<double>(members.size()), 48.0, std::move(members), ""});
@@ -115,7 +115,7 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
                        {},
                        "of the product"});
     for (const auto& [folder, bar] :
-         {std::pair("session/", 9820.0), std::pair("desk/", 8650.0), std::pair("app/", 7900.0)})
+         {std::pair("session/", 9830.0), std::pair("desk/", 8650.0), std::pair("app/", 7900.0)})
         figures.push_back({std::string("lines of our headers that a source reads in ") + folder,
                            reading.mean_lines(folder),
                            bar,
