@@ -189,7 +189,7 @@ TEST(OutputFiles, OfACommandInADeletedFolderHaveNoPlaceAndItSaysSoInALine) {
 
 TEST(Remedies, NameNoEngineThatWasAskedForWherePicturesNeedADriver) {
     const Workplace place;
-    place.write("quit.txt", "burin-input 1\n0.5 command quit\n");
+    place.write("quit.txt", "burin-input 1\n0.2 command screenshot a.png\n0.5 command quit\n");
     const auto session = [&](const std::string& engine) {
         return place.run("VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent " + std::string(kBurinCommand) +
                          " sculpt ball:0.05 " + engine + " --resolution 16 --offscreen --input quit.txt");
