@@ -131,7 +131,7 @@ Result<void> write_figures(const std::filesystem::path& folder, const activities
     return {};
 }
 
-// Of burin demo wand.
+// Options of burin demo wand.
 struct CubeDemo {
     std::string out, world = asset_path("worlds/wand-cube.wrl"), wand;
     double radius_m = 0.004;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What several commands of burin bench say and bound alike.
+// Holds words and limits that several commands of burin bench share.
 #pragma once
 
 namespace burin::app {

@@ -180,7 +180,7 @@ Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenToo
     return material;
 }
 
-// What is known before the first long step.
+// Gathers what is known before the first long step.
 struct StrokeInputs {
     ChosenTool chosen;  // a ball that stands in where no tool is given
     sculpt::Feel feel;
@@ -248,7 +248,7 @@ Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carvi
     return std::optional<session::FeltFigures>(std::move(carved));
 }
 
-// What the carving has come to.
+// Holds the results of a carving.
 struct CarvedStroke {
     std::optional<session::FeltFigures> felt;  // of a simulated hand
     std::vector<std::string> notices;

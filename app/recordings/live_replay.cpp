@@ -199,7 +199,7 @@ Result<session::MadeActivity> activity_of(const record::RecordReader& reader, co
     return made;
 }
 
-// What a recorded session is done again with.
+// Holds the log and the options with which a recorded session is replayed.
 struct PreparedReplay {
     session::InputLog log;
     session::SculptOptions options;

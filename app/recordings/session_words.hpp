@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How counts of a recording are told. Any thread.
+// Words for the counts of a recording. Any thread.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ namespace burin::app {
 
 namespace {
 
-// Of show; check has the file alone.
+// Options of show; check has the file alone.
 struct ShownWall {
     std::string file, svg, json, tracker;
     bool print_config = false;

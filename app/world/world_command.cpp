@@ -43,7 +43,7 @@ bool is_recording(const std::string& log) {
     return static_cast<bool>(std::getline(file, first)) && first.find("burin-input 2") != std::string::npos;
 }
 
-// What burin world checks.
+// Options of burin world check.
 struct CheckedFiles {
     std::vector<std::string> files;
     std::string unit, root;  // of these
@@ -83,7 +83,7 @@ CommandAction add_world_check(Command command) {
     return action([options] { return check_worlds(*options); });
 }
 
-// What burin world opens, in a live session or along a stroke.
+// Options of a world that is opened, in a live session or along a stroke.
 struct WorldVisit {
     WorldExploration exploration;
     session::SculptOptions session;  // live

@@ -17,7 +17,7 @@
 
 namespace burin::session {
 
-// What both have in common: input comes from windows, a tracker, the devices' own buttons, the document and a log.
+// Base of both kinds: input comes from windows, a tracker, the devices' own buttons, the document and a log.
 class RealTimeFrames : public SessionFrames {
 public:
     // Begins to measure; call it right before drive(). The first frames follow the display.

@@ -9,7 +9,7 @@
 
 namespace burin::session {
 
-// What a command without arguments does.
+// Names what a command without arguments does.
 enum class Action : std::uint8_t {
     // clang-format off
     undo, redo, tool_1, tool_2, tool_3, tool_4, tool_5, smaller_radius, larger_radius, next_stereo_mode, swap_eyes,
