@@ -335,11 +335,6 @@ void fly(DeskState& state, double dt_s, bool keys_fly, const DeskSettings& setti
 
 }  // namespace
 
-Quat pen_at_rest() {
-    const Vec3 shaft = glm::normalize(Vec3(0.45, 0.8, 1.0)), across = glm::normalize(Vec3(1.0, 0.0, -0.45));
-    return glm::normalize(glm::quat_cast(glm::dmat3(across, shaft, glm::cross(across, shaft))));
-}
-
 DeskState desk_at_home(const DeskSettings& settings) {
     DeskState state;
     state.head_world = settings.home_head_world;

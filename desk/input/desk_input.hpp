@@ -30,13 +30,10 @@
 #include "desk/input/desk_input_table.hpp"
 #include "desk/input/surface_hand.hpp"
 #include "devices/hand/steered_hand.hpp"
+#include "session/held/held_tool.hpp"
 #include "session/input/input_event.hpp"
 
 namespace burin::session {
-
-// Returns the orientation of a tool that is held as a pen is: its shaft, along its own +Y, leans to the right, up and
-// towards the viewer.
-[[nodiscard]] Quat pen_at_rest();
 
 // Settings of the desktop input. All lengths are positive.
 struct DeskSettings {
@@ -85,9 +82,6 @@ struct DeskView {
     // kept under the cursor, as deep before the screen as it is. None: it moves as far as the mouse.
     std::optional<CursorView> cursor;
 };
-
-// Depth of a stroke as a share of the tool's half width.
-inline constexpr double kLeastStrength = 0.02, kMostStrength = 2.0;
 
 struct DeskState {
     Vec3 target_device_m{0.0};

@@ -28,7 +28,6 @@ struct ShortCut {
     Modifiers modifiers;  // exactly these
     Action action;
     bool repeats;  // while the key is held
-    std::string_view description;
     std::optional<MouseMode> only = std::nullopt;  // while the mouse leads the hand so; none: always
 };
 struct FlightKey {

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "desk/panel/live_panel.hpp"
-#include "desk/view/session_screens.hpp"
+#include "base/try.hpp"
+#include "desk/live/opened_desk.hpp"
+#include "desk/viewer/viewed_picture.hpp"
 #include "session/live/opened_room.hpp"
 
 namespace burin::session {
@@ -20,20 +22,20 @@ constexpr std::uint64_t kCardsAtlases = 1ull << 32;
 
 }  // namespace
 
-OpeningPicture::OpeningPicture(const SculptOptions& options, Room room, wall::OutputSettings output)
+OpeningPicture::OpeningPicture(const SculptOptions& options, const SessionWall& wall, Room room,
+                               wall::OutputSettings output)
     : options_(options),
       room_(std::move(room)),
+      desk_(open_desk(options, wall, room_)),
       output_(output),
       name_(std::filesystem::path(options.workpiece.source).filename().string()) {
     room_.workpiece_object = kUnknownBox;
 }
 
 Result<OpeningPicture> OpeningPicture::create(const SculptOptions& options, const SessionWall& wall) {
-    Result<OpenedRoom> opened = open_room(options, wall);
-    if (!opened) return std::unexpected(opened.error());
-    const Result<wall::OutputSettings> output = first_output(opened->room, options.live);
-    if (!output) return std::unexpected(output.error());
-    return OpeningPicture(options, std::move(opened->room), *output);
+    BURIN_TRY(opened, open_room(options));
+    BURIN_TRY(output, first_output(wall, options.live));
+    return OpeningPicture(options, wall, std::move(opened.room), output);
 }
 
 void OpeningPicture::take(FirstLook look) {
@@ -45,8 +47,12 @@ void OpeningPicture::take(FirstLook look) {
 picture::Picture OpeningPicture::scene() const {
     const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
     const auto tool = sculpt::parse_tool_settings(sculpt::with_tool({}, longest_m));
-    const SessionState state = begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {}, output_);
-    auto scene = scene_of(state, room_, room_.wall.main, Vec3(0.0), {}).value_or(picture::Picture{});
+    Viewer viewer = begin_viewer(desk_, output_);
+    const SessionState state = begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {},
+                                             placed_before(viewer, room_, desk_, nullptr));
+    take_hand(viewer, state);
+    const ViewedSession seen{state, room_, viewer, desk_};
+    auto scene = scene_of(seen, desk_.wall.main, Vec3(0.0), {}).value_or(picture::Picture{});
     scene.pedestal.visible = scene.pedestal.visible && look_.has_value();
     if (!look_) return scene;
     constexpr double kPlain = 200.0 / 255.0;  // a material's colour where the file has none
@@ -56,12 +62,12 @@ picture::Picture OpeningPicture::scene() const {
 
 Result<StillPicture> OpeningPicture::lay_out(const WorkWatch::Seen& seen, Nanoseconds time_ns, ImageSize window) {
     const ImageSize eye = wall::eye_size(output_.mode, window);
-    fit_desk_screen(room_.wall, eye);
-    room_.free_width = beside_panel(room_, eye, window);
+    fit_desk_screen(desk_.wall, eye);
+    desk_.free_width = beside_panel(desk_, eye, window);
     StillPicture picture{scene(), output_, std::nullopt};
-    const auto width = static_cast<std::uint32_t>(std::lround(kPanelWidth_px * room_.panel_scale));
+    const auto width = static_cast<std::uint32_t>(std::lround(kPanelWidth_px * desk_.panel_scale));
     if (!panel_) {
-        auto made = Panel::create({.size = {width, eye.height}, .scale = room_.panel_scale});
+        auto made = Panel::create({.size = {width, eye.height}, .scale = desk_.panel_scale});
         if (!made) return std::unexpected(made.error());
         panel_.emplace(std::move(*made));
     }

@@ -10,7 +10,7 @@
 #include "desk/opening/opening_work.hpp"
 #include "desk/panel/panel.hpp"
 #include "desk/present/presenter.hpp"
-#include "session/state/session_state.hpp"
+#include "desk/viewer/viewer.hpp"
 
 namespace burin::session {
 
@@ -25,11 +25,12 @@ public:
     [[nodiscard]] Result<StillPicture> lay_out(const WorkWatch::Seen& seen, Nanoseconds time_ns, ImageSize window);
 
 private:
-    OpeningPicture(const SculptOptions& options, Room room, wall::OutputSettings output);
+    OpeningPicture(const SculptOptions& options, const SessionWall& wall, Room room, wall::OutputSettings output);
     [[nodiscard]] picture::Picture scene() const;
 
     SculptOptions options_;
     Room room_;
+    DeskRoom desk_;
     wall::OutputSettings output_;
     std::string name_;
     std::optional<FirstLook> look_;

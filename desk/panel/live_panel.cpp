@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "desk/viewer/viewed_picture.hpp"
+
 namespace burin::session {
 namespace {
 
@@ -37,7 +39,7 @@ PanelSource tracker_source(const wall::TrackerReport& report) {
 }
 
 // Places the panel at the right of the screen that the viewer faces, turned towards the viewer.
-picture::PanelStand stand_in(const Room& room, ImageSize size) {
+picture::PanelStand stand_in(const DeskRoom& room, ImageSize size) {
     const wall::Screen s = room.screen();
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const double width_m = std::min(kStandingWidth * glm::length(upright), kOfScreensWidth * glm::length(across));
@@ -47,11 +49,11 @@ picture::PanelStand stand_in(const Room& room, ImageSize size) {
 }
 
 // Describes the chosen object; the first where none is.
-void add_objects(PanelModel& m, const SessionState& state) {
+void add_objects(PanelModel& m, const SessionState& state, const Viewer& viewer) {
     m.carves = state.carves;
     if (!state.world || state.world->objects.empty()) return;
     for (const auto& object : state.world->objects) m.object_names.push_back(object->name);
-    const scene::SceneObject* chosen = state.world->find(state.selected);
+    const scene::SceneObject* chosen = state.world->find(viewer.selected);
     const scene::SceneObject& object = chosen != nullptr ? *chosen : *state.world->objects.front();
     m.object = PanelObject{.name = object.name,
                            .state = "",
@@ -69,13 +71,13 @@ void add_objects(PanelModel& m, const SessionState& state) {
 // Fills in what each hand's device renders of the chosen object's material.
 void add_rendered(PanelModel& m, const PanelContext& context) {
     if (!m.object || !m.object->felt) return;
-    for (std::size_t hand = 0; hand < context.hands.hands(); ++hand) {
-        const devices::DeviceDescription& device = context.hands.device(context.hands.first_part(hand));
-        const haptics::TickParameters parameters = parameters_of(context.state, context.room, hand, device);
+    for (std::size_t hand = 0; hand < context.session.hands().hands(); ++hand) {
+        const devices::DeviceDescription& device = context.session.hands().device(context.session.hands().first_part(hand));
+        const haptics::TickParameters parameters = parameters_of(context.seen.state, context.seen.room, hand, device);
         const auto with = [&](std::uint32_t points) {
             return scene::rendered_material(m.object->material, device, parameters, points);
         };
-        PanelRendered rendered{context.hands.hands() > 1 ? context.hands.name_of_hand(hand) : "", with(1), {}};
+        PanelRendered rendered{context.session.hands().hands() > 1 ? context.session.hands().name_of_hand(hand) : "", with(1), {}};
         if (parameters.probe.count > 1) rendered.all = with(parameters.probe.count);
         m.object->rendered.push_back(std::move(rendered));
     }
@@ -115,22 +117,27 @@ PanelSource hand_source(const SessionHands& hands, std::size_t part, haptics::Ga
 }
 
 PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& log) const {
-    const SessionState& state = context.state;
-    const haptics::ToolState& tool_state = context.tool;
+    const SessionState& state = context.seen.state;
+    const Viewer& viewer = context.seen.viewer;
+    const DeskRoom& desk = context.seen.desk;
+    const Session& session = context.session;
+    const SessionHands& hands = session.hands();
+    const HandState& led = state.led();
+    const haptics::ToolState& tool_state = session.tool_in_use();
     PanelModel m;
-    m.visible = state.panel;
-    m.show_help = state.help;
-    m.show_figures = state.figures;
-    m.show_devices = state.devices;
-    m.workpiece = context.workpiece;
-    add_objects(m, state);
+    m.visible = viewer.panel;
+    m.show_help = viewer.help;
+    m.show_figures = viewer.figures;
+    m.show_devices = viewer.devices;
+    m.workpiece = {session.found().name, session.found().size};
+    add_objects(m, state, viewer);
     add_rendered(m, context);
-    const auto value = [&](Quantity quantity) { return descriptor_of(quantity).value(state); };
-    m.tool = state.tool.shape;
+    const auto value = [&](Quantity quantity) { return value_of(state, viewer, quantity); };
+    m.tool = led.tool.shape;
     m.tool_sizes = context.tool_sizes;
-    m.operation = state.tool.operation;
-    m.only_touch = state.only_touch;
-    const geometry::Material material = sculpt::material_of(state.tool);
+    m.operation = led.tool.operation;
+    m.only_touch = led.only_touch;
+    const geometry::Material material = sculpt::material_of(led.tool);
     for (std::size_t i = 0; i < 3; ++i) m.colour_srgb[i] = material.colour[i] / 255.0;
     if (!state.feel.hardness_kPa_per_mm_s) m.material = state.feel.preset;
     m.hardness_Ns_per_m3 = value(Quantity::hardness);
@@ -140,43 +147,43 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.force_filter = value(Quantity::force_filter);
     m.mirror = state.mirror;
     m.mouse = state.mouse;
-    m.offers_mouse = context.room.offers_mouse;
+    m.offers_mouse = desk.offers_mouse;
     m.strength = value(Quantity::strength);
-    m.half_width_m = state.held ? state.held->half_width_m() : 0.0;
-    m.technique = state.technique;
+    m.half_width_m = led.held ? led.held->half_width_m() : 0.0;
+    m.technique = led.technique;
     m.phase = tool_state.workspace.phase;
     m.scale = value(Quantity::scale);
-    m.stereo_mode = state.output.mode;
-    m.eyes_swapped = state.output.swap_eyes;
-    m.test_pattern = state.output.test_pattern;
+    m.stereo_mode = viewer.output.mode;
+    m.eyes_swapped = viewer.output.swap_eyes;
+    m.test_pattern = viewer.output.test_pattern;
     m.eye_distance_m = value(Quantity::eye_distance);
-    m.force_shown = state.force_shown;
-    const std::size_t main = context.room.wall.main;
-    if (could_fade_at_edges(state, context.room, main)) m.fades_at_edges = fades_at_edges(state, context.room, main);
-    m.undo_count = static_cast<std::uint32_t>(context.undoable + state.edits.undoable());
-    m.redo_count = static_cast<std::uint32_t>(context.redoable + state.edits.redoable());
+    m.force_shown = viewer.force_shown;
+    const std::size_t main = desk.wall.main;
+    if (could_fade_at_edges(context.seen, main)) m.fades_at_edges = fades_at_edges(context.seen, main);
+    m.undo_count = static_cast<std::uint32_t>(session.scene_side().strokes().undoable + state.edits.undoable());
+    m.redo_count = static_cast<std::uint32_t>(session.scene_side().strokes().redoable + state.edits.redoable());
     m.saves = state.saves;
     m.export_path = state.export_path;
-    m.exporting = context.exporting;
-    m.activity = context.activity;
+    m.exporting = session.scene_side().strokes().exporting;
+    m.activity = session.activity().panel();
     add_document(m, state);
     for (const Message& message : log.all()) {
         m.log.push_back(note_of(message));
         if (log.is_shown(message)) m.notes.push_back(note_of(message));
     }
-    m.first_steps = state.first_steps;
-    m.touch = touch_of(state, tool_state);
-    for (std::size_t part = 0; part < context.tools.size(); ++part)
-        m.sources.push_back(hand_source(context.hands, part, context.tools[part].cause, context.state.hand));
-    for (std::size_t i = 0; i < state.hands.size(); ++i) {
-        const HandState& hand = hand_of(state, i);
-        m.hands.push_back({hand.hand_name, touch_of(hand, context.tools[context.hands.first_part(i)]),
+    m.first_steps = viewer.first_steps;
+    m.touch = touch_of(led, tool_state);
+    for (std::size_t part = 0; part < session.tools().size(); ++part)
+        m.sources.push_back(hand_source(hands, part, session.tools()[part].cause, state.hand));
+    for (std::size_t i = 0; state.hands.size() > 1 && i < state.hands.size(); ++i) {
+        const HandState& hand = state.hands[i];
+        m.hands.push_back({hand.hand_name, touch_of(hand, session.tools()[hands.first_part(i)]),
                            hand.velocity_filter, hand.force_filter});
     }
     m.hand = state.hand;
-    if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));
+    if (viewer.head.tracked) m.sources.push_back(tracker_source(context.tracker));
     feed_.show_on(m);
-    m.force_N.limit = static_cast<float>(context.hands.device(context.hands.first_part(state.hand)).max_force_N);
+    m.force_N.limit = static_cast<float>(hands.device(hands.first_part(state.hand)).max_force_N);
     if (!context.tells_late_pictures) m.warnings.clear();
     return m;
 }
@@ -193,26 +200,26 @@ void LivePanel::add_devices(PanelModel& model, bool follows_recording) {
 }
 
 void LivePanel::feed_times(const FrameInput& input, const PanelContext& context) {
-    const haptics::ToolState& tool = context.tool;
+    const haptics::ToolState& tool = context.session.tool_in_use();
     const bool stirring = !input.events.empty() || (tool.flags & haptics::kTickInContact) != 0 ||
                           tool.workspace.phase != haptics::WorkspacePhase::editing;
     feed_.feed({input.time_ns, glm::length(tool.given.force_device_N), tool.late_ticks, tool.dropped_samples, stirring,
-                context.times, context.tick_duration, drawn_, context.eye(), context.acknowledged,
+                context.times, context.session.hands().loop().duration(), drawn_, context.eye(), context.acknowledged,
                 context.recording_ended, recorded_ ? &*recorded_ : nullptr, tool.energy_share});
 }
 
-double panel_scale_in(const Room& room, ImageSize window) {
+double panel_scale_in(const DeskRoom& room, ImageSize window) {
     return std::min(room.panel_scale, std::max(1.0, window.width / (2.0 * kPanelWidth_px)));
 }
 
-std::uint32_t panel_width(const Room& room, ImageSize eye, ImageSize window) {
+std::uint32_t panel_width(const DeskRoom& room, ImageSize eye, ImageSize window) {
     const auto width = static_cast<std::uint32_t>(std::floor(kPanelWidth_px * panel_scale_in(room, window)));
     const bool has_room = room.wall.desk && !room.wall.has_panel_window() && eye.height > 0 && eye.width > width &&
                           window.width >= 2 * width;
     return has_room ? width : 0;
 }
 
-double beside_panel(const Room& room, ImageSize eye, ImageSize window) {
+double beside_panel(const DeskRoom& room, ImageSize eye, ImageSize window) {
     constexpr double kLeast = 0.1;  // of a picture that the panel covers
     const std::uint32_t width = panel_width(room, eye, window);
     return width == 0 ? 1.0 : std::max(1.0 - static_cast<double>(width) / eye.width, kLeast);
@@ -233,13 +240,13 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
     layout_ = page_layout_ = nullptr;
     feed_times(input, context);
     const ImageSize eye = context.eye();
-    const bool stands = !context.room.wall.desk, in_window = context.room.wall.has_panel_window();
-    const bool asks = context.state.asked.naming || context.state.asked.closing != Closing::no;
+    const bool stands = !context.seen.desk.wall.desk, in_window = context.seen.desk.wall.has_panel_window();
+    const bool asks = context.seen.state.asked.naming || context.seen.state.asked.closing != Closing::no;
     const std::uint32_t width = in_window || stands ? static_cast<std::uint32_t>(kPanelWidth_px)
-                                                    : std::max(panel_width(context.room, eye, context.output.size), 1u);
+                                                    : std::max(panel_width(context.seen.desk, eye, context.output.size), 1u);
     const bool has_column = in_window ? !is_empty(context.panel_output)
-                            : stands  ? (context.state.panel || asks) && eye.height > 0
-                                      : context.state.panel && panel_width(context.room, eye, context.output.size) > 0;
+                            : stands  ? (context.seen.viewer.panel || asks) && eye.height > 0
+                                      : context.seen.viewer.panel && panel_width(context.seen.desk, eye, context.output.size) > 0;
     const bool has_place = has_column || (!in_window && !stands && !is_empty(eye));
     column_shown_ = has_column;
     SceneInput left{{input.events.begin(), input.events.end()}, {}};
@@ -248,7 +255,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
         const ImageSize size = in_window ? ImageSize{width, context.panel_output.height}
                                : stands  ? kStanding_px
                                          : ImageSize{width, eye.height};
-        const double scale = in_window || stands ? 1.0 : panel_scale_in(context.room, context.output.size);
+        const double scale = in_window || stands ? 1.0 : panel_scale_in(context.seen.desk, context.output.size);
         if (const auto opened = open(panel_, size, scale); !opened) return std::unexpected(opened.error());
         panel_->lie_over(in_window || stands ? ImageSize{} : eye);
         left = in_window ? feed_in_window(input, context.panel_output) : feed_over_picture(input, context, size);
@@ -273,14 +280,14 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
     return left;
 }
 
-double LivePanel::free_width(const Room& room, ImageSize eye, ImageSize window) const {
+double LivePanel::free_width(const DeskRoom& room, ImageSize eye, ImageSize window) const {
     return column_shown_ ? beside_panel(room, eye, window) : 1.0;
 }
 
 // Returns what the panel leaves to the scene.
 SceneInput LivePanel::feed_over_picture(const FrameInput& input, const PanelContext& context, ImageSize size) {
     SceneInput left{{input.events.begin(), input.events.end()}, {}};
-    const SessionWall& wall = context.room.wall;
+    const SessionWall& wall = context.seen.desk.wall;
     if (wall.desk) {
         OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
         pointer_ = on.pointer;
@@ -288,9 +295,9 @@ SceneInput LivePanel::feed_over_picture(const FrameInput& input, const PanelCont
         panel_->feed(on.events, {{static_cast<double>(context.eye().width) - size.width, 0.0}, {1.0, 1.0}});
         return left;
     }
-    const View view = view_of(wall.setup, wall.main, context.state.head, context.state.interpupillary_m);
+    const View view = context.seen.view_of(wall.main);
     const MouseView mouse{view.screen, wall::eyes_of(view.viewer), context.shown, context.output};
-    Pointed pointed = point_at_panel(pointer_, input.events, stand_in(context.room, size), size, mouse);
+    Pointed pointed = point_at_panel(pointer_, input.events, stand_in(context.seen.desk, size), size, mouse);
     pointer_ = pointed.pointer;
     panel_->feed(pointed.panel);
     left.events = std::move(pointed.rest);
@@ -306,16 +313,17 @@ SceneInput LivePanel::feed_in_window(const FrameInput& input, ImageSize window) 
 
 // The activity's page for the person before the pictures, as high as its text.
 Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds time_ns) {
-    if (!context.activity || context.activity->page.empty()) return {};
+    const std::optional<ActivityPanel> activity = context.session.activity().panel();
+    if (!activity || activity->page.empty()) return {};
     PanelModel model;
     model.page_alone = true;
     model.activity = ActivityPanel{};
-    model.activity->page = context.activity->page;
-    model.activity->task = context.activity->task;
+    model.activity->page = activity->page;
+    model.activity->task = activity->task;
     const ImageSize eye = context.eye();
     const bool has_task = model.activity->task.has_value();
     // A task lies over the picture, and is read from farther away: its letters grow with the picture.
-    if (has_task && context.room.wall.desk && !is_empty(eye)) {
+    if (has_task && context.seen.desk.wall.desk && !is_empty(eye)) {
         model.visible = false;
         if (const auto opened = open(page_, eye, std::clamp(eye.width / kTaskWidth_px, 0.5, 4.0)); !opened)
             return opened;
@@ -333,7 +341,7 @@ Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds ti
     return {};
 }
 
-std::optional<PanelPicture> LivePanel::picture_on(std::size_t screen, const Room& room) const {
+std::optional<PanelPicture> LivePanel::picture_on(std::size_t screen, const DeskRoom& room) const {
     const SessionWall& wall = room.wall;
     const bool in_own_window = wall.is_panel(screen);
     const bool is_page = wall.has_panel_window() && !in_own_window;

@@ -16,30 +16,21 @@
 #include "desk/panel/panel.hpp"
 #include "desk/panel/panel_feed.hpp"
 #include "desk/panel/panel_pointer.hpp"
-#include "haptics/haptic_loop.hpp"
-#include "session/hands/session_hands.hpp"
+#include "desk/viewer/viewer_lead.hpp"
+#include "session/live/session.hpp"
 #include "session/notices/message_log.hpp"
 #include "session/record/input_source.hpp"
-#include "session/state/session_state.hpp"
 #include "wall/head_prediction.hpp"
 
 namespace burin::session {
 
-// What a step of the session gives the panel to show, and where it is shown.
+// What a step gives the panel to show, and where it is shown.
 struct PanelContext {
-    const SessionState& state;
-    const Room& room;
-    const haptics::ToolState& tool;  // of the hand in use
-    const SessionHands& hands;
-    std::span<const haptics::ToolState> tools;  // of each part of the hands
-    const wall::TrackerReport& tracker;         // meaningless without a tracker
-    const PanelWorkpiece& workpiece;
+    ViewedSession seen;
+    const Session& session;
+    const wall::TrackerReport& tracker;  // meaningless without a tracker
     ToolSizeRange tool_sizes = {};
-    std::size_t undoable = 0, redoable = 0;
-    bool exporting = false;
-    std::optional<ActivityPanel> activity = {};
     const SessionTimes& times;
-    const haptics::Histogram& tick_duration;
     wall::OutputSettings shown;  // how the main screen is shown
     wall::OutputPlace output;    // of the main screen
     ImageSize panel_output;      // of the panel's own window; empty: it has none
@@ -65,10 +56,10 @@ struct SceneInput {
 // Returns how wide the panel is at the right of a desktop window's picture; 0 where the window is too narrow for both,
 // or where it has a window of its own. In modes that halve the picture it covers more of each half. And the share of
 // the picture that it leaves free.
-[[nodiscard]] std::uint32_t panel_width(const Room& room, ImageSize eye, ImageSize window);
+[[nodiscard]] std::uint32_t panel_width(const DeskRoom& room, ImageSize eye, ImageSize window);
 // Returns the scale of its letters there: smaller than asked for where the panel would cover more than half the window.
-[[nodiscard]] double panel_scale_in(const Room& room, ImageSize window);
-[[nodiscard]] double beside_panel(const Room& room, ImageSize eye, ImageSize window);
+[[nodiscard]] double panel_scale_in(const DeskRoom& room, ImageSize window);
+[[nodiscard]] double beside_panel(const DeskRoom& room, ImageSize eye, ImageSize window);
 
 class LivePanel {
 public:
@@ -80,10 +71,10 @@ public:
     // Returns the commands that its widgets gave in the last step.
     [[nodiscard]] const std::vector<CommandInput>& actions() const { return actions_; }
     // Returns its picture for a screen, as laid out in the last step; nothing where it is not shown.
-    [[nodiscard]] std::optional<PanelPicture> picture_on(std::size_t screen, const Room& room) const;
+    [[nodiscard]] std::optional<PanelPicture> picture_on(std::size_t screen, const DeskRoom& room) const;
 
     // Returns the share of the main screen's picture that the panel left free in the last step, at its left.
-    [[nodiscard]] double free_width(const Room& room, ImageSize eye, ImageSize window) const;
+    [[nodiscard]] double free_width(const DeskRoom& room, ImageSize eye, ImageSize window) const;
     // Returns when it changes by itself, in session time; nothing where it does not.
     [[nodiscard]] std::optional<Nanoseconds> changes_ns() const {
         return layout_ != nullptr ? layout_->changes_ns : std::nullopt;

@@ -100,7 +100,7 @@ void show_help(Kit& kit, const PanelModel& model) {
         std::vector<HelpLine> lines;
         for (const ShortCut& cut : short_cuts())
             if ((!cut.only || *cut.only == mouse) && (!hides_scene || is_of_the_session(cut.action)))
-                add_line(lines, label_of(cut), cut.description);
+                add_line(lines, label_of(cut), help_of(cut.action));
         show_lines(kit, lines, 104.0f);
     }
     kit.end_card();

@@ -34,10 +34,10 @@ void DisplayWatch::shown_at(double refresh_Hz) {
     if (period_ns != pacing_.settings.period_ns) pacing_ = display_changed(pacing_, period_ns);
 }
 
-DisplayBeat DisplayWatch::beat(const LiveSession& session) const {
+DisplayBeat DisplayWatch::beat(const Desk& desk) const {
     DisplayBeat beat;
-    const SessionWall& wall = session.room().wall;
-    const wall::EyeTimes eyes = wall::eye_times(timing_in(wall.setup, session.output_on(wall.main).mode), 0);
+    const SessionWall& wall = desk.room().wall;
+    const wall::EyeTimes eyes = wall::eye_times(timing_in(wall.setup, desk.output_on(wall.main).mode), 0);
     beat.right_eye_later_ns = eyes.right_ns - eyes.left_ns;
     beat.period_ns = static_cast<Nanoseconds>(pacing_.period_ns);
     if (pacing_.flips_seen) beat.vblank_ns = pacing_.vblank_ns;

@@ -23,7 +23,7 @@ public:
     // Updates the refresh rate; the windows may have moved to another monitor.
     void shown_at(double refresh_Hz);
 
-    [[nodiscard]] DisplayBeat beat(const LiveSession& session) const;
+    [[nodiscard]] DisplayBeat beat(const Desk& desk) const;
 
 private:
     ShownFrames frames_;

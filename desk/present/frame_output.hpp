@@ -14,7 +14,7 @@
 
 namespace burin::session {
 
-class LiveSession;
+class Desk;
 
 class FrameOutput {
 public:
@@ -39,11 +39,11 @@ public:
     // Returns what happened in the windows, waiting for at most so long (0: not at all).
     [[nodiscard]] virtual std::vector<Input> inputs(double wait_s) = 0;
     // Draws one frame, if anything is new; returns whether it was. frame_ns: when it is to be seen, in session time.
-    [[nodiscard]] virtual Result<bool> draw(LiveSession& session, Nanoseconds frame_ns) = 0;
+    [[nodiscard]] virtual Result<bool> draw(Desk& desk, Nanoseconds frame_ns) = 0;
     // Goes on after a failed draw where that can be: replaces a lost device. Returns any other error.
-    [[nodiscard]] virtual Result<void> recover(LiveSession& session, const Error& error) = 0;
+    [[nodiscard]] virtual Result<void> recover(Desk& desk, const Error& error) = 0;
     // Has the session refuse a stereo mode that cannot be shown, in a frame that is not drawn, once has_drawn().
-    [[nodiscard]] virtual Result<void> fit_modes(LiveSession& session) = 0;
+    [[nodiscard]] virtual Result<void> fit_modes(Desk& desk) = 0;
     [[nodiscard]] virtual bool has_drawn() const = 0;
 };
 

@@ -15,23 +15,23 @@ void OffscreenOutput::put(std::size_t screen, const wall::OutputPlace& place) {
     if (presenter_) presenter_->put(screen, place);
 }
 
-Result<bool> OffscreenOutput::draw(LiveSession& session, Nanoseconds frame_ns) {
-    if (!presenter_ && !session.files().wants_pictures()) return false;
+Result<bool> OffscreenOutput::draw(Desk& desk, Nanoseconds frame_ns) {
+    if (!presenter_ && !desk.session().files().wants_pictures()) return false;
     if (!presenter_) {
         auto opened = Presenter::open(options_, *wall_);
         if (!opened) return std::unexpected(opened.error());
         presenter_.emplace(std::move(*opened));
         for (std::size_t screen = 0; screen < places_.size(); ++screen) presenter_->put(screen, places_[screen]);
     }
-    return presenter_->draw(session, frame_ns);
+    return presenter_->draw(desk, frame_ns);
 }
 
-Result<void> OffscreenOutput::recover(LiveSession& session, const Error& error) {
-    return presenter_ ? presenter_->recover(session, error) : Result<void>(std::unexpected(error));
+Result<void> OffscreenOutput::recover(Desk& desk, const Error& error) {
+    return presenter_ ? presenter_->recover(desk, error) : Result<void>(std::unexpected(error));
 }
 
-Result<void> OffscreenOutput::fit_modes(LiveSession& session) {
-    return presenter_ ? presenter_->fit_modes(session) : Result<void>{};
+Result<void> OffscreenOutput::fit_modes(Desk& desk) {
+    return presenter_ ? presenter_->fit_modes(desk) : Result<void>{};
 }
 
 Result<std::unique_ptr<FrameOutput>> open_output(const LiveOptions& options, const SessionWall& wall,

@@ -27,9 +27,9 @@ public:
     [[nodiscard]] bool has_lost_display() const override { return false; }
     [[nodiscard]] std::vector<Input> inputs(double) override { return {}; }
     // Fails where there is no Vulkan driver for the first picture.
-    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns) override;
-    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error) override;
-    [[nodiscard]] Result<void> fit_modes(LiveSession& session) override;
+    [[nodiscard]] Result<bool> draw(Desk& desk, Nanoseconds frame_ns) override;
+    [[nodiscard]] Result<void> recover(Desk& desk, const Error& error) override;
+    [[nodiscard]] Result<void> fit_modes(Desk& desk) override;
     [[nodiscard]] bool has_drawn() const override { return presenter_ && presenter_->has_drawn(); }
 
 private:

@@ -157,13 +157,13 @@ Result<void> Presenter::open_device() {
     return {};
 }
 
-Result<void> Presenter::recover(LiveSession& session, const Error& error) {
+Result<void> Presenter::recover(Desk& desk, const Error& error) {
     if (!device_->lost()) return std::unexpected(error);
     if (++losses_ > kMostLosses) {
         return fail("graphics device", "it was lost " + std::to_string(losses_) + " times without a picture in between",
                     "update the graphics driver, or try a smaller window");
     }
-    session.notify_of_event("the graphics device was lost; starting on a new one");
+    desk.session().notify_of_event("the graphics device was lost; starting on a new one");
     submitted_.reset();
     for (ScreenStage& screen : screens_) {
         screen.picture.reset();
@@ -179,7 +179,7 @@ Result<void> Presenter::recover(LiveSession& session, const Error& error) {
         opened = open_device();
     }
     if (!opened) return opened;
-    session.notify_of_event("the graphics device is " + device_name());
+    desk.session().notify_of_event("the graphics device is " + device_name());
     return {};
 }
 

@@ -22,7 +22,7 @@
 #include "desk/present/frame_output.hpp"
 #include "desk/present/session_waker.hpp"
 #include "desk/present/session_window.hpp"
-#include "session/live/live_session.hpp"
+#include "desk/live/desk.hpp"
 #include "wall/parity.hpp"
 
 namespace burin::session {
@@ -81,7 +81,7 @@ public:
     // Returns whether the full picture is still to come; a frame after its rest draws it.
     [[nodiscard]] bool owes_full_picture() const { return burin::session::owes_full_picture(detail_); }
     // Draws one frame, if anything is new; returns whether it was. frame_ns: when it is to be seen, in session time.
-    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns) override;
+    [[nodiscard]] Result<bool> draw(Desk& desk, Nanoseconds frame_ns) override;
     // Draws a picture in the main screen's window, if it differs from the one before; returns whether it was shown. A
     // stereo mode that the window cannot have is left for the session to refuse.
     [[nodiscard]] Result<bool> draw_still(const StillPicture& still);
@@ -89,10 +89,10 @@ public:
     // Has the session refuse a stereo mode that the output cannot show or the device has no memory for, and go on with
     // the one shown. draw() does so too; a frame that is not drawn calls it, once has_drawn(), so that the next
     // picture has the shape of the mode that goes on.
-    [[nodiscard]] Result<void> fit_modes(LiveSession& session) override;
+    [[nodiscard]] Result<void> fit_modes(Desk& desk) override;
     [[nodiscard]] bool has_drawn() const override { return drawn_; }
     // Returns whether eyes are shown by turns, which needs a picture at each refresh.
-    [[nodiscard]] bool takes_turns(const LiveSession& session) const;
+    [[nodiscard]] bool takes_turns(const Desk& desk) const;
     // Has coarser levels of the surface computed in the background; call between frames. resting: nothing has happened
     // for a while.
     void refine_beside(bool resting) { surface_.refine_beside(resting); }
@@ -103,7 +103,7 @@ public:
     // Replaces a lost device: drops what was made on it and starts anew on one that is present, waiting some seconds at
     // most. What is carved belongs to the session and stays. Returns any other error, and so a device that is lost over
     // and over.
-    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error) override;
+    [[nodiscard]] Result<void> recover(Desk& desk, const Error& error) override;
 
 private:
     // Output for one eye's picture or both eyes'.
@@ -144,18 +144,18 @@ private:
     // state it can show.
     [[nodiscard]] Result<void> fit_mode(std::size_t screen, const wall::OutputSettings& wanted);
     [[nodiscard]] Result<void> fit_outputs(std::size_t screen, wall::StereoMode mode);
-    [[nodiscard]] Result<bool> draw_screens(LiveSession& session);
-    [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, LiveSession& session,
+    [[nodiscard]] Result<bool> draw_screens(Desk& desk);
+    [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, Desk& desk,
                                            std::optional<picture::Picture> scene);
-    void choose_detail(LiveSession& session, std::span<const std::optional<picture::Picture>> scenes);
+    void choose_detail(Desk& desk, std::span<const std::optional<picture::Picture>> scenes);
     static bool note_changes(ScreenStage& screen);
     [[nodiscard]] Result<void> show_screens(Nanoseconds frame_ns);
     [[nodiscard]] Result<void> show(ScreenStage& screen, Nanoseconds frame_ns);
     [[nodiscard]] Result<void> show_in(ScreenStage& screen, const Outlet& outlet);
     [[nodiscard]] wall::Eye eye_in_turn(ScreenStage& screen, Nanoseconds frame_ns);
     [[nodiscard]] Result<void> wait_for_device();
-    void take_screenshots(LiveSession& session);
-    void photograph(std::size_t screen, LiveSession& session, const std::vector<Asked>& wanted);
+    void take_screenshots(Desk& desk);
+    void photograph(std::size_t screen, Desk& desk, const std::vector<Asked>& wanted);
 
     LiveOptions options_;
     const SessionWall* wall_;

@@ -21,40 +21,40 @@ std::string named_after(const std::string& name, const std::string& screen) {
 
 // ---- One frame
 
-bool Presenter::takes_turns(const LiveSession& session) const {
+bool Presenter::takes_turns(const Desk& desk) const {
     if (!shows()) return false;
     for (std::size_t i = 0; i < screens_.size(); ++i)
-        if (session.output_on(i).mode == wall::StereoMode::frame_sequential) return true;
+        if (desk.output_on(i).mode == wall::StereoMode::frame_sequential) return true;
     return false;
 }
 
-Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
+Result<bool> Presenter::draw(Desk& desk, Nanoseconds frame_ns) {
     const Nanoseconds began_ns = clock_.now_ns();
-    surface_.take(session.take_surface_updates(), session.lattice_origin_object());
-    if (const auto fitted = fit_modes(session); !fitted) return std::unexpected(fitted.error());
-    const Result<bool> drawn = draw_screens(session);
+    surface_.take(desk.take_surface_updates(), desk.lattice_origin_object());
+    if (const auto fitted = fit_modes(desk); !fitted) return std::unexpected(fitted.error());
+    const Result<bool> drawn = draw_screens(desk);
     if (!drawn) return drawn;
     drawn_ = true;
     if (const auto shown = show_screens(frame_ns); !shown) return std::unexpected(shown.error());
-    session.times().reached(FrameStage::show);
+    desk.times().reached(FrameStage::show);
     if (const auto done = wait_for_device(); !done) return std::unexpected(done.error());
-    session.times().reached(FrameStage::draw);
+    desk.times().reached(FrameStage::draw);
     if (*drawn && screens_[wall_->main].picture->stats().whole)
         last_whole_ = WholePicture{detail_.pixel, clock_.now_ns() - began_ns};
-    take_screenshots(session);
+    take_screenshots(desk);
     if (*drawn) losses_ = 0;
     return drawn;
 }
 
-Result<void> Presenter::fit_modes(LiveSession& session) {
+Result<void> Presenter::fit_modes(Desk& desk) {
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         ScreenStage& screen = screens_[i];
         if (is_empty(screen.place.size)) continue;  // minimised
-        if (const auto fits = fit_mode(i, session.output_on(i)); !fits) {
+        if (const auto fits = fit_mode(i, desk.output_on(i)); !fits) {
             if (device_->lost()) return fits;
-            session.refuse_mode(screen.shown.mode, fits.error());
+            desk.refuse_mode(screen.shown.mode, fits.error());
         }
-        screen.settings = session.output_on(i);
+        screen.settings = desk.output_on(i);
     }
     return {};
 }
@@ -99,24 +99,24 @@ Result<void> Presenter::fit_outputs(std::size_t i, wall::StereoMode mode) {
 
 // Records what is new of the surface, the panel and the scene on every screen, and submits it all at once; returns
 // whether any output has to show something.
-Result<bool> Presenter::draw_screens(LiveSession& session) {
+Result<bool> Presenter::draw_screens(Desk& desk) {
     auto commands = gpu::Commands::begin(*device_);
     if (!commands) return std::unexpected(commands.error());
     const auto uploaded = surface_.upload(*commands);
     if (!uploaded) return std::unexpected(uploaded.error());
     std::vector<std::optional<picture::Picture>> scenes(screens_.size());
     for (std::size_t i = 0; i < screens_.size(); ++i)
-        if (!is_empty(screens_[i].place.size)) scenes[i] = session.scene_on(i);
-    choose_detail(session, scenes);
+        if (!is_empty(screens_[i].place.size)) scenes[i] = desk.scene_on(i);
+    choose_detail(desk, scenes);
     bool any = false;
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         screens_[i].anew = false;
         if (is_empty(screens_[i].place.size)) continue;  // minimised
-        const auto drawn = draw_screen(*commands, i, session, std::move(scenes[i]));
+        const auto drawn = draw_screen(*commands, i, desk, std::move(scenes[i]));
         if (!drawn) return std::unexpected(drawn.error());
         any = any || screens_[i].anew;
     }
-    session.times().reached(FrameStage::record);
+    desk.times().reached(FrameStage::record);
     if (!any && *uploaded == 0) return false;
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
@@ -125,14 +125,14 @@ Result<bool> Presenter::draw_screens(LiveSession& session) {
 }
 
 // Decides with how many pixels all screens are drawn, and notes what moves.
-void Presenter::choose_detail(LiveSession& session, std::span<const std::optional<picture::Picture>> scenes) {
+void Presenter::choose_detail(Desk& desk, std::span<const std::optional<picture::Picture>> scenes) {
     PictureChange change;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const PictureChange one = screens_[i].picture->change_to(scenes[i]);
         change = {change.room || one.room, change.tool || one.tool};
     }
-    session.times().moved({.view = change.room, .tool = change.tool});
-    const bool less = draws_less_ && device_->info().is_software() && !session.files().wants_pictures();
+    desk.times().moved({.view = change.room, .tool = change.tool});
+    const bool less = draws_less_ && device_->info().is_software() && !desk.session().files().wants_pictures();
     detail_ = step_detail(detail_, {.now_ns = clock_.now_ns(),
                                     .in_full = !less,
                                     .moves = change.room,
@@ -140,15 +140,15 @@ void Presenter::choose_detail(LiveSession& session, std::span<const std::optiona
                   .state;
 }
 
-Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, LiveSession& session,
+Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, Desk& desk,
                                     std::optional<picture::Picture> scene) {
     ScreenStage& screen = screens_[i];
     SessionPicture& picture = *screen.picture;
-    if (const auto painted = picture.paint(commands, session.panel_on(i)); !painted) return painted;
-    picture.draw_in_full(session.files().wants_pictures());
+    if (const auto painted = picture.paint(commands, desk.panel_on(i)); !painted) return painted;
+    picture.draw_in_full(desk.session().files().wants_pictures());
     const auto drawn = picture.draw(commands, std::move(scene), screen.place.size, screen.settings, detail_.pixel);
     if (!drawn) return drawn;
-    if (i == wall_->main) session.note_drawn(picture.stats());
+    if (i == wall_->main) desk.note_drawn(picture.stats());
     screen.anew = note_changes(screen);
     return {};
 }
@@ -246,21 +246,21 @@ Result<void> Presenter::show_in(ScreenStage& screen, const Outlet& outlet) {
     return {};
 }
 
-void Presenter::take_screenshots(LiveSession& session) {
-    if (!session.files().wants_pictures()) return;
-    const std::vector<Asked> wanted = session.files().take_pictures();
-    for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, wanted);
+void Presenter::take_screenshots(Desk& desk) {
+    if (!desk.session().files().wants_pictures()) return;
+    const std::vector<Asked> wanted = desk.session().files().take_pictures();
+    for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, desk, wanted);
 }
 
 // Saves screenshots. Where each eye has a display or a turn of its own, the picture has both side by side.
-void Presenter::photograph(std::size_t i, LiveSession& session, const std::vector<Asked>& wanted) {
+void Presenter::photograph(std::size_t i, Desk& desk, const std::vector<Asked>& wanted) {
     ScreenStage& screen = screens_[i];
     wall::OutputSettings settings = screen.shown;
     wall::OutputPlace place = screen.shown_place;
     const std::string& name = wall_->screens[i].name;
     const auto keep = [&](const Result<Image>& image) {
         for (const Asked& one : wanted)
-            session.files().keep_picture(
+            desk.session().files().keep_picture(
                 {name.empty() || screens_.size() == 1 ? one.text : named_after(one.text, name), one.line}, image);
     };
     if (is_empty(place.size)) return keep(fail("screen " + name, "is minimised: no picture was taken", "show it"));

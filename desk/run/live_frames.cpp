@@ -29,7 +29,7 @@ std::optional<FrameInput> RealTimeFrames::next_input() {
         if (input_.next_event_ns()) static_cast<void>(look_for_signal());  // a script was not done
         return std::nullopt;
     }
-    SessionTimes& times = session_.times();
+    SessionTimes& times = desk_.times();
     times.begin();
     turn_ = now();
     Turn turn = wait_for_frame();
@@ -41,7 +41,8 @@ std::optional<FrameInput> RealTimeFrames::next_input() {
         input_.push(clock_.now_ns() - session_.start_ns(), CommandInput{std::move(command), {}}, true);
     for (CommandInput& told : session_.take_told())
         input_.push(clock_.now_ns() - session_.start_ns(), std::move(told), true);
-    recorder_.outside();
+    recorder_.outside(desk_.take_refused());
+    if (const auto kept = recorder_.kept()) desk_.note_acknowledged(kept->acknowledged, kept->goes_on);
     const auto frame = input_.begin_frame(clock_.now_ns() - session_.start_ns(), turn.display_ns - session_.start_ns());
     if (!frame) return std::nullopt;
     times.reached(FrameStage::input);
@@ -65,12 +66,12 @@ std::vector<InputEvent> RealTimeFrames::take_tracker_input() {
 void RealTimeFrames::stepped() {
     if (streams_ != nullptr)
         for (const std::string& message : streams_->take_messages()) session_.notify_of_event(message);
-    session_.times().reached(FrameStage::step);
+    desk_.times().reached(FrameStage::step);
 }
 
 void RealTimeFrames::finished(const FrameInput&, bool anew) {
     if (anew) changed_ns_ = clock_.now_ns();
-    session_.times().finished(anew, beat());
+    desk_.times().finished(anew, beat());
     const Moment end = now();
     lasted_ = {end.time_ns - began_.time_ns, end.processor_ns - began_.processor_ns};
     if (anew || turn_.time_ns - changed_ns_ < kSettled_ns) return;
@@ -80,13 +81,13 @@ void RealTimeFrames::finished(const FrameInput&, bool anew) {
 
 SessionRecord RealTimeFrames::record() const {
     SessionRecord record;
-    record.frames = session_.times().frames();
-    record.skipped = session_.times().skipped();
+    record.frames = desk_.times().frames();
+    record.skipped = desk_.times().skipped();
     record.wall_ns = lasted_.time_ns;
     record.processor_ns = lasted_.processor_ns;
     record.rested_ns = rested_.time_ns;
     record.rested_processor_ns = rested_.processor_ns;
-    for (const FrameWarning& warning : session_.times().warnings()) record.warnings.push_back(warning.line);
+    for (const FrameWarning& warning : desk_.times().warnings()) record.warnings.push_back(warning.line);
     return record;
 }
 
@@ -94,7 +95,7 @@ SessionRecord RealTimeFrames::record() const {
 
 // Waits until it is time for the next frame, plans it, and returns what has happened in the windows.
 RealTimeFrames::Turn LiveFrames::wait_for_frame() {
-    const bool active = presenter_.takes_turns(session_) || presenter_.owes_full_picture() ||
+    const bool active = presenter_.takes_turns(desk_) || presenter_.owes_full_picture() ||
                         clock_.now_ns() - changed_ns_ < kActive_ns;
     presenter_.refine_beside(!active);
     display_.shown_at(presenter_.refresh_Hz());
@@ -104,8 +105,8 @@ RealTimeFrames::Turn LiveFrames::wait_for_frame() {
     }
     Nanoseconds until_ns = clock_.now_ns() + kRest_ns;
     if (const auto event_ns = input_.next_event_ns()) until_ns = std::min(until_ns, session_.start_ns() + *event_ns);
-    if (session_.waits_for_the_disk()) until_ns = std::min(until_ns, clock_.now_ns() + kLooksForDisk_ns);
-    if (const auto change_ns = session_.changes_ns()) until_ns = std::min(until_ns, session_.start_ns() + *change_ns);
+    if (session_.work().waits_for_the_disk()) until_ns = std::min(until_ns, clock_.now_ns() + kLooksForDisk_ns);
+    if (const auto change_ns = desk_.changes_ns()) until_ns = std::min(until_ns, session_.start_ns() + *change_ns);
     std::vector<InputEvent> happened = wait_for_input(until_ns);
     plan_ = display_.plan(clock_.now_ns());
     plan_.wake_ns = clock_.now_ns();
@@ -137,7 +138,7 @@ std::vector<InputEvent> LiveFrames::wait_for_input(Nanoseconds until_ns) {
 }
 
 void LiveFrames::stepped() {
-    if (presenter_.shows() && session_.wants_full_screen_exchanged()) presenter_.exchange_full_screen();
+    if (presenter_.shows() && desk_.wants_full_screen_exchanged()) presenter_.exchange_full_screen();
     for (const std::string& message : presenter_.take_messages()) session_.notify_of_event(message);
     if (const auto& told = session_.state().asked.told) {
         std::string name = short_name(*told) + " \u2014 " + state_text(*told);

@@ -30,9 +30,9 @@ public:
 
 protected:
     // tracker: null where there is none. All must outlive it.
-    RealTimeFrames(LiveSession& session, FrameOutput& output, InputSource input, Clock& clock,
+    RealTimeFrames(Desk& desk, FrameOutput& output, InputSource input, Clock& clock,
                    devices::Tracker* tracker, const std::string& tracker_name)
-        : SessionFrames(session, output, std::move(input)),
+        : SessionFrames(desk, output, std::move(input)),
           clock_(clock),
           tracker_(tracker),
           first_word_(tracker_name) {}
@@ -73,15 +73,15 @@ private:
 // Makes a frame when the display wants the next one, or, at rest, when something happens.
 class LiveFrames final : public RealTimeFrames {
 public:
-    LiveFrames(LiveSession& session, Presenter& presenter, InputSource input, Clock& clock, devices::Tracker* tracker,
+    LiveFrames(Desk& desk, Presenter& presenter, InputSource input, Clock& clock, devices::Tracker* tracker,
                const std::string& tracker_name)
-        : RealTimeFrames(session, presenter, std::move(input), clock, tracker, tracker_name),
+        : RealTimeFrames(desk, presenter, std::move(input), clock, tracker, tracker_name),
           presenter_(presenter),
           display_(presenter.refresh_Hz()) {}
 
 private:
     [[nodiscard]] Turn wait_for_frame() override;
-    [[nodiscard]] DisplayBeat beat() override { return display_.beat(session_); }
+    [[nodiscard]] DisplayBeat beat() override { return display_.beat(desk_); }
     void stepped() override;
     [[nodiscard]] bool wants_picture() override { return true; }
     void finished(const FrameInput& frame, bool anew) override;
@@ -99,9 +99,9 @@ private:
 // Makes a frame every 60th of a second, and a picture only where one is asked for.
 class UnseenFrames final : public RealTimeFrames {
 public:
-    UnseenFrames(LiveSession& session, FrameOutput& output, InputSource input, Clock& clock, devices::Tracker* tracker,
+    UnseenFrames(Desk& desk, FrameOutput& output, InputSource input, Clock& clock, devices::Tracker* tracker,
                  const std::string& tracker_name)
-        : RealTimeFrames(session, output, std::move(input), clock, tracker, tracker_name) {}
+        : RealTimeFrames(desk, output, std::move(input), clock, tracker, tracker_name) {}
 
 private:
     [[nodiscard]] Turn wait_for_frame() override;

@@ -20,17 +20,16 @@
 #include "session/drive/session_streams.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/input/input_line.hpp"
-#include "session/live/opened_room.hpp"
 #include "session/options/option_bounds.hpp"
 
 namespace burin::session {
 namespace {
 
 // Adds what the threads did; call it after they have ended.
-void add_threads(SessionRecord& record, LiveSession& session) {
+void add_threads(SessionRecord& record, Session& session) {
     const haptics::HapticLoop& loop = session.loop();
-    record.carve_update = summarised(session.carving_duration());
-    if (const compute::CarvingEngine* const engine = session.engine()) {
+    record.carve_update = summarised(session.scene_side().news().carving_duration());
+    if (const compute::CarvingEngine* const engine = session.scene_side().engine()) {
         record.engine = engine->name();
         record.engine_traffic = engine->traffic();
     }
@@ -45,7 +44,7 @@ void add_threads(SessionRecord& record, LiveSession& session) {
 
 // Begins the recording that the options ask for.
 Result<void> begin_recording(InputSource& input, const SculptOptions& options, const SessionFacts& facts,
-                             LiveSession& session, SessionStreams* streams) {
+                             Session& session, SessionStreams* streams) {
     if (input.records()) return {};
     if (options.live.record.empty()) {
         if (streams != nullptr) streams->read_rings();
@@ -91,7 +90,7 @@ void tell_of(const SessionRecording& recording) {
 
 // A session in real time but for its frames, which are made for it and run with it.
 struct RealTimeSession {
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
     std::unique_ptr<SessionStreams> streams;    // null: there are none
     InputSource input;                          // its recording reads the session's rings: it goes before them
     std::unique_ptr<devices::Tracker> tracker;  // null: there is none
@@ -104,17 +103,17 @@ Result<RealTimeSession> open_in_real_time(const SculptOptions& options, const Se
                                           InputSource input, const RealTimeRun& run, const Wake& wake,
                                           std::optional<sculpt::MadeWorkpiece> made = {}) {
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
-    auto opened = LiveSession::create(options, wall, clock, machine_pace, std::move(made));
+    auto opened = Desk::create(options, wall, clock, machine_pace, std::move(made));
     if (!opened) return std::unexpected(opened.error());
     RealTimeSession whole{
-        .session = std::move(*opened), .streams = {}, .input = std::move(input), .tracker = {}, .tracker_name = {}};
-    auto streams = SessionStreams::open(options.live, *whole.session, clock);
+        .desk = std::move(*opened), .streams = {}, .input = std::move(input), .tracker = {}, .tracker_name = {}};
+    auto streams = SessionStreams::open(options.live, whole.desk->session(), clock);
     if (!streams) return std::unexpected(streams.error());
     whole.streams = std::move(*streams);
-    if (const auto begun = begin_recording(whole.input, options, run.facts, *whole.session, whole.streams.get());
+    if (const auto begun = begin_recording(whole.input, options, run.facts, whole.desk->session(), whole.streams.get());
         !begun)
         return std::unexpected(begun.error());
-    if (run.keep_frames) whole.session->times().keep_frames();
+    if (run.keep_frames) whole.desk->times().keep_frames();
     const Result<SessionTracker> heard = session_tracker(options.live, wall.setup);
     if (!heard) return std::unexpected(heard.error());
     whole.tracker_name = heard->where;
@@ -129,10 +128,10 @@ Result<RealTimeSession> open_in_real_time(const SculptOptions& options, const Se
 Result<SessionRecord> run_to_its_end(RealTimeSession& whole, RealTimeFrames& frames, const FrameOutput& output,
                                      Clock& clock, bool streams_all, haptics::LoopPace asked, const Wake& wake,
                                      const std::shared_ptr<SessionRecording>& recording) {
-    LiveSession& session = *whole.session;
+    Session& session = whole.desk->session();
     if (whole.streams) frames.stream_to(&whole.streams->lsl());
     // A stream of a thousand samples a second has them also while nothing moves.
-    const bool needs_all_ticks = session.has_activity() || streams_all;
+    const bool needs_all_ticks = session.activity().is_there() || streams_all;
     const haptics::LoopPace pace = pace_of(asked, session.hands().felt_by_person(), needs_all_ticks);
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
@@ -170,9 +169,9 @@ Result<SessionRecord> run_unseen(const SculptOptions& options, const SessionWall
     const Wake wake = [] {};  // its frames come by themselves
     auto whole = open_in_real_time(options, wall, clock, std::move(input), run, wake);
     if (!whole) return std::unexpected(whole.error());
-    if (!run.needs.panel) whole->session->leave_panel_out();
+    if (!run.needs.panel) whole->desk->leave_panel_out();
     const std::shared_ptr<SessionRecording> recording = whole->input.recording();
-    UnseenFrames frames(*whole->session, output, std::move(whole->input), clock, whole->tracker.get(),
+    UnseenFrames frames(*whole->desk, output, std::move(whole->input), clock, whole->tracker.get(),
                         whole->tracker_name);
     return run_to_its_end(*whole, frames, output, clock, options.live.lsl, run.pace, wake, recording);
 }
@@ -204,11 +203,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     }
     auto whole = open_in_real_time(options, wall, clock, std::move(input), run, wake, std::move(made));
     if (!whole) return std::unexpected(whole.error());
-    presenter->name_windows(whole->session->document_name());
+    presenter->name_windows(whole->desk->session().found().name);
     if (options.live.first_steps) remember_first_time();
     const std::shared_ptr<SessionRecording> recording = whole->input.recording();
     if (options.live.detail == DetailChoice::automatic) presenter->draw_less_in_motion();
-    LiveFrames frames(*whole->session, *presenter, std::move(whole->input), clock, whole->tracker.get(),
+    LiveFrames frames(*whole->desk, *presenter, std::move(whole->input), clock, whole->tracker.get(),
                       whole->tracker_name);
     auto record = run_to_its_end(*whole, frames, *presenter, clock, options.live.lsl, run.pace, wake, recording);
     if (record) record->device = presenter->device_name();

@@ -21,10 +21,10 @@ constexpr const char* kRemedy = "replay it with the program and the options that
 class RecordedFrames final : public SessionFrames {
 public:
     // All must outlive it. name: the log's file name.
-    RecordedFrames(LiveSession& session, FrameOutput& output, InputSource input, const ThreadLog& log,
+    RecordedFrames(Desk& desk, FrameOutput& output, InputSource input, const ThreadLog& log,
                    const std::string& name, ThreadReplay& replay, const ReplayManner& manner)
-        : SessionFrames(session, output, std::move(input)), log_(log), name_(name), replay_(replay), manner_(manner) {
-        session.replay_events(log.messages_before);
+        : SessionFrames(desk, output, std::move(input)), log_(log), name_(name), replay_(replay), manner_(manner) {
+        session_.log().replay_events(log.messages_before);
         if (manner.notes != nullptr) recorder_.keep_events();
     }
 
@@ -46,7 +46,7 @@ private:
         if (!input) return std::nullopt;
         const FrameSeen& seen = log_.frames[next_++];
         for (const OutputSeen& output : seen.outputs) shown_on_.put(output.screen, output.place);
-        session_.measure_again(seen.measured);
+        desk_.measure_again(seen.measured);
         replay_.begin_frame(seen);
         time_ns_ = input->time_ns;
         return input;
@@ -54,8 +54,8 @@ private:
 
     void stepped() override {
         const FrameSeen& seen = log_.frames[next_ - 1];
-        if (!replay_.is_as_recorded()) note_departure(seen.line);
-        if (seen.refused) session_.go_back_to(*seen.refused);
+        if (!replay_.is_as_recorded(desk_.words())) note_departure(seen.line);
+        if (seen.refused) desk_.go_back_to(*seen.refused);
         if (shown_on_.shows()) static_cast<void>(shown_on_.inputs(0.0));  // ignored: the recording decides
         if (manner_.picture_every_ns <= 0 || time_ns_ < next_picture_ns_) return;
         session_.files().ask_for_picture(formatted("%08.3f.png", seconds(time_ns_)));
@@ -66,8 +66,8 @@ private:
     [[nodiscard]] bool wants_picture() override { return manner_.draws; }
 
     void finished(const FrameInput&, bool) override {
-        session_.replay_events(log_.frames[next_ - 1].messages);
-        if (!manner_.draws) static_cast<void>(session_.take_surface_updates());  // else the picture has taken them
+        session_.log().replay_events(log_.frames[next_ - 1].messages);
+        if (!manner_.draws) static_cast<void>(desk_.take_surface_updates());  // else the picture has taken them
     }
 
     void note_departure(std::size_t line) {
@@ -86,7 +86,7 @@ private:
 };
 
 // Returns what has the recording's ticks, and checks that they are of this session's hands.
-Result<std::unique_ptr<TickSource>> ticks_for(LiveSession& session, const ThreadLog& log, const std::string& name,
+Result<std::unique_ptr<TickSource>> ticks_for(const Session& session, const ThreadLog& log, const std::string& name,
                                               const ReplayManner& manner) {
     std::unique_ptr<TickSource> source;
     if (log.ticks.count > 0 || manner.ticks == nullptr) {
@@ -135,11 +135,12 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
     SimulatedClock clock;
-    auto opened = open_as_recorded(options, wall, threads, name, clock);
+    auto opened = Desk::create_as_recorded(options, wall, threads, name, clock);
     if (!opened) return std::unexpected(opened.error());
-    LiveSession& session = **opened;
+    Desk& desk = **opened;
+    Session& session = desk.session();
     const bool asks_for_pictures = manner.draws && (needs.pictures || manner.picture_every_ns > 0);
-    if (options.live.offscreen && !needs.panel && !asks_for_pictures) session.leave_panel_out();
+    if (options.live.offscreen && !needs.panel && !asks_for_pictures) desk.leave_panel_out();
     const auto output = open_output(options.live, wall, asks_for_pictures);
     if (!output) return std::unexpected(output.error());
     if (const auto fits = check_screens(**output, threads, name); !fits) return fits;
@@ -148,7 +149,7 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
     if (!ticks) return std::unexpected(ticks.error());
     ThreadReplay replay(session, threads, std::move(*ticks), name);
     replay.judge_ticks(manner.witness);
-    RecordedFrames frames(session, **output, std::move(input), threads, name, replay, manner);
+    RecordedFrames frames(desk, **output, std::move(input), threads, name, replay, manner);
     Result<void> done = drive(replay, frames);
     if (done && !frames.cut_short()) done = frames.finish_as_recorded();
     if (!done && !replay.log_ends()) return done;

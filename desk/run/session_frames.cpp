@@ -9,23 +9,23 @@
 
 namespace burin::session {
 
-Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
+Result<void> step_frame(Desk& desk, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
                         const std::vector<wall::OutputPlace>& places) {
     const std::vector<haptics::ToolState> tools = executor.tools();
-    const SessionWall& wall = session.room().wall;
-    session.step(
+    const SessionWall& wall = desk.room().wall;
+    desk.step(
         input, places[wall.main], tools, [&](Executor::Order order) { executor.order(std::move(order)); },
         wall.has_panel_window() ? places.back().size : ImageSize{});
     const Result<Executor::Taken> taken = executor.take_updates();
     if (!taken) return std::unexpected(taken.error());
-    session.take_news(taken->collected);
-    recorder.frame(tools, taken->updates, places);
+    desk.take_news(taken->collected);
+    recorder.frame(tools, taken->updates, {places, desk.measured(), desk.words()});
     return {};
 }
 
-SessionFrames::SessionFrames(LiveSession& session, FrameOutput& output, InputSource input)
-    : session_(session), shown_on_(output), input_(std::move(input)), recorder_(input_, session) {
-    session.take_loaded();
+SessionFrames::SessionFrames(Desk& desk, FrameOutput& output, InputSource input)
+    : desk_(desk), session_(desk.session()), shown_on_(output), input_(std::move(input)), recorder_(input_, session_) {
+    desk.take_loaded();
 }
 
 std::optional<Nanoseconds> SessionFrames::next() {
@@ -37,7 +37,7 @@ std::optional<Nanoseconds> SessionFrames::next() {
 }
 
 Result<void> SessionFrames::make(Executor& executor) {
-    if (const auto done = step_frame(session_, executor, recorder_, frame_, shown_on_.places()); !done) return done;
+    if (const auto done = step_frame(desk_, executor, recorder_, frame_, shown_on_.places()); !done) return done;
     stepped();
     const Result<bool> anew = draw();
     if (!anew) return std::unexpected(anew.error());
@@ -48,10 +48,10 @@ Result<void> SessionFrames::make(Executor& executor) {
 // Returns whether there was anything new. A device that was lost is replaced, and the frame drawn again.
 Result<bool> SessionFrames::draw() {
     while (wants_picture()) {
-        Result<bool> anew = shown_on_.draw(session_, frame_.display_ns);
+        Result<bool> anew = shown_on_.draw(desk_, frame_.display_ns);
         if (anew) return anew;
         if (shown_on_.has_lost_display()) return false;  // the next turn ends the session
-        if (const auto recovered = shown_on_.recover(session_, anew.error()); !recovered)
+        if (const auto recovered = shown_on_.recover(desk_, anew.error()); !recovered)
             return std::unexpected(recovered.error());
     }
     return false;
@@ -85,19 +85,20 @@ void ScriptedFrames::stepped() {
     if (shown_on_.shows()) static_cast<void>(shown_on_.inputs(0.0));  // ignored: the script decides
     // Fails where the device is lost, which the next picture meets.
     const bool is_drawn = shown_on_.shows() || session_.files().wants_pictures();
-    if (!is_drawn && shown_on_.has_drawn()) static_cast<void>(shown_on_.fit_modes(session_));
+    if (!is_drawn && shown_on_.has_drawn()) static_cast<void>(shown_on_.fit_modes(desk_));
 }
 
 Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log) {
     SimulatedClock clock;
-    auto opened = LiveSession::create(options, wall, clock);
+    auto opened = Desk::create(options, wall, clock);
     if (!opened) return std::unexpected(opened.error());
-    LiveSession& session = **opened;
+    Desk& desk = **opened;
+    Session& session = desk.session();
     const LogNeeds needs = needs_of(log.events);
-    if (options.live.offscreen && !needs.panel) session.leave_panel_out();
+    if (options.live.offscreen && !needs.panel) desk.leave_panel_out();
     const auto output = open_output(options.live, wall, needs.pictures);
     if (!output) return std::unexpected(output.error());
-    ScriptedFrames frames(session, **output, InputSource::replay(std::move(log)));
+    ScriptedFrames frames(desk, **output, InputSource::replay(std::move(log)));
     SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     if (const auto driven = drive(executor, frames); !driven) return driven;

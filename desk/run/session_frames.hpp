@@ -12,21 +12,21 @@
 #include "session/drive/driver.hpp"
 #include "session/drive/end_signals.hpp"
 #include "session/drive/thread_recorder.hpp"
-#include "session/live/live_session.hpp"
+#include "desk/live/desk.hpp"
 #include "session/record/input_source.hpp"
 
 namespace burin::session {
 
 // Makes a frame but for its picture: steps the session with the input and hands it what the scene's parts report.
 // places: where the outputs of all screens are.
-[[nodiscard]] Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder,
+[[nodiscard]] Result<void> step_frame(Desk& desk, Executor& executor, ThreadRecorder& recorder,
                                       const FrameInput& input, const std::vector<wall::OutputPlace>& places);
 
 class SessionFrames : public FrameSource {
 public:
     // Hands the session the surface as it was loaded. Session and output must outlive it. Create it before the
     // executor starts threads, which it records if the input is recorded.
-    SessionFrames(LiveSession& session, FrameOutput& output, InputSource input);
+    SessionFrames(Desk& desk, FrameOutput& output, InputSource input);
 
     [[nodiscard]] std::optional<Nanoseconds> next() final;
     [[nodiscard]] Result<void> make(Executor& executor) final;
@@ -53,7 +53,8 @@ protected:
     // Called at the frame's end. anew: whether there was anything new to draw.
     virtual void finished(const FrameInput&, [[maybe_unused]] bool anew) {}
 
-    LiveSession& session_;
+    Desk& desk_;
+    Session& session_;  // the desk's
     FrameOutput& shown_on_;
     InputSource input_;
     ThreadRecorder recorder_;
@@ -71,9 +72,9 @@ private:
 class ScriptedFrames : public SessionFrames {
 public:
     // Pictures depend on the script alone.
-    ScriptedFrames(LiveSession& session, FrameOutput& output, InputSource input)
-        : SessionFrames(session, output, std::move(input)) {
-        session.hear_nothing_from_outside();
+    ScriptedFrames(Desk& desk, FrameOutput& output, InputSource input)
+        : SessionFrames(desk, output, std::move(input)) {
+        session_.log().hear_nothing_from_outside();
     }
 
 protected:

@@ -11,18 +11,18 @@
 namespace burin::session {
 namespace {
 
-std::vector<std::pair<std::int64_t, std::string>> touchable_in(const LiveSession& session) {
+std::vector<std::pair<std::int64_t, std::string>> touchable_in(const Session& session) {
     std::vector<std::pair<std::int64_t, std::string>> objects;
-    const scene::MeshPart* part = session.objects();
+    const scene::MeshPart* part = session.scene_side().objects();
     for (scene::ObjectId id = 1; part != nullptr && id <= part->size(); ++id)
         objects.emplace_back(static_cast<std::int64_t>(id), part->object(id).name);
-    if (session.surface() != nullptr) objects.emplace_back(std::int64_t{kWorkpieceObject}, "workpiece");
+    if (session.scene_side().surface() != nullptr) objects.emplace_back(std::int64_t{kWorkpieceObject}, "workpiece");
     return objects;
 }
 
 }  // namespace
 
-Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session,
+Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, Session& session,
                                         record::OnRecord also) {
     const SculptOptions settled = session.settled(options);
     const std::string settings = settings_line(settled);

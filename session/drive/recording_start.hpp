@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "session/live/live_session.hpp"
+#include "session/live/session.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -18,6 +18,6 @@ using SessionFacts = std::vector<std::pair<std::string, std::string>>;
 // A session file reads the session's ring of tick records from now on; the session must outlive it. also: takes every
 // tick that a session file takes.
 [[nodiscard]] Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts,
-                                                      LiveSession& session, record::OnRecord also = {});
+                                                      Session& session, record::OnRecord also = {});
 
 }  // namespace burin::session

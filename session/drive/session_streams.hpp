@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "record/record_writer.hpp"
-#include "session/live/live_session.hpp"
+#include "session/live/session.hpp"
 #include "session/stream/lsl_streams.hpp"
 #include "session/stream/tick_pump.hpp"
 
@@ -22,7 +22,7 @@ class SessionStreams {
 public:
     // Opens them for a session whose threads have not started; null: none are asked for. Session and clock must
     // outlive them.
-    [[nodiscard]] static Result<std::unique_ptr<SessionStreams>> open(const LiveOptions& live, LiveSession& session,
+    [[nodiscard]] static Result<std::unique_ptr<SessionStreams>> open(const LiveOptions& live, Session& session,
                                                                       Clock& clock);
     ~SessionStreams();
     SessionStreams(const SessionStreams&) = delete;
@@ -37,10 +37,10 @@ public:
     StreamFigures finish();
 
 private:
-    SessionStreams(LiveSession& session, std::unique_ptr<LslStreams> lsl, bool gives)
+    SessionStreams(Session& session, std::unique_ptr<LslStreams> lsl, bool gives)
         : session_(session), lsl_(std::move(lsl)), gives_(gives) {}
 
-    LiveSession& session_;
+    Session& session_;
     std::unique_ptr<LslStreams> lsl_;
     bool gives_;  // ticks and events
     std::unique_ptr<TickPump> pump_;

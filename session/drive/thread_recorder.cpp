@@ -15,14 +15,14 @@ bool same(const wall::OutputPlace& a, const wall::OutputPlace& b) {
 
 }  // namespace
 
-ThreadClock clock_of(LiveSession& session) {
+ThreadClock clock_of(Session& session) {
     return {session.start_ns(), session.loop().period_ns(), session.hands().device(0).resolution_m,
             session.hands().pace()};
 }
 
-std::uint64_t check_of(const LiveSession& session) {
+std::uint64_t check_of(const Session& session) {
     CheckSum sum;
-    const compute::Surface* surface = session.surface();
+    const compute::Surface* surface = session.scene_side().surface();
     for (std::uint32_t i = 0; surface != nullptr && i < surface->tile_count(); ++i) {
         const auto tile = surface->shared_tile(i);
         if (!tile) continue;
@@ -30,7 +30,7 @@ std::uint64_t check_of(const LiveSession& session) {
         sum.add_bytes(std::as_bytes(std::span(tile->vertices)));
         sum.add_bytes(std::as_bytes(std::span(tile->indices)));
     }
-    const scene::MeshPart* objects = session.objects();
+    const scene::MeshPart* objects = session.scene_side().objects();
     for (scene::ObjectId id = 1; objects != nullptr && id <= objects->size(); ++id) {
         sum.add(objects->pose(id).position_m);
         sum.add(objects->pose(id).orientation);
@@ -40,7 +40,7 @@ std::uint64_t check_of(const LiveSession& session) {
 
 // ---- Recorder
 
-ThreadRecorder::ThreadRecorder(InputSource& input, LiveSession& session)
+ThreadRecorder::ThreadRecorder(InputSource& input, Session& session)
     : input_(input),
       session_(session),
       clock_(clock_of(session)),
@@ -51,38 +51,41 @@ ThreadRecorder::ThreadRecorder(InputSource& input, LiveSession& session)
     input_.record_threads(text_of(clock_));
 }
 
-void ThreadRecorder::outside() {
-    const LiveSession::Outside outside = session_.take_outside();
+void ThreadRecorder::outside(std::optional<wall::StereoMode> refused) {
+    const std::vector<std::string> heard = session_.log().take_events();
     if (recording_ && !input_.records()) session_.files().notify_of_loss(input_.recording_error()->line());
     recording_ = input_.records();
-    if (file_) session_.note_acknowledged(file_->progress().acknowledged, recording_);
     if (!recording_) return;
-    if (outside.refused) input_.record_threads(refused_text(*outside.refused));
-    for (const std::string& message : outside.heard) input_.record_threads(message_text(message));
+    if (refused) input_.record_threads(refused_text(*refused));
+    for (const std::string& message : heard) input_.record_threads(message_text(message));
+}
+
+std::optional<ThreadRecorder::Kept> ThreadRecorder::kept() const {
+    return file_ ? std::optional(Kept{file_->progress().acknowledged, recording_}) : std::nullopt;
 }
 
 void ThreadRecorder::frame(std::span<const haptics::ToolState> tools, const std::vector<scene::SceneUpdate>& updates,
-                           const std::vector<wall::OutputPlace>& places) {
+                           const FrameOfViewer& viewer) {
     write_notes();
     if (!input_.records()) return;
     if (!file_) write_ticks();  // a tick is in the ring before its tool is published
     write_updates(updates);
-    write_places(places);
-    const PanelMeasured& measured = session_.measured();
+    write_places(viewer.places);
+    const PanelMeasured& measured = viewer.measured;
     if (measured.plotted) input_.record_threads(text_of(*measured.plotted));
     if (measured.numbers) input_.record_threads(text_of(*measured.numbers));
     if (measured.acknowledged) input_.record_threads(kept_text(*measured.acknowledged));
-    const std::uint64_t activity = session_.check_of_activity();
+    const std::uint64_t activity = session_.activity().check();
     if (std::exchange(activity_, activity) != activity) input_.record_threads(activity_text(activity));
     FrameSeen frame;
     frame.ticks.clear();
     for (const haptics::ToolState& tool : tools) frame.ticks.push_back(tool.tick);
     frame.updates = updates_;
     if (file_) {
-        input_.record_frame(frame, words_of(session_.state()));
+        input_.record_frame(frame, viewer.words);
         return;
     }
-    frame.check = check_.frame(frame.ticks, words_of(session_.state()));
+    frame.check = check_.frame(frame.ticks, viewer.words);
     input_.record_threads(text_of(frame));
 }
 
@@ -100,7 +103,7 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
         outside();
     }
     if (!file_) return;
-    if (const compute::CarvingEngine* const engine = session_.engine())
+    if (const compute::CarvingEngine* const engine = session_.scene_side().engine())
         file_->fact_of_end(kCarvedByFact, carved_by(*engine));
     // Its ticks go on where its log has ended.
     if (const auto closed = file_->close(); !closed && recording_)
@@ -109,14 +112,14 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
 
 // A text log has no tables of them.
 void ThreadRecorder::write_notes() {
-    for (EventMark& mark : session_.take_events()) {
+    for (EventMark& mark : session_.notices().take_events()) {
         if (streams_ != nullptr) streams_->event(mark);
         if (file_)
             file_->event(std::move(mark));
         else if (keeps_events_)
             events_.push_back(std::move(mark));
     }
-    for (TrialMark& mark : session_.take_trials()) {
+    for (TrialMark& mark : session_.activity().take_trials()) {
         if (streams_ != nullptr) streams_->trial(mark);
         if (file_)
             file_->trial(mark);

@@ -14,7 +14,7 @@
 #include <memory>
 #include <span>
 
-#include "session/live/live_session.hpp"
+#include "session/live/session.hpp"
 #include "session/record/input_source.hpp"
 #include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
@@ -24,21 +24,36 @@ namespace burin::session {
 
 // Returns the checksum of what the session leaves: the carved surface, and where the world's objects are. A recording
 // keeps it at its end.
-[[nodiscard]] std::uint64_t check_of(const LiveSession& session);
+[[nodiscard]] std::uint64_t check_of(const Session& session);
 
-[[nodiscard]] ThreadClock clock_of(LiveSession& session);
+[[nodiscard]] ThreadClock clock_of(Session& session);
+
+// What a frame's viewer has, which a recording keeps with it.
+struct FrameOfViewer {
+    const std::vector<wall::OutputPlace>& places;  // of all screens' outputs
+    const PanelMeasured& measured;
+    const StateWords& words;
+};
 
 class ThreadRecorder {
 public:
     // Create it before the threads start; input and session must outlive it. Does nothing where the input is not
     // recorded.
-    ThreadRecorder(InputSource& input, LiveSession& session);
+    ThreadRecorder(InputSource& input, Session& session);
 
-    // Records the outside messages since the previous frame. Reports, once, why the recording has ended.
-    void outside();
+    // Records the outside messages since the previous frame, and the stereo mode that was gone back to. Reports, once,
+    // why the recording has ended.
+    void outside(std::optional<wall::StereoMode> refused = {});
     // Records a frame. tools: those that the frame draws, one of each part of the hands. updates: those that it took.
     void frame(std::span<const haptics::ToolState> tools, const std::vector<scene::SceneUpdate>& updates,
-               const std::vector<wall::OutputPlace>& places);
+               const FrameOfViewer& viewer);
+    // Returns the last tick that a session file has on the disk, and whether the recording goes on; nothing without
+    // such a file.
+    struct Kept {
+        std::uint64_t acknowledged = 0;
+        bool goes_on = true;
+    };
+    [[nodiscard]] std::optional<Kept> kept() const;
     // Ends the recording, and closes a session file.
     void finish(const std::vector<scene::SceneUpdate>& updates);
     // Returns the trials and events that no session file has taken, since the last call. Events are kept where
@@ -57,7 +72,7 @@ private:
     void write_places(const std::vector<wall::OutputPlace>& places);
 
     InputSource& input_;
-    LiveSession& session_;
+    Session& session_;
     ThreadClock clock_;
     TickText tick_text_;
     UpdateText update_text_;

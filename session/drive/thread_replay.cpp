@@ -16,21 +16,16 @@ const T* seen(std::deque<T>& values, std::uint64_t sequence) {
 
 }  // namespace
 
-Result<std::unique_ptr<LiveSession>> open_as_recorded(const SculptOptions& options, const SessionWall& wall,
-                                                      const ThreadLog& log, const std::string& name,
-                                                      SimulatedClock& clock) {
-    clock.sleep_until(log.clock.start_ns);
-    auto session = LiveSession::create(options, wall, clock, log.clock.pace);
-    if (!session) return session;
-    const Nanoseconds period_ns = (*session)->loop().period_ns();
-    if (log.clock.period_ns == period_ns) return session;
+Result<void> check_rate(Session& session, const ThreadLog& log, const std::string& name) {
+    const Nanoseconds period_ns = session.loop().period_ns();
+    if (log.clock.period_ns == period_ns) return {};
     return fail(name,
                 "its ticks are " + std::to_string(log.clock.period_ns) + " ns apart, this device's " +
                     std::to_string(period_ns),
                 "replay it with the device that it was recorded with");
 }
 
-ThreadReplay::ThreadReplay(LiveSession& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
+ThreadReplay::ThreadReplay(Session& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
                            const std::string& name)
     : session_(session),
       log_(log),
@@ -68,9 +63,10 @@ Result<Executor::Taken> ThreadReplay::take_updates() {
     return Taken{{}, frame_->updates};
 }
 
-bool ThreadReplay::is_as_recorded() {
-    const bool same = check_.frame(frame_->ticks, words_of(session_.state())) == frame_->check;
-    return same && frame_->activity.value_or(session_.check_of_activity()) == session_.check_of_activity();
+bool ThreadReplay::is_as_recorded(const StateWords& words) {
+    const bool same = check_.frame(frame_->ticks, words) == frame_->check;
+    const std::uint64_t activity = session_.activity().check();
+    return same && frame_->activity.value_or(activity) == activity;
 }
 
 Result<void> ThreadReplay::run_to_end() {

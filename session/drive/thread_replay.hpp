@@ -21,24 +21,20 @@
 #include "session/drive/driver.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/drive/tick_witness.hpp"
-#include "session/live/live_session.hpp"
+#include "session/live/session.hpp"
 #include "session/record/thread_log.hpp"
 #include "session/record/tick_source.hpp"
 
 namespace burin::session {
 
-// Opens the session that a log was recorded of: with its start on the clock, so that all times are equal to the bit,
-// and with its machine's pace. Fails where the options do not open, or its device ticks at another rate. name: the
-// log's file name.
-[[nodiscard]] Result<std::unique_ptr<LiveSession>> open_as_recorded(const SculptOptions& options,
-                                                                    const SessionWall& wall, const ThreadLog& log,
-                                                                    const std::string& name, SimulatedClock& clock);
+// Fails where the device of a session ticks at another rate than the log's. name: the log's file name.
+[[nodiscard]] Result<void> check_rate(Session& session, const ThreadLog& log, const std::string& name);
 
 class ThreadReplay final : public Executor {
 public:
     // name: the log's file name. session and log must outlive it.
     // ticks: what the ticks of each part of the hands saw.
-    ThreadReplay(LiveSession& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
+    ThreadReplay(Session& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
                  const std::string& name);
 
     // Has the ticks judged; null: by the frames' checksums alone.
@@ -52,8 +48,9 @@ public:
     void order(Order order) override { orders_.push_back(std::move(order)); }
     // Runs the updates that the frame had taken.
     [[nodiscard]] Result<Taken> take_updates() override;
-    // Returns, after the frame's step, whether everything is as recorded.
-    [[nodiscard]] bool is_as_recorded();
+    // Returns, after the frame's step, whether everything is as recorded. words: what the frame's checksum covers of
+    // the state.
+    [[nodiscard]] bool is_as_recorded(const StateWords& words);
 
     // Runs what the threads did after the last frame until they were stopped; nothing where the log does not say that
     // they were.
@@ -84,7 +81,7 @@ private:
     [[nodiscard]] std::optional<std::string> hole() const;
     [[nodiscard]] std::unexpected<Error> contradiction(const std::string& where, const std::string& what) const;
 
-    LiveSession& session_;
+    Session& session_;
     const ThreadLog& log_;
     std::string name_;
     const FrameSeen* frame_ = nullptr;  // the present one

@@ -89,6 +89,7 @@ public:
 
     [[nodiscard]] double pace() const { return pace_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return *loop_; }
+    [[nodiscard]] const haptics::HapticLoop& loop() const { return *loop_; }
     [[nodiscard]] haptics::HapticChannels& channels(std::size_t part) { return parts_[part]->channels; }
     // Returns the channels of all parts, in their order.
     [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts();

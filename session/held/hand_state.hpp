@@ -34,7 +34,7 @@ struct HandState {
     bool catch_drill = false;
     bool only_touch = false;         // the tool feels the surface but leaves it unchanged
     std::optional<SceneHold> holds;  // the scene, in its second button; none: it does not
-    devices::HandTarget target;      // where mouse and keys have led it, while they lead another
+    devices::HandTarget target;      // where it rests at first, and is led to while another hand is led
     Quat target_turn_device{1.0, 0.0, 0.0, 0.0};
 };
 

@@ -38,4 +38,9 @@ std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::T
     return held;
 }
 
+Quat pen_at_rest() {
+    const Vec3 shaft = glm::normalize(Vec3(0.45, 0.8, 1.0)), across = glm::normalize(Vec3(1.0, 0.0, -0.45));
+    return glm::normalize(glm::quat_cast(glm::dmat3(across, shaft, glm::cross(across, shaft))));
+}
+
 }  // namespace burin::session

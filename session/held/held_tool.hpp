@@ -44,4 +44,8 @@ struct HeldTool {
 [[nodiscard]] Result<std::shared_ptr<const HeldTool>> take_up(const sculpt::ToolSpec& tool, const ToolMeshes& meshes);
 [[nodiscard]] std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::ToolShape shape);
 
+// Returns the orientation of a tool that is held as a pen is: its shaft, along its own +Y, leans to the right, up and
+// towards the viewer.
+[[nodiscard]] Quat pen_at_rest();
+
 }  // namespace burin::session

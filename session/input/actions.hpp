@@ -22,10 +22,14 @@ enum class Action : std::uint8_t {
 };
 // How the mouse leads the hand's tool: along the surface that the cursor points at, or in free flight along the screen.
 enum class MouseMode : std::uint8_t { free, surface };
+// Bounds of how deep a stroke on the surface is, as a share of the tool's half width.
+inline constexpr double kLeastStrength = 0.02, kMostStrength = 2.0;
 
 // Returns an action's name, such as "undo"; the command of that name, in a log or from the panel, does the same.
 [[nodiscard]] std::string_view name_of(Action action);
 [[nodiscard]] std::span<const std::string_view> action_names();  // in the order of Action
+// Returns what it does, in one line.
+[[nodiscard]] std::string_view help_of(Action action);
 // "free", "surface": as the option --mouse and the command have it.
 [[nodiscard]] std::span<const std::string_view> mouse_mode_names();  // in the order of MouseMode
 [[nodiscard]] std::string_view name_of(MouseMode mode);

@@ -65,7 +65,7 @@ void ActivitySide::press_keys(std::span<const InputEvent> events, SessionOrders&
 }
 
 void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const SessionHands& hands,
-                        std::span<const haptics::ToolState> tools) {
+                        std::span<const haptics::ToolState> tools, Leader& leader) {
     ActivityOrders wanted;
     for (const AskedAct& asked : std::exchange(orders.acts, {})) {
         Result<void> done = check_act(activity_.get(), asked.words);
@@ -82,13 +82,13 @@ void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds 
     std::ranges::move(record.events, std::back_inserter(events_));
     news_ = {};
     drawn_.clear();
-    carry_out(std::move(wanted), state, orders, hands);
+    carry_out(std::move(wanted), state, orders, hands, leader);
 }
 
 void ActivitySide::carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders,
-                             const SessionHands& hands) {
+                             const SessionHands& hands, Leader& leader) {
     for (const EditObject& edit : wanted.edits)
-        if (const auto done = run_command(state, orders, edit); !done) orders.messages.push_back({done.error().line()});
+        if (const auto done = leader.run(state, orders, edit); !done) orders.messages.push_back({done.error().line()});
     for (const HoldObject& hold : wanted.holds) {
         Result<HoldOrder> order = order_of(hold, state.world.get(), hands);
         if (order)

@@ -16,7 +16,7 @@
 #include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/live/sample_tap.hpp"
-#include "session/state/session_state.hpp"
+#include "session/state/leader.hpp"
 
 namespace burin::session {
 
@@ -42,7 +42,7 @@ public:
     // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders
     // as it wants. tools: of each part of the hands, by its number.
     void step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const SessionHands& hands,
-              std::span<const haptics::ToolState> tools);
+              std::span<const haptics::ToolState> tools, Leader& leader);
     [[nodiscard]] bool is_running() const { return activity_ && activity_->is_running(); }
     void adjust(PartOfHand of, haptics::TickParameters& parameters) const {
         if (activity_) activity_->adjust(of, parameters);
@@ -75,7 +75,8 @@ public:
     }
 
 private:
-    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders, const SessionHands& hands);
+    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders,
+                   const SessionHands& hands, Leader& leader);
 
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;

@@ -3,23 +3,24 @@
 
 #include <utility>
 
+#include "base/try.hpp"
+
 namespace burin::session {
-namespace {
-
-// Returns where a hand rests in its device.
-const Vec3& rest_device(const SessionState& state, std::size_t hand) {
-    return hand == state.hand ? state.desk.target_device_m : state.hands[hand].target.position_device_m;
-}
-
-}  // namespace
-
 Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock) {
     std::vector<HandToOpen> wanted;
     for (const NamedDevice& hand : devices_of(live)) {
         const std::size_t i = wanted.size();
-        wanted.push_back({hand.hand, hand.device, {rest_device(state, i), room.of(i).desk.rest_device}});
+        wanted.push_back({hand.hand, hand.device, {state.hands[i].target.position_device_m, room.hands[i].rest_device}});
     }
-    return hands_.open(wanted, clock, live.stands_in);
+    BURIN_TRY_DO(hands_.open(wanted, clock, live.stands_in));
+    tools_.resize(hands_.parts());
+    return {};
+}
+
+std::vector<haptics::ToolState> HandSide::tools_of_hands() const {
+    std::vector<haptics::ToolState> first;
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) first.push_back(tool_of(hand));
+    return first;
 }
 
 std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state, const Room& room,
@@ -58,13 +59,13 @@ double HandSide::spread_of(std::size_t hand, const SessionState& state, const Ro
 
 // Returns where a hand's tool is before the first tick.
 Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const Room& room) const {
-    const Vec3& rest_device_m = rest_device(state, hand);
+    const Vec3& rest_device_m = state.hands[hand].target.position_device_m;
     const Vec3 first_device_m =
-        handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room.of(hand).desk.rest_device})
+        handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room.hands[hand].rest_device})
                        : rest_device_m;
     if (hand == state.hand && state.mouse == MouseMode::surface)
         return parameters_of(state, room, hand).workspace.object_from_device * first_device_m;
-    return inverse(state.world_from_object) * (hand_of(state, hand).world_from_device * first_device_m);
+    return inverse(state.world_from_object) * (state.hands[hand].world_from_device * first_device_m);
 }
 
 }  // namespace burin::session

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "session/hands/session_hands.hpp"
@@ -33,6 +34,13 @@ public:
     // Has what is known around each hand reach all points of its handle: the scene has been scaled, or the motion.
     void spread(const SessionState& state, const Room& room, SceneSide& scene, const SceneSide::Give& give) const;
 
+    // The tools that a step has, of each part.
+    void take_tools(std::span<const haptics::ToolState> tools) { tools_.assign(tools.begin(), tools.end()); }
+    [[nodiscard]] std::span<const haptics::ToolState> tools() const { return tools_; }
+    // Returns the tool of a hand, by its first part, and those of all hands.
+    [[nodiscard]] const haptics::ToolState& tool_of(std::size_t hand) const { return tools_[hands_.first_part(hand)]; }
+    [[nodiscard]] std::vector<haptics::ToolState> tools_of_hands() const;
+
     [[nodiscard]] SessionHands& all() { return hands_; }
     [[nodiscard]] const SessionHands& all() const { return hands_; }
     [[nodiscard]] const Handles& handles() const { return handles_; }
@@ -43,6 +51,7 @@ private:
 
     SessionHands hands_;
     Handles handles_;
+    std::vector<haptics::ToolState> tools_;
 };
 
 }  // namespace burin::session

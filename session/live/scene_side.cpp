@@ -91,6 +91,11 @@ SceneSide::Order SceneSide::holding(HoldOrder order) {
     };
 }
 
+void SceneSide::light(const SessionState& state, bool turns, Nanoseconds time_ns, const Give& give) {
+    const auto lamp = carved_ ? lamp_.look(state, turns, time_ns) : std::nullopt;
+    if (lamp) give(carving(sculpt::LightFrom{*lamp}, state.hand));
+}
+
 void SceneSide::spread(std::size_t hand, double spread_m, const Give& give) {
     if (spread_m == spreads_m_[hand]) return;
     spreads_m_[hand] = spread_m;

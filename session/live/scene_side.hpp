@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "document/document_writer.hpp"
@@ -18,6 +19,7 @@
 #include "session/hands/session_hands.hpp"
 #include "session/live/sample_tap.hpp"
 #include "session/live/scene_news.hpp"
+#include "session/live/session_watch.hpp"
 #include "session/live/world_side.hpp"
 
 namespace burin::session {
@@ -32,8 +34,11 @@ public:
     // The hands must outlive it.
     explicit SceneSide(SessionHands& hands) : hands_(hands) {}
 
-    // Takes what is there to be touched, before begin().
-    void take(std::unique_ptr<sculpt::Sculpture> carving) { carving_ = std::move(carving); }
+    // Takes what is there to be touched, before begin(). pool: of the workpiece.
+    void take(std::unique_ptr<sculpt::Sculpture> carving, std::unique_ptr<WorkerPool> pool) {
+        carving_ = std::move(carving);
+        pool_ = std::move(pool);
+    }
     void take(std::unique_ptr<WorldSide> world) { world_ = std::move(world); }
     // How a hand begins, by the numbers of the scene.
     struct Beginning {
@@ -64,11 +69,28 @@ public:
     // Has what is known around a hand's first point reach its others, at this distance, where that is new.
     void spread(std::size_t hand, double spread_m, const Give& give);
 
+    // How far the strokes on the workpiece have come, as of the last update that a frame has taken.
+    struct Strokes {
+        std::size_t undoable = 0, redoable = 0;
+        std::uint64_t state = 0;  // compute::History::state
+        bool exporting = false;
+    };
+    void note(const sculpt::SurfaceUpdate& update) {
+        strokes_ = {update.undoable, update.redoable, update.state, update.exporting};
+    }
+    [[nodiscard]] const Strokes& strokes() const { return strokes_; }
+    // Has the workpiece lit anew where it has turned under its lamp, and rests (LampWatch).
+    void light(const SessionState& state, bool turns, Nanoseconds time_ns, const Give& give);
+
     [[nodiscard]] scene::SceneService& service() { return *service_; }
     [[nodiscard]] SceneNews& news() { return news_; }
     [[nodiscard]] const SceneNews& news() const { return news_; }
-    // Null: there is no workpiece, or no world.
+    // Null: there is no workpiece, or no world. The engine counts after the threads have ended.
     [[nodiscard]] const sculpt::Sculpture* workpiece() const { return carving_.get(); }
+    [[nodiscard]] const compute::CarvingEngine* engine() const { return carving_ ? &carving_->engine() : nullptr; }
+    // Returns the surface as it is carved now, and the objects of the world as they are now.
+    [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }
+    [[nodiscard]] const scene::MeshPart* objects() const { return world_ ? &std::as_const(*world_).part() : nullptr; }
     [[nodiscard]] sculpt::CarvedPart* carved() { return carved_ ? &*carved_ : nullptr; }
     [[nodiscard]] WorldSide* world() { return world_.get(); }
     [[nodiscard]] const WorldSide* world() const { return world_.get(); }
@@ -80,11 +102,14 @@ public:
 
 private:
     SessionHands& hands_;
+    std::unique_ptr<WorkerPool> pool_;  // of the workpiece; null without one
     std::unique_ptr<sculpt::Sculpture> carving_;
     std::optional<sculpt::CarvedPart> carved_;  // with carving_
     std::unique_ptr<WorldSide> world_;
     std::optional<scene::SceneService> service_;
     SceneNews news_;
+    Strokes strokes_;
+    LampWatch lamp_;
     std::vector<double> spreads_m_;  // of each hand, as the scene's thread has been told
     std::atomic<std::int64_t> to_be_noted_ = 0;
     std::vector<double> tools_around_m_;  // of each hand's tool; the scene's thread's

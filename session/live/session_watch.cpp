@@ -36,23 +36,22 @@ std::string who_goes_on(const SessionHands& hands, std::size_t but, const std::v
 }
 
 // Says of a stroke that has changed nothing what it did not do, and what would do it.
-std::string why_nothing(const SessionState& state, bool touched, double spacing_m) {
-    if (state.only_touch)
+std::string why_nothing(const HandState& hand, bool touched, double depth_m, double spacing_m) {
+    if (hand.only_touch)
         return "the tool only touches: choose Cut, Fill, Paint or Smooth (keys 1 to 4) to work with it";
-    if (!state.force_on)
+    if (!hand.force_on)
         return "nothing was changed: the force is off, and the tool keeps out of the material; switch it on under "
                "Touch";
     if (!touched) return "the tool touched nothing on its way: press where it stands on the workpiece";
-    switch (state.tool.operation) {
+    switch (hand.tool.operation) {
         case compute::Operation::paint: return "nothing was painted: the surface has this colour already";
         case compute::Operation::smooth: return "nothing was smoothed: the surface is as smooth there as it gets";
         case compute::Operation::cut:
         case compute::Operation::fill: break;
     }
-    const std::string what = state.tool.operation == compute::Operation::cut ? "removed" : "added";
-    const double deep_m = state.desk.strength * state.held->half_width_m();
-    if (deep_m < 0.25 * spacing_m)
-        return "nothing was " + what + ": the stroke is " + formatted("%.2g", 1e3 * deep_m) +
+    const std::string what = hand.tool.operation == compute::Operation::cut ? "removed" : "added";
+    if (depth_m < 0.25 * spacing_m)
+        return "nothing was " + what + ": the stroke is " + formatted("%.2g", 1e3 * depth_m) +
                " mm deep, and a cell of the workpiece is " + formatted("%.2g", 1e3 * spacing_m) +
                " mm; set a greater Depth, or turn the wheel while the button is down";
     return "nothing was " + what +
@@ -61,49 +60,6 @@ std::string why_nothing(const SessionState& state, bool touched, double spacing_
 }
 
 }  // namespace
-
-std::optional<std::string> ComfortWatch::look(const SessionState& state, const Room& room,
-                                              const haptics::ToolState& tool) {
-    if (wall::needs_of(state.output.mode).one_eye_point) return std::nullopt;
-    const wall::ComfortFinding finding = comfort_of(state, room, tool);
-    const bool strains = finding.crossed_too_much || finding.uncrossed_too_much;
-    if (std::exchange(strained_, strains) || !strains) return std::nullopt;
-    return wall::warning_of(finding, room.wall.setup.budget);
-}
-
-std::optional<std::string> TrackerWatch::look(const SessionState& state, const Room& room, Nanoseconds time_ns) {
-    if (!state.head.tracked) return std::nullopt;
-    const wall::TrackerState before = report_.state;
-    report_ = wall::report(wall::head_settings(room.wall.setup), state.head.track, time_ns);
-    if (report_.state == before) return std::nullopt;
-    if (report_.state == wall::TrackerState::ok) {
-        if (before == wall::TrackerState::waiting) return std::nullopt;
-        return "the tracker sees the head again";
-    }
-    // A loss is reported once, until the tracker has been well again.
-    if (before != wall::TrackerState::ok && before != wall::TrackerState::waiting) return std::nullopt;
-    return "head tracker: " + report_.cause;
-}
-
-std::optional<std::string> WandWatch::look(const WandState& wands) {
-    const auto far = std::ranges::find_if(wands.wands, [](const WandNow& wand) { return wand.too_far_m > 0.0; });
-    const bool is_far = far != wands.wands.end();
-    if (std::exchange(far_, is_far) == is_far) return std::nullopt;
-    if (!is_far) return "the tracker has the wand within reach again";
-    return wall::too_far_away("wand " + std::to_string(far - wands.wands.begin()), far->too_far_m,
-                              WandSettings{}.farthest_m);
-}
-
-std::optional<std::string> FirstWordWatch::look(bool heard, Nanoseconds time_ns) {
-    if (!begun_ns_) begun_ns_ = time_ns;
-    if (heard_) return std::nullopt;
-    heard_ = heard;
-    if (heard && told_) return "tracker " + tracker_ + ": is heard now";
-    if (heard || told_ || time_ns - *begun_ns_ < kPatience_ns) return std::nullopt;
-    told_ = true;
-    return "tracker " + tracker_ +
-           ": nothing has come from it yet; see that it runs, and that it sends to this machine and port";
-}
 
 std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std::span<const haptics::ToolState> tools) {
     parts_.resize(hands.parts());
@@ -148,7 +104,7 @@ void StrokeWatch::take(const sculpt::SurfaceUpdate& update) {
 }
 
 std::optional<std::string> StrokeWatch::look(const SessionState& state, const haptics::ToolState& tool,
-                                             double spacing_m, Nanoseconds time_ns) {
+                                             double depth_m, double spacing_m, Nanoseconds time_ns) {
     if (!state.carves || state.mouse != MouseMode::surface) return std::nullopt;
     constexpr std::uint32_t kWorks = 1;
     const bool pressed = (tool.buttons & kWorks) != 0;
@@ -162,7 +118,7 @@ std::optional<std::string> StrokeWatch::look(const SessionState& state, const ha
     if (!due_ns_ || time_ns < *due_ns_) return std::nullopt;
     due_ns_.reset();
     if (changed_ || undoable_ != undoable_before_ || told_) return std::nullopt;
-    return why_nothing(state, touched_, spacing_m);
+    return why_nothing(state.led(), touched_, depth_m, spacing_m);
 }
 
 std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& settings, const sculpt::Tool& tool,
@@ -173,7 +129,7 @@ std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& setting
     return misfit;
 }
 
-std::optional<compute::Lamp> LampWatch::look(const SessionState& state, Nanoseconds time_ns) {
+std::optional<compute::Lamp> LampWatch::look(const SessionState& state, bool turns_it, Nanoseconds time_ns) {
     const Vec3 direction = inverse(state.world_from_object.orientation) * picture::direction_to_light();
     const bool first = direction_object_ == Vec3(0.0);
     const bool turns = glm::length(direction - seen_object_) > kSame;
@@ -181,7 +137,7 @@ std::optional<compute::Lamp> LampWatch::look(const SessionState& state, Nanoseco
     seen_object_ = direction;
     if (glm::length(direction - direction_object_) <= kSame) return std::nullopt;
     // Once the button that turns it is up, the next frame in which it rests is soon enough.
-    const Nanoseconds rests_ns = turns || state.desk.drag ? kShadowsFollow_ns : 0;
+    const Nanoseconds rests_ns = turns || turns_it ? kShadowsFollow_ns : 0;
     if (!first && time_ns - turned_ns_ < rests_ns) return std::nullopt;
     direction_object_ = direction;
     return compute::Lamp{direction, picture::kLightHalfAngleTangent};

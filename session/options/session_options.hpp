@@ -145,4 +145,10 @@ struct SculptOptions {
     LiveOptions live;
 };
 
+// Returns whether the options name a world, and a workpiece.
+[[nodiscard]] inline bool has_world(const SculptOptions& options) { return options.scene || !options.world.empty(); }
+[[nodiscard]] inline bool has_workpiece(const SculptOptions& options) {
+    return !options.no_workpiece || !has_world(options);
+}
+
 }  // namespace burin::session

@@ -92,7 +92,7 @@ Result<SessionState> plain_state() {
     const auto feel = sculpt::parse_feel_settings({});
     if (!feel) return std::unexpected(feel.error());
     SessionState state;
-    state.tool = *tool;
+    state.led().tool = *tool;
     state.feel = *feel;
     return state;
 }
@@ -122,8 +122,9 @@ Result<void> check_command(const CommandInput& input, SessionState state, const 
         std::holds_alternative<LeadHand>(*command) || std::holds_alternative<CalibrateHandle>(*command))
         return {};  // which objects there are is not known yet, nor which device
     if (const auto* act = std::get_if<DoAct>(&*command)) return check_act(activity, act->words);
+    if (is_of_a_viewer(*command)) return {};
     SessionOrders ignored;
-    return run_command(state, ignored, input);
+    return run_command(state, ignored, *command);
 }
 
 }  // namespace

@@ -2,46 +2,6 @@
 #include "session/record/session_check.hpp"
 
 namespace burin::session {
-namespace {
-
-class WordList {
-public:
-    explicit WordList(StateWords& words) : words_(words) {}
-    void add(double x) { words_[next_++] = std::bit_cast<std::uint64_t>(x); }
-    void add(const Vec3& v) {
-        for (int i = 0; i < 3; ++i) add(v[i]);
-    }
-    void add(const Quat& q) {
-        for (const double x : {q.w, q.x, q.y, q.z}) add(x);
-    }
-    void add(std::uint64_t bits) { words_[next_++] = bits; }
-    [[nodiscard]] bool is_full() const { return next_ == words_.size(); }
-
-private:
-    StateWords& words_;
-    std::size_t next_ = 0;
-};
-
-}  // namespace
-
-StateWords words_of(const SessionState& state) {
-    StateWords words{};
-    WordList list(words);
-    for (const Similarity& pose : {state.world_from_object, state.world_from_device}) {
-        list.add(pose.position_m);
-        list.add(pose.orientation);
-        list.add(pose.scale);
-    }
-    for (const Pose& head : {state.head.poses.left_tracker, state.head.poses.right_tracker}) {
-        list.add(head.position_m);
-        list.add(head.orientation);
-    }
-    list.add(state.desk.target_device_m);
-    list.add(static_cast<std::uint64_t>(state.output.mode));
-    BURIN_CHECK(list.is_full());
-    return words;
-}
-
 void SessionCheck::tick(std::size_t part, const haptics::TickRecord& record) {
     Part& own = parts_[part];
     CheckSum sum(own.check);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "haptics/channels.hpp"
-#include "session/state/session_state.hpp"
 
 namespace burin::session {
 
@@ -41,8 +40,8 @@ private:
 };
 
 // What a frame's checksum covers of the session's state, as words: a copy that another thread can sum up later.
+// Who sees the session fills it (desk/viewer/state_words.hpp).
 using StateWords = std::array<std::uint64_t, 34>;
-[[nodiscard]] StateWords words_of(const SessionState& state);
 
 class SessionCheck {
 public:

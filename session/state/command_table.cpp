@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "base/text.hpp"
-#include "desk/input/desk_input_table.hpp"
 #include "document/document_file.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/input_words.hpp"
@@ -388,12 +387,6 @@ const std::vector<Entry>& entries() {
 }
 
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::quit) + 1;
-
-std::string_view help_of(Action action) {
-    if (action == Action::first_steps) return "Show what the mouse does, in four pictures";  // the one without a key
-    const auto cut = std::ranges::find(short_cuts(), action, &ShortCut::action);
-    return cut == short_cuts().end() ? std::string_view{} : cut->description;
-}
 
 // Lists commands with arguments and actions. swap-eyes, save-as and quit are actions that also take an argument, and
 // are listed once.

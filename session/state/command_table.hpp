@@ -196,6 +196,10 @@ using SessionCommand =
                  ScreenshotTo, EditObject, SelectObject, DoAct, CalibrateHandle, SetAmplifiers, LeadHand, SetMouse,
                  SetMirror, SaveTo, QuitDiscard, QuitSave, QuitStay, SaveAs, TellDocument>;
 
+// Returns whether a command is about how a session is seen, which is a viewer's (leader.hpp), and not the session's.
+[[nodiscard]] bool is_of_a_viewer(Action action);
+[[nodiscard]] bool is_of_a_viewer(const SessionCommand& command);
+
 struct SessionState;
 
 // What has to be told of a quantity's new value.
@@ -212,7 +216,7 @@ struct QuantityDescriptor {
     double from = 0.0, to = 0.0;     // offered by the panel; the upper end may be exceeded by a command
     bool by_ratio = false;           // the panel's steps are factors, not differences
     QuantityConcern concern = QuantityConcern::picture;
-    double (*value)(const SessionState& state) = nullptr;
+    double (*value)(const SessionState& state) = nullptr;  // null, as set: a viewer keeps it
     void (*set)(SessionState& state, double value) = nullptr;
 };
 // Lists all quantities in the order of Quantity.

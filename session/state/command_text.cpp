@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats commands as words.
+// Formats commands as words, and says whose each is.
 #include <charconv>
 
 #include "session/state/command_table.hpp"
@@ -85,7 +85,72 @@ struct Printer {
     CommandInput operator()(const SetCatchDrill& c) const { return {"catch-drill", {on_off(c.on)}}; }
 };
 
+// The commands with arguments that are a viewer's.
+struct OfAViewer {
+    template <typename Command>
+    bool operator()(const Command&) const {
+        return false;
+    }
+    bool operator()(const RunAction& run) const { return is_of_a_viewer(run.action); }
+    bool operator()(const SetQuantity& c) const { return descriptor_of(c.quantity).set == nullptr; }
+    bool operator()(const SetStereoMode&) const { return true; }
+    bool operator()(const SetTestPattern&) const { return true; }
+    bool operator()(const SetEyeSwap&) const { return true; }
+    bool operator()(const SetEdgeComfort&) const { return true; }
+    bool operator()(const SetForceShown&) const { return true; }
+    bool operator()(const SelectObject&) const { return true; }
+};
+
 }  // namespace
+
+// By name, so that an action that is new has to be the session's or a viewer's.
+bool is_of_a_viewer(Action action) {
+    switch (action) {
+        case Action::undo:
+        case Action::redo:
+        case Action::tool_1:
+        case Action::tool_2:
+        case Action::tool_3:
+        case Action::tool_4:
+        case Action::tool_5:
+        case Action::smaller_radius:
+        case Action::larger_radius:
+        case Action::next_workspace_technique:
+        case Action::take_screenshot:
+        case Action::export_mesh:
+        case Action::save_session:
+        case Action::save_as:
+        case Action::next_hand:
+        case Action::put_away:
+        case Action::quit: return false;
+        case Action::next_stereo_mode:
+        case Action::swap_eyes:
+        case Action::toggle_panel:
+        case Action::toggle_help:
+        case Action::toggle_frame_figures:
+        case Action::toggle_devices:
+        case Action::toggle_full_screen:
+        case Action::reset_view:
+        case Action::fit_view:
+        case Action::fit_object:
+        case Action::view_front:
+        case Action::view_side:
+        case Action::view_top:
+        case Action::view_back:
+        case Action::view_left:
+        case Action::view_bottom:
+        case Action::turn_left:
+        case Action::turn_right:
+        case Action::turn_up:
+        case Action::turn_down:
+        case Action::roll_left:
+        case Action::roll_right:
+        case Action::first_steps: return true;
+    }
+    return false;
+}
+
+bool is_of_a_viewer(const SessionCommand& command) { return std::visit(OfAViewer{}, command); }
 
 CommandInput as_input(const SessionCommand& command) { return std::visit(Printer{}, command); }
 

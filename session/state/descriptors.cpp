@@ -2,6 +2,7 @@
 // Describes the workspace techniques and the quantities that a session keeps.
 #include <charconv>
 
+#include "session/input/actions.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
@@ -31,7 +32,7 @@ double nine_digits(double value) {
 }
 
 void set_radius(SessionState& s, double radius_m) {
-    s.tool.shape = sculpt::resized(s.tool.shape, nine_digits(radius_m));
+    s.led().tool.shape = sculpt::resized(s.led().tool.shape, nine_digits(radius_m));
 }
 
 void set_hardness(SessionState& s, double hardness_Ns_per_m3) {
@@ -63,7 +64,7 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
                 quantity,
                 {"radius", "m", "R", "The tool's radius in metres; sizes of other tools than a ball go along"},
                 {1e-6, 10.0, 0.0005, 0.05, true}, kTool,
-                [](const State& s) { return sculpt::half_width_m(s.tool.shape); }, set_radius);
+                [](const State& s) { return sculpt::half_width_m(s.led().tool.shape); }, set_radius);
         case Quantity::hardness:
             return row(
                 quantity, {"hardness", "N s/m3", "H", "How hard the material is to cut, in N s/m3"},
@@ -83,30 +84,27 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
         case Quantity::velocity_filter:
             return row(
                 quantity, {"velocity-filter", "", "A", "Moving average of the velocity, weight of the past; 0: none"},
-                {0.0, 0.999, 0.0, 0.99}, kTouch, [](const State& s) { return s.velocity_filter; },
-                [](State& s, double value) { s.velocity_filter = value; });
+                {0.0, 0.999, 0.0, 0.99}, kTouch, [](const State& s) { return s.led().velocity_filter; },
+                [](State& s, double value) { s.led().velocity_filter = value; });
         case Quantity::force_filter:
             return row(
                 quantity, {"force-filter", "", "A", "Moving average of the force, weight of the past; 0: none"},
-                {0.0, 0.999, 0.0, 0.99}, kTouch, [](const State& s) { return s.force_filter; },
-                [](State& s, double value) { s.force_filter = value; });
+                {0.0, 0.999, 0.0, 0.99}, kTouch, [](const State& s) { return s.led().force_filter; },
+                [](State& s, double value) { s.led().force_filter = value; });
         case Quantity::scale:
             return row(
                 quantity, {"scale", "", "G", "How much larger motions in the scene are than the hand's"},
-                {1e-3, 1e3, 0.1, 20.0, true}, kTouch, [](const State& s) { return s.workspace_gain; },
-                [](State& s, double value) { s.workspace_gain = value; });
+                {1e-3, 1e3, 0.1, 20.0, true}, kTouch, [](const State& s) { return s.led().workspace_gain; },
+                [](State& s, double value) { s.led().workspace_gain = value; });
         case Quantity::eye_distance:
             return row(
                 quantity, {"eye-distance", "m", "D", "Distance between the eyes in metres"}, {0.0, 0.1, 0.0, 0.08},
-                QuantityConcern::picture, [](const State& s) { return s.interpupillary_m; },
-                [](State& s, double value) { s.interpupillary_m = value; });
+                QuantityConcern::picture, nullptr, nullptr);
         case Quantity::strength:
             return row(
                 quantity,
                 {"strength", "", "S", "How deep a stroke of the mouse on a surface is, in half widths of the tool"},
-                {kLeastStrength, kMostStrength, 0.05, 1.0, true}, QuantityConcern::picture,
-                [](const State& s) { return s.desk.strength; },
-                [](State& s, double value) { s.desk.strength = value; });
+                {kLeastStrength, kMostStrength, 0.05, 1.0, true}, QuantityConcern::picture, nullptr, nullptr);
     }
     return {};
 }

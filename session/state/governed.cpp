@@ -10,17 +10,23 @@ namespace {
 // The one list of what is governed: what is compared is what is put back.
 template <typename State>
 auto governed_part(State& s) {
-    return std::tie(s.tool, s.held, s.feel, s.world, s.technique, s.workspace_gain, s.force_filter, s.velocity_filter,
-                    s.force_on, s.catch_drill, s.only_touch, s.carves, s.world_from_object, s.world_from_device,
-                    s.device_from_read, s.force_shown, s.output.mode, s.output.swap_eyes, s.output.test_pattern,
-                    s.edge_comfort);
+    return std::tie(s.feel, s.world, s.carves, s.world_from_object);
+}
+template <typename Hand>
+auto governed_part_of(Hand& hand) {
+    return std::tie(hand.tool, hand.held, hand.technique, hand.workspace_gain, hand.force_filter, hand.velocity_filter,
+                    hand.force_on, hand.catch_drill, hand.only_touch, hand.world_from_device, hand.device_from_read);
 }
 
 }  // namespace
 
-void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders) {
-    const bool asked =
-        !orders.world.empty() || !orders.carving.empty() || governed_part(before) != governed_part(state);
+void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders, bool viewer_changed) {
+    bool asked = viewer_changed || !orders.world.empty() || !orders.carving.empty() ||
+                 governed_part(before) != governed_part(state);
+    for (std::size_t i = 0; i < state.hands.size(); ++i) {
+        asked = asked || governed_part_of(before.hands[i]) != governed_part_of(state.hands[i]);
+        governed_part_of(state.hands[i]) = governed_part_of(before.hands[i]);
+    }
     if (!asked) return;
     governed_part(state) = governed_part(before);
     orders.world.clear();

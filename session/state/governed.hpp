@@ -16,7 +16,7 @@ inline constexpr std::string_view kGovernedMessage =
 
 // Puts all that is governed back as it was before the step, whoever asked for something else: a key, the panel, a
 // script, a hand that turns the scene. Then the orders have a message with the log's line, and none for the scene's
-// parts.
-void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders);
+// parts. viewer_changed: the leader has put something of its own back (Leader::keep_governed()).
+void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders, bool viewer_changed);
 
 }  // namespace burin::session

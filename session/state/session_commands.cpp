@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Applies the commands of keys, panel and scripts to a session.
+// Applies the session's own commands to it. A viewer's are the desk's (desk/viewer/viewer_commands.cpp).
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <utility>
 
-#include "desk/input/input_wand.hpp"
-#include "session/state/framed_world.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
 namespace {
 
 constexpr double kRadiusStep = 1.122462;  // six steps double it
-constexpr double kTurnStep_rad = std::numbers::pi / 12.0;
 constexpr const char* kScreenshotName = "burin.png";
 
 // Applies one command to a session.
@@ -21,38 +17,31 @@ class Runner {
 public:
     Runner(SessionState& state, SessionOrders& orders) : state_(state), orders_(orders) {}
 
+    // A viewer's: none comes here.
+    template <typename Command>
+    Result<void> operator()(const Command&) {
+        return {};
+    }
     Result<void> operator()(const RunAction& run);
     Result<void> operator()(const SetTool& set) {
-        return change_tool([&](SessionState& s) { s.tool.shape = set.tool; });
+        return change_tool([&](SessionState& s) { s.led().tool.shape = set.tool; });
     }
     Result<void> operator()(const SetOperation& set) { return use(set.operation); }
     Result<void> operator()(const SetColour& set) {
         std::array<std::uint8_t, 3> colour{};
         for (std::size_t k = 0; k < 3; ++k) colour[k] = static_cast<std::uint8_t>(std::lround(255.0 * set.srgb[k]));
-        return change_tool([&](SessionState& s) { s.tool.colour = colour; });
+        return change_tool([&](SessionState& s) { s.led().tool.colour = colour; });
     }
     Result<void> operator()(const SetMaterial& set) {
         return change_tool([&](SessionState& s) { s.feel = sculpt::with_preset(s.feel, set.preset); });
     }
     Result<void> operator()(const SetQuantity& set);
     Result<void> operator()(const SetTechnique& set) {
-        state_.technique = set.technique;
+        state_.led().technique = set.technique;
         return update_touch();
     }
-    Result<void> operator()(const SetStereoMode& set) {
-        state_.output.mode = set.mode;
-        return {};
-    }
-    Result<void> operator()(const SetTestPattern& set) {
-        state_.output.test_pattern = set.pattern;
-        return {};
-    }
-    Result<void> operator()(const SetEyeSwap& set) {
-        state_.output.swap_eyes = set.on;
-        return {};
-    }
     Result<void> operator()(const SetForce& set) {
-        state_.force_on = set.on;
+        state_.led().force_on = set.on;
         return update_touch();
     }
     // Only the device knows whether they can be switched.
@@ -65,16 +54,8 @@ public:
         state_.mirror = set.mirror;
         return {};
     }
-    Result<void> operator()(const SetForceShown& set) {
-        state_.force_shown = set.on;
-        return {};
-    }
-    Result<void> operator()(const SetEdgeComfort& set) {
-        state_.edge_comfort = set.comfort;
-        return {};
-    }
     Result<void> operator()(const SetCatchDrill& set) {
-        state_.catch_drill = set.on;
+        state_.led().catch_drill = set.on;
         return update_touch();
     }
     Result<void> operator()(const ExportTo& wanted) {
@@ -111,24 +92,12 @@ public:
         take_told(state_, is.told);
         return {};
     }
-    Result<void> operator()(const SelectObject& wanted) {
-        const WorldObjects none;
-        const Result<scene::ObjectId> id = object_named(state_.world ? *state_.world : none, wanted.object);
-        if (!id) return std::unexpected(id.error());
-        state_.selected = *id;
-        return uncover(*id);
-    }
     Result<void> operator()(const CalibrateHandle& wanted);
     Result<void> operator()(const LeadHand& wanted) { return lead_hand(state_, wanted.hand); }
     Result<void> operator()(const SetMouse& set) {
-        if (set.mode == MouseMode::surface && !state_.no_surface.empty())
-            return fail("mouse surface", state_.no_surface, "fly freely");
         const bool was_chosen = std::exchange(state_.mouse_chosen, true);
         if (state_.mouse == set.mode && was_chosen) return {};
         state_.mouse = set.mode;
-        state_.desk.on_surface = {};
-        state_.desk.buttons = 0;
-        state_.desk.drag.reset();
         return change_tool([](SessionState&) {});  // how it adds material depends on who leads it
     }
     Result<void> operator()(const EditObject& wanted) {
@@ -140,7 +109,7 @@ public:
         state_.world = std::move(edited->world);
         if (state_.saves) state_.edits.note(before, state_.world->objects[id - 1], wanted.property, state_.strokes);
         orders_.world.push_back(std::move(edited->order));
-        return moves_or_grows(wanted.property) ? uncover(id) : Result<void>{};
+        return {};
     }
     Result<void> operator()(const DoAct& wanted) {
         orders_.acts.push_back({wanted.words, orders_.line});
@@ -169,8 +138,8 @@ private:
     }
     Result<void> use(compute::Operation operation, bool only_touch = false) {
         return change_tool([&](SessionState& s) {
-            s.tool.operation = operation;
-            s.only_touch = only_touch;
+            s.led().tool.operation = operation;
+            s.led().only_touch = only_touch;
             s.smooth_stroke.reset();  // this is the operation from now on
         });
     }
@@ -215,86 +184,28 @@ private:
         return order(sculpt::ExportSurface{
             .path = path, .unit = state_.export_unit, .crumbs_m = state_.crumbs_m, .asked_by = orders_.line});
     }
-    Result<void> toggle(bool SessionState::* flag) {
-        state_.*flag = !(state_.*flag);
-        return {};
-    }
-
-    // Shows all of the workpiece in the free part of the picture, turned as it is.
-    Result<void> show() {
-        if (const auto may = may_turn(); !may) return may;
-        state_.world_from_object = fitted(state_.seen_from, state_.world_from_object.orientation);
-        return update_touch();
-    }
-    // Shows the chosen object of a world likewise, with some of what is around it.
-    Result<void> show_object() {
-        const scene::SceneObject* object = chosen_object(state_);
-        if (object == nullptr || !state_.framed) return {};
-        state_.world_from_object = fitted_to(*object, state_.seen_from, state_.world_from_object.orientation);
-        return update_touch();
-    }
-    // Moves the scene where the panel would cover an object at work.
-    Result<void> uncover(scene::ObjectId id) {
-        const scene::SceneObject* object = state_.world ? state_.world->find(id) : nullptr;
-        if (object == nullptr || !state_.framed) return {};
-        state_.world_from_object = beside_panel(*object, state_.seen_from, state_.world_from_object);
-        return update_touch();
-    }
-    // Straight on, turned from how it stood at first, about an axis of the screen.
-    Result<void> show_from(double angle_rad, const Vec3& axis_screen) {
-        if (const auto may = may_turn(); !may) return may;
-        const Quat home = state_.home_world_from_object.orientation;
-        state_.world_from_object = fitted_straight(state_.seen_from, home * glm::angleAxis(angle_rad, axis_screen));
-        return update_touch();
-    }
-    // Turns the scene about its middle, about an axis of the screen as the workpiece stood along it at first.
-    Result<void> turn(double angle_rad, const Vec3& axis_screen) {
-        if (const auto may = may_turn(); !may) return may;
-        Similarity& now = state_.world_from_object;
-        const Vec3 axis_world = state_.home_world_from_object.orientation * axis_screen;
-        now = turned_about({}, now * state_.middle_object, glm::angleAxis(angle_rad, axis_world)) * now;
-        now.orientation = glm::normalize(now.orientation);
-        return update_touch();
-    }
-    // What the tool works on stays.
-    [[nodiscard]] Result<void> may_turn() const {
-        if (!state_.desk.on_surface.pressed) return {};
-        return fail("the scene", "stays while the tool works on it", "let go of the left button first");
-    }
-
     SessionState& state_;
     SessionOrders& orders_;
 };
-
-// Returns the next of the modes that one window can show, in their order.
-wall::StereoMode next_mode(wall::StereoMode mode) {
-    const auto modes = wall::stereo_modes();
-    auto i = static_cast<std::size_t>(mode);
-    do {
-        i = (i + 1) % modes.size();
-    } while (wall::shows_one_eye_at_a_time(modes[i]) && modes[i] != wall::StereoMode::left &&
-             modes[i] != wall::StereoMode::right);
-    return modes[i];
-}
 
 haptics::WorkspaceTechnique next_technique(haptics::WorkspaceTechnique technique) {
     return techniques()[(static_cast<std::size_t>(technique) + 1) % techniques().size()].technique;
 }
 
 Result<void> Runner::operator()(const CalibrateHandle& wanted) {
-    if (!state_.handle)
+    if (!state_.led().handle)
         return fail("calibrate", "there is no wand", "open the session with --device simulated-wand and --points");
     Result<HandleCalibrated> done =
-        wanted.reset ? HandleCalibrated{} : calibrated(state_.handle->description, state_.handle_reads_device);
+        wanted.reset ? HandleCalibrated{} : calibrated(state_.led().handle->description, state_.led().handle_reads_device);
     if (!done) return std::unexpected(done.error());
-    state_.device_from_read = done->device_from_read;
+    state_.led().device_from_read = done->device_from_read;
     if (!done->message.empty()) orders_.messages.push_back({done->message, 0});
     return update_touch();
 }
 
 Result<void> Runner::operator()(const SetQuantity& set) {
     const QuantityDescriptor& quantity = descriptor_of(set.quantity);
-    if (set.quantity == Quantity::radius && state_.tool.shape.kind == sculpt::ToolKind::mesh) {
+    if (set.quantity == Quantity::radius && state_.led().tool.shape.kind == sculpt::ToolKind::mesh) {
         return fail("radius", "a tool that is a mesh keeps its size", "take another tool, or scale the mesh's file");
     }
     if (quantity.concern == QuantityConcern::tool_and_touch)
@@ -314,18 +225,9 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::tool_5: return use(compute::Operation::cut, true);
         case Action::smaller_radius: return resize_tool(1.0 / kRadiusStep);
         case Action::larger_radius: return resize_tool(kRadiusStep);
-        case Action::next_stereo_mode: state_.output.mode = next_mode(state_.output.mode); return {};
-        case Action::swap_eyes: state_.output.swap_eyes = !state_.output.swap_eyes; return {};
         case Action::next_workspace_technique:
-            state_.technique = next_technique(state_.technique);
+            state_.led().technique = next_technique(state_.led().technique);
             return update_touch();
-        case Action::toggle_panel: return toggle(&SessionState::panel);
-        case Action::toggle_help:
-            state_.devices = false;  // one page at a time
-            return toggle(&SessionState::help);
-        case Action::toggle_frame_figures: return toggle(&SessionState::figures);
-        case Action::toggle_devices: state_.help = false; return toggle(&SessionState::devices);
-        case Action::toggle_full_screen: orders_.full_screen = true; return {};
         case Action::take_screenshot: orders_.screenshots.push_back({kScreenshotName, orders_.line}); return {};
         case Action::export_mesh: return export_to(state_.export_path);
         case Action::save_session: return (*this)(SaveTo{});
@@ -334,39 +236,13 @@ Result<void> Runner::operator()(const RunAction& run) {
             if (!state_.asked.told) return fail("save-as", "has nobody to ask for a name", "write save-as FILE.burin");
             open_or_close_naming(state_);
             return {};
-        case Action::reset_view:
-            if (const auto may = may_turn(); !may) return may;
-            state_.world_from_object = state_.home_world_from_object;
-            // The window may have another shape by now.
-            if (state_.framed && state_.mouse == MouseMode::free)
-                state_.world_from_object = fitted(state_.seen_from, state_.home_world_from_object.orientation);
-            return update_touch();
-        case Action::fit_view: return show();
-        case Action::fit_object: return show_object();
-        case Action::view_front: return show_from(0.0, Vec3(0.0, 1.0, 0.0));
-        case Action::view_side: return show_from(-0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
-        case Action::view_top: return show_from(0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
-        case Action::view_back: return show_from(std::numbers::pi, Vec3(0.0, 1.0, 0.0));
-        case Action::view_left: return show_from(0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
-        case Action::view_bottom: return show_from(-0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
-        case Action::turn_left: return turn(-kTurnStep_rad, Vec3(0.0, 1.0, 0.0));
-        case Action::turn_right: return turn(kTurnStep_rad, Vec3(0.0, 1.0, 0.0));
-        case Action::turn_up: return turn(-kTurnStep_rad, Vec3(1.0, 0.0, 0.0));
-        case Action::turn_down: return turn(kTurnStep_rad, Vec3(1.0, 0.0, 0.0));
-        case Action::roll_left: state_.desk.roll_rad += kTurnStep_rad; return {};
-        case Action::roll_right: state_.desk.roll_rad -= kTurnStep_rad; return {};
         case Action::next_hand:
-            return lead_hand(state_, state_.hands.empty()
-                                         ? "next"
-                                         : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
-        case Action::put_away:
-            state_.first_steps = false;
-            orders_.put_away = true;
-            return {};
-        case Action::first_steps: state_.help = false; return toggle(&SessionState::first_steps);
+            return lead_hand(
+                state_, state_.hands.size() < 2 ? "next" : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
+        case Action::put_away: orders_.put_away = true; return {};
         case Action::quit: ask_or_quit(state_); return {};
+        default: return {};  // a viewer's
     }
-    return {};
 }
 
 }  // namespace
@@ -378,6 +254,8 @@ Result<void> run_command(SessionState& state, SessionOrders& orders, const Comma
 }
 
 Result<void> run_command(SessionState& state, SessionOrders& orders, const SessionCommand& command) {
+    if (is_of_a_viewer(command))
+        return fail(as_input(command).name, "is about how the session is seen, and nobody sees it", "leave it out");
     return std::visit(Runner(state, orders), command);
 }
 

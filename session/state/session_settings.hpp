@@ -2,7 +2,7 @@
 // Formats the options that a session's frames depend on as the first line of a recording: "burin sculpt --workpiece
 // ball:0.1 ...", which a shell takes as well. Leaves out what only sets where and how fast a session runs (engine,
 // threads, display, files). What the command line left open, the workpiece's unit and the tool, has to be settled first
-// (LiveSession::settled), so that a replay does not guess. Pure.
+// (Session::settled), so that a replay does not guess. Pure.
 #pragma once
 
 #include <string>

@@ -3,7 +3,8 @@
 
 #include <utility>
 
-#include "session/state/session_state.hpp"
+#include "base/try.hpp"
+#include "session/state/leader.hpp"
 
 namespace burin::session {
 namespace {
@@ -24,27 +25,25 @@ SmoothStroke followed(SmoothStroke stroke, const SmoothStrokeStep& step) {
     return stroke;
 }
 
-Result<void> follow_smooth_stroke(SessionState& state, SessionOrders& orders, std::span<const Gesture> strokes,
-                                  const SessionView& view) {
+Result<void> follow_smooth_stroke(SessionState& state, SessionOrders& orders, const Led& led, const StepView& view) {
     const auto give_back = [&]() -> Result<void> {
         const SmoothStroke done = *std::exchange(state.smooth_stroke, std::nullopt);
         if (done.only_touches) return run_command(state, orders, RunAction{Action::tool_5});
         return run_command(state, orders, SetOperation{done.otherwise});
     };
-    for (const Gesture stroke : strokes) {
-        if (stroke == Gesture::smooth_surface && !state.smooth_stroke) {
-            SmoothStroke smooth{state.hand, state.tool.operation, state.only_touch};
-            if (const auto taken = run_command(state, orders, SetOperation{compute::Operation::smooth}); !taken)
-                return taken;
+    for (const bool smooths : led.strokes) {
+        if (smooths && !state.smooth_stroke) {
+            SmoothStroke smooth{state.hand, state.led().tool.operation, state.led().only_touch};
+            BURIN_TRY_DO(run_command(state, orders, SetOperation{compute::Operation::smooth}));
             state.smooth_stroke = smooth;
-        } else if (stroke != Gesture::smooth_surface && state.smooth_stroke) {
-            if (const auto given = give_back(); !given) return given;
+        } else if (!smooths && state.smooth_stroke) {
+            BURIN_TRY_DO(give_back());
         }
     }
     if (!state.smooth_stroke || state.smooth_stroke->hand != state.hand) return {};
     constexpr std::uint32_t kWorks = 1;
     state.smooth_stroke =
-        followed(*state.smooth_stroke, {view.dt_s, state.desk.on_surface.pressed, (view.tool.buttons & kWorks) != 0});
+        followed(*state.smooth_stroke, {view.dt_s, led.strokes_now, (view.tool.buttons & kWorks) != 0});
     return state.smooth_stroke->is_over() ? give_back() : Result<void>{};
 }
 

@@ -329,10 +329,11 @@ Result<void> take_settings_of_document(SculptOptions& options) {
 }
 
 std::vector<std::string> saved_commands(const SessionState& state) {
-    std::vector<SessionCommand> commands{SetTool{state.tool.shape}, SetOperation{state.tool.operation}};
-    if (state.tool.colour) {
+    const sculpt::ToolSettings& tool = state.led().tool;
+    std::vector<SessionCommand> commands{SetTool{tool.shape}, SetOperation{tool.operation}};
+    if (tool.colour) {
         SetColour colour;
-        for (std::size_t k = 0; k < 3; ++k) colour.srgb[k] = (*state.tool.colour)[k] / 255.0;
+        for (std::size_t k = 0; k < 3; ++k) colour.srgb[k] = (*tool.colour)[k] / 255.0;
         commands.emplace_back(colour);
     }
     commands.emplace_back(SetMaterial{state.feel.preset});

@@ -166,7 +166,7 @@ TEST(DeskInput, EveryShortCutOfTheTableDoesWhatItSaysAndNothingElse) {
         Modifiers more = s.modifiers;
         more.alt = true;
         EXPECT_TRUE(desk.step({press(s.key, more)}).actions.empty()) << label_of(s);
-        EXPECT_FALSE(s.description.empty());
+        EXPECT_FALSE(help_of(s.action).empty());
         for (const FlightKey& f : flight_keys())  // a key that flies is no short cut then unless with Ctrl
             EXPECT_TRUE(f.key != s.key || s.modifiers.ctrl || s.only == MouseMode::surface) << label_of(s);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/state/view_cube.hpp"
+#include "desk/viewer/view_cube.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,8 @@
 #include <string_view>
 #include <variant>
 
-#include "session/state/session_state.hpp"
+#include "desk/viewer/viewer_lead.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "wall/seen_place.hpp"
 
 namespace burin::session {
@@ -126,17 +127,18 @@ Quat from_to(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-std::optional<Similarity> view_cube(const SessionState& state, const Room& room) {
-    if (!room.wall.desk || state.mouse != MouseMode::surface || room.wall.has_panel_window()) return std::nullopt;
-    const wall::Screen& s = state.seen_from.screen;
+std::optional<Similarity> view_cube(const ViewedSession& seen) {
+    const auto& [state, room, viewer, desk] = seen;
+    if (!desk.wall.desk || state.mouse != MouseMode::surface || desk.wall.has_panel_window()) return std::nullopt;
+    const wall::Screen& s = viewer.seen_from.screen;
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const double high_m = glm::length(upright), wide_m = glm::length(across);
-    const double free_m = room.free_width * wide_m, from_m = kCubeFromBorder * high_m;
+    const double free_m = desk.free_width * wide_m, from_m = kCubeFromBorder * high_m;
     if (free_m < 4.0 * from_m) return std::nullopt;
-    const Vec3& eye = state.seen_from.eye_world;
+    const Vec3& eye = viewer.seen_from.eye_world;
     const Vec3 on_screen =
         s.lower_left_world + ((free_m - from_m) / wide_m) * across + ((high_m - from_m) / high_m) * upright;
-    const bool mono = wall::needs_of(output_on(room.wall, room.wall.main, state.output).mode).one_eye_point;
+    const bool mono = wall::needs_of(seen.output_on(desk.wall.main).mode).one_eye_point;
     const double before = mono ? kMonoBefore : 0.0;
     const Vec3 middle = state.world_from_object * room.workpiece_object.center();
     // As the workpiece is seen in the middle of the picture, and not from the side that the corner would show.
@@ -172,20 +174,20 @@ std::optional<Action> face_met(const Similarity& world_from_cube, const Vec3& ey
     return std::nullopt;
 }
 
-BesideCube take_presses(SessionState& state, const Room& room, std::span<const InputEvent> events,
-                        const SessionView& view) {
+BesideCube take_presses(Viewer& viewer, const ViewedSession& seen, std::span<const InputEvent> events,
+                        const ViewerLook& look) {
     BesideCube left{{events.begin(), events.end()}, {}};
-    const std::optional<Similarity> place = view_cube(state, room);
-    state.over_cube.reset();
+    const std::optional<Similarity> place = view_cube(seen);
+    viewer.over_cube.reset();
     if (!place) return left;
-    const CursorView cursor{output_on(room.wall, room.wall.main, state.output),
-                            view.output,
-                            state.seen_from.screen,
-                            state.seen_from.eye_world,
+    const CursorView cursor{seen.output_on(seen.desk.wall.main),
+                            look.output,
+                            viewer.seen_from.screen,
+                            viewer.seen_from.eye_world,
                             {}};
-    std::optional<Vec2> at_px = state.desk.mouse_px;
+    std::optional<Vec2> at_px = viewer.desk.mouse_px;
     const auto face = [&]() -> std::optional<Action> {
-        if (!at_px || view.captured.mouse || state.desk.drag || state.desk.on_surface.pressed) return std::nullopt;
+        if (!at_px || look.captured.mouse || viewer.desk.drag || viewer.desk.on_surface.pressed) return std::nullopt;
         const std::optional<Ray> ray = cursor.ray_object(*at_px);
         return ray ? face_met(*place, ray->origin, ray->origin + ray->direction) : std::nullopt;
     };
@@ -193,24 +195,24 @@ BesideCube take_presses(SessionState& state, const Room& room, std::span<const I
         if (const auto* move = std::get_if<MouseMove>(&event.input)) at_px = move->position_px;
         const auto* click = std::get_if<MouseClick>(&event.input);
         if (click == nullptr || click->button != MouseButton::left) return false;
-        if (!click->pressed) return std::exchange(state.pressed_cube, false);
+        if (!click->pressed) return std::exchange(viewer.pressed_cube, false);
         const std::optional<Action> pressed = face();
         if (pressed) left.views.push_back(*pressed);
-        state.pressed_cube = pressed.has_value();
+        viewer.pressed_cube = pressed.has_value();
         return pressed.has_value();
     });
-    state.over_cube = face();
+    viewer.over_cube = face();
     return left;
 }
 
-void add_view_cube(picture::Picture& scene, const SessionState& state, const Room& room) {
-    const std::optional<Similarity> place = view_cube(state, room);
+void add_view_cube(picture::Picture& scene, const ViewedSession& seen) {
+    const std::optional<Similarity> place = view_cube(seen);
     if (!place) return;
     constexpr Vec3 kBody{0.95, 0.95, 0.94}, kInk{0.16, 0.17, 0.18}, kLit{0.93, 0.67, 0.25};
     scene.objects.push_back({cube(), *place, kBody, 1.0, 0.8, 0.3});
     scene.objects.push_back({letters(), *place, kInk, 1.0, 0.9, 0.1});
     for (std::size_t i = 0; i < faces().size(); ++i)
-        if (state.over_cube == faces().at(i).view) scene.objects.push_back({plate(i), *place, kLit, 1.0, 0.8, 0.3});
+        if (seen.viewer.over_cube == faces().at(i).view) scene.objects.push_back({plate(i), *place, kLit, 1.0, 0.8, 0.3});
 }
 
 }  // namespace burin::session

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "session/state/shown_guides.hpp"
+#include "desk/viewer/shown_guides.hpp"
 
 #include <algorithm>
 #include <variant>
 
+#include "sculpt/tool_mesh.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
@@ -62,33 +63,36 @@ MirrorPanes mirror_panes(const Box& workpiece_object) {
     return panes;
 }
 
-void add_mirror(picture::Picture& scene, const SessionState& state, const haptics::ToolState& tool) {
+void add_mirror(picture::Picture& scene, const SessionState& state, const Room& room, const MirrorPanes& panes,
+                const haptics::ToolState& tool) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const MirrorPane& plane = state.mirror_panes.at(axis);
+        const MirrorPane& plane = panes.at(axis);
         if (!state.mirror.across.at(axis) || !plane.pane) continue;
         scene.objects.push_back({plane.pane, state.world_from_object, kColours.at(axis), kPaneOpacity});
         scene.objects.push_back({plane.frame, state.world_from_object, kColours.at(axis)});
     }
-    if (!scene.tool.visible || tool.tick == 0 || !state.held) return;
-    const bool is_mesh = std::holds_alternative<compute::MeshTool>(state.held->shape);
+    const std::shared_ptr<const HeldTool>& held = state.led().held;
+    if (!scene.tool.visible || tool.tick == 0 || !held || !room.carved_object) return;
+    const bool is_mesh = std::holds_alternative<compute::MeshTool>(held->shape);
     for (const sculpt::MirrorImage& image : sculpt::images_of(state.mirror)) {
         if (is_mesh && image.reverses()) continue;
         const Pose there = sculpt::image_of(Pose{tool.proxy_object_m, tool.tool_orientation_object}, image,
-                                            state.mirror_middle_object);
+                                            room.carved_object->center());
         const Similarity object_from_tool{
             there.position_m, there.orientation,
-            state.held->drawn ? 1.0 : scene.tool.radius_m / state.world_from_object.scale};
-        scene.objects.push_back({state.held->drawn ? state.held->drawn : ball(),
+            held->drawn ? 1.0 : scene.tool.radius_m / state.world_from_object.scale};
+        scene.objects.push_back({held->drawn ? held->drawn : ball(),
                                  state.world_from_object * object_from_tool, scene.tool.colour, kImageOpacity});
     }
 }
 
 void add_border(picture::Picture& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool) {
     const Box& border = room.lattice_object;
-    if (border.empty() || !state.held || state.tool.operation != compute::Operation::fill || tool.tick == 0) return;
+    const HandState& hand = state.led();
+    if (border.empty() || !hand.held || hand.tool.operation != compute::Operation::fill || tool.tick == 0) return;
     const Vec3& at = tool.proxy_object_m;
     const Vec3 inside = glm::min(at - border.lo, border.hi - at);
-    if (std::min({inside.x, inside.y, inside.z}) > 2.0 * state.held->half_width_m()) return;
+    if (std::min({inside.x, inside.y, inside.z}) > 2.0 * hand.held->half_width_m()) return;
     scene.proposed_box = {{state.world_from_object * border.center(), state.world_from_object.orientation},
                           border.extent() * state.world_from_object.scale,
                           kBorderColour,

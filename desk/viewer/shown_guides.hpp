@@ -26,7 +26,8 @@ using MirrorPanes = std::array<MirrorPane, 3>;
 
 // Adds panes and images to a picture. Of a tool that is a mesh, images that reverse it are left out: they are carved by
 // a mesh of their own, which is not drawn.
-void add_mirror(picture::Picture& scene, const SessionState& state, const haptics::ToolState& tool);
+void add_mirror(picture::Picture& scene, const SessionState& state, const Room& room, const MirrorPanes& panes,
+                const haptics::ToolState& tool);
 
 // Shows the border of the room as a box of lines where the tool in use adds material within its own width of it.
 void add_border(picture::Picture& scene, const SessionState& state, const Room& room, const haptics::ToolState& tool);

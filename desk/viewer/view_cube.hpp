@@ -15,27 +15,27 @@
 
 namespace burin::session {
 
-struct Room;
-struct SessionState;
-struct SessionView;
+struct Viewer;
+struct ViewedSession;
+struct ViewerLook;
 
 // Returns where the cube stands; nothing where there is none.
-[[nodiscard]] std::optional<Similarity> view_cube(const SessionState& state, const Room& room);
+[[nodiscard]] std::optional<Similarity> view_cube(const ViewedSession& seen);
 // Returns the view that the face stands for which a line from the eye through another place meets first; nothing where
 // it passes by.
 [[nodiscard]] std::optional<Action> face_met(const Similarity& world_from_cube, const Vec3& eye_world,
                                              const Vec3& through_world);
 
 // Takes the presses that met the cube out of a step's events, with the views that they asked for. The face under the
-// cursor is noted in the state.
+// cursor is noted in the viewer, who is the one that sees.
 struct BesideCube {
     std::vector<InputEvent> events;
     std::vector<Action> views;
 };
-[[nodiscard]] BesideCube take_presses(SessionState& state, const Room& room, std::span<const InputEvent> events,
-                                      const SessionView& view);
+[[nodiscard]] BesideCube take_presses(Viewer& viewer, const ViewedSession& seen, std::span<const InputEvent> events,
+                                      const ViewerLook& look);
 
 // Adds the cube to the main screen's picture.
-void add_view_cube(picture::Picture& scene, const SessionState& state, const Room& room);
+void add_view_cube(picture::Picture& scene, const ViewedSession& seen);
 
 }  // namespace burin::session

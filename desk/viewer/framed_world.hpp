@@ -6,14 +6,15 @@
 #include <optional>
 
 #include "scene/object_property.hpp"
-#include "session/state/session_state.hpp"
+#include "desk/viewer/viewer.hpp"
+#include "session/state/leader.hpp"
 
 namespace burin::session {
 
 // Returns the box with at least this length along each side, about its middle.
 [[nodiscard]] Box grown(const Box& box, double least_m);
 // Returns the object that the panel shows; null: there is none.
-[[nodiscard]] const scene::SceneObject* chosen_object(const SessionState& state);
+[[nodiscard]] const scene::SceneObject* chosen_object(const SessionState& state, const Viewer& viewer);
 // Whether the panel may cover the object after such an edit.
 [[nodiscard]] bool moves_or_grows(scene::ObjectProperty property);
 // Returns the pose in which an object, and as much around it on each side, fills the free part of the picture.
@@ -25,6 +26,6 @@ namespace burin::session {
 [[nodiscard]] Similarity beside_panel(const scene::SceneObject& object, const SeenFrom& from,
                                       const Similarity& world_from_object);
 // Returns from where the cursor is seen, in the frame of the device of the hand in use.
-[[nodiscard]] CursorView cursor_of(const SessionState& state, const Room& room, const SessionView& seen);
+[[nodiscard]] CursorView cursor_of(const ViewedSession& seen, const StepView& view, const wall::OutputPlace& output);
 
 }  // namespace burin::session

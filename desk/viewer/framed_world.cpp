@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/state/framed_world.hpp"
+#include "desk/viewer/framed_world.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +25,9 @@ Box grown(const Box& box, double least_m) {
     return {box.center() - half, box.center() + half};
 }
 
-const scene::SceneObject* chosen_object(const SessionState& state) {
+const scene::SceneObject* chosen_object(const SessionState& state, const Viewer& viewer) {
     if (!state.world || state.world->objects.empty()) return nullptr;
-    const scene::SceneObject* chosen = state.world->find(state.selected);
+    const scene::SceneObject* chosen = state.world->find(viewer.selected);
     return chosen != nullptr ? chosen : state.world->objects.front().get();
 }
 
@@ -77,13 +77,15 @@ Similarity beside_panel(const scene::SceneObject& object, const SeenFrom& from, 
     return moved;
 }
 
-CursorView cursor_of(const SessionState& state, const Room& room, const SessionView& seen) {
-    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
-    Similarity world_from_device = state.world_from_device;
-    world_from_device.scale *= state.workspace_gain;
-    if (seen.tool.tick > 0) world_from_device = state.world_from_object * seen.tool.workspace.object_from_device;
-    return {output_on(room.wall, room.wall.main, state.output), seen.output, sight.screen,
-            wall::middle_of(wall::eyes_of(sight.viewer)), inverse(world_from_device)};
+CursorView cursor_of(const ViewedSession& seen, const StepView& view, const wall::OutputPlace& output) {
+    const std::size_t main = seen.desk.wall.main;
+    const View sight = seen.view_of(main);
+    const HandState& hand = seen.state.led();
+    Similarity world_from_device = hand.world_from_device;
+    world_from_device.scale *= hand.workspace_gain;
+    if (view.tool.tick > 0) world_from_device = seen.state.world_from_object * view.tool.workspace.object_from_device;
+    return {seen.output_on(main), output, sight.screen, wall::middle_of(wall::eyes_of(sight.viewer)),
+            inverse(world_from_device)};
 }
 
 }  // namespace burin::session

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What a session's screens show of its state.
+#include "desk/viewer/viewed_picture.hpp"
+
 #include <algorithm>
 #include <array>
 
 #include "sculpt/tool_mesh.hpp"
 #include "session/held/staging.hpp"
-#include "session/state/session_state.hpp"
 #include "wall/projection.hpp"
 
 namespace burin::session {
@@ -23,16 +23,18 @@ Vec3 tool_colour(const HandState& hand) {
 
 }  // namespace
 
-std::optional<picture::Picture> scene_of(const SessionState& state, const Room& room, std::size_t screen,
+std::optional<picture::Picture> scene_of(const ViewedSession& seen, std::size_t screen,
                                          const Vec3& lattice_origin_object, const haptics::ToolState& tool) {
-    const View sight = view_of(room.wall.setup, screen, state.head, state.interpupillary_m);
+    const auto& [state, room, viewer, desk] = seen;
+    const HandState& hand = state.led();
+    const View sight = seen.view_of(screen);
     if (!sight.visible) return std::nullopt;
     picture::Picture scene;
     scene.screen = sight.screen;
     scene.viewer = sight.viewer;
-    const bool one_eye = wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
+    const bool one_eye = wall::needs_of(seen.output_on(screen).mode).one_eye_point;
     if (one_eye) scene.viewer.interpupillary_m = 0.0;
-    if (fades_at_edges(state, room, screen)) scene.edge_fade = 1.0;
+    if (fades_at_edges(seen, screen)) scene.edge_fade = 1.0;
     scene.world_from_object = state.world_from_object;
     scene.lattice_origin_object = lattice_origin_object;
     scene.workpiece_object = room.workpiece_object;
@@ -42,26 +44,26 @@ std::optional<picture::Picture> scene_of(const SessionState& state, const Room& 
     scene.pedestal.visible = plinth.visible;
     scene.pedestal.top_center_world = plinth.top_center_world;
     scene.pedestal.radius_m = plinth.radius_m;
-    Staging staging = staging_of(tool, state.held->half_width_m(), room.of(state.hand).workspace_device_m);
-    staging.held = state.held;
-    staging.contact_shown = state.force_shown;
-    staging.tool_visible = staging.tool_visible && !state.handle;
+    Staging staging = staging_of(tool, hand.held->half_width_m(), room.hands[state.hand].workspace_device_m);
+    staging.held = hand.held;
+    staging.contact_shown = viewer.force_shown;
+    staging.tool_visible = staging.tool_visible && !hand.handle;
     // Before the cursor has been over the picture nobody knows where the tool is to be; and beside the cursor, at the
     // border of what the hand reaches, it would be a large thing in the way.
-    if (state.mouse == MouseMode::surface && (!state.desk.mouse_px || state.desk.beyond_reach))
+    if (state.mouse == MouseMode::surface && (!viewer.desk.mouse_px || viewer.desk.beyond_reach))
         staging.tool_visible = false;
     // It is around all that is there.
     staging.box_visible = staging.box_visible && state.mouse != MouseMode::surface;
     stage(scene, staging, state.world_from_object);
-    if (state.handle) add_handle(scene, *state.handle, tool, state.held->half_width_m(), state.world_from_object);
-    scene.tool.colour = tool_colour(state);
+    if (hand.handle) add_handle(scene, *hand.handle, tool, hand.held->half_width_m(), state.world_from_object);
+    scene.tool.colour = tool_colour(hand);
     if (scene.box.face_opacity > kBoxOpacity) scene.box.face_opacity = kBoxOpacity;
     return scene;
 }
 
 void add_tool(picture::Picture& scene, const SessionState& state, std::size_t number, const haptics::ToolState& tool) {
     if (tool.tick == 0) return;
-    const HandState& hand = hand_of(state, number);
+    const HandState& hand = state.hands[number];
     if (hand.handle) return add_handle(scene, *hand.handle, tool, hand.held->half_width_m(), state.world_from_object);
     static const auto kBall = picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
     Similarity object_from_tool{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
@@ -78,28 +80,29 @@ void add_tool(picture::Picture& scene, const SessionState& state, std::size_t nu
     scene.objects.push_back({kShaft, state.world_from_object * object_from_shaft, Vec3(0.1)});
 }
 
-bool could_fade_at_edges(const SessionState& state, const Room& room, std::size_t screen) {
-    return room.wall.setup.screens.size() == 1 &&
-           !wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
+bool could_fade_at_edges(const ViewedSession& seen, std::size_t screen) {
+    return seen.desk.wall.setup.screens.size() == 1 && !wall::needs_of(seen.output_on(screen).mode).one_eye_point;
 }
 
-bool fades_at_edges(const SessionState& state, const Room& room, std::size_t screen) {
+bool fades_at_edges(const ViewedSession& seen, std::size_t screen) {
+    const Viewer& viewer = seen.viewer;
     const bool wanted =
-        state.edge_comfort == EdgeComfort::automatic ? !state.head.tracked : state.edge_comfort == EdgeComfort::on;
-    return wanted && could_fade_at_edges(state, room, screen);
+        viewer.edge_comfort == EdgeComfort::automatic ? !viewer.head.tracked : viewer.edge_comfort == EdgeComfort::on;
+    return wanted && could_fade_at_edges(seen, screen);
 }
 
-wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, const haptics::ToolState& tool) {
-    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+wall::ComfortFinding comfort_of(const ViewedSession& seen, const haptics::ToolState& tool) {
+    const View sight = seen.view_of(seen.desk.wall.main);
     if (!sight.visible) return {};
-    const double scale = state.world_from_object.scale;
-    const Box& workpiece = room.workpiece_object;
+    const Similarity& world_from_object = seen.state.world_from_object;
+    const double scale = world_from_object.scale;
+    const Box& workpiece = seen.room.workpiece_object;
     // Bounds the workpiece by a ball, since it may be turned any way.
     const std::array<wall::ContentBall, 2> balls{
-        {{state.world_from_object * workpiece.center(),
+        {{world_from_object * workpiece.center(),
           0.5 * scale * std::max({workpiece.extent().x, workpiece.extent().y, workpiece.extent().z})},
-         {state.world_from_object * tool.proxy_object_m, scale * sculpt::reach_of(state.held->shape)}}};
-    return wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {balls, {}});
+         {world_from_object * tool.proxy_object_m, scale * sculpt::reach_of(seen.state.led().held->shape)}}};
+    return wall::judge(seen.desk.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {balls, {}});
 }
 
 }  // namespace burin::session

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// What a frame's checksum covers of a session and its viewer (session/record/session_check.hpp). Pure; any thread.
+#pragma once
+
+#include "desk/viewer/viewer.hpp"
+#include "session/record/session_check.hpp"
+
+namespace burin::session {
+
+[[nodiscard]] StateWords words_of(const SessionState& state, const Viewer& viewer);
+
+}  // namespace burin::session

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/opened_scene.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "base/text.hpp"
+#include "base/try.hpp"
+
+namespace burin::session {
+namespace {
+
+// The ball that explores a world where no tool is given: its radius as a share of the world's longest side.
+constexpr double kExploringBall = 0.015;
+
+}  // namespace
+
+Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options, OpenedWork& opened) {
+    if (!opened.workpiece) return sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
+    auto made = sculpt::ready_to_carve(std::move(*opened.workpiece), options.engine,
+                                       std::make_unique<WorkerPool>(options.threads));
+    if (!made) return made;
+    if (opened.history) made->carving->keep_history(std::move(*std::exchange(opened.history, std::nullopt)));
+    // What came from a journal, or was damaged, is in no document as it is here.
+    if (opened.journal.empty() && opened.lost.empty()) made->carving->is_saved();
+    return made;
+}
+
+void note_workpiece(const sculpt::MadeWorkpiece& made, const SculptOptions& options, Room& room, FoundOut& found) {
+    const sculpt::LoadedWorkpiece& workpiece = made.loaded;
+    std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
+    found.unit = workpiece.unit;
+    found.holes_closed = !workpiece.closed.empty();
+    room.workpiece_object = workpiece.bounds_object;
+    room.carved_object = room.workpiece_object;
+    room.lattice_object = sculpt::lattice_bounds(made.lattice);
+    const double cells = sculpt::longest_side_m(workpiece.bounds_object) / made.lattice.spacing_m;
+    const auto resolution =
+        is_document(options.workpiece) ? static_cast<int>(std::lround(cells)) : options.workpiece.resolution;
+    found.name = std::filesystem::path(options.workpiece.source).filename().string();
+    found.size = in_millimetres(workpiece.size_m) + ", " + std::to_string(resolution) + " cells";
+}
+
+Result<std::unique_ptr<WorldSide>> open_world(const SculptOptions& options, OpenedWork& opened) {
+    BURIN_TRY(read, options.scene  ? Result<scene::World>(*options.scene)
+                    : opened.world ? Result<scene::World>(std::move(*std::exchange(opened.world, std::nullopt)))
+                                   : read_sound_world(options.world, options.world_reading));
+    return WorldSide::create(std::move(read));
+}
+
+void note_world(const WorldSide& world, const SculptOptions& options, Room& room, FoundOut& found) {
+    const Box seen = world.drawn().bounds_scene();
+    Box& all = room.workpiece_object;
+    if (!seen.empty()) {
+        all.include(seen.lo);
+        all.include(seen.hi);
+    }
+    if (all.empty()) all = {Vec3(-0.05), Vec3(0.05)};  // of a world in which nothing is seen
+    room.covers_depth = true;
+    if (room.carved_object) return;
+    const std::size_t count = world.objects()->objects.size();
+    const std::string objects = std::to_string(count) + (count == 1 ? " object" : " objects");
+    found.name = options.scene ? options.scene->name : std::filesystem::path(options.world).filename().string();
+    found.size = in_millimetres(all.extent()) + ", " + objects;
+}
+
+void note_tool(const SculptOptions& options, const Room& room, FoundOut& found) {
+    const double longest_side_m = sculpt::longest_side_m(room.workpiece_object);
+    found.tool_options = options.tool;
+    if (!room.carved_object && found.tool_options.shape.empty())
+        found.tool_options.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
+    found.tool_options = sculpt::with_tool(found.tool_options, longest_side_m);
+}
+
+}  // namespace burin::session

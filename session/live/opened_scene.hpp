@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Makes what a session's hands are to touch, of a document, a file or a shape, and takes from it what the options
+// leave open. Thread: the frame's.
+#pragma once
+
+#include <memory>
+
+#include "sculpt/made_workpiece.hpp"
+#include "session/live/work_side.hpp"
+#include "session/live/world_side.hpp"
+#include "session/options/session_options.hpp"
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+
+// Takes the workpiece of a document, or makes it of a file or a shape.
+[[nodiscard]] Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options, OpenedWork& opened);
+// Takes its place into the room, and what was found out of it.
+void note_workpiece(const sculpt::MadeWorkpiece& made, const SculptOptions& options, Room& room, FoundOut& found);
+
+// Takes the world of a document, or reads it.
+[[nodiscard]] Result<std::unique_ptr<WorldSide>> open_world(const SculptOptions& options, OpenedWork& opened);
+[[nodiscard]] inline bool is_world_saved(const OpenedWork& opened) {
+    return opened.world.has_value() && opened.journal.empty() && opened.lost.empty();
+}
+// Likewise, once there is the workpiece, if there is any.
+void note_world(const WorldSide& world, const SculptOptions& options, Room& room, FoundOut& found);
+
+// Chooses a tool of the size of what there is, where none is given.
+void note_tool(const SculptOptions& options, const Room& room, FoundOut& found);
+
+}  // namespace burin::session

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/session.hpp"
+
+#include <utility>
+
+#include "session/live/session_events.hpp"
+#include "session/state/governed.hpp"
+
+namespace burin::session {
+
+void Session::begin_step(Nanoseconds time_ns, std::span<const haptics::ToolState> tools, std::size_t line) {
+    log().begin_step(time_ns);
+    hands_.take_tools(tools);
+    dt_s_ = seconds(std::max<Nanoseconds>(time_ns - last_step_ns_, 0));
+    last_step_ns_ = time_ns;
+    if (line != 0) files().note_line(line);
+}
+
+void Session::step(const Input& input, Leader& leader, const Give& give) {
+    const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
+    const std::vector<haptics::ToolState> of_hands = hands_.tools_of_hands();
+    SessionStep step = step_session(std::move(state_), room_, input.events,
+                                    {dt_s_, of_hands[state_.hand], of_hands}, leader);
+    state_ = std::move(step.state);
+    SessionOrders& orders = step.orders;
+    orders.line = input.line;
+    for (const CommandInput& command : leader.later_commands(state_))
+        if (const auto done = run_command(state_, orders, command, leader); !done)
+            orders.messages.push_back({done.error().line()});
+    // Before the parameters are published: else the hand would go on feeling the tool that was put down.
+    if (const auto taken = take_up(state_); !taken) orders.messages.push_back({taken.error().line()});
+    if (before) hold_governed(*before, leader, orders);
+    if (!input.keys_taken) activity_.press_keys(input.events, orders);
+    activity_.step(state_, orders, last_step_ns_, hands(), tools(), leader);
+    for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
+    scene_.news().frames_for_ticks(activity_.is_running());
+    if (step.led.hand)
+        hands().move_hand(step.led_hand, step.led.hand_way, last_step_ns_, *step.led.hand,
+                          state_.mouse == MouseMode::surface ? SessionHands::Source::mouse
+                                                             : SessionHands::Source::path);
+    carry_out(std::move(orders), give);
+    scene_.light(state_, step.led.turns_scene, last_step_ns_, give);
+    work_.take_outcomes();
+    for (const std::string& message : leader.watch(state_, tool_in_use())) notify(message);
+    for (const std::string& message : hands().take_messages()) notify_of_event(message);
+    notices_.look(state_, hands(), tools(), tool_in_use(), step.led, scene_.spacing_m(), last_step_ns_);
+    notices_.add_events(activity_.take_events());
+    work_.go_on(state_, last_step_ns_, give);
+}
+
+// A hand that goes on turning the scene is told once that it stays.
+void Session::hold_governed(const SessionState& before, Leader& leader, SessionOrders& orders) {
+    const std::size_t told = orders.messages.size();
+    keep_governed(before, state_, orders, leader.keep_governed());
+    if (orders.messages.size() > told && orders.line == 0 && log().newest() == kGovernedMessage)
+        orders.messages.pop_back();
+}
+
+// What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
+void Session::switch_amplifiers(const AskedAmplifiers& asked) {
+    if (log().follows_recording()) return;
+    const std::optional<devices::AmplifierAnswer> answer = hands().switch_amplifiers(state_.hand, asked.on);
+    if (answer == devices::AmplifierAnswer::done)
+        return log().notify_of_event(asked.on ? "the amplifiers are on; the force comes back from zero"
+                                              : "the amplifiers are off: no force until they are enabled again");
+    const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
+                                   : "those of " + std::string(hands().device(hands().first_part(state_.hand)).name) +
+                                         " cannot be switched from here";
+    log().notify_of_event("amplifiers: " + why, MessageKind::warning, {files().failed_on(asked.line), {}});
+}
+
+void Session::carry_out(SessionOrders orders, const Give& give) {
+    for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
+    if (orders.parameters) publish_parameters();
+    if (orders.parameters) hands_.spread(state_, room_, scene_, give);
+    auto wanted_save = orders.saves.begin();
+    const auto save_up_to = [&](std::size_t given) {
+        for (; wanted_save != orders.saves.end() && wanted_save->after <= given; ++wanted_save)
+            work_.save(*wanted_save, state_, give);
+    };
+    for (std::size_t given = 0; given < orders.carving.size(); ++given) {
+        save_up_to(given);
+        sculpt::SculptOrder& order = orders.carving[given];
+        if (const auto* use = std::get_if<sculpt::UseTool>(&order))
+            notices_.look_at_tool(state_.led().tool, use->tool, room_.workpiece_object, scene_.spacing_m());
+        auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
+        if (wanted != nullptr && !files().write()) continue;
+        if (wanted != nullptr) files().place(*wanted);
+        give(scene_.carving(std::move(order), state_.hand));
+    }
+    save_up_to(SIZE_MAX);
+    for (const Asked& wanted : orders.names) work_.look_at_name(wanted.text);
+    for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
+    for (HoldOrder& order : orders.holds) give(scene_.holding(std::move(order)));
+    notices_.tell(orders.messages);
+    files().ask_for_pictures(std::move(orders.screenshots));
+    if (orders.put_away) log().dismiss();
+}
+
+std::optional<sculpt::SurfaceUpdate> Session::take_loaded() {
+    std::optional<sculpt::SurfaceUpdate> loaded;
+    if (scene_.carved() != nullptr) loaded = scene_.carved()->take_surface_update();
+    if (loaded) take(*loaded);
+    return loaded;
+}
+
+std::optional<sculpt::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
+    SceneNews::Taken news = scene_.news().take(updates);
+    if (news.surface) take(*news.surface);
+    for (const std::string& message : news.messages) notify(message);
+    for (const scene::ContactEvent& contact : news.hands.contacts)
+        notices_.add_event(event_of(contact, hands(), state_.world.get()));
+    activity_.take(std::move(news.hands), std::move(news.drawn));
+    if (scene_.world() == nullptr) return std::move(news.surface);
+    scene_.world()->drawn().take(news.objects);
+    const auto before = state_.world;
+    state_.world = followed(before, news.objects, news.materials ? &*news.materials : nullptr);
+    if (state_.saves && before != state_.world) state_.edits.follow(*before, *state_.world, state_.strokes);
+    if (news.materials) publish_parameters();
+    return std::move(news.surface);
+}
+
+void Session::take(const sculpt::SurfaceUpdate& news) {
+    notices_.take(news);
+    scene_.note(news);
+    state_.strokes = news.undoable;
+    work_.tell(state_);
+}
+
+void Session::finish_scene() {
+    scene_.service().finish();
+    work_.finish(state_);
+    collect({});
+    static_cast<void>(take_news(UINT64_MAX));
+    // What the activity orders now has nobody to carry it out, but for its words.
+    SessionOrders orders;
+    Leader nobody;
+    activity_.step(state_, orders, last_step_ns_, hands(), tools(), nobody);
+    notices_.add_events(activity_.take_events());
+    for (const Asked& message : orders.messages) notify(message.text);
+    if (const auto done = activity_.finish(); !done) files().notify_of_loss(done.error().line());
+}
+
+document::Content Session::saved_content() const {
+    return {.facts = saved_facts(settled(options_), state_, room_.carved_object.value_or(Box{})),
+            .commands = saved_commands(state_)};
+}
+
+SculptOptions Session::settled(SculptOptions options) const {
+    options.workpiece.units = found_.unit;
+    options.workpiece.close_holes = options.workpiece.close_holes || found_.holes_closed;
+    options.tool = found_.tool_options;
+    if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
+    options.live.device = hands().settled_device(0);
+    for (std::size_t hand = 0; hand < options.live.hands.size(); ++hand)
+        options.live.hands[hand].device = hands().settled_device(hand);
+    return options;
+}
+
+}  // namespace burin::session

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Opens a session: workpiece, world, tool, hands and the scene that they touch.
+#include <utility>
+#include <vector>
+
+#include "base/try.hpp"
+#include "scene/rendered_material.hpp"
+#include "sculpt/crumbs.hpp"
+#include "session/live/opened_room.hpp"
+#include "session/live/opened_scene.hpp"
+#include "session/live/session.hpp"
+#include "session/record/session_recording.hpp"
+
+namespace burin::session {
+namespace {
+
+// Ticks that the recording's ring holds. A text log's is read by the frame's thread, which may stall for so many; a
+// session file's by its writer, which waits for the disk.
+constexpr std::size_t kTicksToLog = 8192;
+
+std::size_t ring_for(const LiveOptions& live) {
+    if (live.record.empty()) return live.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
+    return is_session_file(live.record) ? record::kRingTicks : kTicksToLog;
+}
+
+}  // namespace
+
+Session::Session(Clock& clock, const SculptOptions& options, double pace)
+    : clock_(clock),
+      options_(options),
+      hands_(ring_for(options.live), pace),
+      activity_(options.activity),
+      notices_(options),
+      work_(options_, scene_, notices_.files(), notices_.log(), [this] { return saved_content(); }) {}
+
+Result<std::unique_ptr<Session>> Session::create(const SculptOptions& options, Clock& clock, double pace,
+                                                 std::optional<sculpt::MadeWorkpiece> made, const Place& place) {
+    auto session = std::unique_ptr<Session>(new Session(clock, options, pace));
+    BURIN_TRY_DO(session->load(std::move(made)));
+    BURIN_TRY_DO(session->begin(place));
+    return session;
+}
+
+Result<void> Session::load(std::optional<sculpt::MadeWorkpiece> made) {
+    BURIN_TRY(opened, open_room(options_));
+    room_ = std::move(opened.room);
+    hands_.use(std::move(opened.handles));
+    BURIN_TRY_DO(work_.open());
+    if (has_workpiece(options_)) {
+        BURIN_TRY(workpiece, made ? Result<sculpt::MadeWorkpiece>(std::move(*made)) : make_workpiece(options_, work_.opened()));
+        note_workpiece(workpiece, options_, room_, found_);
+        if (const std::string& closed = workpiece.loaded.closed; !closed.empty()) notify(closed, MessageKind::info);
+        scene_.take(std::move(workpiece.carving), std::move(workpiece.pool));
+    }
+    if (has_world(options_)) {
+        const bool is_saved = is_world_saved(work_.opened());
+        BURIN_TRY(world, open_world(options_, work_.opened()));
+        work_.world_has_begun(*world->objects(), is_saved);
+        note_world(*world, options_, room_, found_);
+        scene_.take(std::move(world));
+    }
+    work_.has_begun();
+    note_tool(options_, room_, found_);
+    notices_.begin(options_.from_before_units || scene_.workpiece() == nullptr);
+    return {};
+}
+
+// Returns what is there before anything is touched.
+Result<SessionState> Session::first_state(const Place& place) const {
+    BURIN_TRY(tool, sculpt::parse_tool_settings(found_.tool_options));
+    auto meshes = std::make_shared<ToolMeshes>();
+    BURIN_TRY_DO(meshes->read(tool.shape));
+    for (const sculpt::ToolSpec& other : options_.live.tools_of_input) BURIN_TRY_DO(meshes->read(other));
+    BURIN_TRY(feel, sculpt::parse_feel_settings(options_.feel));
+    std::vector<std::string> names;
+    for (const NamedDevice& hand : options_.live.hands) names.push_back(hand.hand);
+    const Similarity placed = place ? place(room_, hands_.handles().front().get()) : Similarity{};
+    SessionState state = begin_session(room_, tool, feel, placed, std::move(meshes), hands_.handles(), names);
+    state.export_unit = options_.export_units.value_or(found_.unit);
+    const double usual_m = options_.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
+    state.crumbs_m = options_.crumbs_m.value_or(usual_m);
+    state.carves = scene_.workpiece() != nullptr;
+    state.saves = options_.scene == nullptr && !activity_.is_there();
+    state.mirror = options_.mirror;
+    if (scene_.world() != nullptr) state.world = scene_.world()->objects();
+    return state;
+}
+
+Result<void> Session::begin(const Place& place) {
+    BURIN_TRY(first, first_state(place));
+    state_ = std::move(first);
+    if (const auto& view = work_.opened().view) state_.world_from_object = *view;
+    BURIN_TRY(use, tool_of(state_));
+    notices_.look_at_tool(state_.led().tool, use.tool, room_.workpiece_object, scene_.spacing_m());
+    start_ns_ = clock_.now_ns();
+    BURIN_TRY_DO(hands_.open(options_.live, state_, room_, clock_));
+    publish_parameters();
+    tell_what_is_not_rendered();
+    BURIN_TRY_DO(scene_.begin(use, options_.undo_memory_MiB << 20,
+                              hands_.beginnings(state_, room_, scene_.spacing_m()), activity_.scene_part(),
+                              activity_.tap(), start_ns_));
+    if (scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
+    work_.begin_journal(state_);
+    return {};
+}
+
+// Once for each hand, before anything is touched.
+void Session::tell_what_is_not_rendered() {
+    if (!state_.world || activity_.is_there()) return;
+    std::vector<scene::SceneObject> objects;
+    for (const auto& object : state_.world->objects) objects.push_back(*object);
+    for (std::size_t hand = 0; hand < hands().hands(); ++hand) {
+        const devices::DeviceDescription& device = hands().device(hands().first_part(hand));
+        const std::string more = scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
+        if (!more.empty()) notify(more, MessageKind::info);
+    }
+}
+
+}  // namespace burin::session
