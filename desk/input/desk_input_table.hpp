@@ -27,7 +27,7 @@ struct ShortCut {
     Key key;
     Modifiers modifiers;  // exactly these
     Action action;
-    bool repeats;  // while the key is held
+    bool repeats;                                  // while the key is held
     std::optional<MouseMode> only = std::nullopt;  // while the mouse leads the hand so; none: always
 };
 struct FlightKey {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "desk/panel/live_panel.hpp"
 #include "base/try.hpp"
 #include "desk/live/opened_desk.hpp"
+#include "desk/panel/live_panel.hpp"
 #include "desk/viewer/viewed_picture.hpp"
 #include "session/live/opened_room.hpp"
 
@@ -48,8 +48,8 @@ picture::Picture OpeningPicture::scene() const {
     const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
     const auto tool = sculpt::parse_tool_settings(sculpt::with_tool({}, longest_m));
     Viewer viewer = begin_viewer(desk_, output_);
-    const SessionState state = begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {},
-                                             placed_before(viewer, room_, desk_, nullptr));
+    const SessionState state =
+        begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {}, placed_before(viewer, room_, desk_, nullptr));
     take_hand(viewer, state);
     const ViewedSession seen{state, room_, viewer, desk_};
     auto scene = scene_of(seen, desk_.wall.main, Vec3(0.0), {}).value_or(picture::Picture{});

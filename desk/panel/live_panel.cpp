@@ -72,12 +72,14 @@ void add_objects(PanelModel& m, const SessionState& state, const Viewer& viewer)
 void add_rendered(PanelModel& m, const PanelContext& context) {
     if (!m.object || !m.object->felt) return;
     for (std::size_t hand = 0; hand < context.session.hands().hands(); ++hand) {
-        const devices::DeviceDescription& device = context.session.hands().device(context.session.hands().first_part(hand));
+        const devices::DeviceDescription& device =
+            context.session.hands().device(context.session.hands().first_part(hand));
         const haptics::TickParameters parameters = parameters_of(context.seen.state, context.seen.room, hand, device);
         const auto with = [&](std::uint32_t points) {
             return scene::rendered_material(m.object->material, device, parameters, points);
         };
-        PanelRendered rendered{context.session.hands().hands() > 1 ? context.session.hands().name_of_hand(hand) : "", with(1), {}};
+        PanelRendered rendered{
+            context.session.hands().hands() > 1 ? context.session.hands().name_of_hand(hand) : "", with(1), {}};
         if (parameters.probe.count > 1) rendered.all = with(parameters.probe.count);
         m.object->rendered.push_back(std::move(rendered));
     }
@@ -177,8 +179,8 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
         m.sources.push_back(hand_source(hands, part, session.tools()[part].cause, state.hand));
     for (std::size_t i = 0; state.hands.size() > 1 && i < state.hands.size(); ++i) {
         const HandState& hand = state.hands[i];
-        m.hands.push_back({hand.hand_name, touch_of(hand, session.tools()[hands.first_part(i)]),
-                           hand.velocity_filter, hand.force_filter});
+        m.hands.push_back({hand.hand_name, touch_of(hand, session.tools()[hands.first_part(i)]), hand.velocity_filter,
+                           hand.force_filter});
     }
     m.hand = state.hand;
     if (viewer.head.tracked) m.sources.push_back(tracker_source(context.tracker));
@@ -242,11 +244,13 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
     const ImageSize eye = context.eye();
     const bool stands = !context.seen.desk.wall.desk, in_window = context.seen.desk.wall.has_panel_window();
     const bool asks = context.seen.state.asked.naming || context.seen.state.asked.closing != Closing::no;
-    const std::uint32_t width = in_window || stands ? static_cast<std::uint32_t>(kPanelWidth_px)
-                                                    : std::max(panel_width(context.seen.desk, eye, context.output.size), 1u);
-    const bool has_column = in_window ? !is_empty(context.panel_output)
-                            : stands  ? (context.seen.viewer.panel || asks) && eye.height > 0
-                                      : context.seen.viewer.panel && panel_width(context.seen.desk, eye, context.output.size) > 0;
+    const std::uint32_t width = in_window || stands
+                                    ? static_cast<std::uint32_t>(kPanelWidth_px)
+                                    : std::max(panel_width(context.seen.desk, eye, context.output.size), 1u);
+    const bool has_column =
+        in_window ? !is_empty(context.panel_output)
+        : stands  ? (context.seen.viewer.panel || asks) && eye.height > 0
+                  : context.seen.viewer.panel && panel_width(context.seen.desk, eye, context.output.size) > 0;
     const bool has_place = has_column || (!in_window && !stands && !is_empty(eye));
     column_shown_ = has_column;
     SceneInput left{{input.events.begin(), input.events.end()}, {}};

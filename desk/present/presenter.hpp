@@ -18,11 +18,11 @@
 #include "desk/draw/drawn_detail.hpp"
 #include "desk/draw/session_picture.hpp"
 #include "desk/draw/session_surface.hpp"
+#include "desk/live/desk.hpp"
 #include "desk/present/direct_output.hpp"
 #include "desk/present/frame_output.hpp"
 #include "desk/present/session_waker.hpp"
 #include "desk/present/session_window.hpp"
-#include "desk/live/desk.hpp"
 #include "wall/parity.hpp"
 
 namespace burin::session {

@@ -95,8 +95,8 @@ SessionRecord RealTimeFrames::record() const {
 
 // Waits until it is time for the next frame, plans it, and returns what has happened in the windows.
 RealTimeFrames::Turn LiveFrames::wait_for_frame() {
-    const bool active = presenter_.takes_turns(desk_) || presenter_.owes_full_picture() ||
-                        clock_.now_ns() - changed_ns_ < kActive_ns;
+    const bool active =
+        presenter_.takes_turns(desk_) || presenter_.owes_full_picture() || clock_.now_ns() - changed_ns_ < kActive_ns;
     presenter_.refine_beside(!active);
     display_.shown_at(presenter_.refresh_Hz());
     if (active) {

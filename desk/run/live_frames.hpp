@@ -30,12 +30,9 @@ public:
 
 protected:
     // tracker: null where there is none. All must outlive it.
-    RealTimeFrames(Desk& desk, FrameOutput& output, InputSource input, Clock& clock,
-                   devices::Tracker* tracker, const std::string& tracker_name)
-        : SessionFrames(desk, output, std::move(input)),
-          clock_(clock),
-          tracker_(tracker),
-          first_word_(tracker_name) {}
+    RealTimeFrames(Desk& desk, FrameOutput& output, InputSource input, Clock& clock, devices::Tracker* tracker,
+                   const std::string& tracker_name)
+        : SessionFrames(desk, output, std::move(input)), clock_(clock), tracker_(tracker), first_word_(tracker_name) {}
 
     // The next frame: when it is to be seen, on the clock, and what has happened in the windows.
     struct Turn {

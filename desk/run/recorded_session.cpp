@@ -21,8 +21,8 @@ constexpr const char* kRemedy = "replay it with the program and the options that
 class RecordedFrames final : public SessionFrames {
 public:
     // All must outlive it. name: the log's file name.
-    RecordedFrames(Desk& desk, FrameOutput& output, InputSource input, const ThreadLog& log,
-                   const std::string& name, ThreadReplay& replay, const ReplayManner& manner)
+    RecordedFrames(Desk& desk, FrameOutput& output, InputSource input, const ThreadLog& log, const std::string& name,
+                   ThreadReplay& replay, const ReplayManner& manner)
         : SessionFrames(desk, output, std::move(input)), log_(log), name_(name), replay_(replay), manner_(manner) {
         session_.log().replay_events(log.messages_before);
         if (manner.notes != nullptr) recorder_.keep_events();

@@ -8,19 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "desk/live/desk.hpp"
 #include "desk/present/frame_output.hpp"
 #include "session/drive/driver.hpp"
 #include "session/drive/end_signals.hpp"
 #include "session/drive/thread_recorder.hpp"
-#include "desk/live/desk.hpp"
 #include "session/record/input_source.hpp"
 
 namespace burin::session {
 
 // Makes a frame but for its picture: steps the session with the input and hands it what the scene's parts report.
 // places: where the outputs of all screens are.
-[[nodiscard]] Result<void> step_frame(Desk& desk, Executor& executor, ThreadRecorder& recorder,
-                                      const FrameInput& input, const std::vector<wall::OutputPlace>& places);
+[[nodiscard]] Result<void> step_frame(Desk& desk, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
+                                      const std::vector<wall::OutputPlace>& places);
 
 class SessionFrames : public FrameSource {
 public:
@@ -72,8 +72,7 @@ private:
 class ScriptedFrames : public SessionFrames {
 public:
     // Pictures depend on the script alone.
-    ScriptedFrames(Desk& desk, FrameOutput& output, InputSource input)
-        : SessionFrames(desk, output, std::move(input)) {
+    ScriptedFrames(Desk& desk, FrameOutput& output, InputSource input) : SessionFrames(desk, output, std::move(input)) {
         session_.log().hear_nothing_from_outside();
     }
 

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "scene/object_property.hpp"
 #include "desk/viewer/viewer.hpp"
+#include "scene/object_property.hpp"
 #include "session/state/leader.hpp"
 
 namespace burin::session {

@@ -78,11 +78,10 @@ void add_mirror(picture::Picture& scene, const SessionState& state, const Room& 
         if (is_mesh && image.reverses()) continue;
         const Pose there = sculpt::image_of(Pose{tool.proxy_object_m, tool.tool_orientation_object}, image,
                                             room.carved_object->center());
-        const Similarity object_from_tool{
-            there.position_m, there.orientation,
-            held->drawn ? 1.0 : scene.tool.radius_m / state.world_from_object.scale};
-        scene.objects.push_back({held->drawn ? held->drawn : ball(),
-                                 state.world_from_object * object_from_tool, scene.tool.colour, kImageOpacity});
+        const Similarity object_from_tool{there.position_m, there.orientation,
+                                          held->drawn ? 1.0 : scene.tool.radius_m / state.world_from_object.scale};
+        scene.objects.push_back({held->drawn ? held->drawn : ball(), state.world_from_object * object_from_tool,
+                                 scene.tool.colour, kImageOpacity});
     }
 }
 

@@ -180,11 +180,8 @@ BesideCube take_presses(Viewer& viewer, const ViewedSession& seen, std::span<con
     const std::optional<Similarity> place = view_cube(seen);
     viewer.over_cube.reset();
     if (!place) return left;
-    const CursorView cursor{seen.output_on(seen.desk.wall.main),
-                            look.output,
-                            viewer.seen_from.screen,
-                            viewer.seen_from.eye_world,
-                            {}};
+    const CursorView cursor{
+        seen.output_on(seen.desk.wall.main), look.output, viewer.seen_from.screen, viewer.seen_from.eye_world, {}};
     std::optional<Vec2> at_px = viewer.desk.mouse_px;
     const auto face = [&]() -> std::optional<Action> {
         if (!at_px || look.captured.mouse || viewer.desk.drag || viewer.desk.on_surface.pressed) return std::nullopt;
@@ -212,7 +209,8 @@ void add_view_cube(picture::Picture& scene, const ViewedSession& seen) {
     scene.objects.push_back({cube(), *place, kBody, 1.0, 0.8, 0.3});
     scene.objects.push_back({letters(), *place, kInk, 1.0, 0.9, 0.1});
     for (std::size_t i = 0; i < faces().size(); ++i)
-        if (seen.viewer.over_cube == faces().at(i).view) scene.objects.push_back({plate(i), *place, kLit, 1.0, 0.8, 0.3});
+        if (seen.viewer.over_cube == faces().at(i).view)
+            scene.objects.push_back({plate(i), *place, kLit, 1.0, 0.8, 0.3});
 }
 
 }  // namespace burin::session

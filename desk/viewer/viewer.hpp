@@ -30,8 +30,8 @@ struct Viewer {
     double interpupillary_m = 0.063;
     wall::OutputSettings output;  // of the main screen (output_on(), session_screens.hpp)
     EdgeComfort edge_comfort = EdgeComfort::automatic;
-    bool force_shown = false;        // as an arrow
-    scene::ObjectId selected = 0;    // on the panel; 0: the first
+    bool force_shown = false;      // as an arrow
+    scene::ObjectId selected = 0;  // on the panel; 0: the first
     bool panel = true, help = false, figures = false, devices = false;
     bool first_steps = false;         // the card for who sees this for the first time
     SeenFrom seen_from;               // as of the last step

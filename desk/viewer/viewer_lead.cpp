@@ -77,8 +77,8 @@ Led ViewerLead::lead(const SessionState& state, const Room& /*room*/, std::span<
     Led led{.world_from_object = state.world_from_object, .hand = desk.target, .hand_way = std::move(desk.way)};
     if (desk.scene_change != Similarity{}) led.world_from_object = desk.scene_change * led.world_from_object;
     WandStep wands =
-        step_wands(viewer_.wands, events, view.dt_s, led.world_from_object,
-                   head_world(desk_.wall.setup, viewer_.head), {.home_world_from_scene = state.home_world_from_object});
+        step_wands(viewer_.wands, events, view.dt_s, led.world_from_object, head_world(desk_.wall.setup, viewer_.head),
+                   {.home_world_from_scene = state.home_world_from_object});
     viewer_.wands = wands.state;
     led.world_from_object = wands.world_from_scene;
     for (const Gesture stroke : desk.strokes) led.strokes.push_back(stroke == Gesture::smooth_surface);

@@ -47,8 +47,7 @@ Result<void> check_streams(const LiveOptions& live) {
     return api ? Result<void>{} : std::unexpected(api.error());
 }
 
-Result<std::unique_ptr<SessionStreams>> SessionStreams::open(const LiveOptions& live, Session& session,
-                                                             Clock& clock) {
+Result<std::unique_ptr<SessionStreams>> SessionStreams::open(const LiveOptions& live, Session& session, Clock& clock) {
     if (!wants_streams(live)) return std::unique_ptr<SessionStreams>();
     const auto api = devices::load_lsl_api();
     if (!api) return std::unexpected(api.error());

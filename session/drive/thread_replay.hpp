@@ -34,8 +34,7 @@ class ThreadReplay final : public Executor {
 public:
     // name: the log's file name. session and log must outlive it.
     // ticks: what the ticks of each part of the hands saw.
-    ThreadReplay(Session& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
-                 const std::string& name);
+    ThreadReplay(Session& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks, const std::string& name);
 
     // Has the ticks judged; null: by the frames' checksums alone.
     void judge_ticks(TickWitness* witness) { witness_ = witness; }

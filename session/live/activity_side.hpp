@@ -75,8 +75,8 @@ public:
     }
 
 private:
-    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders,
-                   const SessionHands& hands, Leader& leader);
+    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders, const SessionHands& hands,
+                   Leader& leader);
 
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;

@@ -10,7 +10,8 @@ Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, 
     std::vector<HandToOpen> wanted;
     for (const NamedDevice& hand : devices_of(live)) {
         const std::size_t i = wanted.size();
-        wanted.push_back({hand.hand, hand.device, {state.hands[i].target.position_device_m, room.hands[i].rest_device}});
+        wanted.push_back(
+            {hand.hand, hand.device, {state.hands[i].target.position_device_m, room.hands[i].rest_device}});
     }
     BURIN_TRY_DO(hands_.open(wanted, clock, live.stands_in));
     tools_.resize(hands_.parts());
@@ -60,9 +61,9 @@ double HandSide::spread_of(std::size_t hand, const SessionState& state, const Ro
 // Returns where a hand's tool is before the first tick.
 Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const Room& room) const {
     const Vec3& rest_device_m = state.hands[hand].target.position_device_m;
-    const Vec3 first_device_m =
-        handles_[hand] ? handles_[hand]->first_point_device({rest_device_m, room.hands[hand].rest_device})
-                       : rest_device_m;
+    const Vec3 first_device_m = handles_[hand]
+                                    ? handles_[hand]->first_point_device({rest_device_m, room.hands[hand].rest_device})
+                                    : rest_device_m;
     if (hand == state.hand && state.mouse == MouseMode::surface)
         return parameters_of(state, room, hand).workspace.object_from_device * first_device_m;
     return inverse(state.world_from_object) * (state.hands[hand].world_from_device * first_device_m);

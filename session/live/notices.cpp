@@ -5,7 +5,8 @@ namespace burin::session {
 
 void Notices::look(const SessionState& state, const SessionHands& hands, std::span<const haptics::ToolState> tools,
                    const haptics::ToolState& in_use, const Led& led, double spacing_m, Nanoseconds time_ns) {
-    if (const auto nothing = strokes_.look(state, in_use, led.stroke_depth_m, spacing_m, time_ns)) log_.notify(*nothing);
+    if (const auto nothing = strokes_.look(state, in_use, led.stroke_depth_m, spacing_m, time_ns))
+        log_.notify(*nothing);
     for (DeviceWatch::News& news : devices_.look(hands, tools)) {
         log_.notify(news.message, news.kind);
         events_.push_back(std::move(news.event));

@@ -19,8 +19,8 @@ void Session::begin_step(Nanoseconds time_ns, std::span<const haptics::ToolState
 void Session::step(const Input& input, Leader& leader, const Give& give) {
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     const std::vector<haptics::ToolState> of_hands = hands_.tools_of_hands();
-    SessionStep step = step_session(std::move(state_), room_, input.events,
-                                    {dt_s_, of_hands[state_.hand], of_hands}, leader);
+    SessionStep step =
+        step_session(std::move(state_), room_, input.events, {dt_s_, of_hands[state_.hand], of_hands}, leader);
     state_ = std::move(step.state);
     SessionOrders& orders = step.orders;
     orders.line = input.line;
@@ -35,9 +35,9 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
     for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
     scene_.news().frames_for_ticks(activity_.is_running());
     if (step.led.hand)
-        hands().move_hand(step.led_hand, step.led.hand_way, last_step_ns_, *step.led.hand,
-                          state_.mouse == MouseMode::surface ? SessionHands::Source::mouse
-                                                             : SessionHands::Source::path);
+        hands().move_hand(
+            step.led_hand, step.led.hand_way, last_step_ns_, *step.led.hand,
+            state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(orders), give);
     scene_.light(state_, step.led.turns_scene, last_step_ns_, give);
     work_.take_outcomes();

@@ -47,7 +47,8 @@ Result<void> Session::load(std::optional<sculpt::MadeWorkpiece> made) {
     hands_.use(std::move(opened.handles));
     BURIN_TRY_DO(work_.open());
     if (has_workpiece(options_)) {
-        BURIN_TRY(workpiece, made ? Result<sculpt::MadeWorkpiece>(std::move(*made)) : make_workpiece(options_, work_.opened()));
+        BURIN_TRY(workpiece,
+                  made ? Result<sculpt::MadeWorkpiece>(std::move(*made)) : make_workpiece(options_, work_.opened()));
         note_workpiece(workpiece, options_, room_, found_);
         if (const std::string& closed = workpiece.loaded.closed; !closed.empty()) notify(closed, MessageKind::info);
         scene_.take(std::move(workpiece.carving), std::move(workpiece.pool));
@@ -96,9 +97,8 @@ Result<void> Session::begin(const Place& place) {
     BURIN_TRY_DO(hands_.open(options_.live, state_, room_, clock_));
     publish_parameters();
     tell_what_is_not_rendered();
-    BURIN_TRY_DO(scene_.begin(use, options_.undo_memory_MiB << 20,
-                              hands_.beginnings(state_, room_, scene_.spacing_m()), activity_.scene_part(),
-                              activity_.tap(), start_ns_));
+    BURIN_TRY_DO(scene_.begin(use, options_.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
+                              activity_.scene_part(), activity_.tap(), start_ns_));
     if (scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
     work_.begin_journal(state_);
     return {};

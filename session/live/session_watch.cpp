@@ -103,8 +103,8 @@ void StrokeWatch::take(const sculpt::SurfaceUpdate& update) {
     told_ = told_ || !update.messages.empty();
 }
 
-std::optional<std::string> StrokeWatch::look(const SessionState& state, const haptics::ToolState& tool,
-                                             double depth_m, double spacing_m, Nanoseconds time_ns) {
+std::optional<std::string> StrokeWatch::look(const SessionState& state, const haptics::ToolState& tool, double depth_m,
+                                             double spacing_m, Nanoseconds time_ns) {
     if (!state.carves || state.mouse != MouseMode::surface) return std::nullopt;
     constexpr std::uint32_t kWorks = 1;
     const bool pressed = (tool.buttons & kWorks) != 0;

@@ -97,9 +97,8 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
                 {1e-3, 1e3, 0.1, 20.0, true}, kTouch, [](const State& s) { return s.led().workspace_gain; },
                 [](State& s, double value) { s.led().workspace_gain = value; });
         case Quantity::eye_distance:
-            return row(
-                quantity, {"eye-distance", "m", "D", "Distance between the eyes in metres"}, {0.0, 0.1, 0.0, 0.08},
-                QuantityConcern::picture, nullptr, nullptr);
+            return row(quantity, {"eye-distance", "m", "D", "Distance between the eyes in metres"},
+                       {0.0, 0.1, 0.0, 0.08}, QuantityConcern::picture, nullptr, nullptr);
         case Quantity::strength:
             return row(
                 quantity,

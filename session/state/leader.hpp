@@ -33,14 +33,15 @@ struct StepView {
 
 // Where a leader has led the session since the step before.
 struct Led {
-    Similarity world_from_object;             // the scene
-    std::optional<devices::HandTarget> hand;  // where the hand in use is to go, at the end; none: where it is
+    Similarity world_from_object;                       // the scene
+    std::optional<devices::HandTarget> hand;            // where the hand in use is to go, at the end; none: where it is
     std::vector<devices::SteeredTarget> hand_way = {};  // and meanwhile, at the times of the events
-    std::vector<bool> strokes = {};  // of each stroke on the surface that began: it is to smooth, whatever the tool does
-    bool strokes_now = false;        // one goes on
-    double stroke_depth_m = 0.0;     // as the mouse leads it
-    bool turns_scene = false;        // a button is down that turns it
-    std::string message = {};        // for the user; empty: none
+    std::vector<bool> strokes =
+        {};                       // of each stroke on the surface that began: it is to smooth, whatever the tool does
+    bool strokes_now = false;     // one goes on
+    double stroke_depth_m = 0.0;  // as the mouse leads it
+    bool turns_scene = false;     // a button is down that turns it
+    std::string message = {};     // for the user; empty: none
     std::vector<Action> actions = {};  // of keys and of the view's own widgets, in order
 };
 
@@ -53,8 +54,8 @@ public:
 
     // Returns the buttons of the hand in use that are held down, as of the step before.
     [[nodiscard]] virtual std::uint32_t buttons() const { return 0; }
-    [[nodiscard]] virtual Led lead(const SessionState& state, const Room& /*room*/, std::span<const InputEvent> /*events*/,
-                                   const StepView& /*view*/) {
+    [[nodiscard]] virtual Led lead(const SessionState& state, const Room& /*room*/,
+                                   std::span<const InputEvent> /*events*/, const StepView& /*view*/) {
         return {.world_from_object = state.world_from_object, .hand = std::nullopt};
     }
     virtual void meet(const InputEvent& /*event*/) {}
@@ -65,7 +66,8 @@ public:
     [[nodiscard]] virtual std::vector<CommandInput> later_commands(const SessionState& /*state*/) { return {}; }
     // Puts what an activity governs of its own back as it was before the step; returns whether anything was changed.
     virtual bool keep_governed() { return false; }
-    [[nodiscard]] virtual std::vector<std::string> watch(const SessionState& /*state*/, const haptics::ToolState& /*tool*/) {
+    [[nodiscard]] virtual std::vector<std::string> watch(const SessionState& /*state*/,
+                                                         const haptics::ToolState& /*tool*/) {
         return {};
     }
 };

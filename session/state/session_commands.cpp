@@ -196,7 +196,8 @@ Result<void> Runner::operator()(const CalibrateHandle& wanted) {
     if (!state_.led().handle)
         return fail("calibrate", "there is no wand", "open the session with --device simulated-wand and --points");
     Result<HandleCalibrated> done =
-        wanted.reset ? HandleCalibrated{} : calibrated(state_.led().handle->description, state_.led().handle_reads_device);
+        wanted.reset ? HandleCalibrated{}
+                     : calibrated(state_.led().handle->description, state_.led().handle_reads_device);
     if (!done) return std::unexpected(done.error());
     state_.led().device_from_read = done->device_from_read;
     if (!done->message.empty()) orders_.messages.push_back({done->message, 0});
@@ -237,8 +238,9 @@ Result<void> Runner::operator()(const RunAction& run) {
             open_or_close_naming(state_);
             return {};
         case Action::next_hand:
-            return lead_hand(
-                state_, state_.hands.size() < 2 ? "next" : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
+            return lead_hand(state_, state_.hands.size() < 2
+                                         ? "next"
+                                         : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
         case Action::put_away: orders_.put_away = true; return {};
         case Action::quit: ask_or_quit(state_); return {};
         default: return {};  // a viewer's

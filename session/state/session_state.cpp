@@ -124,7 +124,6 @@ Result<void> lead_hand(SessionState& state, const std::string& name) {
     return {};
 }
 
-
 Result<void> take_up(SessionState& state) {
     HandState& hand = state.led();
     if (hand.held && hand.held->spec == hand.tool.shape) return {};

@@ -112,8 +112,8 @@ enum class Reach : std::uint8_t { stylus, own, arm };
 struct HandRoom {
     Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
     Reach reach = Reach::stylus;
-    bool is_upright = false;            // rests standing, as a handle with its points below does
-    Quat rest_device = pen_at_rest();   // orientation at rest
+    bool is_upright = false;           // rests standing, as a handle with its points below does
+    Quat rest_device = pen_at_rest();  // orientation at rest
     // Where the mouse does not lead it along the surface; with the hand only once that was chosen.
     haptics::FillPlace fills = haptics::FillPlace::surface;
 };

@@ -62,8 +62,8 @@ std::vector<Similarity> mappings_of(const SessionState& state, const Room& room)
 
 }  // namespace
 
-SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
-                         const StepView& view, Leader& leader) {
+SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events, const StepView& view,
+                         Leader& leader) {
     SessionStep step;
     step.led_hand = state.hand;
     const bool works = ((view.tool.buttons | leader.buttons()) & 1u) != 0;

@@ -3,7 +3,7 @@
 // its plinth.
 #include <array>
 
-#include "session/state/view_cube.hpp"
+#include "desk/viewer/view_cube.hpp"
 #include "tests/desk/mouse_desk.hpp"
 
 namespace burin::session {
@@ -15,7 +15,7 @@ struct SeenPart {
 };
 SeenPart seen_part(const MouseDesk& desk) {
     SeenPart seen;
-    const Box& box = desk.session->room().workpiece_object;
+    const Box& box = desk.session().room().workpiece_object;
     for (int i = 0; i < 8; ++i) {
         const Vec3 corner((i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y,
                           (i & 4) != 0 ? box.hi.z : box.lo.z);
@@ -41,20 +41,20 @@ void press_key(MouseDesk& desk, Key key, const Modifiers& with = {}) {
 
 // What of the part faces the eye.
 Vec3 towards_eye_object(const MouseDesk& desk) {
-    const SessionState& state = desk.session->state();
-    const Vec3 middle = desk.session->room().workpiece_object.center();
-    return glm::normalize(inverse(state.world_from_object) * state.seen_from.eye_world - middle);
+    const SessionState& state = desk.session().state();
+    const Vec3 middle = desk.session().room().workpiece_object.center();
+    return glm::normalize(inverse(state.world_from_object) * desk.desk->viewer().seen_from.eye_world - middle);
 }
 
 std::optional<picture::PicturePedestal> plinth_of(const MouseDesk& desk) {
-    const auto scene = desk.session->scene_on(0);
+    const auto scene = desk.desk->scene_on(0);
     return scene && scene->pedestal.visible ? std::optional(scene->pedestal) : std::nullopt;
 }
 
 double lowest_m(const MouseDesk& desk) {
     double lowest = 1e9;
     for (const Vec3& p : desk.vertices_mm())
-        lowest = std::min(lowest, (desk.session->state().world_from_object * (1e-3 * p)).y);
+        lowest = std::min(lowest, (desk.session().state().world_from_object * (1e-3 * p)).y);
     return lowest;
 }
 
@@ -87,7 +87,7 @@ TEST(DeskView, TopIsSeenStraightFromAbove) {
 // A face of the cube in the corner shows the part from there; it turns nothing else, and is no stroke that missed.
 TEST(DeskView, APressOnAFaceOfTheCubeShowsThePartFromThere) {
     MouseDesk desk(plate(12.0));
-    const auto cube = [&] { return view_cube(desk.session->state(), desk.session->room()); };
+    const auto cube = [&] { return view_cube(desk.desk->seen()); };
     ASSERT_TRUE(cube());
     const std::array<std::pair<Vec3, std::array<Key, 2>>, 5> faces{{{{0, 0, 1}, {Key::right, Key::down}},
                                                                     {{1, 0, 0}, {Key::left, Key::down}},
@@ -111,9 +111,9 @@ TEST(DeskView, TheCubeStandsAsThePartDoesAndBesideThePanel) {
     MouseDesk desk(plate(12.0));
     press_key(desk, Key::tab);
     press_key(desk, Key::digit_3, {.ctrl = true});
-    const Similarity cube = view_cube(desk.session->state(), desk.session->room()).value();
-    const SessionState& state = desk.session->state();
-    const Vec3 eye = state.seen_from.eye_world;
+    const Similarity cube = view_cube(desk.desk->seen()).value();
+    const SessionState& state = desk.session().state();
+    const Vec3 eye = desk.desk->viewer().seen_from.eye_world;
     EXPECT_LT(glm::length(glm::normalize(glm::conjugate(cube.orientation) * (eye - cube.position_m)) - Vec3(0, 1, 0)),
               1e-3)
         << "its upper face is seen straight on";
@@ -123,7 +123,7 @@ TEST(DeskView, TheCubeStandsAsThePartDoesAndBesideThePanel) {
                 const Vec2 at = desk.px_of_world(cube * Vec3(x, y, z));
                 EXPECT_TRUE(at.x > 700.0 && at.x < 940.0 && at.y > 0.0 && at.y < 200.0) << at.x << ", " << at.y;
             }
-    const auto scene = desk.session->scene_on(0);
+    const auto scene = desk.desk->scene_on(0);
     ASSERT_TRUE(scene);
     EXPECT_GE(scene->objects.size(), 2u);
 }
@@ -132,7 +132,7 @@ TEST(DeskView, TheCubeStandsAsThePartDoesAndBesideThePanel) {
 TEST(DeskView, ThePlinthKeepsBelowThePartHoweverItIsTurnedAndEnlarged) {
     MouseDesk desk(plate(12.0));
     ASSERT_TRUE(plinth_of(desk));
-    const double radius_m = plinth_of(desk)->radius_m, scale = desk.session->state().world_from_object.scale;
+    const double radius_m = plinth_of(desk)->radius_m, scale = desk.session().state().world_from_object.scale;
     int seen = 0;
     desk.move_to({500, 300});
     desk.run({{Scroll{{0.0, -6.0}, {}}, 8'000'000}}, 50'000'000);  // it stays above the floor
@@ -144,7 +144,7 @@ TEST(DeskView, ThePlinthKeepsBelowThePartHoweverItIsTurnedAndEnlarged) {
         if (!plinth) continue;
         ++seen;
         EXPECT_LE(plinth->top_center_world.y, lowest_m(desk) + 1e-6) << turn;
-        EXPECT_NEAR(plinth->radius_m / radius_m, desk.session->state().world_from_object.scale / scale, 1e-6);
+        EXPECT_NEAR(plinth->radius_m / radius_m, desk.session().state().world_from_object.scale / scale, 1e-6);
     }
     EXPECT_GT(seen, 5);
 }
@@ -157,7 +157,7 @@ TEST(DeskView, ABallTouchesItsPlinthHoweverItIsTurned) {
         press_key(desk, Key::right);
         const auto plinth = plinth_of(desk);
         ASSERT_TRUE(plinth) << turn;
-        const Similarity& pose = desk.session->state().world_from_object;
+        const Similarity& pose = desk.session().state().world_from_object;
         const double lowest_m = (pose * Vec3(0.0)).y - 0.04 * pose.scale;
         EXPECT_NEAR(plinth->top_center_world.y, lowest_m, 0.002 * pose.scale * 0.08) << turn;
     }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "desk/live/desk.hpp"
 #include "session/drive/driver.hpp"
-#include "session/live/live_session.hpp"
 #include "session/objects/object_turn.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
@@ -32,28 +32,28 @@ public:
         options.live.frames_world = framed;
         options.live.width = static_cast<int>(kFramedWindow.width);
         options.live.height = static_cast<int>(kFramedWindow.height);
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
-        session->take_loaded();
+        desk = std::move(*made);
+        desk->take_loaded();
     }
     void frame(const std::vector<Input>& inputs = {}) {
         clock.sleep_until(clock.now_ns() + 10'000'000);
         std::vector<InputEvent> events;
-        for (const CommandInput& told : session->take_told()) events.push_back({clock.now_ns(), told});
+        for (const CommandInput& told : desk->session().take_told()) events.push_back({clock.now_ns(), told});
         for (const Input& input : inputs) events.push_back({clock.now_ns(), input});
-        session->step({clock.now_ns(), clock.now_ns(), events}, {.size = kFramedWindow}, session->newest_tool(),
-                      [](const scene::SceneThread::Order& order) { order(); });
-        ASSERT_TRUE(session->scene().update(clock.now_ns()));
-        static_cast<void>(session->collect({}));
-        session->take_news(Executor::kAllCollected);
+        desk->step({clock.now_ns(), clock.now_ns(), events}, {.size = kFramedWindow}, desk->session().newest_tool(),
+                   [](const scene::SceneThread::Order& order) { order(); });
+        ASSERT_TRUE(desk->session().scene().update(clock.now_ns()));
+        static_cast<void>(desk->session().collect({}));
+        desk->take_news(Executor::kAllCollected);
     }
     void command(const std::string& name, std::vector<std::string> arguments = {}) {
         frame({CommandInput{name, std::move(arguments)}});
     }
     // Pixels of the window.
     [[nodiscard]] Vec2 seen_px(const Vec3& place_world) const {
-        const SeenFrom& from = state().seen_from;
+        const SeenFrom& from = desk->viewer().seen_from;
         const Vec2 at = wall::point_on_screen(from.screen, from.eye_world, place_world);
         const double width_m = glm::length(from.screen.lower_right_world - from.screen.lower_left_world),
                      height_m = glm::length(from.screen.upper_left_world - from.screen.lower_left_world);
@@ -74,12 +74,12 @@ public:
         }
         return all;
     }
-    [[nodiscard]] double free_px() const { return state().seen_from.free_width * kFramedWindow.width; }
-    [[nodiscard]] const SessionState& state() const { return session->state(); }
+    [[nodiscard]] double free_px() const { return desk->viewer().seen_from.free_width * kFramedWindow.width; }
+    [[nodiscard]] const SessionState& state() const { return desk->session().state(); }
 
     SculptOptions options;
     SimulatedClock clock;
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
 
 private:
     Workplace place_;
@@ -100,7 +100,7 @@ const std::vector<scene::ObjectId> kBothObjects{1, 2};
 TEST(FramedWorldSession, NothingOfItLiesUnderThePanelWhenItOpens) {
     FramedWorld world;
     world.frame();
-    ASSERT_LT(world.state().seen_from.free_width, 0.8);
+    ASSERT_LT(world.desk->viewer().seen_from.free_width, 0.8);
     expect_free(world, kBothObjects);
     const auto [lo, hi] = world.extent_px(kBothObjects);
     EXPECT_NEAR(0.5 * (lo.x + hi.x), 0.5 * world.free_px(), 0.06 * kFramedWindow.width) << "in the middle of it";
@@ -136,10 +136,10 @@ TEST(FramedWorldSession, TheToolIsUnderTheCursor) {
     world.frame();
     for (const Vec2& px : {Vec2(420.0, 330.0), Vec2(300.0, 400.0), Vec2(520.0, 380.0)}) {
         world.frame({MouseMove{px}});
-        const Vec3 target_world = world.state().world_from_device * world.state().desk.target_device_m;
+        const Vec3 target_world = world.state().led().world_from_device * world.desk->viewer().desk.target_device_m;
         EXPECT_LT(glm::length(world.seen_px(target_world) - px), 1.0) << px.x;
         world.frame({Scroll{{0.0, 2.0}, {}}});
-        const Vec3 deeper_world = world.state().world_from_device * world.state().desk.target_device_m;
+        const Vec3 deeper_world = world.state().led().world_from_device * world.desk->viewer().desk.target_device_m;
         EXPECT_LT(glm::length(world.seen_px(deeper_world) - px), 1.0) << "deeper";
         EXPECT_LT(deeper_world.z, target_world.z);
     }

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
-#include "session/live/live_session.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
@@ -83,16 +83,15 @@ public:
 
     // Where a place of the part is seen, in pixels of the main screen's window; of two pictures in it in the first.
     [[nodiscard]] Vec2 px_of(const Vec3& place_mm) const {
-        return px_of_world(session->state().world_from_object * (1e-3 * place_mm));
+        return px_of_world(desk->session().state().world_from_object * (1e-3 * place_mm));
     }
     [[nodiscard]] Vec2 px_of_world(const Vec3& place_world) const {
-        const SessionState& state = session->state();
-        const std::size_t screen = session->room().wall.main;
-        const View view = view_of(session->room().wall.setup, screen, state.head, state.interpupillary_m);
+        const std::size_t screen = desk->room().wall.main;
+        const View view = desk->seen().view_of(screen);
         const Vec3 eye = wall::middle_of(wall::eyes_of(view.viewer));
         const Vec2 at_m = wall::point_on_screen(view.screen, eye, place_world);
         const double wide_m = glm::length(view.screen.lower_right_world - view.screen.lower_left_world);
-        const wall::StereoMode mode = session->output_on(screen).mode;
+        const wall::StereoMode mode = desk->output_on(screen).mode;
         const ImageSize eye_px = wall::eye_size(mode, output.size);
         const double per_m = eye_px.width / wide_m;
         return Vec2{at_m.x * per_m, eye_px.height - at_m.y * per_m} / wall::picture_px_per_px(mode);
@@ -127,21 +126,23 @@ public:
 
     // Vertices of the part as it is now, mm.
     [[nodiscard]] std::vector<Vec3> vertices_mm() const {
-        std::vector<Vec3> all = session->surface()->welded().positions_m;
+        std::vector<Vec3> all = desk->session().scene_side().surface()->welded().positions_m;
         for (Vec3& p : all) p *= 1e3;
         return all;
     }
-    [[nodiscard]] double cell_mm() const { return 1e3 * session->surface()->lattice().spacing_m; }
+    [[nodiscard]] double cell_mm() const { return 1e3 * desk->session().scene_side().surface()->lattice().spacing_m; }
     [[nodiscard]] Vec3 tool_mm() const { return 1e3 * tool_.proxy_object_m; }
     [[nodiscard]] const haptics::ToolState& tool() const { return tool_; }
     [[nodiscard]] std::size_t strokes() const { return strokes_; }
+    [[nodiscard]] Session& session() const { return desk->session(); }
+    [[nodiscard]] const Viewer& viewer() const { return desk->viewer(); }
 
     SculptOptions options;
     wall::OutputPlace output{.size = kWindow};
     bool draws = true;   // the frames take what has changed of the surface
     bool tells = false;  // the session is told of its document, as a window's is
     SimulatedClock clock;
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
 
 protected:
     // A desk that is opened later, with options of its own.
@@ -149,10 +150,10 @@ protected:
     void open() {
         options.engine = sculpt::EngineChoice::cpu;
         if (const auto settled = settle_mouse(options); !settled) throw std::runtime_error(settled.error().line());
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
-        session->take_loaded();
+        desk = std::move(*made);
+        desk->take_loaded();
     }
     [[nodiscard]] const Workplace& place() const { return place_; }
     [[nodiscard]] Nanoseconds now_ns() const { return next_ns_ - frame_ns_; }
@@ -161,26 +162,26 @@ private:
     void frame() {
         while (next_update_ns_ <= next_ns_) {
             while (clock.now_ns() < next_update_ns_) {
-                clock.sleep_until(clock.now_ns() + session->loop().period_ns());
-                static_cast<void>(session->loop().step());
+                clock.sleep_until(clock.now_ns() + desk->session().loop().period_ns());
+                static_cast<void>(desk->session().loop().step());
             }
-            ASSERT_TRUE(session->scene().update(clock.now_ns()));
-            static_cast<void>(session->collect({}));
+            ASSERT_TRUE(desk->session().scene().update(clock.now_ns()));
+            static_cast<void>(desk->session().collect({}));
             next_update_ns_ += 10'000'000;
         }
         std::vector<InputEvent> now;
         while (taken_ < events_.size() && events_[taken_].time_ns <= next_ns_) now.push_back(events_[taken_++]);
         if (tells)
-            for (CommandInput& told : session->take_told()) now.push_back({next_ns_, std::move(told)});
-        tool_ = session->newest_tool();
-        static_cast<void>(session->take_outside());  // as before each step of a session in real time
-        session->step({next_ns_, next_ns_, now}, output, tool_, [this](const scene::SceneThread::Order& order) {
+            for (CommandInput& told : desk->session().take_told()) now.push_back({next_ns_, std::move(told)});
+        tool_ = desk->session().newest_tool();
+        static_cast<void>(desk->session().log().take_events());  // as before each step of a session in real time
+        desk->step({next_ns_, next_ns_, now}, output, tool_, [this](const scene::SceneThread::Order& order) {
             order();
-            session->scene().finish();  // an export
+            desk->session().scene().finish();  // an export
         });
-        session->take_news(Executor::kAllCollected);
+        desk->take_news(Executor::kAllCollected);
         if (draws)
-            for (const sculpt::SurfaceUpdate& update : session->take_surface_updates()) strokes_ = update.undoable;
+            for (const sculpt::SurfaceUpdate& update : desk->take_surface_updates()) strokes_ = update.undoable;
         next_ns_ += frame_ns_;
     }
 

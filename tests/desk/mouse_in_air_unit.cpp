@@ -7,7 +7,7 @@ namespace burin::session {
 // It hung before the part, large and at the border of the hand's reach.
 TEST(MouseInTheAir, NoToolIsShownWhereItDoesNotGetToTheCursor) {
     MouseDesk desk("");  // a ball of 40 mm
-    const auto shown = [&] { return desk.session->scene_on(0).value().tool.visible; };
+    const auto shown = [&] { return desk.desk->scene_on(0).value().tool.visible; };
     desk.point_at({20, 0, 30});
     EXPECT_TRUE(shown());
     desk.point_at({48, 0, 0});

@@ -20,9 +20,9 @@ struct ModesDesk : MouseDesk {
     }
     // Where its corners are seen, as shares of what the panel leaves free of an eye's picture.
     [[nodiscard]] Box seen_share() const {
-        const wall::StereoMode mode = session->output_on(session->room().wall.main).mode;
+        const wall::StereoMode mode = desk->output_on(desk->room().wall.main).mode;
         const ImageSize eye = wall::eye_size(mode, output.size);
-        const double free_px = eye.width * session->room().free_width;
+        const double free_px = eye.width * desk->room().free_width;
         Box box;
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 at((corner & 1) != 0 ? 80.0 : 0.0, (corner & 2) != 0 ? 60.0 : 0.0,
@@ -55,9 +55,9 @@ TEST(MouseInStereoModes, AKeyLeadsThroughThemAndThePartStaysWhole) {
     std::size_t modes = 0;
     do {
         desk.press_key(Key::m);
-        expect_whole(desk, std::string(file_name_of(desk.session->state().output.mode)));
+        expect_whole(desk, std::string(file_name_of(desk.viewer().output.mode)));
         ++modes;
-    } while (desk.session->state().output.mode != wall::StereoMode::mono && modes < 40);
+    } while (desk.viewer().output.mode != wall::StereoMode::mono && modes < 40);
     EXPECT_GT(modes, 8u);
     EXPECT_LT(glm::length(desk.seen_share().lo - first.lo) + glm::length(desk.seen_share().hi - first.hi), 0.02);
 }

@@ -113,7 +113,7 @@ TEST(MouseOnSurface, AToolTakenUpOnThePanelIsFeltAtOnce) {
     for (const std::string tool : {"cylinder", "box"}) {
         MouseDesk desk(plate(kThick_mm));
         desk.run({{CommandInput{"toggle-panel", {}}, 0}}, 100'000'000);
-        const auto at = desk.session->place_on_panel("tool " + tool);
+        const auto at = desk.desk->place_on_panel("tool " + tool);
         ASSERT_TRUE(at);
         desk.move_to({at->x + 0.5 * at->width, at->y + 0.5 * at->height});
         desk.run({{MouseClick{}, 50'000'000}, {MouseClick{MouseButton::left, false, {}}, 50'000'000}}, 100'000'000);
@@ -207,14 +207,15 @@ TEST(MouseOnSurface, TheToolComesThroughThePartToItsOtherSideAndIsNotCaught) {
 TEST(MouseOnSurface, KeysShowAllOfItFromTheFrontTheSideAndAbove) {
     MouseDesk desk(plate(kThick_mm));
     const auto out_object = [&] {  // what of the part faces the viewer
-        const SessionState& state = desk.session->state();
-        return glm::normalize(inverse(state.world_from_object) * state.seen_from.eye_world - state.middle_object);
+        const SessionState& state = desk.session().state();
+        return glm::normalize(inverse(state.world_from_object) * desk.viewer().seen_from.eye_world -
+                              state.middle_object);
     };
     const auto press = [&](Key key, const Modifiers& with = {}) {
         desk.run({{KeyInput{key, KeyMotion::press, with}, 8'000'000}, {KeyInput{key, KeyMotion::release, with}, 1}},
                  100'000'000);
     };
-    const Vec3 head_before = desk.session->state().desk.head_world.position_m;
+    const Vec3 head_before = desk.viewer().desk.head_world.position_m;
     press(Key::digit_3, {.ctrl = true});
     EXPECT_LT(glm::length(out_object() - Vec3(0.0, 1.0, 0.0)), 1e-3) << "its top";
     press(Key::digit_2, {.ctrl = true});
@@ -227,14 +228,14 @@ TEST(MouseOnSurface, KeysShowAllOfItFromTheFrontTheSideAndAbove) {
     press(Key::f);
     press(Key::digit_1, {.ctrl = true});
     EXPECT_LT(glm::length(out_object() - Vec3(0.0, 0.0, 1.0)), 1e-3);
-    EXPECT_EQ(desk.session->state().desk.head_world.position_m, head_before) << "arrow keys shear nothing";
+    EXPECT_EQ(desk.viewer().desk.head_world.position_m, head_before) << "arrow keys shear nothing";
 }
 
 TEST(MouseOnSurface, AStrokeIsMirroredShownOnBothSidesAndUndoneAsOne) {
     MouseDesk desk(plate(10.0));
     desk.run({{CommandInput{"mirror", {"x"}}, 0}});
     const auto glass = [&] {
-        const auto scene = desk.session->scene_on(0);
+        const auto scene = desk.desk->scene_on(0);
         return scene ? std::ranges::count_if(scene->objects, [](const auto& o) { return o.opacity < 1.0; }) : -1;
     };
     desk.stroke({{20.0, 20.0, 10.0}, {20.0, 40.0, 10.0}});
@@ -277,16 +278,16 @@ TEST(MouseOnSurface, AThinWallIsNeverEnteredFromBehind) {
 TEST(MouseOnSurface, AClickBesideTheWorkpieceSaysThatNothingWasTouchedAndADragTurnsTheScene) {
     MouseDesk desk(plate(kThick_mm));
     desk.move_to({30, 60});
-    const Quat before = desk.session->state().world_from_object.orientation;
+    const Quat before = desk.session().state().world_from_object.orientation;
     const std::string told =
         desk.told_while({{MouseClick{}, 8'000'000}, {MouseClick{MouseButton::left, false, {}}, 50'000'000}});
     EXPECT_NE(told.find("nothing was touched"), std::string::npos) << told;
-    EXPECT_EQ(desk.session->state().world_from_object.orientation, before);
+    EXPECT_EQ(desk.session().state().world_from_object.orientation, before);
     const std::string dragged = desk.told_while({{MouseClick{}, 8'000'000},
                                                  {MouseMove{{130, 60}}, 50'000'000},
                                                  {MouseClick{MouseButton::left, false, {}}, 50'000'000}});
     EXPECT_EQ(dragged, "");
-    EXPECT_NE(desk.session->state().world_from_object.orientation, before);
+    EXPECT_NE(desk.session().state().world_from_object.orientation, before);
     EXPECT_EQ(desk.strokes(), 0u);
 }
 
@@ -294,15 +295,15 @@ TEST(MouseOnSurface, TheSceneDoesNotTurnWhileTheToolWorks) {
     MouseDesk desk(plate(kThick_mm));
     desk.point_at({40, 30, 12});
     desk.press();
-    const Similarity before = desk.session->state().world_from_object;
+    const Similarity before = desk.session().state().world_from_object;
     desk.run({{MouseClick{MouseButton::right, true, {}}, 8'000'000},
               {MouseMove{{700, 300}}, 8'000'000},
               {MouseClick{MouseButton::right, false, {}}, 8'000'000}},
              50'000'000);
-    EXPECT_EQ(desk.session->state().world_from_object, before);
+    EXPECT_EQ(desk.session().state().world_from_object, before);
     desk.release();
     desk.run({{MouseClick{MouseButton::right, true, {}}, 8'000'000}, {MouseMove{{600, 300}}, 8'000'000}}, 50'000'000);
-    EXPECT_NE(desk.session->state().world_from_object, before);
+    EXPECT_NE(desk.session().state().world_from_object, before);
 }
 
 TEST(MouseOnSurface, TheWheelKeepsWhatIsUnderTheCursorThere) {
@@ -311,7 +312,8 @@ TEST(MouseOnSurface, TheWheelKeepsWhatIsUnderTheCursorThere) {
     const Vec2 px = desk.px_of(place_mm);
     desk.point_at(place_mm);
     desk.run({{Scroll{{0.0, 5.0}, {}}, 8'000'000}}, 100'000'000);
-    EXPECT_GT(desk.session->state().world_from_object.scale, 1.5 * desk.session->state().home_world_from_object.scale);
+    EXPECT_GT(desk.session().state().world_from_object.scale,
+              1.5 * desk.session().state().home_world_from_object.scale);
     EXPECT_LT(glm::length(desk.px_of(place_mm) - px), 0.5);
 }
 
@@ -319,10 +321,10 @@ TEST(MouseOnSurface, TheWheelMakesAStrokeDeeperWhileTheButtonIsDown) {
     MouseDesk desk(plate(kThick_mm));
     desk.point_at({40, 30, 12});
     desk.press();
-    const Similarity before = desk.session->state().world_from_object;
+    const Similarity before = desk.session().state().world_from_object;
     desk.run({{Scroll{{0.0, 5.0}, {}}, 8'000'000}}, 500'000'000);
-    EXPECT_EQ(desk.session->state().world_from_object, before);
-    EXPECT_NEAR(desk.session->state().desk.strength, 0.3 * std::pow(1.1, 5.0), 1e-9);
+    EXPECT_EQ(desk.session().state().world_from_object, before);
+    EXPECT_NEAR(desk.viewer().desk.strength, 0.3 * std::pow(1.1, 5.0), 1e-9);
     double lowest = kThick_mm;
     for (const Vec3& p : desk.vertices_mm())
         if (p.z > 1.0 && glm::length(Vec2(p) - Vec2(40.0, 30.0)) < 3.0) lowest = std::min(lowest, p.z);
@@ -343,7 +345,7 @@ TEST(MouseOnSurface, TheToolStandsUprightOnTheSurfaceUnderTheCursor) {
 TEST(MouseOnSurface, MaterialIsAddedAboveTheTopAndTheBorderOfTheRoomIsShownNearIt) {
     MouseDesk desk(plate(kThick_mm), "ball:0.004", 60, 128, 0.4);
     desk.run({{CommandInput{"operation", {"fill"}}, 0}}, 100'000'000);
-    const double border_mm = 1e3 * desk.session->room().lattice_object.hi.z;
+    const double border_mm = 1e3 * desk.session().room().lattice_object.hi.z;
     EXPECT_NEAR(border_mm, kThick_mm + 0.4 * 80.0, 2.0);
     const auto highest = [&] {
         double z = 0.0;
@@ -353,11 +355,11 @@ TEST(MouseOnSurface, MaterialIsAddedAboveTheTopAndTheBorderOfTheRoomIsShownNearI
     desk.stroke({{40, 30, kThick_mm}});
     EXPECT_NEAR(highest(), kThick_mm + 2.0 * 4.0 - kDepth_mm, 0.1)
         << "as high as the ball, less the depth, however long it is pressed";
-    EXPECT_FALSE(desk.session->scene_on(0)->proposed_box.visible);
+    EXPECT_FALSE(desk.desk->scene_on(0)->proposed_box.visible);
     for (int again = 0; again < 5; ++again) desk.stroke({{40, 30, highest()}});
     EXPECT_LE(highest(), border_mm);
     EXPECT_GT(highest(), border_mm - 2.0) << "up to the border";
-    EXPECT_TRUE(desk.session->scene_on(0)->proposed_box.visible);
+    EXPECT_TRUE(desk.desk->scene_on(0)->proposed_box.visible);
 }
 
 TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
@@ -379,15 +381,15 @@ TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
 // Off screen it once kept every tile as often as it had changed: some megabytes a stroke.
 TEST(MouseOnSurface, StrokesThatNobodyDrawsKeepEachTileOnce) {
     MouseDesk desk(plate(kThick_mm));
-    static_cast<void>(desk.session->take_surface_updates());
+    static_cast<void>(desk.desk->take_surface_updates());
     desk.draws = false;
     for (int i = 0; i < 3; ++i) desk.stroke({{20.0, 20.0 + 3.0 * i, kThick_mm}, {60.0, 20.0 + 3.0 * i, kThick_mm}});
-    const auto updates = desk.session->take_surface_updates();
+    const auto updates = desk.desk->take_surface_updates();
     ASSERT_EQ(updates.size(), 1u);
     std::set<std::uint32_t> tiles;
     for (const sculpt::TileUpdate& tile : updates[0].tiles) {
         EXPECT_TRUE(tiles.insert(tile.tile).second) << tile.tile;
-        EXPECT_EQ(tile.surface, desk.session->surface()->shared_tile(tile.tile)) << "the newest";
+        EXPECT_EQ(tile.surface, desk.session().scene_side().surface()->shared_tile(tile.tile)) << "the newest";
     }
     EXPECT_GT(tiles.size(), 3u);
     EXPECT_EQ(updates[0].undoable, 3u);

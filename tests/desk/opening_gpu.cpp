@@ -117,12 +117,13 @@ TEST_F(Opening, LeavesTheSessionTheSamePictureAsWithoutIt) {
     auto made = open_before_eyes(*presenter, options, wall, [&](OpeningSight& sight) { return make(sight); });
     ASSERT_TRUE(made && *made);
     SimulatedClock clock;
-    const auto with = LiveSession::create(options, wall, clock, 1.0, std::move(*made));
-    const auto without = LiveSession::create(options, wall, clock);
+    const auto with = Desk::create(options, wall, clock, 1.0, std::move(*made));
+    const auto without = Desk::create(options, wall, clock);
     ASSERT_TRUE(with && without);
-    EXPECT_EQ((*with)->state().world_from_object, (*without)->state().world_from_object);
-    EXPECT_EQ((*with)->surface()->triangles(), (*without)->surface()->triangles());
-    EXPECT_EQ((*with)->document_name(), (*without)->document_name());
+    const Session &one = (*with)->session(), &other = (*without)->session();
+    EXPECT_EQ(one.state().world_from_object, other.state().world_from_object);
+    EXPECT_EQ(one.scene_side().surface()->triangles(), other.scene_side().surface()->triangles());
+    EXPECT_EQ(one.found().name, other.found().name);
 }
 
 TEST(OpeningInput, EndsByAClosedWindowEscAndCtrlQAlone) {

@@ -11,7 +11,7 @@ namespace burin::session {
 namespace {
 
 // A session of a frame every 10 ms, each with a force and a tick of its own.
-struct Session {
+struct FedPanel {
     SimulatedClock clock;
     SessionTimes times{clock, [] noexcept -> Nanoseconds { return 0; }};
     haptics::Histogram ticks;
@@ -38,7 +38,7 @@ struct Session {
 }  // namespace
 
 TEST(PanelFeed, ChangesNumbersTwiceASecondAndPlotsTenTimes) {
-    Session session;
+    FedPanel session;
     std::set<double> forces, ticks;
     std::vector<PanelPlot> plots;
     for (int i = 0; i < 500; ++i) {
@@ -54,7 +54,7 @@ TEST(PanelFeed, ChangesNumbersTwiceASecondAndPlotsTenTimes) {
 }
 
 TEST(PanelFeed, ShowsWhatTheFramesTook) {
-    Session session;
+    FedPanel session;
     PanelModel model;
     for (int i = 0; i < 200; ++i) model = session.go(true, 1.5);
     EXPECT_NEAR(model.figures.frames_per_s, 100.0, 2.0);
@@ -71,14 +71,14 @@ TEST(PanelFeed, ShowsWhatTheFramesTook) {
 }
 
 TEST(PanelFeed, KeepsTheHighestForceBetweenTwoPoints) {
-    Session session;
+    FedPanel session;
     PanelModel model;
     for (int i = 0; i < 100; ++i) model = session.go(true, i == 57 ? 3.0 : 0.1);
     EXPECT_EQ(std::ranges::count(model.force_N.values, 3.0f), 1);
 }
 
 TEST(PanelFeed, StandsStillWhileTheSessionRests) {
-    Session session;
+    FedPanel session;
     for (int i = 0; i < 100; ++i) (void)session.go(true, 1.0);
     for (int i = 0; i < 110; ++i) (void)session.go(false, 0.0);
     const PanelModel at_rest = session.go(false, 0.0);
@@ -88,7 +88,7 @@ TEST(PanelFeed, StandsStillWhileTheSessionRests) {
 }
 
 TEST(PanelFeed, ShowsNothingThatSimulatedTimeDoesNotHave) {
-    Session session;
+    FedPanel session;
     session.real_time = false;
     PanelModel model;
     for (int i = 0; i < 300; ++i) model = session.go(true, 1.5);

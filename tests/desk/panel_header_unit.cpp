@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "session/live/live_session.hpp"
+#include "desk/live/desk.hpp"
 #include "tests/desk/panel_models.hpp"
 
 namespace burin::session {
@@ -41,15 +41,15 @@ TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
     options.workpiece = {"block:0.05,0.04,0.0305", 32, false};
     options.engine = sculpt::EngineChoice::cpu;
     SimulatedClock clock;
-    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
-    session->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, haptics::ToolState{},
-                  [](const scene::SceneThread::Order&) {});
-    Panel alike = Panel::create({.size = session->panel_on(0).value().size}).value();
+    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
+    desk->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, haptics::ToolState{},
+               [](const scene::SceneThread::Order&) {});
+    Panel alike = Panel::create({.size = desk->panel_on(0).value().size}).value();
     alike.lie_over({1280, 900});
     PanelModel model;
     model.workpiece = {"block:0.05,0.04,0.0305", "50 x 40 x 30.5 mm, 32 cells"};
     const std::vector<renderer::PanelVertex> expected = header_of(alike.show(model, 0).mesh);
-    EXPECT_TRUE(header_of(session->panel_on(0).value().mesh) == expected);
+    EXPECT_TRUE(header_of(desk->panel_on(0).value().mesh) == expected);
     model.workpiece.size = "50 x 40 x 30 mm, 32 cells";
     EXPECT_FALSE(header_of(alike.show(model, 16'000'000).mesh) == expected);
 }

@@ -2,6 +2,7 @@
 // Traps of displays: letters for small pixels, and letters of other scripts.
 #include <gtest/gtest.h>
 
+#include "desk/live/opened_desk.hpp"
 #include "desk/panel/live_panel.hpp"
 #include "session/live/opened_room.hpp"
 #include "tests/desk/panel_models.hpp"
@@ -9,12 +10,12 @@
 namespace burin::session {
 namespace {
 
-Room room_of_scale(std::optional<double> scale) {
+DeskRoom desk_of_scale(std::optional<double> scale) {
     SculptOptions options;
     options.live.panel_scale = scale;
     options.live.width = 3840;
     options.live.height = 2160;
-    return open_room(options, session_wall(options.live).value()).value().room;
+    return open_desk(options, session_wall(options.live).value(), open_room(options).value().room);
 }
 
 // Returns whether the panel has letters for the text; what it lacks it tells.
@@ -30,7 +31,7 @@ std::string notice_for(const std::string& name) {
 
 TEST(PanelScale, OfTwoMakesThePanelTwiceAsWideAsOn96Dpi) {
     const ImageSize uhd{3840, 2160};
-    const Room usual = room_of_scale(std::nullopt), large = room_of_scale(2.0);
+    const DeskRoom usual = desk_of_scale(std::nullopt), large = desk_of_scale(2.0);
     EXPECT_EQ(panel_width(usual, uhd, uhd), 340u);
     EXPECT_EQ(panel_width(large, uhd, uhd), 680u);
     EXPECT_DOUBLE_EQ(large.free_width, 1.0 - 680.0 / 3840.0) << "the workpiece stands beside it";

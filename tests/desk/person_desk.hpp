@@ -47,7 +47,7 @@ public:
         rest(0.05);
     }
     void press_button(const std::string& label) {
-        const auto at = session->place_on_panel(label);
+        const auto at = desk->place_on_panel(label);
         ASSERT_TRUE(at) << label << " is not shown";
         move_to({at->x + 0.5 * at->width, at->y + 0.5 * at->height});
         run({{MouseClick{}, 50'000'000}, {MouseClick{MouseButton::left, false, {}}, 50'000'000}}, 100'000'000);
@@ -61,22 +61,22 @@ public:
     // Waits until the disk has all that it was given, and the session knows.
     void wait_for_disk() {
         rest(0.1);
-        for (int i = 0; i < 4000 && session->waits_for_the_disk(); ++i) {
+        for (int i = 0; i < 4000 && session().work().waits_for_the_disk(); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
             rest(0.02);
         }
-        ASSERT_FALSE(session->waits_for_the_disk());
+        ASSERT_FALSE(session().work().waits_for_the_disk());
         rest(0.1);
     }
 
-    [[nodiscard]] bool is_asked() const { return session->place_on_panel("question").has_value(); }
-    [[nodiscard]] bool has_quit() const { return session->state().quit; }
-    [[nodiscard]] const DocumentTold& told() const { return *session->state().asked.told; }
+    [[nodiscard]] bool is_asked() const { return desk->place_on_panel("question").has_value(); }
+    [[nodiscard]] bool has_quit() const { return session().state().quit; }
+    [[nodiscard]] const DocumentTold& told() const { return *session().state().asked.told; }
     [[nodiscard]] std::string shown() const { return state_text(told()) + ", " + kept_text(told(), "stroke"); }
     // Ends the session as the program does; returns what it said.
     std::string end() {
         testing::internal::CaptureStderr();
-        session->finish_scene();
+        session().finish_scene();
         return testing::internal::GetCapturedStderr();
     }
     [[nodiscard]] std::size_t journals() const { return files_in("journals"); }

@@ -59,16 +59,16 @@ struct Played {
 // The frames of a script with its mishaps, and with some in which the output is minimised.
 class MishapFrames final : public ScriptedFrames {
 public:
-    MishapFrames(LiveSession& session, Presenter& presenter, InputSource input, const Mishap& mishap,
+    MishapFrames(Desk& desk, Presenter& presenter, InputSource input, const Mishap& mishap,
                  const std::set<int>& minimised)
-        : ScriptedFrames(session, presenter, std::move(input)),
+        : ScriptedFrames(desk, presenter, std::move(input)),
           presenter_(presenter),
           mishap_(mishap),
           minimised_(minimised) {}
 
 private:
     [[nodiscard]] std::optional<FrameInput> next_input() override {
-        const std::size_t main = session_.room().wall.main;
+        const std::size_t main = desk_.room().wall.main;
         if (minimised_.contains(frame_++)) presenter_.put(main, place_);
         const auto input = ScriptedFrames::next_input();
         place_ = presenter_.place();
@@ -142,14 +142,15 @@ private:
         SimulatedClock clock;
         const Result<SessionWall> wall = session_wall(options.live);
         if (!wall) return std::unexpected(wall.error());
-        auto session = LiveSession::create(options, *wall, clock);
-        if (!session) return std::unexpected(session.error());
+        auto desk = Desk::create(options, *wall, clock);
+        if (!desk) return std::unexpected(desk.error());
         Result<Presenter> presenter = Presenter::open(options.live, *wall, driver);
         if (!presenter) return std::unexpected(presenter.error());
-        LiveSession& s = **session;
+        Desk& s = **desk;
+        Session& session = s.session();
         MishapFrames frames(s, *presenter, std::move(input), mishap, minimised);
-        SteppedExecutor executor(clock, s.loop(), s.channels_of_parts(), s.scene(),
-                                 [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
+        SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
+                                 [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
         const Result<void> driven = drive(executor, frames);
         played.presented = presenter->presented();
         return driven;

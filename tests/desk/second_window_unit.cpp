@@ -26,11 +26,11 @@ TEST(SecondWindow, IsToldWhoHasTheDocumentAndSavesItUnderAnotherName) {
     PersonDesk second(path, &place);
     const std::string said = testing::internal::GetCapturedStderr();
     EXPECT_TRUE(said.contains("is open in another window, process " + std::to_string(::getpid()) + " on ")) << said;
-    EXPECT_TRUE(second.session->place_on_panel("message 0")) << "the window says it too";
+    EXPECT_TRUE(second.desk->place_on_panel("message 0")) << "the window says it too";
     EXPECT_FALSE(second.told().has_file);
     second.carve();
     second.ctrl(Key::s);
-    ASSERT_TRUE(second.session->place_on_panel("name")) << "it wants another name";
+    ASSERT_TRUE(second.desk->place_on_panel("name")) << "it wants another name";
     second.ctrl(Key::a);
     second.type((place / "second").string());
     second.key(Key::enter);

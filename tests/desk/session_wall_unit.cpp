@@ -5,7 +5,7 @@
 #include <random>
 
 #include "desk/draw/presented_parts.hpp"
-#include "session/state/session_state.hpp"
+#include "tests/desk/viewed.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/wall_file.hpp"
@@ -21,20 +21,6 @@ SessionWall wall_of(const std::string& name, const LiveOptions& more = {}) {
     auto wall = session_wall(options);
     EXPECT_TRUE(wall) << (wall ? "" : wall.error().line());
     return *wall;
-}
-
-Room room_before_wall(const SessionWall& wall) {
-    Room room;
-    room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
-    room.wall = wall;
-    const wall::WallSetup& setup = wall.setup;
-    room.desk.home_head_world = {setup.world_from_tracker * setup.fallback_head_tracker.position_m,
-                                 setup.world_from_tracker.orientation * setup.fallback_head_tracker.orientation};
-    return room;
-}
-
-SessionState state_in_room(const Room& room) {
-    return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown);
 }
 
 InputEvent head_at(Nanoseconds t, const Vec3& place) { return {t, HeadInput{{place, Quat{1, 0, 0, 0}}, true}}; }
@@ -58,32 +44,32 @@ TEST(SessionWall, OfADeskIsOneScreenOfItsWindowsShape) {
 // Who has a tracker asked for the true depth, near the edges too; elsewhere it is a choice, and several screens and one
 // eye have none.
 TEST(SessionWall, FadesDepthAtItsEdgesOnlyWhereNobodyTracksAHead) {
-    const Room room = room_before_wall(wall_of("powerwall.toml"));
-    SessionState state = state_in_room(room);
-    ASSERT_EQ(room.wall.setup.screens.size(), 1u);
-    const auto fade = [&](const SessionState& s, const Room& r) {
-        const auto scene = scene_of(s, r, r.wall.main, Vec3(0.0), {});
+    Viewed viewed = block_before_wall(wall_of("powerwall.toml"));
+    const wall::WallSetup& setup = viewed.desk.wall.setup;
+    const Pose home = viewed.desk.hands.front().home_head_world;
+    ASSERT_EQ(setup.screens.size(), 1u);
+    const auto fade = [](const Viewed& of) {
+        const auto scene = scene_of(of.seen(), of.desk.wall.main, Vec3(0.0), {});
         return scene ? scene->edge_fade : -1.0;
     };
-    state.head = follow_head({}, room.wall.setup, {}, {}, 0, room.desk.home_head_world);
-    EXPECT_EQ(fade(state, room), 1.0);
-    const std::vector<InputEvent> told{head_at(1'000'000, room.desk.home_head_world.position_m)};
-    SessionState tracked = state;
-    tracked.head = follow_head({}, room.wall.setup, {}, told, 2'000'000, room.desk.home_head_world);
-    ASSERT_TRUE(tracked.head.tracked);
-    EXPECT_EQ(fade(tracked, room), 0.0);
-    tracked.edge_comfort = EdgeComfort::on;
-    EXPECT_EQ(fade(tracked, room), 1.0) << "whoever asks for it has it";
-    state.edge_comfort = EdgeComfort::off;
-    EXPECT_EQ(fade(state, room), 0.0);
-    state.edge_comfort = EdgeComfort::on;
-    state.output.mode = wall::StereoMode::mono;
-    EXPECT_FALSE(could_fade_at_edges(state, room, room.wall.main));
-    EXPECT_EQ(fade(state, room), 0.0);
-    const Room cave = room_before_wall(wall_of("cave.toml"));
-    SessionState inside = state_in_room(cave);
-    inside.edge_comfort = EdgeComfort::on;
-    EXPECT_FALSE(could_fade_at_edges(inside, cave, cave.wall.main));
+    viewed.viewer.head = follow_head({}, setup, {}, {}, 0, home);
+    EXPECT_EQ(fade(viewed), 1.0);
+    const std::vector<InputEvent> told{head_at(1'000'000, home.position_m)};
+    Viewed tracked = viewed;
+    tracked.viewer.head = follow_head({}, setup, {}, told, 2'000'000, home);
+    ASSERT_TRUE(tracked.viewer.head.tracked);
+    EXPECT_EQ(fade(tracked), 0.0);
+    tracked.viewer.edge_comfort = EdgeComfort::on;
+    EXPECT_EQ(fade(tracked), 1.0) << "whoever asks for it has it";
+    viewed.viewer.edge_comfort = EdgeComfort::off;
+    EXPECT_EQ(fade(viewed), 0.0);
+    viewed.viewer.edge_comfort = EdgeComfort::on;
+    viewed.viewer.output.mode = wall::StereoMode::mono;
+    EXPECT_FALSE(could_fade_at_edges(viewed.seen(), viewed.desk.wall.main));
+    EXPECT_EQ(fade(viewed), 0.0);
+    Viewed inside = block_before_wall(wall_of("cave.toml"));
+    inside.viewer.edge_comfort = EdgeComfort::on;
+    EXPECT_FALSE(could_fade_at_edges(inside.seen(), inside.desk.wall.main));
 }
 
 TEST(SessionWall, OfACaveIsFacedAtItsFrontAndShownOnItsMonitors) {
@@ -158,32 +144,31 @@ TEST(SessionWall, NamesTheFileTheScreenAndTheRemedy) {
 }
 
 TEST(SessionHead, IsTheFlownOneUntilATrackerSpeaks) {
-    const Room room = room_before_wall(wall_of("powerwall.toml"));
-    SessionState state = state_in_room(room);
-    const Vec3 home = head_world(room.wall.setup, state.head).position_m;
-    EXPECT_LT(glm::length(home - room.desk.home_head_world.position_m), 1e-12);
+    Viewed viewed = block_before_wall(wall_of("powerwall.toml"));
+    const Vec3 home = head_world(viewed.desk.wall.setup, viewed.viewer.head).position_m;
+    EXPECT_LT(glm::length(home - viewed.desk.hands.front().home_head_world.position_m), 1e-12);
     const std::vector<InputEvent> press{{0, KeyInput{Key::right, KeyMotion::press, {}}}};
-    state = step_session(state, room, press, {.dt_s = 0.5, .eye_size = {1280, 720}, .tool = {}, .captured = {}}).state;
-    EXPECT_GT(head_world(room.wall.setup, state.head).position_m.x, home.x + 0.05);
+    static_cast<void>(viewed.step(press, {.dt_s = 0.5, .tool = {}}, {.eye_size = {1280, 720}}));
+    EXPECT_GT(head_world(viewed.desk.wall.setup, viewed.viewer.head).position_m.x, home.x + 0.05);
 
     const Vec3 place = home + Vec3(-0.4, 0.1, 0.2);
     std::vector<InputEvent> said;
     for (int i = 0; i < 20; ++i) said.push_back(head_at(i * 5'000'000, place));
-    SessionHead head =
-        follow_head(state.head, room.wall.setup, room.wall.setup.timing, said, 100'000'000, state.desk.head_world);
+    SessionHead head = follow_head(viewed.viewer.head, viewed.desk.wall.setup, viewed.desk.wall.setup.timing, said,
+                                   100'000'000, viewed.viewer.desk.head_world);
     EXPECT_TRUE(head.tracked);
-    EXPECT_LT(glm::length(head_world(room.wall.setup, head).position_m - place), 1e-9);
+    EXPECT_LT(glm::length(head_world(viewed.desk.wall.setup, head).position_m - place), 1e-9);
 }
 
 TEST(SessionHead, IsPredictedToEachEyesOwnTime) {
-    const Room room = room_before_wall(wall_of("powerwall.toml"));
-    ASSERT_EQ(room.wall.setup.timing.eye_order, wall::EyeOrder::left_first);
+    const Viewed viewed = block_before_wall(wall_of("powerwall.toml"));
+    ASSERT_EQ(viewed.desk.wall.setup.timing.eye_order, wall::EyeOrder::left_first);
     std::vector<InputEvent> said;
     const double speed_m_per_s = 0.6;
     const auto x_at = [&](Nanoseconds t) { return speed_m_per_s * seconds(t); };
     for (int i = 0; i <= 20; ++i) said.push_back(head_at(i * 5'000'000, {x_at(i * 5'000'000), 1.6, 2.0}));
     const Nanoseconds shown_ns = 120'000'000;
-    const SessionHead head = follow_head({}, room.wall.setup, room.wall.setup.timing, said, shown_ns, {});
+    const SessionHead head = follow_head({}, viewed.desk.wall.setup, viewed.desk.wall.setup.timing, said, shown_ns, {});
     EXPECT_NEAR(head.poses.left_tracker.position_m.x, x_at(shown_ns), 1e-6);
     EXPECT_NEAR(head.poses.right_tracker.position_m.x, x_at(shown_ns) + speed_m_per_s / 120.0, 1e-6);
 }
@@ -197,53 +182,48 @@ TEST(SessionHead, SeesATurnOfTheSessionsOwnWithBothEyesAtItsTime) {
 }
 
 TEST(SessionHead, GivesEveryScreenTheSameEyes) {
-    const Room room = room_before_wall(wall_of("cave.toml"));
-    const SessionState state = state_in_room(room);
-    const wall::Eyes eyes = wall::eyes_world(room.wall.setup, state.head.poses);
-    for (std::size_t i = 0; i < room.wall.screens.size(); ++i) {
-        const View sight = view_of(room.wall.setup, i, state.head, state.interpupillary_m);
-        EXPECT_TRUE(sight.visible) << room.wall.screens[i].name;
+    Viewed viewed = block_before_wall(wall_of("cave.toml"));
+    const wall::Eyes eyes = wall::eyes_world(viewed.desk.wall.setup, viewed.viewer.head.poses);
+    for (std::size_t i = 0; i < viewed.desk.wall.screens.size(); ++i) {
+        const View sight = view_of(viewed.desk.wall.setup, i, viewed.viewer.head, viewed.viewer.interpupillary_m);
+        EXPECT_TRUE(sight.visible) << viewed.desk.wall.screens[i].name;
         EXPECT_LT(glm::length(wall::eyes_of(sight.viewer).left_world - eyes.left_world), 1e-9);
         EXPECT_LT(glm::length(wall::eyes_of(sight.viewer).right_world - eyes.right_world), 1e-9);
     }
-    const View wider = view_of(room.wall.setup, 1, state.head, 0.07);
+    const View wider = view_of(viewed.desk.wall.setup, 1, viewed.viewer.head, 0.07);
     EXPECT_NEAR(wider.viewer.interpupillary_m, 0.07, 1e-12);
 }
 
 TEST(SessionHead, BehindAScreenLeavesThatOneDark) {
-    const Room room = room_before_wall(wall_of("cave.toml"));
-    SessionState state = state_in_room(room);
-    state.head =
-        follow_head(state.head, room.wall.setup, room.wall.setup.timing, {}, 0, {{-1.8, 1.6, 1.5}, Quat{1, 0, 0, 0}});
-    EXPECT_FALSE(scene_of(state, room, 0, Vec3(0.0), {})) << "the left wall";
-    EXPECT_TRUE(scene_of(state, room, 1, Vec3(0.0), {}));
+    Viewed viewed = block_before_wall(wall_of("cave.toml"));
+    viewed.viewer.head = follow_head(viewed.viewer.head, viewed.desk.wall.setup, viewed.desk.wall.setup.timing, {}, 0,
+                                     {{-1.8, 1.6, 1.5}, Quat{1, 0, 0, 0}});
+    EXPECT_FALSE(scene_of(viewed.seen(), 0, Vec3(0.0), {})) << "the left wall";
+    EXPECT_TRUE(scene_of(viewed.seen(), 1, Vec3(0.0), {}));
 }
 
 TEST(SessionState, StrainsNobodyAtHomeAndSaysSoWhenTheWorkpieceComesTooNear) {
-    const Room room = room_before_wall(wall_of("powerwall.toml"));
-    SessionState state = state_in_room(room);
+    Viewed viewed = block_before_wall(wall_of("powerwall.toml"));
     haptics::ToolState tool;
     tool.proxy_object_m = {0.0, 0.0, 0.1};
-    const wall::ComfortFinding home = comfort_of(state, room, tool);
-    EXPECT_FALSE(home.crossed_too_much || home.uncrossed_too_much) << wall::warning_of(home, room.wall.setup.budget);
-    state.world_from_object.position_m.z += 1.5;
-    const wall::ComfortFinding near = comfort_of(state, room, tool);
+    const wall::ComfortFinding home = comfort_of(viewed.seen(), tool);
+    EXPECT_FALSE(home.crossed_too_much || home.uncrossed_too_much)
+        << wall::warning_of(home, viewed.desk.wall.setup.budget);
+    viewed.state.world_from_object.position_m.z += 1.5;
+    const wall::ComfortFinding near = comfort_of(viewed.seen(), tool);
     EXPECT_TRUE(near.crossed_too_much);
-    EXPECT_FALSE(wall::warning_of(near, room.wall.setup.budget).empty());
+    EXPECT_FALSE(wall::warning_of(near, viewed.desk.wall.setup.budget).empty());
 }
 
 TEST(SessionState, AWandCarriesTheScene) {
-    const Room room = room_before_wall(wall_of("powerwall.toml"));
-    SessionState state = state_in_room(room);
+    Viewed viewed = block_before_wall(wall_of("powerwall.toml"));
     const auto wand = [](double x) { return WandInput{0, {{x, 1.2, 1.0}, Quat{1, 0, 0, 0}}, true}; };
-    const SessionView view{.dt_s = 0.02, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
+    const Similarity before = viewed.state.world_from_object;
     const std::vector<InputEvent> grabs{{0, wand(0.0)}, {0, WandClick{0, 0, true}}}, moves{{20'000'000, wand(0.25)}};
-    const SessionStep held = step_session(state, room, grabs, view);
-    const SessionStep step = step_session(held.state, room, moves, view);
-    EXPECT_TRUE(step.orders.parameters);
-    EXPECT_LT(
-        glm::length(step.state.world_from_object.position_m - state.world_from_object.position_m - Vec3(0.25, 0, 0)),
-        1e-9);
+    const StepView view{.dt_s = 0.02, .tool = {}};
+    static_cast<void>(viewed.step(grabs, view, {.eye_size = {1280, 720}}));
+    EXPECT_TRUE(viewed.step(moves, view, {.eye_size = {1280, 720}}).parameters);
+    EXPECT_LT(glm::length(viewed.state.world_from_object.position_m - before.position_m - Vec3(0.25, 0, 0)), 1e-9);
 }
 
 TEST(PresentedParts, BringEveryImageUpToDateWhateverItsAge) {

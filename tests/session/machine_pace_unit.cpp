@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "session/hands/machine_pace.hpp"
-#include "session/live/live_session.hpp"
+#include "session/live/session.hpp"
 
 namespace burin::session {
 
@@ -26,18 +26,17 @@ TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
     SculptOptions options;
     options.workpiece.resolution = 16;
     options.engine = sculpt::EngineChoice::cpu;
-    const auto wall = session_wall(options.live);
     for (const double pace : {1.0, 1.7}) {
         SimulatedClock clock;
-        auto session =
-            pace == 1.0 ? LiveSession::create(options, *wall, clock) : LiveSession::create(options, *wall, clock, pace);
+        auto session = pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace);
         ASSERT_TRUE(session);
-        LiveSession& s = **session;
+        Session& s = **session;
         EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);
         // Another feel: the next set has it as well.
         const std::vector<InputEvent> events{{1'000'000, CommandInput{"friction", {"0.4"}}}};
-        s.step({2'000'000, 2'000'000, events}, {.size = {640, 360}}, s.newest_tool(),
-               [](const scene::SceneThread::Order&) {});
+        Leader nobody;
+        s.begin_step(2'000'000, std::span(&s.newest_tool(), 1));
+        s.step({events}, nobody, [](const scene::SceneThread::Order&) {});
         EXPECT_EQ(s.channels().parameters.newest().sequence, 2u);
         EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);
     }

@@ -12,7 +12,7 @@
 
 #include "document/document_store.hpp"
 #include "sculpt/sculpture.hpp"
-#include "session/live/live_session.hpp"
+#include "session/live/session.hpp"
 #include "session/state/command_table.hpp"
 #include "session/work/saved_world.hpp"
 #include "tests/support/run_command.hpp"
@@ -104,7 +104,7 @@ private:
         options.engine = sculpt::EngineChoice::cpu;
         SimulatedClock clock;
         testing::internal::CaptureStderr();
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        auto made = Session::create(options, clock);
         const std::string said = testing::internal::GetCapturedStderr();
         EXPECT_TRUE(made) << said;
         return made ? (*made)->state() : SessionState{};
@@ -123,8 +123,8 @@ Result<void> run_line(SessionState& state, const std::string& line) {
 }
 
 void expect_same_work(const SessionState& is, const SessionState& wanted, const std::string& of) {
-    EXPECT_EQ(sculpt::text_of(is.tool.shape), sculpt::text_of(wanted.tool.shape)) << of;
-    EXPECT_EQ(is.tool, wanted.tool) << of;
+    EXPECT_EQ(sculpt::text_of(is.led().tool.shape), sculpt::text_of(wanted.led().tool.shape)) << of;
+    EXPECT_EQ(is.led().tool, wanted.led().tool) << of;
     EXPECT_EQ(is.feel, wanted.feel) << of;
     EXPECT_EQ(is.mirror, wanted.mirror) << of;
     EXPECT_EQ(saved_commands(is), saved_commands(wanted)) << of;
@@ -156,7 +156,8 @@ TEST(SavedWords, EachComesBackWithTheDocumentThatWasSavedWithIt) {
                 continue;
             }
             ASSERT_TRUE(done) << word.line << ": " << done.error().line();
-            EXPECT_FALSE(state.tool == begun.tool && state.feel == begun.feel && state.mirror == begun.mirror)
+            EXPECT_FALSE(state.led().tool == begun.led().tool && state.feel == begun.feel &&
+                         state.mirror == begun.mirror)
                 << word.line << " is what a session begins with";
             work.save(state);
             expect_same_work(work.opened(), state, word.line + (carves ? ", of a workpiece" : ", of a world"));
@@ -222,8 +223,8 @@ TEST(SavedWords, GiveWayToWhatIsGivenOnOpening) {
         given.feel.stiffness_N_per_m = 777.0;
         given.mirror.across = {true, false, true};
         const SessionState is = work.opened(given);
-        EXPECT_EQ(sculpt::text_of(is.tool.shape), "cylinder:0.002,0.01");
-        EXPECT_EQ(is.tool.colour, (std::array<std::uint8_t, 3>{1, 2, 3}));
+        EXPECT_EQ(sculpt::text_of(is.led().tool.shape), "cylinder:0.002,0.01");
+        EXPECT_EQ(is.led().tool.colour, (std::array<std::uint8_t, 3>{1, 2, 3}));
         EXPECT_EQ(is.feel, (sculpt::FeelSettings{
                                .preset = sculpt::FeelPreset::ptfe, .stiffness_N_per_m = 777.0, .friction = 0.11}))
             << hardness;

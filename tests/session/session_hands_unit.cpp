@@ -128,7 +128,8 @@ TEST(SessionDevices, AnActivityTakesHoldByThePartsOfTheHandsThatItNames) {
         const auto holds_by = [&](std::vector<PartOfHand> by) {
             ActivitySide side(std::make_shared<TakesHold>(std::move(by)));
             SessionOrders orders;
-            side.step(state, orders, 0, hands, tools);
+            Leader nobody;
+            side.step(state, orders, 0, hands, tools, nobody);
             EXPECT_EQ(orders.holds.size() + orders.messages.size(), 1u);
             return orders.holds.empty() ? std::vector<std::size_t>{} : orders.holds[0].parts;
         };

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "haptics/tick.hpp"
-#include "session/state/session_state.hpp"
+#include "session/state/leader.hpp"
 
 namespace burin::session {
 namespace {
@@ -15,8 +15,6 @@ namespace {
 Room test_room() {
     Room room;
     room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
-    room.wall = *session_wall({});
-    room.desk.home_head_world = {{0.0, 1.6, 2.0}, Quat{1, 0, 0, 0}};
     return room;
 }
 
@@ -32,22 +30,6 @@ Result<void> run(SessionState& state, SessionOrders& orders, const std::string& 
 }
 
 }  // namespace
-
-TEST(SessionState, BeginsWithTheWorkpieceInViewAndTheHandBeforeIt) {
-    const Room room = test_room();
-    const SessionState state = test_state(room);
-    const picture::Picture scene = *scene_of(state, room, 0, Vec3(-0.1), {});
-    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p{corner & 1 ? 0.1 : -0.1, corner & 2 ? 0.1 : -0.1, corner & 4 ? 0.1 : -0.1};
-        const Vec3 at = state.world_from_object * p;
-        EXPECT_LT(at.z, eyes.left_world.z - 0.3);
-        EXPECT_GT(at.y, 0.0);
-    }
-    const Vec3 hand = state.world_from_device * state.desk.target_device_m;
-    EXPECT_GT(hand.z, (state.world_from_object * Vec3(0.0, 0.0, 0.1)).z) << "in front of the workpiece";
-    EXPECT_TRUE(haptics::parameters_are_sensible(parameters_of(state, room)));
-}
 
 TEST(SessionState, ForceOffReachesTheTick) {
     const Room room = test_room();
@@ -82,7 +64,7 @@ TEST(SessionState, AToolThatIsWrongLeavesTheOldOne) {
         ASSERT_FALSE(refused) << name << " " << argument;
         EXPECT_FALSE(refused.error().line().empty());
     }
-    EXPECT_EQ(state.tool, test_state(room).tool);
+    EXPECT_EQ(state.led().tool, test_state(room).led().tool);
     EXPECT_EQ(state.feel, test_state(room).feel);
     EXPECT_TRUE(orders.carving.empty());
     EXPECT_FALSE(orders.parameters);
@@ -133,11 +115,12 @@ TEST(SessionState, AMeshToolIsTakenUpIfItWasReadBeforeAndElseRefused) {
         SessionState state = test_state(room);
         state.meshes = meshes;
         const std::vector<InputEvent> events{{0, CommandInput{"tool", {"mesh:" + file}}}};
-        const SessionStep step = step_session(state, room, events, {});
+        Leader nobody;
+        const SessionStep step = step_session(state, room, events, {}, nobody);
         if (file == known) {
             EXPECT_TRUE(step.orders.messages.empty());
-            EXPECT_EQ(step.state.held->spec.file, known);
-            EXPECT_FALSE(step.state.held->drawn->indices.empty());
+            EXPECT_EQ(step.state.led().held->spec.file, known);
+            EXPECT_FALSE(step.state.led().held->drawn->indices.empty());
             EXPECT_TRUE(haptics::parameters_are_sensible(parameters_of(step.state, room)));
             SessionOrders orders;
             SessionState held = step.state;
@@ -148,37 +131,8 @@ TEST(SessionState, AMeshToolIsTakenUpIfItWasReadBeforeAndElseRefused) {
                       "tool mesh:" + file +
                           ": has not been read, and a running session reads no files; start the session with it "
                           "(--tool), or take it up in its --input");
-            EXPECT_EQ(step.state.tool, state.tool);
+            EXPECT_EQ(step.state.led().tool, state.led().tool);
         }
-    }
-}
-
-TEST(SessionState, EveryToolIsFeltAndDrawnAsItsShape) {
-    const Room room = test_room();
-    haptics::ToolState tool;
-    tool.tick = 1;
-    tool.proxy_object_m = {0.01, 0.02, 0.1};
-    tool.tool_orientation_object = glm::angleAxis(0.4, glm::normalize(Vec3(1, -2, 1)));
-    for (const char* spec :
-         {"cylinder:0.008,0.03", "cone:0.002,0.01,0.03", "bullnose:0.008,0.003,0.03", "box:0.016,0.02,0.03"}) {
-        const std::vector<InputEvent> events{{0, CommandInput{"tool", {spec}}}};
-        const SessionStep step = step_session(test_state(room), room, events, {});
-        ASSERT_TRUE(step.orders.messages.empty()) << spec;
-        ASSERT_EQ(step.orders.carving.size(), 1u);
-        const haptics::TickParameters p = parameters_of(step.state, room);
-        EXPECT_TRUE(haptics::parameters_are_sensible(p)) << spec;
-        EXPECT_TRUE(p.shape.touches()) << spec;
-        const picture::PictureTool drawn = scene_of(step.state, room, 0, Vec3(-0.1), tool)->tool;
-        ASSERT_NE(drawn.mesh, nullptr) << spec;
-        // The drawn tool stands where and as the hand holds it, as large as the scene is.
-        const Similarity expected =
-            step.state.world_from_object * Similarity{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
-        EXPECT_EQ(drawn.world_from_mesh, expected) << spec;
-        const Vec3 up = expected.orientation * Vec3(0.0, 1.0, 0.0);
-        EXPECT_LT(glm::length(drawn.stylus_world.orientation * Vec3(0.0, 0.0, 1.0) - up), 1e-12) << spec;
-        // The hand's shaft begins at the top of the tool.
-        const double top_m = glm::dot(drawn.stylus_world.position_m - expected.position_m, up) / expected.scale;
-        EXPECT_NEAR(top_m, drawn.mesh->bounds.hi.y, 1e-6) << spec;
     }
 }
 
@@ -207,7 +161,7 @@ TEST(SessionState, TheRadiusScalesAllSizesOfAToolThatIsNoBall) {
     SessionOrders orders;
     ASSERT_TRUE(run(state, orders, "tool", {"bullnose:0.008,0.004,0.032"}));
     ASSERT_TRUE(run(state, orders, "radius", {"0.004"}));
-    EXPECT_EQ(sculpt::text_of(state.tool.shape), "bullnose:0.004,0.002,0.016");
+    EXPECT_EQ(sculpt::text_of(state.led().tool.shape), "bullnose:0.004,0.002,0.016");
     EXPECT_EQ(descriptor_of(Quantity::radius).value(state), 0.004);
 }
 
@@ -217,25 +171,26 @@ TEST(SessionState, CommandsSetToolAndFeelToTheBitsTheyAlwaysHad) {
     SessionState state = test_state(room);
     SessionOrders orders;
     ASSERT_TRUE(run(state, orders, "larger-radius"));
-    EXPECT_EQ(state.tool.shape.sizes_m[0], 0.01122462) << "nine digits";
+    EXPECT_EQ(state.led().tool.shape.sizes_m[0], 0.01122462) << "nine digits";
     ASSERT_TRUE(run(state, orders, "larger-radius"));
-    EXPECT_EQ(state.tool.shape.sizes_m[0], 0.0125992094) << "of 0.01259920941444";
+    EXPECT_EQ(state.led().tool.shape.sizes_m[0], 0.0125992094) << "of 0.01259920941444";
     ASSERT_TRUE(run(state, orders, "radius", {"0.00123456789123"}));
-    EXPECT_EQ(state.tool.shape.sizes_m[0], 0.00123456789);
+    EXPECT_EQ(state.led().tool.shape.sizes_m[0], 0.00123456789);
     ASSERT_TRUE(run(state, orders, "tool", {"ball:0.00123456789123"}));
-    EXPECT_EQ(state.tool.shape.sizes_m[0], 0.00123456789123) << "a tool's own sizes are kept as they are";
+    EXPECT_EQ(state.led().tool.shape.sizes_m[0], 0.00123456789123) << "a tool's own sizes are kept as they are";
     state.feel = {.preset = sculpt::FeelPreset::soft};
     ASSERT_TRUE(run(state, orders, "hardness", {"1234567.891234"}));
     const haptics::TouchMaterial material = parameters_of(state, room).materials[0];
     EXPECT_EQ(material.hardness_Ns_per_m3, 1.23456789 * 1e6);
     EXPECT_EQ(material.stiffness_N_per_m, 600.0) << "the medium preset's, as with --hardness and a number";
     ASSERT_TRUE(run(state, orders, "colour", {"0.1,0.5,1"}));
-    EXPECT_EQ(sculpt::material_of(state.tool).colour, (std::array<std::uint8_t, 3>{26, 128, 255}));
+    EXPECT_EQ(sculpt::material_of(state.led().tool).colour, (std::array<std::uint8_t, 3>{26, 128, 255}));
 }
 
 TEST(SessionState, EveryQuantityIsReadWhereItsCommandSetIt) {
     const Room room = test_room();
     for (const QuantityDescriptor& quantity : quantities()) {
+        if (is_of_a_viewer(SetQuantity{quantity.quantity, 0.0})) continue;
         SessionState state = test_state(room);
         SessionOrders orders;
         const double middle = quantity.by_ratio ? std::sqrt(quantity.from * quantity.to) : 0.5 * quantity.to;
@@ -253,81 +208,45 @@ TEST(SessionState, TheNextTechniqueComesRoundToTheFirstOverAllOthers) {
     SessionOrders orders;
     for (std::size_t i = 1; i <= techniques().size(); ++i) {
         ASSERT_TRUE(run(state, orders, "next-workspace-technique"));
-        EXPECT_EQ(state.technique, techniques()[i % techniques().size()].technique);
-        EXPECT_EQ(descriptor_of(state.technique).name, haptics::text(state.technique));
+        EXPECT_EQ(state.led().technique, techniques()[i % techniques().size()].technique);
+        EXPECT_EQ(descriptor_of(state.led().technique).name, haptics::text(state.led().technique));
     }
 }
 
-TEST(SessionState, TheNextStereoModeComesRoundToTheFirst) {
-    SessionState state = test_state(test_room());
-    SessionOrders orders;
-    const wall::StereoMode first = state.output.mode;
-    int steps = 0;
-    do {
-        ASSERT_TRUE(run(state, orders, "next-stereo-mode"));
-        EXPECT_NE(state.output.mode, wall::StereoMode::two_windows) << "one window cannot show it";
-    } while (state.output.mode != first && ++steps < 100);
-    EXPECT_EQ(steps, 12) << "thirteen modes";
-}
-
-TEST(SessionState, TurningTheSceneTakesTheWorkpieceAndNotTheHand) {
-    const Room room = test_room();
-    SessionState state = test_state(room);
-    const std::vector<InputEvent> events{{0, MouseMove{{100, 100}}},
-                                         {0, MouseClick{MouseButton::middle, true, {}}},
-                                         {0, MouseMove{{160, 100}}},
-                                         {0, MouseClick{MouseButton::middle, false, {}}}};
-    const SessionStep step =
-        step_session(state, room, events, {.dt_s = 0.02, .eye_size = {1280, 720}, .tool = {}, .captured = {}});
-    EXPECT_TRUE(step.orders.parameters);
-    EXPECT_NE(step.state.world_from_object.orientation, state.world_from_object.orientation);
-    const Vec3 middle = state.world_from_object * room.workpiece_object.center();
-    EXPECT_LT(glm::length(step.state.world_from_object * room.workpiece_object.center() - middle), 1e-9);
-    // The hand's workspace stays where it was in the room.
-    const Similarity before = state.world_from_object * parameters_of(state, room).workspace.object_from_device;
-    const Similarity after =
-        step.state.world_from_object * parameters_of(step.state, room).workspace.object_from_device;
-    EXPECT_LT(glm::length(before.position_m - after.position_m), 1e-9);
-    EXPECT_NEAR(std::abs(glm::dot(before.orientation, after.orientation)), 1.0, 1e-12);
-}
-
 // What is led is followed by the ticks as a body that moves, and what a command places is not.
-TEST(SessionState, ADragMovesTheWorkpieceAndACommandPlacesIt) {
-    const Room room = test_room();
-    const SessionState state = test_state(room);
-    const SessionView view{.dt_s = 0.02, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
-    const std::vector<InputEvent> drag{{0, MouseMove{{100, 100}}},
-                                       {0, MouseClick{MouseButton::middle, true, {}}},
-                                       {0, MouseMove{{104, 100}}},
-                                       {0, MouseClick{MouseButton::middle, false, {}}}};
-    const auto placed = [&](const SessionState& now) { return parameters_of(now, room).workspace.placed; };
-    EXPECT_GT(placed(state), 0u) << "0 would never be followed";
-    const SessionState dragged = step_session(state, room, drag, view).state;
-    ASSERT_NE(dragged.world_from_object, state.world_from_object);
-    EXPECT_EQ(placed(dragged), placed(state));
-    const std::vector<InputEvent> reset{{0, CommandInput{"reset-view", {}}}};
-    const SessionState back = step_session(dragged, room, reset, view).state;
-    ASSERT_EQ(back.world_from_object, state.world_from_object);
-    EXPECT_EQ(placed(back), placed(dragged) + 1);
-    EXPECT_EQ(placed(step_session(back, room, reset, view).state), placed(back)) << "it stood there already";
-    const std::vector<InputEvent> other{{0, CommandInput{"friction", {"0.3"}}}};
-    EXPECT_EQ(placed(step_session(back, room, other, view).state), placed(back));
-}
-
 // A log that says how the mouse flies is none from before it could be said.
 TEST(SessionState, FillsInFreeFlightOnceSomebodyHasChosenHowTheMouseFlies) {
     Room room = test_room();
-    room.fills = haptics::FillPlace::hand;
+    room.hands.front().fills = haptics::FillPlace::hand;
     SessionState state = test_state(room);
     SessionOrders orders;
     EXPECT_EQ(parameters_of(state, room).fills, haptics::FillPlace::surface);
     ASSERT_TRUE(run_command(state, orders, CommandInput{"mouse", {"free"}}));
     EXPECT_EQ(parameters_of(state, room).fills, haptics::FillPlace::hand);
-    room.fills = haptics::FillPlace::begun;
+    room.hands.front().fills = haptics::FillPlace::begun;
     EXPECT_EQ(parameters_of(test_state(room), room).fills, haptics::FillPlace::begun) << "a hand that feels";
     room.mouse = MouseMode::surface;
     room.mouse_chosen = true;
     EXPECT_EQ(parameters_of(test_state(room), room).fills, haptics::FillPlace::surface);
+}
+
+// What is about how a session is seen needs somebody who sees it.
+TEST(SessionState, CommandsOfAViewerAreRefusedWhereThereIsNone) {
+    std::size_t refused = 0;
+    for (const CommandInput& command :
+         {CommandInput{"stereo-mode", {"mono"}}, CommandInput{"view-top", {}}, CommandInput{"eye-distance", {"0.06"}},
+          CommandInput{"select", {"anything"}}, CommandInput{"toggle-panel", {}}, CommandInput{"friction", {"0.3"}},
+          CommandInput{"technique", {"moving"}}, CommandInput{"undo", {}}}) {
+        SessionState state = test_state(test_room());
+        SessionOrders orders;
+        const auto done = run_command(state, orders, command);
+        EXPECT_EQ(!done, is_of_a_viewer(*parse_command(command))) << command.name;
+        if (done) continue;
+        ++refused;
+        EXPECT_EQ(done.error().line(),
+                  command.name + ": is about how the session is seen, and nobody sees it; leave it out");
+    }
+    EXPECT_EQ(refused, 5u);
 }
 
 }  // namespace burin::session

@@ -9,9 +9,9 @@
 
 #include "activities/train/study_activity.hpp"
 #include "app/study/study_live.hpp"
+#include "desk/live/desk.hpp"
 #include "desk/run/session.hpp"
 #include "desk/run/session_frames.hpp"
-#include "session/live/live_session.hpp"
 
 namespace burin::app {
 namespace {
@@ -29,11 +29,12 @@ public:
             std::make_shared<activities::StudyActivity>(protocol_, protocol_.groups.at(group), worlds_,
                                                         std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}},
                                                         "study", activities::StudyDevice{}, activities::StageKeeper{}));
-        auto made = session::LiveSession::create(options, session::session_wall(options.live).value(), clock_);
+        auto made = session::Desk::create(options, session::session_wall(options.live).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
-        session_ = std::move(*made);
-        executor_.emplace(clock_, session_->loop(), session_->channels_of_parts(), session_->scene(),
-                          [this](const auto& ended) { static_cast<void>(session_->collect(ended)); });
+        desk_ = std::move(*made);
+        executor_.emplace(clock_, desk_->session().loop(), desk_->session().channels_of_parts(),
+                          desk_->session().scene(),
+                          [this](const auto& ended) { static_cast<void>(desk_->session().collect(ended)); });
         for (int i = 0; i < 5; ++i) frame({});
     }
     void frame(const std::vector<session::CommandInput>& commands) {
@@ -41,21 +42,21 @@ public:
         ASSERT_TRUE(executor_->advance_to(until_ns));
         std::vector<session::InputEvent> events;
         for (const session::CommandInput& command : commands) events.push_back({until_ns, command});
-        session_->step({until_ns, until_ns, events}, {.size = {1280, 720}}, session_->newest_tool(),
-                       [&](session::Executor::Order order) { executor_->order(std::move(order)); }, {340, 700});
+        desk_->step({until_ns, until_ns, events}, {.size = {1280, 720}}, desk_->session().newest_tool(),
+                    [&](session::Executor::Order order) { executor_->order(std::move(order)); }, {340, 700});
         const auto taken = executor_->take_updates();
         ASSERT_TRUE(taken);
-        session_->take_news(taken->collected);
+        desk_->take_news(taken->collected);
     }
     // The panel's share of the participant's picture, and of the operator's window.
-    [[nodiscard]] std::optional<session::PanelPicture> picture() const { return session_->panel_on(0); }
-    [[nodiscard]] std::optional<session::PanelPicture> operators() const { return session_->panel_on(1); }
+    [[nodiscard]] std::optional<session::PanelPicture> picture() const { return desk_->panel_on(0); }
+    [[nodiscard]] std::optional<session::PanelPicture> operators() const { return desk_->panel_on(1); }
 
 private:
     study::Protocol protocol_;
     activities::FeltWorlds worlds_;
     SimulatedClock clock_;
-    std::unique_ptr<session::LiveSession> session_;
+    std::unique_ptr<session::Desk> desk_;
     std::optional<session::SteppedExecutor> executor_;
 };
 

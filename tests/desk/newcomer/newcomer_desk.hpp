@@ -126,11 +126,11 @@ public:
     Image picture(const std::string& name) {
         testing::internal::CaptureStderr();
         const std::string file = (place() / (name + ".png")).string();
-        session->files().ask_for_picture(file);
-        const Result<bool> drawn = presenter_->draw(*session, now_ns());
+        session().files().ask_for_picture(file);
+        const Result<bool> drawn = presenter_->draw(*desk, now_ns());
         testing::internal::GetCapturedStderr();
         EXPECT_TRUE(drawn) << drawn.error().line();
-        if (!session->state().first_steps) run({{CommandInput{"put-away", {}}, 10'000'000}}, 50'000'000);
+        if (!desk->viewer().first_steps) run({{CommandInput{"put-away", {}}, 10'000'000}}, 50'000'000);
         const std::string& screen = wall_.screens[wall_.main].name;
         const bool one = screen.empty() || wall_.screens.size() == 1;
         const Image image =
@@ -149,22 +149,22 @@ public:
                 2 * half_px};
     }
     [[nodiscard]] double volume_mm3() const {
-        return 1e9 * geometry::examine(session->surface()->welded()).signed_volume_m3;
+        return 1e9 * geometry::examine(session().scene_side().surface()->welded()).signed_volume_m3;
     }
     using MouseDesk::place;
     [[nodiscard]] const SessionWall& wall() const { return wall_; }
 
     // The right border of the main screen's picture that the panel leaves free, in the window.
     [[nodiscard]] double free_px() const {
-        const ImageSize eye_px = wall::eye_size(session->output_on(wall_.main).mode, output.size);
-        return session->room().free_width * eye_px.width / px_per_window_px().x;
+        const ImageSize eye_px = wall::eye_size(desk->output_on(wall_.main).mode, output.size);
+        return desk->room().free_width * eye_px.width / px_per_window_px().x;
     }
 
 private:
-    [[nodiscard]] Vec2 px_per_window_px() const { return wall::picture_px_per_px(session->output_on(wall_.main).mode); }
+    [[nodiscard]] Vec2 px_per_window_px() const { return wall::picture_px_per_px(desk->output_on(wall_.main).mode); }
     // Where a pixel of the panel is seen in the window: over the picture, or on a panel that stands in the scene.
     [[nodiscard]] Vec2 in_window(const Vec2& panel_px) const {
-        const std::optional<PanelPicture> panel = session->panel_on(wall_.main);
+        const std::optional<PanelPicture> panel = desk->panel_on(wall_.main);
         if (!panel || !panel->stand) return panel_px / px_per_window_px();
         const Vec2 share = panel_px / Vec2(panel->size.width, panel->size.height) - Vec2(0.5);
         const Vec2 at_m = Vec2(share.x, -share.y) * panel->stand->size_m;
@@ -172,11 +172,11 @@ private:
     }
     // Scrolls the panel until it shows a label, downwards and then up; returns where that is in the window.
     std::optional<Vec2> found(const std::string& label) {
-        const ImageSize eye_px = wall::eye_size(session->output_on(wall_.main).mode, output.size);
+        const ImageSize eye_px = wall::eye_size(desk->output_on(wall_.main).mode, output.size);
         const bool stands = !wall_.desk;
         const Vec2 on_panel = stands ? Vec2(170.0, 300.0) : Vec2(eye_px.width - 20.0, 0.5 * eye_px.height);
         for (int i = 0; i < 80; ++i) {
-            const auto at = session->place_on_panel(label);
+            const auto at = desk->place_on_panel(label);
             if (at && at->height >= 8) return in_window({at->x + 0.5 * at->width, at->y + 0.5 * at->height});
             move_to(in_window(on_panel));
             run({{Scroll{{0.0, i < 40 ? -1.0 : 2.0}, {}}, 20'000'000}}, 100'000'000);

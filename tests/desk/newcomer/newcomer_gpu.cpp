@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A newcomer's first session, step by step: what each step's picture and the part itself must show.
+#include "desk/viewer/view_cube.hpp"
 #include "geometry/files/mesh_import.hpp"
-#include "session/state/view_cube.hpp"
 #include "tests/desk/newcomer/newcomer_desk.hpp"
 
 namespace burin::session {
@@ -52,7 +52,8 @@ double depth_at_mm(const std::vector<Vec3>& vertices_mm, const Vec2& place_mm, d
 }
 
 bool was_warned(const NewcomerDesk& desk) {
-    return std::ranges::any_of(desk.session->messages(), [](const Message& m) { return m.kind != MessageKind::info; });
+    return std::ranges::any_of(desk.session().log().all(),
+                               [](const Message& m) { return m.kind != MessageKind::info; });
 }
 
 void cut_with_each_tool(NewcomerDesk& desk) {
@@ -133,13 +134,13 @@ void smooth_and_undo(NewcomerDesk& desk) {
 
 // By a press on the cube's face, and then turned by hand again.
 void look_from_the_right_and_back(NewcomerDesk& desk) {
-    const auto cube = [&] { return view_cube(desk.session->state(), desk.session->room()).value(); };
+    const auto cube = [&] { return view_cube(desk.desk->seen()).value(); };
     desk.click(desk.px_of_world(cube() * Vec3(0.5, 0.1, 0.0)));
     desk.step_back();
     desk.picture("03-from-the-right");
-    const Vec3 right = desk.session->state().world_from_object.orientation * Vec3(1.0, 0.0, 0.0);
-    const SeenFrom& from = desk.session->state().seen_from;
-    const Vec3 middle = desk.session->state().world_from_object * desk.session->room().workpiece_object.center();
+    const Vec3 right = desk.session().state().world_from_object.orientation * Vec3(1.0, 0.0, 0.0);
+    const SeenFrom& from = desk.viewer().seen_from;
+    const Vec3 middle = desk.session().state().world_from_object * desk.session().room().workpiece_object.center();
     EXPECT_LT(glm::length(right - glm::normalize(from.eye_world - middle)), 1e-3);
     desk.press_button("view-front");
     desk.turn({-120.0, -110.0});
@@ -173,12 +174,12 @@ TEST_F(Newcomer, MakesAnOwnPartAnother) {
     const Image opened = desk.picture("01-opened");
     const Extent at_first = extent_of(desk);
     EXPECT_TRUE(at_first.lo.x > 0.0 && at_first.lo.y > 0.0 && at_first.hi.x < kFree_px && at_first.hi.y < 720.0);
-    EXPECT_TRUE(desk.session->place_on_panel("first-steps")) << "the card that says what a mouse does";
+    EXPECT_TRUE(desk.desk->place_on_panel("first-steps")) << "the card that says what a mouse does";
     for (const char* const label : {"undo", "export", "colour 1"})
-        EXPECT_TRUE(desk.session->place_on_panel(label)) << label << " without scrolling";
+        EXPECT_TRUE(desk.desk->place_on_panel(label)) << label << " without scrolling";
 
     desk.turn({-120.0, -110.0});
-    EXPECT_FALSE(desk.session->place_on_panel("first-steps")) << "the first press puts it away";
+    EXPECT_FALSE(desk.desk->place_on_panel("first-steps")) << "the first press puts it away";
     const Image turned = desk.picture("02-turned");
     EXPECT_GT(changed(opened, turned, {100, 250, 740, 400}), 0.5);
     desk.press_button("fit-view");

@@ -34,11 +34,11 @@ TEST_F(NewcomerElsewhere, WorksInEachStereoModeChosenOnThePanel) {
     NewcomerDesk desk;
     for (const wall::StereoMode mode : wall::stereo_modes()) {
         const std::string name(file_name_of(mode));
-        if (mode != desk.session->state().output.mode) {
+        if (mode != desk.viewer().output.mode) {
             desk.press_button("stereo-mode");
             desk.press_button("stereo-mode " + name);
         }
-        ASSERT_EQ(desk.session->state().output.mode, mode);
+        ASSERT_EQ(desk.viewer().output.mode, mode);
         cut_and_undo(desk, name, 30.0);
     }
 }

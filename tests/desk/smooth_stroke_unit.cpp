@@ -38,8 +38,8 @@ TEST(SmoothStroke, ShiftFillsTheGrooveThatTheSameToolHasCutAndThenItCutsAgain) {
         stroke_with(desk, true, {15, 30, 12}, {65, 30, 12});
         EXPECT_LT(deepest_mm(desk, 30.0), last_mm - 0.02) << i;
         last_mm = deepest_mm(desk, 30.0);
-        EXPECT_EQ(desk.session->state().tool.operation, compute::Operation::cut);
-        EXPECT_FALSE(desk.session->state().smooth_stroke);
+        EXPECT_EQ(desk.session().state().led().tool.operation, compute::Operation::cut);
+        EXPECT_FALSE(desk.session().state().smooth_stroke);
     }
     std::printf("a groove of %.2f mm is %.2f mm deep after four strokes with Shift\n", cut_mm, last_mm);
     EXPECT_LT(last_mm, 0.85 * cut_mm);
@@ -56,9 +56,9 @@ TEST(SmoothStroke, NothingIsCutWhereTheHandStillHasToGoWhenTheButtonComesUp) {
         desk.run({{MouseClick{MouseButton::left, true, {.shift = true}}, 8'000'000}});
         desk.drag(desk.px_of({15, 30, 12}), desk.px_of({65, 30, 12}), px_per_s);
         desk.run({{MouseClick{MouseButton::left, false, {}}, 8'000'000}}, 16'000'000);
-        EXPECT_EQ(desk.session->state().tool.operation, compute::Operation::smooth);
+        EXPECT_EQ(desk.session().state().led().tool.operation, compute::Operation::smooth);
         desk.rest(1.5);
-        EXPECT_EQ(desk.session->state().tool.operation, compute::Operation::cut);
+        EXPECT_EQ(desk.session().state().led().tool.operation, compute::Operation::cut);
         for (const Vec3& p : desk.vertices_mm()) {
             const bool inside = p.x > 2.0 && p.x < 78.0 && p.y > 2.0 && p.y < 58.0 && p.z > 4.0;
             if (inside) {
@@ -72,16 +72,16 @@ TEST(SmoothStroke, GivesBackWhatTheToolDidWhateverThatWas) {
     for (const char* key : {"tool-2", "tool-3", "tool-4", "tool-5"}) {
         MouseDesk desk(plate(kPlate_mm), "ball:0.004");
         desk.run({{CommandInput{key, {}}, 8'000'000}}, 100'000'000);
-        const compute::Operation before = desk.session->state().tool.operation;
-        const bool only_touch = desk.session->state().only_touch;
+        const compute::Operation before = desk.session().state().led().tool.operation;
+        const bool only_touch = desk.session().state().led().only_touch;
         desk.point_at({20, 30, 12});
         desk.run({{MouseClick{MouseButton::left, true, {.shift = true}}, 8'000'000}}, 200'000'000);
-        EXPECT_EQ(desk.session->state().tool.operation, compute::Operation::smooth);
-        EXPECT_FALSE(desk.session->state().only_touch);
+        EXPECT_EQ(desk.session().state().led().tool.operation, compute::Operation::smooth);
+        EXPECT_FALSE(desk.session().state().led().only_touch);
         desk.release();
         desk.rest(0.5);
-        EXPECT_EQ(desk.session->state().tool.operation, before) << key;
-        EXPECT_EQ(desk.session->state().only_touch, only_touch) << key;
+        EXPECT_EQ(desk.session().state().led().tool.operation, before) << key;
+        EXPECT_EQ(desk.session().state().led().only_touch, only_touch) << key;
     }
 }
 
@@ -92,7 +92,7 @@ TEST(SmoothStroke, ACommandDuringItIsWhatTheToolDoesFromThenOn) {
     desk.run({{CommandInput{"operation", {"paint"}}, 8'000'000}}, 50'000'000);
     desk.release();
     desk.rest(0.5);
-    EXPECT_EQ(desk.session->state().tool.operation, compute::Operation::paint);
+    EXPECT_EQ(desk.session().state().led().tool.operation, compute::Operation::paint);
 }
 
 TEST(SmoothStroke, EndsAfterTheHandHasCarvedItOrHasNeverPressed) {

@@ -7,28 +7,28 @@
 #include <thread>
 
 #include "session/record/log_export.hpp"
+#include "tests/desk/recorded_session.hpp"
 #include "tests/record/failing_disk.hpp"
-#include "tests/session/recorded_session.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
 namespace {
 
-void tick(LiveSession& session, SimulatedClock& clock, int times) {
+void tick(Desk& desk, SimulatedClock& clock, int times) {
     for (int i = 0; i < times; ++i) {
         clock.sleep_until(clock.now_ns() + 1'000'000);
-        session.loop().step();
+        desk.session().loop().step();
         // Updates that no log has: for ticks that are not done again. Without them samples would be dropped.
         if (i % 1000 != 999) continue;
-        EXPECT_TRUE(session.scene().update(clock.now_ns()));
+        EXPECT_TRUE(desk.session().scene().update(clock.now_ns()));
     }
 }
 
 void one_frame(Recorded& of, SimulatedClock& clock) {
     const auto begun = of.input->begin_frame(clock.now_ns(), clock.now_ns());
-    const haptics::ToolState tool = of.session->newest_tool();
-    of.session->step(*begun, {.size = kShownSize}, tool, [](Executor::Order) {});
-    of.recorder->frame(std::span(&tool, 1), {}, {{.size = kShownSize}});
+    const haptics::ToolState tool = of.desk->session().newest_tool();
+    of.desk->step(*begun, {.size = kShownSize}, tool, [](Executor::Order) {});
+    of.recorder->frame(std::span(&tool, 1), {}, {{{.size = kShownSize}}, of.desk->measured(), of.desk->words()});
 }
 
 std::string told_by(Recorded& of) {
@@ -67,7 +67,7 @@ TEST(SessionRecording, OfAMouseOnTheSurfaceIsDoneAgainToTheBit) {
     EXPECT_EQ(is.departed, 0u);
 }
 
-TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
+TEST(SessionRecording, OfADeskIsDoneAgainToTheBitInEveryColumn) {
     const Workplace place;
     const std::string path = (place / "a.session").string();
     const std::uint64_t ticks = record_live(short_options(path));
@@ -171,11 +171,11 @@ TEST(SessionRecording, LosesNothingWhereTheFramesStandStill) {
     const std::string path = (place / "a.session").string();
     SimulatedClock clock;
     Recorded recorded(path, clock, Recorded::Of::nobody);
-    tick(*recorded.session, clock, 10);
+    tick(*recorded.desk, clock, 10);
     one_frame(recorded, clock);
     // More ticks than a ring holds, without a frame: the writer takes them. Simulated time is not held back by a clock.
     for (int i = 0; i < 4; ++i) {
-        tick(*recorded.session, clock, 5000);
+        tick(*recorded.desk, clock, 5000);
         recorded.input->recording()->take_ticks();
     }
     one_frame(recorded, clock);
@@ -196,7 +196,7 @@ TEST(SessionRecording, EndsItsLogAndCountsWhatIsLostWhereTheDiskStandsStillForTo
     disk.reset();
     SimulatedClock clock;
     Recorded recorded(path, clock, record::test::FailingDisk::kName);
-    tick(*recorded.session, clock, 10);
+    tick(*recorded.desk, clock, 10);
     one_frame(recorded, clock);
     recorded.input->recording()->take_ticks();
     std::atomic<bool> stands_still{true};
@@ -205,24 +205,24 @@ TEST(SessionRecording, EndsItsLogAndCountsWhatIsLostWhereTheDiskStandsStillForTo
         ++flushes;
         while (stands_still) std::this_thread::yield();
     });
-    tick(*recorded.session, clock, 2000);  // a block or two are full: a transaction begins
+    tick(*recorded.desk, clock, 2000);  // a block or two are full: a transaction begins
     while (flushes == 0) std::this_thread::yield();
-    tick(*recorded.session, clock, 20'000);
+    tick(*recorded.desk, clock, 20'000);
     stands_still = false;
     one_frame(recorded, clock);
     recorded.input->recording()->take_ticks();
-    tick(*recorded.session, clock, 10);
+    tick(*recorded.desk, clock, 10);
     recorded.input->recording()->take_ticks();
     one_frame(recorded, clock);
     ASSERT_TRUE(recorded.input->recording_error());
     EXPECT_NE(recorded.input->recording_error()->line().find("ticks were lost after tick"), std::string::npos);
     EXPECT_NE(told_by(recorded).find("ticks were lost"), std::string::npos);
-    EXPECT_FALSE(recorded.session->files().outcome());
+    EXPECT_FALSE(recorded.desk->session().files().outcome());
     disk.reset();
 
     auto reader = record::RecordReader::open(path);
     ASSERT_TRUE(reader) << reader.error().line();
-    const std::uint64_t lost = recorded.session->channels().records.refused();
+    const std::uint64_t lost = recorded.desk->session().channels().records.refused();
     EXPECT_GT(lost, 0u);
     EXPECT_EQ(reader->facts().at("ticks lost, hand 0"), std::to_string(lost));
     EXPECT_EQ(reader->hands().front().rows(), 22'020u - lost);
@@ -244,13 +244,13 @@ TEST(SessionRecording, NamesADiskThatFailsAndTheSessionGoesOn) {
     SimulatedClock clock;
     Recorded recorded((place / "a.session").string(), clock, record::test::FailingDisk::kName);
     disk.does_not_sync = true;
-    tick(*recorded.session, clock, 3000);
+    tick(*recorded.desk, clock, 3000);
     one_frame(recorded, clock);
     // The file is taken away: that is no matter of patience.
     std::filesystem::remove(place / "a.session");
     const std::string told = told_by(recorded);
     EXPECT_NE(told.find("taken away"), std::string::npos) << told;
-    EXPECT_FALSE(recorded.session->files().outcome());
+    EXPECT_FALSE(recorded.desk->session().files().outcome());
     disk.reset();
 }
 
@@ -259,9 +259,9 @@ TEST(SessionRecording, LeavesAnExistingFileAlone) {
     place.write("a.session", "mine");
     SimulatedClock clock;
     const SculptOptions options = short_options((place / "a.session").string());
-    auto session = LiveSession::create(options, *session_wall(options.live), clock);
-    ASSERT_TRUE(session);
-    const auto writer = create_recording(options, {}, **session);
+    auto desk = Desk::create(options, *session_wall(options.live), clock);
+    ASSERT_TRUE(desk);
+    const auto writer = create_recording(options, {}, (*desk)->session());
     ASSERT_FALSE(writer);
     EXPECT_NE(writer.error().line().find("never overwrites"), std::string::npos) << writer.error().line();
     EXPECT_EQ(place.read("a.session"), "mine");

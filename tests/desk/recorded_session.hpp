@@ -25,8 +25,8 @@
 #include "session/record/session_log.hpp"
 #include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/desk/threads_seen.hpp"
 #include "tests/geometry/touch_samples.hpp"
-#include "tests/session/threads_seen.hpp"
 #include "tests/support/paced_clock.hpp"
 
 namespace burin::session {
@@ -62,21 +62,21 @@ struct Recorded {
     Recorded(const std::string& path, Clock& clock, Of of) : Recorded(short_options(path), clock, of) {}
     Recorded(const SculptOptions& options, Clock& clock, Of of, const std::string& of_script = kShortScript)
         : script(of_script) {
-        auto created = LiveSession::create(options, *session_wall(options.live), clock);
+        auto created = Desk::create(options, *session_wall(options.live), clock);
         if (!created) throw std::runtime_error(created.error().line());
-        session = std::move(*created);
-        auto writer = create_recording(options, {{"program", "a test"}}, *session);
+        desk = std::move(*created);
+        auto writer = create_recording(options, {{"program", "a test"}}, desk->session());
         if (!writer) throw std::runtime_error(writer.error().line());
         begin(std::move(*writer), of);
     }
     // Of nobody, into a file of a disk that fails.
     Recorded(const std::string& path, Clock& clock, const std::string& vfs) : script(kShortScript) {
         const SculptOptions options = short_options(path);
-        session = std::move(*LiveSession::create(options, *session_wall(options.live), clock));
+        desk = std::move(*Desk::create(options, *session_wall(options.live), clock));
         RecordingOf of;
-        of.parts.push_back({"", session->hands().device(0), session->channels().parameters.newest().probe,
-                            &session->channels().records});
-        of.clock = clock_of(*session);
+        of.parts.push_back({"", desk->session().hands().device(0), desk->session().channels().parameters.newest().probe,
+                            &desk->session().channels().records});
+        of.clock = clock_of(desk->session());
         of.settings = settings_line(options);
         of.vfs = vfs;
         auto recording = SessionRecording::create(path, std::move(of));
@@ -86,11 +86,11 @@ struct Recorded {
     void begin(InputLogWriter writer, Of of) {
         input.emplace(of == Of::nobody ? InputSource::live(std::move(writer))
                                        : InputSource::play(*parse_input_log(script, "script"), std::move(writer)));
-        recorder.emplace(*input, *session);
+        recorder.emplace(*input, desk->session());
     }
 
     std::string script;
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
     std::optional<InputSource> input;
     std::optional<ThreadRecorder> recorder;
 };
@@ -101,18 +101,18 @@ class ShortFrames final : public FrameSource {
 public:
     ShortFrames(Recorded& of, PacedClock& clock, ThreadsSeen& threads) : of_(of), clock_(clock), threads_(threads) {}
     [[nodiscard]] std::optional<Nanoseconds> next() override {
-        if (of_.session->state().quit) return ended();
+        if (of_.desk->session().state().quit) return ended();
         clock_.sleep_until(clock_.now_ns() + kFrame_ns);
         threads_.wait(kFrame_ns);
         of_.recorder->outside();
-        const Nanoseconds time_ns = clock_.now_ns() - of_.session->start_ns();
+        const Nanoseconds time_ns = clock_.now_ns() - of_.desk->session().start_ns();
         const auto input = of_.input->begin_frame(time_ns, time_ns + kFrame_ns);
         if (!input) return ended();
         frame_ = *input;
         return clock_.now_ns();
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
-        const auto done = step_frame(*of_.session, executor, *of_.recorder, frame_, {{.size = kShownSize}});
+        const auto done = step_frame(*of_.desk, executor, *of_.recorder, frame_, {{.size = kShownSize}});
         if (!done) static_cast<void>(ended());
         return done;
     }
@@ -135,7 +135,7 @@ private:
 inline std::uint64_t record_live(const SculptOptions& options, const std::string& script = kShortScript) {
     PacedClock clock(2);  // the hand's thread and the frames
     Recorded recorded(options, clock, Recorded::Of::script, script);
-    LiveSession& s = *recorded.session;
+    Session& s = recorded.desk->session();
     ThreadsSeen seen(s, clock, 30);
     ShortFrames frames(recorded, clock, seen);
     ThreadedExecutor threads(clock, s.loop(), s.channels_of_parts(), s.scene(), {},
@@ -151,8 +151,8 @@ inline std::uint64_t record_live(const SculptOptions& options, const std::string
 
 class ShortFramesAgain final : public FrameSource {
 public:
-    ShortFramesAgain(LiveSession& session, InputSource input, const ThreadLog& log, ThreadReplay& replay)
-        : session_(session), input_(std::move(input)), log_(log), replay_(replay) {
+    ShortFramesAgain(Desk& desk, InputSource input, const ThreadLog& log, ThreadReplay& replay)
+        : desk_(desk), input_(std::move(input)), log_(log), replay_(replay) {
         recorder_.keep_events();
     }
     [[nodiscard]] std::optional<Nanoseconds> next() override {
@@ -162,9 +162,9 @@ public:
         return frame_.time_ns;
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
-        if (const auto done = step_frame(session_, executor, recorder_, frame_, {{.size = kShownSize}}); !done)
+        if (const auto done = step_frame(desk_, executor, recorder_, frame_, {{.size = kShownSize}}); !done)
             return done;
-        departed_ += replay_.is_as_recorded() ? 0u : 1u;
+        departed_ += replay_.is_as_recorded(desk_.words()) ? 0u : 1u;
         return {};
     }
     [[nodiscard]] std::size_t departed() const { return departed_; }
@@ -172,12 +172,12 @@ public:
     [[nodiscard]] std::vector<EventMark> events() { return recorder_.take_events(); }
 
 private:
-    LiveSession& session_;
+    Desk& desk_;
     InputSource input_;
     const ThreadLog& log_;
     ThreadReplay& replay_;
     std::size_t next_ = 0, departed_ = 0;
-    ThreadRecorder recorder_{input_, session_};
+    ThreadRecorder recorder_{input_, desk_.session()};
     FrameInput frame_;
 };
 
@@ -196,15 +196,15 @@ inline Judged judged(InputLog log, const std::string& path, const SculptOptions&
     auto reader = record::RecordReader::open(path);
     auto judge = TickComparison::create(*reader, {});
     SimulatedClock clock;
-    auto session = open_as_recorded(options, *session_wall(options.live), threads, path, clock);
+    auto desk = Desk::create_as_recorded(options, *session_wall(options.live), threads, path, clock);
     auto ticks = threads.ticks.count > 0 ? ticks_of_lines(threads, path) : std::move(*ticks_of_columns(*reader));
-    ThreadReplay replay(**session, threads, std::move(ticks), path);
+    ThreadReplay replay((*desk)->session(), threads, std::move(ticks), path);
     replay.judge_ticks(&*judge);
-    ShortFramesAgain frames(**session, InputSource::replay(std::move(log)), threads, replay);
+    ShortFramesAgain frames(**desk, InputSource::replay(std::move(log)), threads, replay);
     Judged result;
     result.done = drive(replay, frames);
     if (result.done) result.done = replay.run_to_end();
-    (*session)->finish_scene();
+    (*desk)->session().finish_scene();
     result.trials = frames.trials();
     result.events = frames.events();
     result.departed = frames.departed();

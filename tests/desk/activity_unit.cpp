@@ -10,10 +10,11 @@
 #include <set>
 #include <tuple>
 
+#include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
-#include "session/live/live_session.hpp"
 #include "session/state/governed.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/desk/viewed.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -74,11 +75,11 @@ struct WatchedSession {
         options.world = (place / "t.off").string();
         options.no_workpiece = true;
         options.activity = activity;
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
-        executor.emplace(clock, session->loop(), session->channels_of_parts(), session->scene(),
-                         [this](const auto& ended) { static_cast<void>(session->collect(ended)); });
+        desk = std::move(*made);
+        executor.emplace(clock, desk->session().loop(), desk->session().channels_of_parts(), desk->session().scene(),
+                         [this](const auto& ended) { static_cast<void>(desk->session().collect(ended)); });
     }
     // A frame of 10 ms with these commands. Returns what the session told meanwhile.
     std::string frame(const std::vector<CommandInput>& commands) {
@@ -90,13 +91,13 @@ struct WatchedSession {
         EXPECT_TRUE(executor->advance_to(until_ns));
         std::vector<InputEvent> events;
         for (const Input& input : inputs) events.push_back({until_ns, input});
-        session->step(
-            {until_ns, until_ns, events}, {.size = output}, session->newest_tool(),
+        desk->step(
+            {until_ns, until_ns, events}, {.size = output}, desk->session().newest_tool(),
             [&](Executor::Order order) { executor->order(std::move(order)); },
             options.live.panel_window ? ImageSize{340, 700} : ImageSize{});
         const Result<Executor::Taken> taken = executor->take_updates();
         EXPECT_TRUE(taken);
-        if (taken) session->take_news(taken->collected);
+        if (taken) desk->take_news(taken->collected);
         return testing::internal::GetCapturedStderr();
     }
 
@@ -104,7 +105,7 @@ struct WatchedSession {
     std::shared_ptr<Watching> activity;
     SculptOptions options;
     SimulatedClock clock;
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
     std::optional<SteppedExecutor> executor;
 };
 
@@ -129,7 +130,7 @@ TEST(SessionActivity, IsToldByTheKeysOfItsButtons) {
 TEST(SessionActivity, SeesEveryTickOnceInOrder) {
     WatchedSession watched(std::make_shared<Watching>());
     for (int i = 0; i < 30; ++i) watched.frame({});
-    watched.session->finish_scene();
+    watched.desk->session().finish_scene();
     const std::vector<std::uint64_t>& ticks = watched.activity->ticks;
     ASSERT_GE(ticks.size(), 280u) << "all but those since the last update of the scene";
     for (std::size_t i = 0; i < ticks.size(); ++i) ASSERT_EQ(ticks[i], i + 1);
@@ -145,16 +146,16 @@ TEST(SessionActivity, WhatItCouldNotWriteAtItsEndIsToldAndFailsTheSession) {
         WatchedSession watched(watching);
         watched.frame({});
         testing::internal::CaptureStderr();
-        watched.session->finish_scene();
+        watched.desk->session().finish_scene();
         const std::string said = testing::internal::GetCapturedStderr();
-        const auto outcome = watched.session->files().outcome();
+        const auto outcome = watched.desk->session().files().outcome();
         const auto is_told = [](const Message& message) {
             return message.text.contains("trials.csv: cannot be written") && message.kind == MessageKind::error;
         };
         const bool is_lost = *lost != '\0';
         EXPECT_TRUE(watching->finished);
         EXPECT_EQ(static_cast<bool>(outcome), !is_lost) << said;
-        EXPECT_EQ(std::ranges::count_if(watched.session->messages(), is_told), is_lost ? 1 : 0) << said;
+        EXPECT_EQ(std::ranges::count_if(watched.desk->session().log().all(), is_told), is_lost ? 1 : 0) << said;
         EXPECT_EQ(said.contains("trials.csv: cannot be written"), is_lost) << said;
     }
 }
@@ -162,17 +163,17 @@ TEST(SessionActivity, WhatItCouldNotWriteAtItsEndIsToldAndFailsTheSession) {
 TEST(SessionActivity, ItsActsChangeObjectsTicksAndPictures) {
     WatchedSession watched(std::make_shared<Watching>());
     watched.frame({});
-    ASSERT_TRUE(watched.session->scene_on(0));
-    EXPECT_EQ(watched.session->scene_on(0)->objects.size(), 1u);
-    EXPECT_EQ(watched.session->scene_on(0)->tool.colour, Vec3(0.0, 0.0, 1.0));
-    EXPECT_TRUE(watched.session->channels().parameters.newest().enabled);
+    ASSERT_TRUE(watched.desk->scene_on(0));
+    EXPECT_EQ(watched.desk->scene_on(0)->objects.size(), 1u);
+    EXPECT_EQ(watched.desk->scene_on(0)->tool.colour, Vec3(0.0, 0.0, 1.0));
+    EXPECT_TRUE(watched.desk->session().channels().parameters.newest().enabled);
     EXPECT_EQ(watched.frame({{"do", {"hide", "t"}}, {"do", {"calm"}}}), "");
     watched.frame({});
-    EXPECT_EQ(watched.session->scene_on(0)->objects.size(), 0u);
-    EXPECT_FALSE(watched.session->channels().parameters.newest().enabled);
-    EXPECT_FALSE(watched.session->state().quit);
+    EXPECT_EQ(watched.desk->scene_on(0)->objects.size(), 0u);
+    EXPECT_FALSE(watched.desk->session().channels().parameters.newest().enabled);
+    EXPECT_FALSE(watched.desk->session().state().quit);
     watched.frame({{"do", {"leave"}}});
-    EXPECT_TRUE(watched.session->state().quit);
+    EXPECT_TRUE(watched.desk->session().state().quit);
 }
 
 // Where the panel has a window of its own, the person before the picture sees the activity's page and no more of it.
@@ -180,19 +181,19 @@ TEST(SessionActivity, ItsPageIsOnThePictureWhereThePanelIsNot) {
     const auto watching = std::make_shared<Watching>();
     WatchedSession watched(watching, true);
     watched.frame({});
-    EXPECT_FALSE(watched.session->panel_on(0)) << "no page";
+    EXPECT_FALSE(watched.desk->panel_on(0)) << "no page";
     watching->page = "Touch the red pyramid.";
     watched.frame({});
-    ASSERT_TRUE(watched.session->panel_on(0));
-    const ImageSize low = watched.session->panel_on(0)->size;
+    ASSERT_TRUE(watched.desk->panel_on(0));
+    const ImageSize low = watched.desk->panel_on(0)->size;
     EXPECT_EQ(low.width, 340u);
     EXPECT_LT(low.height, 80u) << "as high as its one line";
     for (int i = 0; i < 5; ++i) watching->page += " Then go round it once and come back to where you began.";
     watched.frame({});
-    ASSERT_TRUE(watched.session->panel_on(0));
-    EXPECT_GT(watched.session->panel_on(0)->size.height, 2 * low.height) << "as high as its lines";
-    EXPECT_LT(watched.session->panel_on(0)->size.height, 340u);
-    EXPECT_EQ(watched.session->panel_on(1)->size.height, 700u) << "the operator's";
+    ASSERT_TRUE(watched.desk->panel_on(0));
+    EXPECT_GT(watched.desk->panel_on(0)->size.height, 2 * low.height) << "as high as its lines";
+    EXPECT_LT(watched.desk->panel_on(0)->size.height, 340u);
+    EXPECT_EQ(watched.desk->panel_on(1)->size.height, 700u) << "the operator's";
 }
 
 TEST(SessionActivity, ThatGovernsLeavesThePanelNothingOfWhatIsFeltOrSeen) {
@@ -345,48 +346,47 @@ TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
 }
 
 TEST(SessionActivity, ThatGovernsHasNobodyChangeWhatIsFeltOrSeen) {
-    using Change = std::function<void(SessionState&)>;
+    using Change = std::function<void(SessionState&, Viewer&)>;
     const std::vector<std::pair<const char*, Change>> changes{
-        {"tool", [](SessionState& s) { s.tool.shape.sizes_m[0] = 0.02; }},
-        {"feel", [](SessionState& s) { s.feel.friction = 0.7; }},
-        {"world", [](SessionState& s) { s.world = std::make_shared<WorldObjects>(); }},
-        {"technique", [](SessionState& s) { s.technique = haptics::WorkspaceTechnique::moving; }},
-        {"scale", [](SessionState& s) { s.workspace_gain = 2.0; }},
-        {"force filter", [](SessionState& s) { s.force_filter = 0.5; }},
-        {"velocity filter", [](SessionState& s) { s.velocity_filter = 0.5; }},
-        {"force", [](SessionState& s) { s.force_on = false; }},
-        {"drill", [](SessionState& s) { s.catch_drill = true; }},
-        {"only touch", [](SessionState& s) { s.only_touch = true; }},
-        {"scene", [](SessionState& s) { s.world_from_object.position_m.x = 0.1; }},
-        {"device", [](SessionState& s) { s.world_from_device.position_m.x = 0.1; }},
-        {"calibration", [](SessionState& s) { s.device_from_read.position_m.x = 0.1; }},
-        {"arrow", [](SessionState& s) { s.force_shown = true; }},
-        {"stereo", [](SessionState& s) { s.output.mode = wall::StereoMode::left; }},
-        {"eyes", [](SessionState& s) { s.output.swap_eyes = true; }},
-        {"edges", [](SessionState& s) { s.edge_comfort = EdgeComfort::off; }},
-        {"pattern", [](SessionState& s) { s.output.test_pattern = wall::TestPattern::ghosting; }}};
-    const Room room = [] {
-        Room made;
-        made.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
-        made.wall = *session_wall({});
-        return made;
-    }();
-    const SessionState before = begin_session(room, {.shape = {sculpt::ToolKind::ball, {0.01, 0.0, 0.0}, {}}}, {}, {});
+        {"tool", [](SessionState& s, Viewer&) { s.led().tool.shape.sizes_m[0] = 0.02; }},
+        {"feel", [](SessionState& s, Viewer&) { s.feel.friction = 0.7; }},
+        {"world", [](SessionState& s, Viewer&) { s.world = std::make_shared<WorldObjects>(); }},
+        {"technique", [](SessionState& s, Viewer&) { s.led().technique = haptics::WorkspaceTechnique::moving; }},
+        {"scale", [](SessionState& s, Viewer&) { s.led().workspace_gain = 2.0; }},
+        {"force filter", [](SessionState& s, Viewer&) { s.led().force_filter = 0.5; }},
+        {"velocity filter", [](SessionState& s, Viewer&) { s.led().velocity_filter = 0.5; }},
+        {"force", [](SessionState& s, Viewer&) { s.led().force_on = false; }},
+        {"drill", [](SessionState& s, Viewer&) { s.led().catch_drill = true; }},
+        {"only touch", [](SessionState& s, Viewer&) { s.led().only_touch = true; }},
+        {"scene", [](SessionState& s, Viewer&) { s.world_from_object.position_m.x = 0.1; }},
+        {"device", [](SessionState& s, Viewer&) { s.led().world_from_device.position_m.x = 0.1; }},
+        {"calibration", [](SessionState& s, Viewer&) { s.led().device_from_read.position_m.x = 0.1; }},
+        {"arrow", [](SessionState&, Viewer& v) { v.force_shown = true; }},
+        {"stereo", [](SessionState&, Viewer& v) { v.output.mode = wall::StereoMode::left; }},
+        {"eyes", [](SessionState&, Viewer& v) { v.output.swap_eyes = true; }},
+        {"edges", [](SessionState&, Viewer& v) { v.edge_comfort = EdgeComfort::off; }},
+        {"pattern", [](SessionState&, Viewer& v) { v.output.test_pattern = wall::TestPattern::ghosting; }}};
+    const Viewed begun = block_before_desk();
+    const SessionState& before = begun.state;
+    const Room& room = begun.room;
+    const ViewerLook look;
     const haptics::TickParameters felt = parameters_of(before, room);
     for (const auto& [what, change] : changes) {
         SessionState state = before;
-        change(state);
-        state.interpupillary_m = 0.07;
+        Viewer viewer = begun.viewer;
+        ViewerLead leader(viewer, room, begun.desk, look);
+        change(state, viewer);
+        viewer.interpupillary_m = 0.07;
         SessionOrders orders;
         orders.line = 7;
-        keep_governed(before, state, orders);
-        EXPECT_EQ(state.interpupillary_m, 0.07) << "who looks is nobody's but the viewer's";
+        keep_governed(before, state, orders, leader.keep_governed());
+        EXPECT_EQ(viewer.interpupillary_m, 0.07) << "who looks is nobody's but the viewer's";
         ASSERT_EQ(orders.messages.size(), 1u) << what;
         EXPECT_EQ(orders.messages[0].line, 7u);
-        EXPECT_EQ(state.force_on, before.force_on) << what;
-        EXPECT_EQ(state.output, before.output) << what;
-        EXPECT_EQ(state.force_shown, before.force_shown) << what;
-        EXPECT_EQ(state.edge_comfort, before.edge_comfort) << what;
+        EXPECT_EQ(state.led().force_on, before.led().force_on) << what;
+        EXPECT_EQ(viewer.output, begun.viewer.output) << what;
+        EXPECT_EQ(viewer.force_shown, begun.viewer.force_shown) << what;
+        EXPECT_EQ(viewer.edge_comfort, begun.viewer.edge_comfort) << what;
         const haptics::TickParameters now = parameters_of(state, room);
         EXPECT_EQ(now.workspace.object_from_device, felt.workspace.object_from_device) << what;
         EXPECT_EQ(now.enabled, felt.enabled) << what;
@@ -395,13 +395,13 @@ TEST(SessionActivity, ThatGovernsHasNobodyChangeWhatIsFeltOrSeen) {
         EXPECT_EQ(now.signals.velocity_alpha, felt.signals.velocity_alpha) << what;
         EXPECT_EQ(now.materials[0].static_friction, felt.materials[0].static_friction) << what;
         SessionOrders again;
-        keep_governed(before, state, again);
+        keep_governed(before, state, again, leader.keep_governed());
         EXPECT_TRUE(again.messages.empty()) << what << ": all is as it was";
     }
     SessionState state = before;
     SessionOrders orders;
     orders.carving.push_back(sculpt::SculptOrder{});
-    keep_governed(before, state, orders);
+    keep_governed(before, state, orders, false);
     EXPECT_TRUE(orders.carving.empty());
     EXPECT_EQ(orders.messages.size(), 1u);
 }
@@ -413,22 +413,22 @@ TEST(SessionActivity, ThatGovernsIsNotOverruledByThePanel) {
         const auto watching = std::make_shared<Watching>();
         WatchedSession watched(watching);
         watched.send({});
-        const SessionState before = watched.session->state();
+        const SessionState before = watched.desk->session().state();
         watching->governs_from_now = governs;
         std::set<std::string> changed;
         std::size_t clicked = 0;
         for (const char* label :
              {"tool cone", "object stiffness", "object scale", "object seen", "object felt", "force"}) {
-            const auto place = watched.session->place_on_panel(label);
+            const auto place = watched.desk->place_on_panel(label);
             if (!place) continue;
             ++clicked;
             const Vec2 at(place->x + 0.3 * place->width, place->y + 0.5 * place->height);
             watched.send({MouseMove{at}});
             watched.send({MouseMove{at}, MouseClick{MouseButton::left, true, {}}});
             watched.send({MouseClick{MouseButton::left, false, {}}});
-            const SessionState& now = watched.session->state();
-            if (now.force_on != before.force_on) changed.insert("force");
-            if (!(now.tool == before.tool)) changed.insert("tool");
+            const SessionState& now = watched.desk->session().state();
+            if (now.led().force_on != before.led().force_on) changed.insert("force");
+            if (!(now.led().tool == before.led().tool)) changed.insert("tool");
             if (now.world->objects != before.world->objects) changed.insert("objects");
         }
         EXPECT_GE(clicked, 3u);
@@ -442,7 +442,7 @@ TEST(SessionActivity, WhatItCannotDoIsToldByName) {
     EXPECT_TRUE(watched.frame({{"do", {"hide"}}}).contains("command do hide: lacks its argument; write do hide NAME"));
     EXPECT_TRUE(watched.frame({{"do", {"hide", "t", "x"}}}).contains("one word too many: x"));
     EXPECT_TRUE(watched.frame({{"do", {"calm", "down"}}}).contains("takes no argument, and is given down"));
-    EXPECT_TRUE(watched.session->channels().parameters.newest().enabled) << "not calm";
+    EXPECT_TRUE(watched.desk->session().channels().parameters.newest().enabled) << "not calm";
     EXPECT_TRUE(watched.frame({{"do", {"hide", "x"}}}).contains("object x"));
     EXPECT_TRUE(watched.frame({{"do", {}}}).contains("lacks its argument"));
     WatchedSession alone(nullptr);

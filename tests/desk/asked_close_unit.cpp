@@ -42,7 +42,7 @@ TEST(ClosingTheWindow, AsksWhereAStrokeIsUnsavedAndEscGoesOn) {
         EXPECT_FALSE(desk.has_quit());
         ASSERT_TRUE(desk.is_asked());
         for (const char* const answer : {"quit save", "quit discard", "quit stay"})
-            EXPECT_TRUE(desk.session->place_on_panel(answer)) << answer;
+            EXPECT_TRUE(desk.desk->place_on_panel(answer)) << answer;
         desk.key(Key::escape);
         EXPECT_FALSE(desk.is_asked());
         EXPECT_FALSE(desk.has_quit());
@@ -66,13 +66,13 @@ TEST(ClosingTheWindow, LeavesMouseAndKeysToTheQuestion) {
     desk.carve();
     desk.close_window();
     const std::size_t before = desk.told().strokes;
-    const Similarity stood = desk.session->state().world_from_object;
+    const Similarity stood = desk.session().state().world_from_object;
     desk.carve(20.0);
     desk.key(Key::digit_5);
     desk.key(Key::left);
     EXPECT_EQ(desk.told().strokes, before);
-    EXPECT_FALSE(desk.session->state().only_touch);
-    EXPECT_EQ(desk.session->state().world_from_object, stood);
+    EXPECT_FALSE(desk.session().state().led().only_touch);
+    EXPECT_EQ(desk.session().state().world_from_object, stood);
     EXPECT_TRUE(desk.is_asked());
 }
 
@@ -134,7 +134,7 @@ TEST(ClosingTheWindow, StaysOpenWithTheErrorWhereTheSaveFails) {
     EXPECT_FALSE(desk.has_quit());
     EXPECT_FALSE(desk.is_asked());
     EXPECT_TRUE(said.contains("nowhere")) << said;
-    EXPECT_TRUE(desk.session->place_on_panel("message 0")) << "the error is shown";
+    EXPECT_TRUE(desk.desk->place_on_panel("message 0")) << "the error is shown";
     EXPECT_EQ(desk.shown(), "changed, kept: the one stroke");
 }
 
@@ -142,14 +142,14 @@ TEST(ClosingTheWindow, AsksNobodyWhereAScriptIsTheUser) {
     PersonDesk desk;
     desk.carve();
     desk.tells = false;
-    SessionState state = desk.session->state();
+    SessionState state = desk.session().state();
     state.asked.told.reset();
     ask_or_quit(state);
     EXPECT_TRUE(state.quit);
     MouseDesk scripted(plate(10.0));
     scripted.stroke({{25.0, 30.0, 10.0}, {55.0, 30.0, 10.0}});
     scripted.run({{WindowClose{}, 10'000'000}}, 50'000'000);
-    EXPECT_TRUE(scripted.session->state().quit);
+    EXPECT_TRUE(scripted.session().state().quit);
 }
 
 TEST(NamingTheWork, TypesAFilesNameWhoseLettersAreNoKeysOfTheSession) {
@@ -159,8 +159,8 @@ TEST(NamingTheWork, TypesAFilesNameWhoseLettersAreNoKeysOfTheSession) {
     ASSERT_TRUE(desk.is_asked()) << "work without a file has no name";
     desk.ctrl(Key::a);
     desk.type((desk.place() / "my 5 cats").string());
-    EXPECT_FALSE(desk.session->state().only_touch);
-    EXPECT_EQ(desk.session->state().output.mode, wall::StereoMode::mono);
+    EXPECT_FALSE(desk.session().state().led().only_touch);
+    EXPECT_EQ(desk.viewer().output.mode, wall::StereoMode::mono);
     desk.key(Key::enter);
     desk.wait_for_disk();
     EXPECT_FALSE(desk.is_asked());
@@ -180,14 +180,14 @@ TEST(NamingTheWork, AsksBeforeItReplacesAnothersFile) {
     const fs::path other = desk.place() / "other.burin";
     desk.carve();
     desk.key(Key::s, {.shift = true, .ctrl = true});
-    ASSERT_TRUE(desk.session->place_on_panel("name"));
+    ASSERT_TRUE(desk.desk->place_on_panel("name"));
     desk.ctrl(Key::a);
     desk.type(other.string());
     desk.key(Key::enter);
-    ASSERT_TRUE(desk.session->place_on_panel("save-as replaced"));
+    ASSERT_TRUE(desk.desk->place_on_panel("save-as replaced"));
     desk.key(Key::enter);  // another name is what Enter says
     EXPECT_EQ(desk.place().read("other.burin"), "another's");
-    ASSERT_TRUE(desk.session->place_on_panel("name"));
+    ASSERT_TRUE(desk.desk->place_on_panel("name"));
     desk.key(Key::enter);
     desk.press_button("save-as replaced");
     desk.wait_for_disk();
@@ -201,10 +201,10 @@ TEST(NamingTheWork, GoesBackToTheQuestionOfClosing) {
     desk.carve();
     desk.close_window();
     desk.press_button("quit save");
-    ASSERT_TRUE(desk.session->place_on_panel("name"));
+    ASSERT_TRUE(desk.desk->place_on_panel("name"));
     desk.key(Key::escape);
-    EXPECT_FALSE(desk.session->place_on_panel("name"));
-    EXPECT_TRUE(desk.session->place_on_panel("quit stay"));
+    EXPECT_FALSE(desk.desk->place_on_panel("name"));
+    EXPECT_TRUE(desk.desk->place_on_panel("quit stay"));
     desk.press_button("quit save");
     desk.ctrl(Key::a);
     desk.type((desk.place() / "p").string());

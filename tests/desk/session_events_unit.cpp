@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/session/recorded_session.hpp"
+#include "tests/desk/recorded_session.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

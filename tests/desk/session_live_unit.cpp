@@ -2,9 +2,10 @@
 // The roles beside a live session: what it watches, logs and queues.
 #include <gtest/gtest.h>
 
+#include "desk/live/desk.hpp"
 #include "desk/panel/panel.hpp"
 #include "desk/run/session.hpp"
-#include "session/live/live_session.hpp"
+#include "tests/desk/viewed.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/test_units.hpp"
@@ -12,19 +13,11 @@
 namespace burin::session {
 namespace {
 
-Room room_before(const std::string& wall) {
+Viewed before(const std::string& wall) {
     LiveOptions options;
     options.wall = std::string(kWallsFolder) + "/" + wall;
-    Room room;
-    room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
-    room.wall = session_wall(options).value();
-    const wall::WallSetup& setup = room.wall.setup;
-    room.desk.home_head_world = {setup.world_from_tracker * setup.fallback_head_tracker.position_m,
-                                 setup.world_from_tracker.orientation * setup.fallback_head_tracker.orientation};
-    return room;
+    return block_before_wall(session_wall(options).value());
 }
-
-SessionState state_in(const Room& room) { return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown); }
 
 // Returns how far the scene moved with a wand that pressed its first button where it pointed at the main screen from x,
 // y, and was then raised by 10 cm.
@@ -35,17 +28,17 @@ double carried_m(double x_world, double y_world) {
     options.live.wall = std::string(kWallsFolder) + "/powerwall.toml";
     SimulatedClock clock;
     const SessionWall wall = session_wall(options.live).value();
-    const auto session = LiveSession::create(options, wall, clock).value();
+    const auto desk = Desk::create(options, wall, clock).value();
     const auto step = [&](Nanoseconds time_ns, const std::vector<InputEvent>& events) {
-        session->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, haptics::ToolState{},
-                      [](const scene::SceneThread::Order&) {});
+        desk->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, haptics::ToolState{},
+                   [](const scene::SceneThread::Order&) {});
     };
     const auto wand = [&](double y) { return WandInput{0, {{x_world, y, 1.0}, Quat{1, 0, 0, 0}}, true}; };
     step(10'000'000, {{10'000'000, wand(y_world)}});
-    const Vec3 before_world = session->state().world_from_object.position_m;
+    const Vec3 before_world = desk->session().state().world_from_object.position_m;
     step(20'000'000, {{20'000'000, WandClick{0, 0, true}}});
     step(30'000'000, {{30'000'000, wand(y_world + 0.1)}});
-    return glm::length(session->state().world_from_object.position_m - before_world);
+    return glm::length(desk->session().state().world_from_object.position_m - before_world);
 }
 
 // Returns how many files a session asks for when a log wants a mesh and a picture in each of two ways.
@@ -58,50 +51,48 @@ std::size_t files_asked_for(bool writes_nothing) {
     options.live.outputs = (place / "out").string();
     options.live.writes_nothing = writes_nothing;
     SimulatedClock clock;
-    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
     std::size_t meshes = 0;
     const std::vector<InputEvent> events{{0, CommandInput{"export", {"a.stl"}}},
                                          {0, CommandInput{"export-mesh", {}}},
                                          {0, CommandInput{"screenshot", {"a.png"}}},
                                          {0, CommandInput{"take-screenshot", {}}}};
-    session->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, haptics::ToolState{}, [&](const auto& order) {
+    desk->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, haptics::ToolState{}, [&](const auto& order) {
         order();
-        session->finish_scene();
+        desk->session().finish_scene();
         // The second export takes the place of the first, whose name it has.
         for (const auto& entry : std::filesystem::recursive_directory_iterator(place / "."))
             if (entry.path().extension() == ".stl") meshes += std::filesystem::remove(entry.path()) ? 1 : 0;
     });
-    return meshes + session->files().take_pictures().size();
+    return meshes + desk->session().files().take_pictures().size();
 }
 
 }  // namespace
 
 TEST(ComfortWatch, WarnsOnceEachTimeThatTheStrainBegins) {
-    const Room room = room_before("powerwall.toml");
-    SessionState state = state_in(room);
+    Viewed viewed = before("powerwall.toml");
     haptics::ToolState tool;
-    tool.proxy_object_m = room.workpiece_object.center();
+    tool.proxy_object_m = viewed.room.workpiece_object.center();
     ComfortWatch watch;
-    EXPECT_FALSE(watch.look(state, room, tool));
-    const Vec3 home_m = state.world_from_object.position_m;
+    EXPECT_FALSE(watch.look(viewed.seen(), tool));
+    const Vec3 home_m = viewed.state.world_from_object.position_m;
     for (int time = 0; time < 2; ++time) {
-        state.world_from_object.position_m = home_m + Vec3(0.0, 0.0, 1.5);
-        const auto warning = watch.look(state, room, tool);
+        viewed.state.world_from_object.position_m = home_m + Vec3(0.0, 0.0, 1.5);
+        const auto warning = watch.look(viewed.seen(), tool);
         ASSERT_TRUE(warning);
         EXPECT_FALSE(warning->empty());
-        EXPECT_FALSE(watch.look(state, room, tool)) << "not in each frame";
-        state.world_from_object.position_m = home_m;
-        EXPECT_FALSE(watch.look(state, room, tool));
+        EXPECT_FALSE(watch.look(viewed.seen(), tool)) << "not in each frame";
+        viewed.state.world_from_object.position_m = home_m;
+        EXPECT_FALSE(watch.look(viewed.seen(), tool));
     }
-    state.world_from_object.position_m = home_m + Vec3(0.0, 0.0, 1.5);
-    state.output.mode = wall::StereoMode::mono;
-    EXPECT_FALSE(watch.look(state, room, tool)) << "one picture for both eyes strains nobody";
+    viewed.state.world_from_object.position_m = home_m + Vec3(0.0, 0.0, 1.5);
+    viewed.viewer.output.mode = wall::StereoMode::mono;
+    EXPECT_FALSE(watch.look(viewed.seen(), tool)) << "one picture for both eyes strains nobody";
 }
 
 TEST(WandWatch, TellsOnceOfAWandThatIsReportedInMillimetresAndLeavesTheSceneAlone) {
-    const Room room = room_before("cave.toml");
-    SessionState state = state_in(room);
-    const Similarity before = state.world_from_object;
+    Viewed viewed = before("cave.toml");
+    const Similarity before = viewed.state.world_from_object;
     WandWatch watch;
     std::vector<std::string> told;
     const auto step_at = [&](int frame, double unit) {
@@ -109,33 +100,31 @@ TEST(WandWatch, TellsOnceOfAWandThatIsReportedInMillimetresAndLeavesTheSceneAlon
         const Pose pose{Vec3(0.1 + 0.001 * frame, 1.2, 0.8) * unit, Quat{1, 0, 0, 0}};
         const std::vector<InputEvent> events{{time_ns, WandInput{0, pose, true}},
                                              {time_ns, WandClick{0, 0, frame < 30}}};
-        const SessionView view{
-            .dt_s = 0.01, .display_ns = time_ns, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
-        state = step_session(state, room, events, view).state;
-        if (auto says = watch.look(state.wands)) told.push_back(*says);
+        static_cast<void>(
+            viewed.step(events, {.dt_s = 0.01, .tool = {}}, {.display_ns = time_ns, .eye_size = {1280, 720}}));
+        if (auto says = watch.look(viewed.viewer.wands)) told.push_back(*says);
     };
     for (int frame = 0; frame < 20; ++frame) step_at(frame, 1000.0);
     ASSERT_EQ(told.size(), 1u);
     EXPECT_NE(told[0].find("wand 0"), std::string::npos) << told[0];
     EXPECT_NE(told[0].find("millimetres"), std::string::npos) << told[0];
-    EXPECT_EQ(state.world_from_object, before);
+    EXPECT_EQ(viewed.state.world_from_object, before);
     for (int frame = 20; frame < 30; ++frame) step_at(frame, 1.0);
     EXPECT_EQ(told.size(), 2u);
-    EXPECT_GT(glm::length(state.world_from_object.position_m - before.position_m), 0.005) << "it holds the scene now";
+    EXPECT_GT(glm::length(viewed.state.world_from_object.position_m - before.position_m), 0.005)
+        << "it holds the scene now";
 }
 
 TEST(TrackerWatch, TellsOfALossAndOfItsEndOnce) {
-    const Room room = room_before("cave.toml");
-    SessionState state = state_in(room);
+    Viewed viewed = before("cave.toml");
     TrackerWatch watch;
-    EXPECT_FALSE(watch.look(state, room, 0)) << "there is no tracker";
+    EXPECT_FALSE(watch.look(viewed.viewer, viewed.desk, 0)) << "there is no tracker";
     const auto step_at = [&](Nanoseconds time_ns, bool sees) {
         std::vector<InputEvent> events;
         if (sees) events.push_back({time_ns, HeadInput{{{0.0, 1.6, 1.5}, Quat{1, 0, 0, 0}}, true}});
-        const SessionView view{
-            .dt_s = 0.01, .display_ns = time_ns, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
-        state = step_session(state, room, events, view).state;
-        return watch.look(state, room, time_ns);
+        static_cast<void>(
+            viewed.step(events, {.dt_s = 0.01, .tool = {}}, {.display_ns = time_ns, .eye_size = {1280, 720}}));
+        return watch.look(viewed.viewer, viewed.desk, time_ns);
     };
     constexpr Nanoseconds kFrame_ns = 10'000'000;
     Nanoseconds now_ns = kFrame_ns;
@@ -165,14 +154,15 @@ TEST(LampWatch, ATurningWorkpieceIsNotLitAnewUntilItHasRested) {
     SessionState state;
     LampWatch watch;
     Nanoseconds now_ns = 0;
-    const auto look = [&](Nanoseconds later_ns) { return watch.look(state, now_ns += later_ns * kMs); };
+    bool held = false;  // by the button that turns it
+    const auto look = [&](Nanoseconds later_ns) { return watch.look(state, held, now_ns += later_ns * kMs); };
     const auto first = look(0);
     ASSERT_TRUE(first) << "the carving side does not know the lamp yet";
     EXPECT_FALSE(look(16));
     const auto turn = [&](double angle_rad) {
         state.world_from_object.orientation = glm::angleAxis(angle_rad, Vec3(1.0, 0.0, 0.0));
     };
-    state.desk.drag.emplace();
+    held = true;
     for (int i = 1; i < 100; ++i) {
         turn(0.02 * i);
         EXPECT_FALSE(look(16)) << "all of its surface would be lit for a moment";
@@ -181,7 +171,7 @@ TEST(LampWatch, ATurningWorkpieceIsNotLitAnewUntilItHasRested) {
     EXPECT_TRUE(look(60)) << "the hand holds it still";
     turn(1.0);
     EXPECT_FALSE(look(16));
-    state.desk.drag.reset();
+    held = false;
     const auto last = look(16);
     ASSERT_TRUE(last) << "it rests where it is";
     EXPECT_GT(glm::length(last->direction_object - first->direction_object), 0.1);
@@ -227,22 +217,22 @@ TEST(MessageLog, HasTheOrderThatAReplayHas) {
     for (const std::size_t i : {0u, 1u}) EXPECT_EQ(live.all()[i].text, again.all()[i].text) << i;
 }
 
-TEST(LiveSession, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
+TEST(Desk, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
     EXPECT_EQ(files_asked_for(false), 4u);
     EXPECT_EQ(files_asked_for(true), 0u);
 }
 
-TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
+TEST(Desk, OffersToolSizesThatSuitItsWorkpiece) {
     SculptOptions options;
     options.workpiece = {"ball:0.01", 32, false};
     options.engine = sculpt::EngineChoice::cpu;
     SimulatedClock clock;
-    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
     // Where the slider is, by a panel of the same size; on a desk it is at the right of the window.
     const ImageSize window{1280, 900}, size{static_cast<std::uint32_t>(kPanelWidth_px), window.height};
     Panel alike = Panel::create({.size = size}).value();
     PanelModel model;
-    model.tool = session->state().tool.shape;
+    model.tool = desk->session().state().led().tool.shape;
     static_cast<void>(alike.show(model, 0));
     const auto slider = alike.place_of("radius").value();
     const double y_px = slider.y + 0.5 * slider.height, left_px = window.width - size.width + slider.x;
@@ -250,13 +240,14 @@ TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
     const auto step = [&](const Input& input) {
         now_ns += 16'000'000;
         const std::vector<InputEvent> events{{now_ns, input}};
-        session->step({now_ns, now_ns, events}, {.size = window}, haptics::ToolState{},
-                      [](const scene::SceneThread::Order&) {});
+        desk->step({now_ns, now_ns, events}, {.size = window}, haptics::ToolState{},
+                   [](const scene::SceneThread::Order&) {});
     };
     step(MouseMove{{left_px + 0.5 * slider.width, y_px}});
     step(MouseClick{MouseButton::left, true, {}});
     step(MouseMove{{left_px + slider.width + 2.0, y_px}});  // to the end
-    EXPECT_DOUBLE_EQ(descriptor_of(Quantity::radius).value(session->state()), 0.01) << "half of the longest side";
+    EXPECT_DOUBLE_EQ(descriptor_of(Quantity::radius).value(desk->session().state()), 0.01)
+        << "half of the longest side";
 }
 
 // The mouse in the panel's own window works the panel and not the scene, and the other way round; the picture has none.
@@ -267,18 +258,18 @@ TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
     options.engine = sculpt::EngineChoice::cpu;
     options.live.panel_window = true;
     SimulatedClock clock;
-    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
     const ImageSize window{1280, 900}, size{static_cast<std::uint32_t>(kPanelWidth_px), 700}, own{400, 700};
     Panel alike = Panel::create({.size = size}).value();
     PanelModel model;
-    model.tool = session->state().tool.shape;
+    model.tool = desk->session().state().led().tool.shape;
     static_cast<void>(alike.show(model, 0));
     const auto slider = alike.place_of("radius").value();
     Nanoseconds now_ns = 0;
     const auto step = [&](const Input& input) {
         now_ns += 16'000'000;
         const std::vector<InputEvent> events{{now_ns, input}};
-        session->step(
+        desk->step(
             {now_ns, now_ns, events}, {.size = window}, haptics::ToolState{}, [](const scene::SceneThread::Order&) {},
             own);
     };
@@ -289,19 +280,19 @@ TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
         step(MouseMove{{left_px + slider.x + slider.width + 2.0, y_px}});  // to the end
         step(MouseClick{MouseButton::left, false, {}});
     };
-    const auto radius_m = [&] { return descriptor_of(Quantity::radius).value(session->state()); };
+    const auto radius_m = [&] { return descriptor_of(Quantity::radius).value(desk->session().state()); };
     drag(window.width - kPanelWidth_px);
     EXPECT_DOUBLE_EQ(radius_m(), 0.001) << "where it would be over the picture there is none";
-    const Vec3 hand_device_m = session->state().desk.target_device_m;
+    const Vec3 hand_device_m = desk->viewer().desk.target_device_m;
     drag(kPanelWindow_px + own.width - kPanelWidth_px);
     EXPECT_DOUBLE_EQ(radius_m(), 0.02) << "half of the longest side";
-    EXPECT_EQ(session->state().desk.target_device_m, hand_device_m) << "no motion of the hand";
-    EXPECT_FALSE(session->panel_on(0)) << "the picture shows the scene alone";
-    ASSERT_TRUE(session->panel_on(1));
-    EXPECT_EQ(session->panel_on(1)->size, size);
-    EXPECT_FALSE(session->scene_on(1)) << "and its window the panel alone";
+    EXPECT_EQ(desk->viewer().desk.target_device_m, hand_device_m) << "no motion of the hand";
+    EXPECT_FALSE(desk->panel_on(0)) << "the picture shows the scene alone";
+    ASSERT_TRUE(desk->panel_on(1));
+    EXPECT_EQ(desk->panel_on(1)->size, size);
+    EXPECT_FALSE(desk->scene_on(1)) << "and its window the panel alone";
     step(KeyInput{Key::tab, KeyMotion::press, {}});
-    EXPECT_TRUE(session->panel_on(1)) << "there it cannot be hidden";
+    EXPECT_TRUE(desk->panel_on(1)) << "there it cannot be hidden";
 }
 
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {

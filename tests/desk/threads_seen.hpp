@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <thread>
 
-#include "session/live/live_session.hpp"
+#include "desk/live/desk.hpp"
 #include "tests/support/paced_clock.hpp"
 
 namespace burin::session {
@@ -18,7 +18,7 @@ namespace burin::session {
 class ThreadsSeen {
 public:
     // most_behind: ticks by which scene or file may lag. A scene in which nothing moves rests for longer than a frame.
-    ThreadsSeen(LiveSession& session, PacedClock& clock, std::size_t most_behind)
+    ThreadsSeen(Session& session, PacedClock& clock, std::size_t most_behind)
         : session_(session), clock_(clock), most_behind_(most_behind) {}
     // On the scene's thread, after an update.
     void update_ended(const scene::SceneThread::Ended& ended) {
@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    LiveSession& session_;
+    Session& session_;
     PacedClock& clock_;
     const std::size_t most_behind_;
     std::atomic<bool> failed_ = false;

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "desk/live/desk.hpp"
 #include "desk/panel/panel.hpp"
 #include "desk/run/session.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_recorder.hpp"
-#include "session/live/live_session.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/uneven_poses.hpp"
 
@@ -31,11 +31,11 @@ public:
         options.workpiece.resolution = 32;
         options.tool.shape = "ball:0.012";
         if (const auto set = set_devices(options.live, devices); !set) throw std::runtime_error(set.error().line());
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock_);
+        auto made = Desk::create(options, session_wall(options.live).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
-        executor_.emplace(clock_, session->loop(), session->channels_of_parts(), session->scene(),
-                          [this](const auto& ended) { static_cast<void>(session->collect(ended)); });
+        desk = std::move(*made);
+        executor_.emplace(clock_, desk->session().loop(), desk->session().channels_of_parts(), desk->session().scene(),
+                          [this](const auto& ended) { static_cast<void>(desk->session().collect(ended)); });
     }
     // A frame of 10 ms with these inputs.
     void frame(const std::vector<Input>& inputs = {}) {
@@ -43,11 +43,11 @@ public:
         ASSERT_TRUE(executor_->advance_to(until_ns));
         std::vector<InputEvent> events;
         for (const Input& input : inputs) events.push_back({until_ns, input});
-        session->step({until_ns, until_ns, events}, {.size = {1280, 720}}, executor_->tools(),
-                      [&](Executor::Order order) { executor_->order(std::move(order)); });
+        desk->step({until_ns, until_ns, events}, {.size = {1280, 720}}, executor_->tools(),
+                   [&](Executor::Order order) { executor_->order(std::move(order)); });
         const auto taken = executor_->take_updates();
         ASSERT_TRUE(taken);
-        session->take_news(taken->collected);
+        desk->take_news(taken->collected);
     }
     void frames(int count) {
         for (int i = 0; i < count; ++i) frame();
@@ -62,9 +62,9 @@ public:
     }
     // A steered hand follows its mouse with a delay.
     void settle() { frames(80); }
-    [[nodiscard]] const haptics::ToolState& tool(std::size_t part) { return session->hands().newest_tool(part); }
+    [[nodiscard]] const haptics::ToolState& tool(std::size_t part) { return desk->session().hands().newest_tool(part); }
 
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
 
 private:
     SimulatedClock clock_;
@@ -78,7 +78,7 @@ CommandInput lead(const std::string& hand) { return {"hand", {hand}}; }
 
 TEST(SessionHands, EachHandIsLedByItselfAndTheOthersStayWhereTheyAre) {
     HandsAtABall desk({"right=simulated", "left=simulated"});
-    ASSERT_EQ(desk.session->hands().parts(), 2u);
+    ASSERT_EQ(desk.desk->session().hands().parts(), 2u);
     desk.frame({MouseMove{{640.0, 360.0}}});
     desk.settle();
     const Vec3 right_m = desk.tool(0).hip_object_m, left_m = desk.tool(1).hip_object_m;
@@ -93,7 +93,7 @@ TEST(SessionHands, EachHandIsLedByItselfAndTheOthersStayWhereTheyAre) {
     EXPECT_GT(desk.tool(1).hip_object_m.y, left_m.y + 0.003);
     EXPECT_LT(glm::distance(desk.tool(0).hip_object_m, rests_m), 1e-4) << "it rests where it was left";
     desk.frame({CommandInput{"next-hand", {}}});
-    EXPECT_EQ(desk.session->state().hand_name, "right");
+    EXPECT_EQ(desk.desk->session().state().led().hand_name, "right");
 }
 
 TEST(SessionHands, EachHandHasAToolAndForcesOfItsOwn) {
@@ -101,20 +101,20 @@ TEST(SessionHands, EachHandHasAToolAndForcesOfItsOwn) {
     desk.frames(3);
     desk.frame({lead("left"), CommandInput{"tool", {"box:0.01,0.01,0.01"}}, CommandInput{"force", {"off"}}});
     desk.frames(3);
-    const auto parameters = [&](std::size_t part) { return desk.session->channels(part).parameters.newest(); };
+    const auto parameters = [&](std::size_t part) { return desk.desk->session().channels(part).parameters.newest(); };
     EXPECT_TRUE(parameters(0).enabled);
     EXPECT_FALSE(parameters(1).enabled);
     EXPECT_FALSE(parameters(0).shape.touches());
     EXPECT_TRUE(parameters(1).shape.touches());
     desk.frame({lead("right")});
-    EXPECT_EQ(desk.session->state().tool.shape.kind, sculpt::ToolKind::ball);
-    EXPECT_TRUE(desk.session->state().force_on);
+    EXPECT_EQ(desk.desk->session().state().led().tool.shape.kind, sculpt::ToolKind::ball);
+    EXPECT_TRUE(desk.desk->session().state().led().force_on);
 }
 
 TEST(SessionHands, BothHandsCarveTheSamePiece) {
     HandsAtABall desk({"right=simulated", "left=simulated"});
     desk.frame({MouseMove{{640.0, 360.0}}});
-    const std::uint64_t before = check_of(*desk.session);
+    const std::uint64_t before = check_of(desk.desk->session());
     std::uint64_t last = before;
     for (const char* hand : {"right", "left"}) {
         desk.frame({lead(hand)});
@@ -126,8 +126,8 @@ TEST(SessionHands, BothHandsCarveTheSamePiece) {
         desk.frame({MouseClick{MouseButton::left, false, {}}});
         desk.frame({Scroll{{0.0, -20.0}, {}}});
         desk.frames(30);
-        EXPECT_NE(check_of(*desk.session), last) << hand;
-        last = check_of(*desk.session);
+        EXPECT_NE(check_of(desk.desk->session()), last) << hand;
+        last = check_of(desk.desk->session());
     }
 }
 
@@ -136,19 +136,19 @@ TEST(SessionHands, AHandThatHoldsTurnsThePieceUnderTheOther) {
     desk.frame({MouseMove{{640.0, 360.0}}});
     desk.settle();
     desk.frame({lead("left")});
-    const Similarity home = desk.session->state().world_from_object;
+    const Similarity home = desk.desk->session().state().world_from_object;
     const Vec3 right_m = desk.tool(0).hip_object_m;
     const Vec3 right_world_m = home * right_m;
     desk.frame({MouseClick{MouseButton::right, true, {}}});
     desk.settle();
     const Vec3 held_m = desk.tool(1).hip_object_m;
     const Quat held_turn = desk.tool(1).orientation_object;
-    EXPECT_TRUE(desk.session->channels(1).parameters.newest().holds) << "what is held does not push its hand";
+    EXPECT_TRUE(desk.desk->session().channels(1).parameters.newest().holds) << "what is held does not push its hand";
     desk.frame({MouseClick{MouseButton::middle, true, {.ctrl = true}}});
     desk.drag({120.0, 0.0});
     desk.frame({MouseClick{MouseButton::middle, false, {}}});
     desk.settle();
-    const Similarity turned = desk.session->state().world_from_object;
+    const Similarity turned = desk.desk->session().state().world_from_object;
     EXPECT_GT(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(turned.orientation, home.orientation)))), 0.2);
     EXPECT_EQ(turned.scale, home.scale);
     EXPECT_LT(glm::distance(desk.tool(1).hip_object_m, held_m), 1e-3) << "the piece goes with the hand that holds it";
@@ -156,25 +156,26 @@ TEST(SessionHands, AHandThatHoldsTurnsThePieceUnderTheOther) {
     desk.drag({0.0, 90.0});  // along, as it lies turned
     EXPECT_LT(glm::distance(desk.tool(1).hip_object_m, held_m), 1e-3);
     EXPECT_GT(std::abs(glm::dot(desk.tool(1).orientation_object, held_turn)), 1.0 - 1e-5);
-    const Similarity moved = desk.session->state().world_from_object;
+    const Similarity moved = desk.desk->session().state().world_from_object;
     EXPECT_GT(glm::distance(moved.position_m, turned.position_m), 1e-3);
     EXPECT_LT(glm::distance(moved * desk.tool(0).hip_object_m, right_world_m), 1e-3) << "the other hand rests";
     EXPECT_GT(glm::distance(desk.tool(0).hip_object_m, right_m), 1e-3) << "and so it is elsewhere on the piece";
     desk.frame({MouseClick{MouseButton::right, false, {}}});
     desk.settle();
-    const Similarity let_go = desk.session->state().world_from_object;
-    EXPECT_TRUE(desk.session->channels(1).parameters.newest().enabled);
+    const Similarity let_go = desk.desk->session().state().world_from_object;
+    EXPECT_TRUE(desk.desk->session().channels(1).parameters.newest().enabled);
     desk.drag({60.0, 0.0});
-    EXPECT_EQ(desk.session->state().world_from_object, let_go);
+    EXPECT_EQ(desk.desk->session().state().world_from_object, let_go);
 }
 
 TEST(SessionHands, OneAloneHoldsNothing) {
     HandsAtABall desk({});
     desk.frame({MouseMove{{640.0, 360.0}}});
-    const Similarity home = desk.session->state().world_from_object;
+    const Similarity home = desk.desk->session().state().world_from_object;
     desk.frame({MouseClick{MouseButton::right, true, {}}});
     desk.drag({60.0, 20.0});
-    EXPECT_EQ(desk.session->state().world_from_object, home) << "as in recordings from before there were several";
+    EXPECT_EQ(desk.desk->session().state().world_from_object, home)
+        << "as in recordings from before there were several";
 }
 
 TEST(SessionHands, ADeviceWhoseAmplifiersAreOffLeavesTheOtherItsForce) {
@@ -189,7 +190,7 @@ TEST(SessionHands, ADeviceWhoseAmplifiersAreOffLeavesTheOtherItsForce) {
     EXPECT_EQ(desk.tool(1).cause, haptics::GateCause::device_fault);
     EXPECT_EQ(desk.tool(0).cause, haptics::GateCause::none);
     EXPECT_GT(glm::length(desk.tool(0).given.force_device_N), 0.1);
-    const std::vector<EventMark> events = desk.session->take_events();
+    const std::vector<EventMark> events = desk.desk->session().notices().take_events();
     EXPECT_EQ(std::ranges::count(events, "left is lost", &EventMark::name), 1) << "for the recording";
     EXPECT_EQ(std::ranges::count(events, EventMark{events.front().time_ns, "right touches", "workpiece"}), 1);
 }
@@ -274,8 +275,8 @@ TEST(SessionHands, ADeviceThatIsLostIsToldByNameOnceAndAgainWhenItIsWell) {
 
 TEST(SessionHands, AHandOfFourFingersHasFourToolsThatCloseAndFeelByThemselves) {
     HandsAtABall desk({"simulated-fingers"});
-    ASSERT_EQ(desk.session->hands().parts(), 4u);
-    EXPECT_EQ(desk.session->hands().name_of(1), "index");
+    ASSERT_EQ(desk.desk->session().hands().parts(), 4u);
+    EXPECT_EQ(desk.desk->session().hands().name_of(1), "index");
     desk.frame({MouseMove{{640.0, 360.0}}});
     desk.frames(30);
     const double open_m = glm::distance(desk.tool(0).hip_object_m, desk.tool(2).hip_object_m);
@@ -321,13 +322,13 @@ TEST(SessionHands, EachHasATouchSectionOfItsOwnOnThePanel) {
 TEST(SessionHands, TheForceOfTheOtherIsSwitchedWhileTheFirstIsLed) {
     HandsAtABall desk({"right=simulated", "left=simulated"});
     desk.frames(3);
-    const Vec3 target_m = desk.session->state().desk.target_device_m;
+    const Vec3 target_m = desk.desk->viewer().desk.target_device_m;
     desk.frame({lead("left"), CommandInput{"force", {"off"}}, lead("right")});
     desk.frames(3);
-    EXPECT_TRUE(desk.session->channels(0).parameters.newest().enabled);
-    EXPECT_FALSE(desk.session->channels(1).parameters.newest().enabled);
-    EXPECT_EQ(desk.session->state().hand_name, "right");
-    EXPECT_EQ(desk.session->state().desk.target_device_m, target_m) << "and stays where it was led";
+    EXPECT_TRUE(desk.desk->session().channels(0).parameters.newest().enabled);
+    EXPECT_FALSE(desk.desk->session().channels(1).parameters.newest().enabled);
+    EXPECT_EQ(desk.desk->session().state().led().hand_name, "right");
+    EXPECT_EQ(desk.desk->viewer().desk.target_device_m, target_m) << "and stays where it was led";
 }
 
 // What a hand holds and where it is stays its own, however often the others are led meanwhile.
@@ -338,29 +339,34 @@ TEST(SessionHands, LeftBehindKeepTheirButtonsAndPlaces) {
     for (const std::size_t first : {0u, 1u})
         for (std::uint32_t buttons = 0; buttons < 4; ++buttons) {
             const std::size_t second = 1 - first;
-            SessionState state = desk.session->state();
+            SessionState state = desk.desk->session().state();
+            Viewer viewer = desk.desk->viewer();
+            SessionOrders orders;
+            const auto lead_by_name = [&](const std::string& name) {
+                return run_command(viewer, state, desk.desk->room(), orders, LeadHand{name});
+            };
             const auto be = [&](std::size_t hand, std::uint32_t pressed) {
-                state.desk.buttons = pressed;
-                state.desk.target_device_m = uneven_offset(hand);
-                state.desk.target_turn_device = uneven_turn(hand);
+                viewer.desk.buttons = pressed;
+                viewer.desk.target_device_m = uneven_offset(hand);
+                viewer.desk.target_turn_device = uneven_turn(hand);
             };
             const auto expect = [&](std::size_t hand, std::uint32_t pressed) {
                 EXPECT_EQ(state.hand, hand);
-                EXPECT_EQ(state.desk.buttons, pressed) << names[hand] << ", first " << first;
-                EXPECT_EQ(state.desk.target_device_m, uneven_offset(hand)) << names[hand];
-                EXPECT_EQ(state.desk.target_turn_device, uneven_turn(hand)) << names[hand];
+                EXPECT_EQ(viewer.desk.buttons, pressed) << names[hand] << ", first " << first;
+                EXPECT_EQ(viewer.desk.target_device_m, uneven_offset(hand)) << names[hand];
+                EXPECT_EQ(viewer.desk.target_turn_device, uneven_turn(hand)) << names[hand];
             };
-            ASSERT_TRUE(lead_hand(state, names[first]));
+            ASSERT_TRUE(lead_by_name(names[first]));
             be(first, buttons);
-            ASSERT_TRUE(lead_hand(state, names[second]));
-            EXPECT_EQ(state.desk.buttons, 0u) << "the other had none";
+            ASSERT_TRUE(lead_by_name(names[second]));
+            EXPECT_EQ(viewer.desk.buttons, 0u) << "the other had none";
             EXPECT_EQ(state.hands[first].target.buttons, buttons);
             be(second, 3 - buttons);
             for (int times = 0; times < 3; ++times) {
-                ASSERT_TRUE(lead_hand(state, names[first]));
+                ASSERT_TRUE(lead_by_name(names[first]));
                 expect(first, buttons);
                 EXPECT_EQ(state.hands[second].target.buttons, 3 - buttons);
-                ASSERT_TRUE(lead_hand(state, names[second]));
+                ASSERT_TRUE(lead_by_name(names[second]));
                 expect(second, 3 - buttons);
                 EXPECT_EQ(state.hands[first].target.buttons, buttons);
             }
@@ -393,12 +399,12 @@ TEST(SessionHands, LeftBehindHoldTheirButtonsDownInEachTick) {
 
 TEST(SessionHands, SayWhichHandsThereAreWhereAnotherIsAskedFor) {
     HandsAtABall two({"right=simulated", "left=simulated"});
-    SessionState state = two.session->state();
+    SessionState state = two.desk->session().state();
     const auto none = lead_hand(state, "middle");
     ASSERT_FALSE(none);
     EXPECT_TRUE(none.error().line().contains("right or left")) << none.error().line();
     HandsAtABall one({});
-    state = one.session->state();
+    state = one.desk->session().state();
     const auto alone = lead_hand(state, "left");
     ASSERT_FALSE(alone);
     EXPECT_TRUE(alone.error().line().contains("--device right=simulated")) << alone.error().line();
@@ -420,7 +426,7 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
     SculptOptions options;
     ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulatd"}));
     SimulatedClock clock;
-    const auto opened = LiveSession::create(options, session_wall(options.live).value(), clock);
+    const auto opened = Desk::create(options, session_wall(options.live).value(), clock);
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("hand left: haptic device simulatd")) << opened.error().line();
     EXPECT_TRUE(opened.error().line().contains("did you mean simulated?")) << opened.error().line();
@@ -453,7 +459,7 @@ TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
     options.workpiece.resolution = 16;
     ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulated", "third=glove:/dev/none-there"}));
     MonotonicClock clock;
-    const auto opened = LiveSession::create(options, session_wall(options.live).value(), clock);
+    const auto opened = Desk::create(options, session_wall(options.live).value(), clock);
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("hand third: ")) << opened.error().line();
     EXPECT_TRUE(opened.error().line().contains("/dev/none-there")) << opened.error().line();

@@ -8,7 +8,7 @@
 
 #include "record/motion.hpp"
 #include "session/record/recordings.hpp"
-#include "tests/session/recorded_session.hpp"
+#include "tests/desk/recorded_session.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -31,15 +31,15 @@ class SteppedFrames final : public FrameSource {
 public:
     SteppedFrames(Recorded& of, Clock& clock) : of_(of), start_ns_(clock.now_ns()) {}
     [[nodiscard]] std::optional<Nanoseconds> next() override {
-        if (of_.session->state().quit) return std::nullopt;
+        if (of_.desk->session().state().quit) return std::nullopt;
         return start_ns_ + ++frame_ * 5'000'000;
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
         of_.recorder->outside();
-        const Nanoseconds now_ns = start_ns_ + frame_ * 5'000'000 - of_.session->start_ns();
+        const Nanoseconds now_ns = start_ns_ + frame_ * 5'000'000 - of_.desk->session().start_ns();
         const auto input = of_.input->begin_frame(now_ns, now_ns + 10'000'000);
         if (!input) return fail("test", "has no input");
-        return step_frame(*of_.session, executor, *of_.recorder, *input, {{.size = kShownSize}});
+        return step_frame(*of_.desk, executor, *of_.recorder, *input, {{.size = kShownSize}});
     }
 
 private:
@@ -52,7 +52,7 @@ private:
 std::uint64_t recorded_in_steps(const SculptOptions& options, const std::string& script) {
     SimulatedClock clock;
     Recorded recorded(options, clock, Recorded::Of::script, script);
-    LiveSession& s = *recorded.session;
+    Session& s = recorded.desk->session();
     SteppedFrames frames(recorded, clock);
     SteppedExecutor executor(clock, s.loop(), s.channels_of_parts(), s.scene(),
                              [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
@@ -82,8 +82,8 @@ std::string recorded_refusal(const std::string& device) {
     SculptOptions options = short_options({});
     options.live.device = device;
     SimulatedClock clock;
-    const auto session = LiveSession::create(options, *session_wall(options.live), clock);
-    return session ? "nothing" : session.error().line();
+    const auto desk = Desk::create(options, *session_wall(options.live), clock);
+    return desk ? "nothing" : desk.error().line();
 }
 
 }  // namespace

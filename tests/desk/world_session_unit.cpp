@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
-#include "session/live/live_session.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -33,25 +33,25 @@ public:
         options.no_workpiece = !with_workpiece;
         options.workpiece = {"ball:0.03", 32, false};
         options.engine = sculpt::EngineChoice::cpu;
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
-        session->take_loaded();
+        desk = std::move(*made);
+        desk->take_loaded();
     }
     // A frame with these commands; then the scene has updated and the frame knows of it.
     void frame(const std::vector<CommandInput>& commands) {
         clock.sleep_until(clock.now_ns() + 10'000'000);
         std::vector<InputEvent> events;
         for (const CommandInput& command : commands) events.push_back({clock.now_ns(), command});
-        session->step({clock.now_ns(), clock.now_ns(), events}, {.size = {640, 360}}, session->newest_tool(),
-                      [](const scene::SceneThread::Order& order) { order(); });
-        ASSERT_TRUE(session->scene().update(clock.now_ns()));
-        static_cast<void>(session->collect({}));
-        session->take_news(Executor::kAllCollected);
+        desk->step({clock.now_ns(), clock.now_ns(), events}, {.size = {640, 360}}, desk->session().newest_tool(),
+                   [](const scene::SceneThread::Order& order) { order(); });
+        ASSERT_TRUE(desk->session().scene().update(clock.now_ns()));
+        static_cast<void>(desk->session().collect({}));
+        desk->take_news(Executor::kAllCollected);
     }
     [[nodiscard]] std::vector<double> stiffnesses() {
         std::vector<double> found;
-        for (const auto& material : session->channels().parameters.newest().materials)
+        for (const auto& material : desk->session().channels().parameters.newest().materials)
             found.push_back(material.stiffness_N_per_m);
         return found;
     }
@@ -62,7 +62,7 @@ public:
 
     SculptOptions options;
     SimulatedClock clock;
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
 
 private:
     Workplace place_;
@@ -79,18 +79,18 @@ std::string told_by(OpenWorld& world, const std::vector<CommandInput>& commands)
 TEST(WorldSession, ItsMaterialsAreThoseOfTheTick) {
     OpenWorld world;
     EXPECT_TRUE(world.feels(900.0) && world.feels(200.0));
-    EXPECT_EQ(world.session->channels().parameters.newest().action, haptics::ToolAction::touch);
+    EXPECT_EQ(world.desk->session().channels().parameters.newest().action, haptics::ToolAction::touch);
     world.frame({{"object", {"rock", "stiffness", "333"}}});
     EXPECT_TRUE(world.feels(333.0) && world.feels(200.0));
     EXPECT_FALSE(world.feels(900.0)) << "nothing feels like it any more";
-    EXPECT_EQ(world.session->state().world->find(1)->material.stiffness_N_per_m, 333.0);
+    EXPECT_EQ(world.desk->session().state().world->find(1)->material.stiffness_N_per_m, 333.0);
 }
 
 TEST(WorldSession, FrictionThatGrowsWithTheSpeedOfSlidingIsThatOfTheTick) {
     OpenWorld world;
     const auto velocities = [&] {
         std::set<double> found;
-        for (const auto& material : world.session->channels().parameters.newest().materials)
+        for (const auto& material : world.desk->session().channels().parameters.newest().materials)
             found.insert(material.coulomb_velocity_m_per_s);
         return found;
     };
@@ -98,18 +98,18 @@ TEST(WorldSession, FrictionThatGrowsWithTheSpeedOfSlidingIsThatOfTheTick) {
     world.frame({{"object", {"rock", "friction", "0.4"}}, {"object", {"rock", "coulomb-velocity", "0.02"}}});
     EXPECT_EQ(velocities(), (std::set{0.0, 0.02}));
     EXPECT_TRUE(told_by(world, {{"object", {"rock", "coulomb-velocity", "20"}}}).contains("give a number from 0 to 1"));
-    EXPECT_EQ(world.session->state().world->find(1)->material.coulomb_velocity_m_per_s, 0.02);
+    EXPECT_EQ(world.desk->session().state().world->find(1)->material.coulomb_velocity_m_per_s, 0.02);
 }
 
 TEST(WorldSession, CommandsMoveAndHideObjects) {
     OpenWorld world;
     world.frame({{"object", {"rock", "position", "0.3,0,0"}}, {"object", {"bird", "seen", "off"}}});
-    EXPECT_EQ(world.session->objects()->pose(1).position_m, Vec3(0.3, 0.0, 0.0));
-    const auto scene = world.session->scene_on(0);
+    EXPECT_EQ(world.desk->session().scene_side().objects()->pose(1).position_m, Vec3(0.3, 0.0, 0.0));
+    const auto scene = world.desk->scene_on(0);
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->objects.size(), 1u) << "the bird is not seen";
     world.frame({{"object", {"rock", "colour", "1,0,0"}}});
-    EXPECT_EQ(world.session->scene_on(0)->objects.at(0).colour, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(world.desk->scene_on(0)->objects.at(0).colour, Vec3(1.0, 0.0, 0.0));
 }
 
 // Who looks into a tube through its end sees its wall from within.
@@ -134,10 +134,10 @@ TEST(WorldSession, SheetsAreSeenFromBothSides) {
 TEST(WorldSession, WhatMovesIsDrawnWhereItIs) {
     OpenWorld world;
     world.frame({});
-    const Vec3 before = world.session->scene_on(0)->objects.at(1).world_from_mesh.position_m;
+    const Vec3 before = world.desk->scene_on(0)->objects.at(1).world_from_mesh.position_m;
     for (int i = 0; i < 50; ++i) world.frame({});
-    const double rise = glm::length(world.session->scene_on(0)->objects.at(1).world_from_mesh.position_m - before) /
-                        world.session->state().world_from_object.scale;
+    const double rise = glm::length(world.desk->scene_on(0)->objects.at(1).world_from_mesh.position_m - before) /
+                        world.desk->session().state().world_from_object.scale;
     EXPECT_GT(rise, 0.01);
     EXPECT_LT(rise, 0.05);
 }
@@ -167,10 +167,10 @@ TEST(WorldSession, RefusesMoreMaterialsThanThereIsRoomFor) {
 
 TEST(WorldSession, AWorkpieceIsCarvedAmongObjects) {
     OpenWorld world(true);
-    EXPECT_EQ(world.session->channels().parameters.newest().action, haptics::ToolAction::cut);
-    EXPECT_NE(world.session->surface(), nullptr);
+    EXPECT_EQ(world.desk->session().channels().parameters.newest().action, haptics::ToolAction::cut);
+    EXPECT_NE(world.desk->session().scene_side().surface(), nullptr);
     world.frame({});
-    const geometry::LocalSurface& touched = world.session->channels().surface.newest();
+    const geometry::LocalSurface& touched = world.desk->session().channels().surface.newest();
     EXPECT_GE(touched.tiles.triangles + touched.meshes.size(), 1u);
     EXPECT_TRUE(told_by(world, {{"undo", {}}}).contains("no stroke to undo"));
 }
@@ -178,18 +178,19 @@ TEST(WorldSession, AWorkpieceIsCarvedAmongObjects) {
 // The hand goes into the rock's slanted face, takes hold, and goes aside: in simulated time, through the device.
 TEST(WorldSession, TheSecondButtonTakesAnObjectAlong) {
     OpenWorld world;
-    LiveSession& s = *world.session;
+    Session& s = world.desk->session();
+    const scene::MeshPart& objects = *s.scene_side().objects();
     SteppedExecutor executor(world.clock, s.loop(), s.channels_of_parts(), s.scene(),
                              [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
-    const Vec3 start = s.objects()->pose(1).position_m;
+    const Vec3 start = objects.pose(1).position_m;
     bool touched = false;
     const auto frame = [&](std::vector<InputEvent> events) {
         const Nanoseconds now_ns = world.clock.now_ns() + 16'000'000;
         ASSERT_TRUE(executor.advance_to(now_ns));
         for (InputEvent& event : events) event.time_ns = now_ns;
-        s.step({now_ns, now_ns, events}, {.size = {640, 400}}, s.newest_tool(),
-               [&](scene::SceneThread::Order order) { executor.order(std::move(order)); });
-        s.take_news(executor.take_updates()->collected);
+        world.desk->step({now_ns, now_ns, events}, {.size = {640, 400}}, s.newest_tool(),
+                         [&](scene::SceneThread::Order order) { executor.order(std::move(order)); });
+        world.desk->take_news(executor.take_updates()->collected);
         touched = touched || (s.newest_tool().flags & haptics::kTickInContact) != 0;
     };
     // Straight in from the front until something is touched.
@@ -201,13 +202,13 @@ TEST(WorldSession, TheSecondButtonTakesAnObjectAlong) {
     for (int i = 0; i < 10; ++i) frame({});
     frame({{0, MouseClick{MouseButton::right, true, {}}}});
     for (int i = 0; i < 30; ++i) frame({{0, MouseMove{{187.0 + 2.0 * i, 280.0 - i}}}});
-    EXPECT_TRUE(std::holds_alternative<scene::HeldMotion>(s.objects()->object(1).motion));
-    EXPECT_GT(glm::length(s.objects()->pose(1).position_m - start), 0.002);
+    EXPECT_TRUE(std::holds_alternative<scene::HeldMotion>(objects.object(1).motion));
+    EXPECT_GT(glm::length(objects.pose(1).position_m - start), 0.002);
     frame({{0, MouseClick{MouseButton::right, false, {}}}});
     frame({});
-    const Vec3 left_at = s.objects()->pose(1).position_m;
+    const Vec3 left_at = objects.pose(1).position_m;
     for (int i = 0; i < 20; ++i) frame({{0, MouseMove{{245.0 - 2.0 * i, 251.0}}}});
-    EXPECT_EQ(s.objects()->pose(1).position_m, left_at);
+    EXPECT_EQ(objects.pose(1).position_m, left_at);
     EXPECT_EQ(s.state().world->find(1)->pose.position_m, left_at) << "the frame knows";
 }
 
@@ -225,7 +226,7 @@ TEST(SessionSettings, NameTheWorldOfARecording) {
 
 TEST(WorldSession, StrokesAndEditsOfObjectsAreUndoneInTheOrderInWhichTheyWereDone) {
     OpenWorld world(true);
-    SessionState state = world.session->state();
+    SessionState state = world.desk->session().state();
     const auto orders_of = [&](const SessionCommand& command) {
         SessionOrders orders;
         EXPECT_TRUE(run_command(state, orders, command));
@@ -256,7 +257,7 @@ TEST(WorldSession, StrokesAndEditsOfObjectsAreUndoneInTheOrderInWhichTheyWereDon
 
 TEST(WorldSession, WhatAHandHoldsIsNotUndoneUnderIt) {
     OpenWorld world;
-    SessionState state = world.session->state();
+    SessionState state = world.desk->session().state();
     SessionOrders orders;
     ASSERT_TRUE(run_command(state, orders, EditObject{"rock", scene::ObjectProperty::scale, {2.0}}));
     auto held = std::make_shared<scene::SceneObject>(*state.world->find(1));
@@ -272,7 +273,7 @@ TEST(WorldSession, WhatAHandHoldsIsNotUndoneUnderIt) {
 
 TEST(WorldSession, AnEditOfWhatAHandHeldIsUndoneWithoutPuttingItBackIntoTheHand) {
     OpenWorld world;
-    SessionState state = world.session->state();
+    SessionState state = world.desk->session().state();
     SessionOrders orders;
     const auto with = [&](scene::ObjectMotion motion, double scale) {
         auto object = std::make_shared<scene::SceneObject>(*state.world->find(1));

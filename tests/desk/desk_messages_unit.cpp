@@ -37,7 +37,7 @@ std::vector<CommandInput> click_at(Panel& panel, const PanelModel& model, const 
 
 Vec2 middle_of(const PixelRect& at) { return {at.x + 0.5 * at.width, at.y + 0.5 * at.height}; }
 
-std::size_t times_told(const LiveSession& session) { return session.messages().size(); }
+std::size_t times_told(const Desk& desk) { return desk.session().notices().log().all().size(); }
 
 }  // namespace
 
@@ -142,10 +142,10 @@ TEST(DeskMessages, EscapePutsThemAway) {
     static_cast<void>(
         desk.told_while({{MouseClick{}, 8'000'000}, {MouseClick{MouseButton::left, false, {}}, 50'000'000}}));
     desk.rest(0.1);
-    ASSERT_TRUE(desk.session->panel_on(0));
-    EXPECT_EQ(desk.session->panel_on(0)->size, MouseDesk::kWindow) << "the panel is hidden, the message is not";
+    ASSERT_TRUE(desk.desk->panel_on(0));
+    EXPECT_EQ(desk.desk->panel_on(0)->size, MouseDesk::kWindow) << "the panel is hidden, the message is not";
     desk.run({{KeyInput{Key::escape, KeyMotion::press, {}}, 8'000'000}}, 100'000'000);
-    EXPECT_TRUE(desk.session->panel_on(0)->mesh.indices.empty());
+    EXPECT_TRUE(desk.desk->panel_on(0)->mesh.indices.empty());
 }
 
 // Whoever leads a simulated hand with a mouse can do nothing about it, and feels nothing that could be late.
@@ -155,10 +155,10 @@ TEST(DeskMessages, AreSilentOfLatePicturesForAMouse) {
     late.numbers.emplace();
     late.numbers->warnings = {"Picture 61 ms behind the hand; 15 is noticed"};
     late.numbers->figures.frames_per_s = 12.0;
-    desk.session->measure_again(late);
+    desk.desk->measure_again(late);
     desk.move_to({640, 360});
     desk.rest(2.0);
-    EXPECT_TRUE(desk.session->panel_on(0)->mesh.indices.empty());
+    EXPECT_TRUE(desk.desk->panel_on(0)->mesh.indices.empty());
 }
 
 TEST(DeskMessages, AStrokeThatRemovesNothingSaysWhy) {
@@ -177,7 +177,7 @@ TEST(DeskMessages, AStrokeThatRemovesNothingSaysWhy) {
     desk.run({{CommandInput{"strength", {"0.3"}}, 8'000'000}, {CommandInput{"tool-5", {}}, 8'000'000}});
     EXPECT_NE(told_of({{20, 15, 12}, {60, 15, 12}}).find("only touches"), std::string::npos);
     EXPECT_EQ(desk.strokes(), 1u);
-    EXPECT_GE(times_told(*desk.session), 2u);
+    EXPECT_GE(times_told(*desk.desk), 2u);
 }
 
 TEST(DeskLetters, OfOtherScriptsAreShownWhereAFontHasThem) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "devices/haptic/wand_file.hpp"
-#include "session/live/live_session.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -35,29 +35,29 @@ public:
         options.tool.shape = "ball:0.004";
         options.points = points;
         options.live.device = "simulated-wand:" + (place_ / "wand.toml").string();
-        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
-        session = std::move(*made);
+        desk = std::move(*made);
         frame({});
     }
     // Ten ticks, an update of the scene, and a frame with these inputs.
     void frame(const std::vector<Input>& inputs) {
         for (int i = 0; i < 10; ++i) {
-            clock.sleep_until(clock.now_ns() + session->loop().period_ns());
-            last = session->loop().step();
+            clock.sleep_until(clock.now_ns() + desk->session().loop().period_ns());
+            last = desk->session().loop().step();
         }
-        ASSERT_TRUE(session->scene().update(clock.now_ns()));
+        ASSERT_TRUE(desk->session().scene().update(clock.now_ns()));
         std::vector<InputEvent> events;
         for (const Input& input : inputs) events.push_back({clock.now_ns(), input});
-        session->step({clock.now_ns(), clock.now_ns(), events}, {.size = {640, 360}}, session->newest_tool(),
-                      [](const scene::SceneThread::Order& order) { order(); });
-        static_cast<void>(session->collect({}));
-        session->take_news(Executor::kAllCollected);
+        desk->step({clock.now_ns(), clock.now_ns(), events}, {.size = {640, 360}}, desk->session().newest_tool(),
+                   [](const scene::SceneThread::Order& order) { order(); });
+        static_cast<void>(desk->session().collect({}));
+        desk->take_news(Executor::kAllCollected);
     }
     void rest(int frames) {
         for (int i = 0; i < frames; ++i) frame({});
     }
-    [[nodiscard]] haptics::TickParameters parameters() { return session->channels().parameters.newest(); }
+    [[nodiscard]] haptics::TickParameters parameters() { return desk->session().channels().parameters.newest(); }
     [[nodiscard]] std::string told_by(const CommandInput& command) {
         testing::internal::CaptureStderr();
         frame({command});
@@ -66,7 +66,7 @@ public:
 
     SculptOptions options;
     SimulatedClock clock;
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
     haptics::TickRecord last;
 
 private:
@@ -100,12 +100,12 @@ TEST(WandSession, IsDrawnAsARodWithARedAndAGreenBallWhereTheyTouch) {
     WandDesk desk;
     desk.frame({Scroll{{0.0, 12.0}, {}}});
     desk.rest(80);
-    const auto scene = desk.session->scene_on(0);
+    const auto scene = desk.desk->scene_on(0);
     ASSERT_TRUE(scene);
     EXPECT_FALSE(scene->tool.visible);
     ASSERT_EQ(scene->objects.size(), 4u) << "rod, two balls, the block";
-    const Similarity& world_from_object = desk.session->state().world_from_object;
-    const haptics::ToolState tool = desk.session->newest_tool();
+    const Similarity& world_from_object = desk.desk->session().state().world_from_object;
+    const haptics::ToolState tool = desk.desk->session().newest_tool();
     const picture::DrawnObject &top = scene->objects[1], &bottom = scene->objects[2];
     EXPECT_GT(top.colour.x, top.colour.y + 0.5);
     EXPECT_GT(bottom.colour.y, bottom.colour.x + 0.5);
@@ -170,7 +170,7 @@ TEST(WandSession, HoldsBallsAlone) {
     EXPECT_EQ(desk.parameters().probe.points[1].radius_m, 0.006);
     SculptOptions options = desk.options;
     options.points = "tpo";
-    const auto refused = LiveSession::create(options, session_wall(options.live).value(), desk.clock);
+    const auto refused = Desk::create(options, session_wall(options.live).value(), desk.clock);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("did you mean top?"), std::string::npos);
 }
@@ -238,8 +238,8 @@ TEST(WandSession, ItsAmplifiersAreEnabledAgainAndTheForceComesBackFromZero) {
     Vec3 before_N(0.0);
     double largest_N = 0.0;
     for (int tick = 0; tick < 600; ++tick) {
-        desk.clock.sleep_until(desk.clock.now_ns() + desk.session->loop().period_ns());
-        const Vec3 given_N = desk.session->loop().step().gate.given.force_device_N;
+        desk.clock.sleep_until(desk.clock.now_ns() + desk.desk->session().loop().period_ns());
+        const Vec3 given_N = desk.desk->session().loop().step().gate.given.force_device_N;
         EXPECT_LE(glm::length(given_N - before_N), most_change_N * (1.0 + 1e-9)) << tick;
         // The gate waits for 50 ms after a fault, and fades in over 200 ms.
         const double most_N = tick < 30 ? 0.0 : tick < 100 ? 0.6 * pressed_N : HUGE_VAL;
@@ -247,7 +247,7 @@ TEST(WandSession, ItsAmplifiersAreEnabledAgainAndTheForceComesBackFromZero) {
         largest_N = std::max(largest_N, glm::length(given_N));
         before_N = given_N;
         if (tick % 10 == 9) {
-            ASSERT_TRUE(desk.session->scene().update(desk.clock.now_ns()));
+            ASSERT_TRUE(desk.desk->session().scene().update(desk.clock.now_ns()));
         }
     }
     EXPECT_GT(largest_N, 0.7 * pressed_N);

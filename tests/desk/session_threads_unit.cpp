@@ -11,7 +11,7 @@
 #include "session/drive/thread_replay.hpp"
 #include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"
-#include "tests/session/threads_seen.hpp"
+#include "tests/desk/threads_seen.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -61,22 +61,22 @@ public:
     RecordedSession(const Workplace& place, Clock& clock, double pace = 1.0) : place_(place) {
         const std::string path = (place / "live.log").string();
         const SculptOptions options = options_for(path);
-        auto created = LiveSession::create(options, *session_wall(options.live), clock, pace);
+        auto created = Desk::create(options, *session_wall(options.live), clock, pace);
         auto writer = InputLogWriter::create(path, settings_line(options));
         auto script = parse_input_log(kScript, "script");
         if (!created || !writer || !script) throw std::runtime_error("the session does not open");
-        session = std::move(*created);
-        untouched_ = check_of(*session);
+        desk = std::move(*created);
+        untouched_ = check_of(desk->session());
         input.emplace(InputSource::play(std::move(*script), std::move(*writer)));
-        recorder.emplace(*input, *session);
+        recorder.emplace(*input, desk->session());
     }
     Live finish(Executor& executor) {
         recorder->finish(executor.take_updates()->updates);
-        return {place_.read("live.log"), untouched_, check_of(*session), session->loop().ticks(),
-                session->newest_tool().given.force_device_N};
+        return {place_.read("live.log"), untouched_, check_of(desk->session()), desk->session().loop().ticks(),
+                desk->session().newest_tool().given.force_device_N};
     }
 
-    std::unique_ptr<LiveSession> session;
+    std::unique_ptr<Desk> desk;
     std::optional<InputSource> input;
     std::optional<ThreadRecorder> recorder;
 
@@ -91,18 +91,18 @@ public:
     UndrawnFrames(RecordedSession& of, Clock& clock, Nanoseconds period_ns, ThreadsSeen* threads = nullptr)
         : of_(of), clock_(clock), period_ns_(period_ns), threads_(threads) {}
     [[nodiscard]] std::optional<Nanoseconds> next() override {
-        if (of_.session->state().quit) return ended();
+        if (of_.desk->session().state().quit) return ended();
         clock_.sleep_until(clock_.now_ns() + period_ns_);
         if (threads_ != nullptr) threads_->wait(period_ns_);
         of_.recorder->outside();
-        const Nanoseconds now_ns = clock_.now_ns() - of_.session->start_ns();
+        const Nanoseconds now_ns = clock_.now_ns() - of_.desk->session().start_ns();
         const auto input = of_.input->begin_frame(now_ns, now_ns + 10'000'000);
         if (!input) return ended();
         frame_ = *input;
         return clock_.now_ns();
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
-        const auto done = step_frame(*of_.session, executor, *of_.recorder, frame_, {{.size = kSize}});
+        const auto done = step_frame(*of_.desk, executor, *of_.recorder, frame_, {{.size = kSize}});
         if (!done) static_cast<void>(ended());
         return done;
     }
@@ -124,7 +124,7 @@ private:
 Live live(const Workplace& place) {
     PacedClock clock(2);  // the hand's thread and the frames
     RecordedSession recorded(place, clock);
-    LiveSession& s = *recorded.session;
+    Session& s = recorded.desk->session();
     ThreadsSeen seen(s, clock, 300);
     UndrawnFrames frames(recorded, clock, 5'000'000, &seen);
     ThreadedExecutor threads(clock, s.loop(), s.channels_of_parts(), s.scene(), {},
@@ -139,7 +139,7 @@ Live live(const Workplace& place) {
 // the tool is of a tick before the last that an earlier update has taken.
 class OvertakingExecutor final : public Executor {
 public:
-    OvertakingExecutor(LiveSession& session, SimulatedClock& clock) : session_(session), clock_(clock) {}
+    OvertakingExecutor(Session& session, SimulatedClock& clock) : session_(session), clock_(clock) {}
     [[nodiscard]] Result<void> advance_to(Nanoseconds) override {
         late_ = !late_;
         tick(4);
@@ -170,7 +170,7 @@ private:
             session_.loop().step();
         }
     }
-    LiveSession& session_;
+    Session& session_;
     SimulatedClock& clock_;
     haptics::ToolState tool_, before_update_;
     bool late_ = true;
@@ -181,7 +181,7 @@ Live overtaking(const Workplace& place, double pace = 1.0) {
     SimulatedClock clock;
     RecordedSession recorded(place, clock, pace);
     UndrawnFrames frames(recorded, clock, 0);
-    OvertakingExecutor executor(*recorded.session, clock);
+    OvertakingExecutor executor(recorded.desk->session(), clock);
     EXPECT_TRUE(drive(executor, frames));
     return recorded.finish(executor);
 }
@@ -199,8 +199,8 @@ struct Again {
 
 class FramesAgain final : public FrameSource {
 public:
-    FramesAgain(LiveSession& session, InputSource input, const ThreadLog& log, ThreadReplay& replay, Again& result)
-        : session_(session), input_(std::move(input)), log_(log), replay_(replay), result_(result) {}
+    FramesAgain(Desk& desk, InputSource input, const ThreadLog& log, ThreadReplay& replay, Again& result)
+        : desk_(desk), input_(std::move(input)), log_(log), replay_(replay), result_(result) {}
     [[nodiscard]] std::optional<Nanoseconds> next() override {
         if (result_.frames == log_.frames.size()) return std::nullopt;
         frame_ = input_.begin_frame(0, 0).value();
@@ -208,19 +208,19 @@ public:
         return frame_.time_ns;
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
-        if (const auto done = step_frame(session_, executor, recorder_, frame_, {{.size = kSize}}); !done) return done;
+        if (const auto done = step_frame(desk_, executor, recorder_, frame_, {{.size = kSize}}); !done) return done;
         const bool same_tool = replay_.tools().front().tick == log_.frames[result_.frames++].ticks.front();
-        if (!same_tool || !replay_.is_as_recorded()) ++result_.departed;
+        if (!same_tool || !replay_.is_as_recorded(desk_.words())) ++result_.departed;
         return {};
     }
 
 private:
-    LiveSession& session_;
+    Desk& desk_;
     InputSource input_;
     const ThreadLog& log_;
     ThreadReplay& replay_;
     Again& result_;
-    ThreadRecorder recorder_{input_, session_};
+    ThreadRecorder recorder_{input_, desk_.session()};
     FrameInput frame_;
 };
 
@@ -234,14 +234,14 @@ Again again(const std::string& text) {
     const ThreadLog threads = *log->threads;
     SimulatedClock clock;
     const SculptOptions options = options_for("");
-    auto session = open_as_recorded(options, *session_wall(options.live), threads, "live.log", clock);
-    if (!session) {
-        result.error = session.error();
+    auto desk = Desk::create_as_recorded(options, *session_wall(options.live), threads, "live.log", clock);
+    if (!desk) {
+        result.error = desk.error();
         return result;
     }
-    LiveSession& s = **session;
+    Session& s = (*desk)->session();
     ThreadReplay replay(s, threads, ticks_of_lines(threads, "live.log"), "live.log");
-    FramesAgain frames(s, InputSource::replay(std::move(*log)), threads, replay, result);
+    FramesAgain frames(**desk, InputSource::replay(std::move(*log)), threads, replay, result);
     Result<void> done = drive(replay, frames);
     if (done) done = replay.run_to_end();
     if (!done) {
@@ -373,18 +373,18 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     const SculptOptions options = options_for(path);
     SimulatedClock clock;
     const auto wall = session_wall(options.live);
-    auto session = LiveSession::create(options, *wall, clock);
-    ASSERT_TRUE(session);
+    auto desk = Desk::create(options, *wall, clock);
+    ASSERT_TRUE(desk);
     auto writer = InputLogWriter::create(path, settings_line(options));
     ASSERT_TRUE(writer);
     InputSource input = InputSource::live(std::move(*writer));
-    LiveSession& s = **session;
+    Session& s = (*desk)->session();
     ThreadRecorder recorder(input, s);
     const auto frame = [&] {
         const auto begun = input.begin_frame(clock.now_ns(), clock.now_ns());
         const haptics::ToolState tool = s.newest_tool();
-        s.step(*begun, {.size = kSize}, tool, [](Executor::Order) {});
-        recorder.frame(std::span(&tool, 1), {}, {{.size = kSize}});
+        (*desk)->step(*begun, {.size = kSize}, tool, [](Executor::Order) {});
+        recorder.frame(std::span(&tool, 1), {}, {{{.size = kSize}}, (*desk)->measured(), (*desk)->words()});
     };
     const auto tick = [&](int times) {
         for (int i = 0; i < times; ++i) {
@@ -416,21 +416,21 @@ TEST(ThreadRecorder, WritesTheModeThatAScreenWentBackTo) {
     const Workplace place;
     SimulatedClock clock;
     RecordedSession recorded(place, clock);
-    LiveSession& s = *recorded.session;
+    Desk& s = *recorded.desk;
     const auto frame = [&] {
-        recorded.recorder->outside();
+        recorded.recorder->outside(s.take_refused());
         clock.sleep_until(clock.now_ns() + 5'000'000);
-        const Nanoseconds now_ns = clock.now_ns() - s.start_ns();
+        const Nanoseconds now_ns = clock.now_ns() - s.session().start_ns();
         const auto begun = recorded.input->begin_frame(now_ns, now_ns);
-        s.step(*begun, {.size = kSize}, s.newest_tool(), [](Executor::Order) {});
-        const haptics::ToolState drawn = s.newest_tool();
-        recorded.recorder->frame(std::span(&drawn, 1), {}, {{.size = kSize}});
+        s.step(*begun, {.size = kSize}, s.session().newest_tool(), [](Executor::Order) {});
+        const haptics::ToolState drawn = s.session().newest_tool();
+        recorded.recorder->frame(std::span(&drawn, 1), {}, {{{.size = kSize}}, s.measured(), s.words()});
     };
     frame();
     testing::internal::CaptureStderr();
     s.refuse_mode(wall::StereoMode::left, {"it cannot be shown", "screen", ""});
     EXPECT_TRUE(log_has(testing::internal::GetCapturedStderr(), "it cannot be shown"));
-    EXPECT_EQ(s.state().output.mode, wall::StereoMode::left);
+    EXPECT_EQ(s.viewer().output.mode, wall::StereoMode::left);
     frame();
     frame();
     const auto log = read_input_log(place / "live.log");
