@@ -6,7 +6,7 @@
 //   open_before_eyes()   -> OpeningWork: read -> first look -> check, close holes -> solid -> surface    its thread
 //        |  each 0.1 s, or woken: window's events, first look, step and share -> picture                 the frame's
 //        v
-//   MadeWorkpiece -> LiveSession::create
+//   MadeWorkpiece -> Desk::create
 #pragma once
 
 #include <optional>

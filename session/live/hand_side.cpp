@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/try.hpp"
+#include "scene/rendered_material.hpp"
 
 namespace burin::session {
 Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock) {
@@ -35,6 +36,30 @@ std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state
         all.push_back({place_at_rest(hand, state, room), reach_m, spread_of(hand, state, room)});
     }
     return all;
+}
+
+std::vector<std::string> HandSide::more_than_rendered(const SessionState& state, const Room& room) const {
+    std::vector<std::string> told;
+    if (!state.world) return told;
+    std::vector<scene::SceneObject> objects;
+    for (const auto& object : state.world->objects) objects.push_back(*object);
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
+        const devices::DeviceDescription& device = hands_.device(hands_.first_part(hand));
+        std::string more = scene::more_than_rendered(objects, device, parameters_of(state, room, hand, device));
+        if (!more.empty()) told.push_back(std::move(more));
+    }
+    return told;
+}
+
+HandSide::Switched HandSide::switch_amplifiers(std::size_t hand, bool on) {
+    const std::optional<devices::AmplifierAnswer> answer = hands_.switch_amplifiers(hand, on);
+    if (answer == devices::AmplifierAnswer::done)
+        return {true, on ? "the amplifiers are on; the force comes back from zero"
+                         : "the amplifiers are off: no force until they are enabled again"};
+    const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
+                                   : "those of " + std::string(hands_.device(hands_.first_part(hand)).name) +
+                                         " cannot be switched from here";
+    return {false, "amplifiers: " + why};
 }
 
 void HandSide::publish_parameters(const SessionState& state, const Room& room, const ActivitySide& activity) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "session/hands/session_hands.hpp"
@@ -34,6 +35,15 @@ public:
     // Has what is known around each hand reach all points of its handle: the scene has been scaled, or the motion.
     void spread(const SessionState& state, const Room& room, SceneSide& scene, const SceneSide::Give& give) const;
 
+    // Returns, once for each hand and before anything is touched, what of the world's materials its device cannot
+    // render.
+    [[nodiscard]] std::vector<std::string> more_than_rendered(const SessionState& state, const Room& room) const;
+    // Switches the amplifiers of a hand's device. Returns what became of it.
+    struct Switched {
+        bool done = false;
+        std::string told;
+    };
+    [[nodiscard]] Switched switch_amplifiers(std::size_t hand, bool on);
     // The tools that a step has, of each part.
     void take_tools(std::span<const haptics::ToolState> tools) { tools_.assign(tools.begin(), tools.end()); }
     [[nodiscard]] std::span<const haptics::ToolState> tools() const { return tools_; }

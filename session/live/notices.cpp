@@ -34,6 +34,11 @@ void Notices::tell(const std::vector<Asked>& messages) {
     }
 }
 
+void Notices::tell_of(const HandSide::Switched& amplifiers, std::size_t line) {
+    if (amplifiers.done) return log_.notify_of_event(amplifiers.told);
+    log_.notify_of_event(amplifiers.told, MessageKind::warning, {files_.failed_on(line), {}});
+}
+
 std::optional<Nanoseconds> Notices::changes_ns() const {
     std::optional<Nanoseconds> next;
     for (const auto& other : {log_.next_change_ns(), strokes_.due_ns()})

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "session/live/asked_files.hpp"
+#include "session/live/hand_side.hpp"
 #include "session/live/session_watch.hpp"
 #include "session/notices/message_log.hpp"
 
@@ -37,6 +38,9 @@ public:
     void take(const sculpt::SurfaceUpdate& update);
     // Tells the user a step's messages; of what a log asked for and did not get with its line.
     void tell(const std::vector<Asked>& messages);
+
+    // Tells what became of a switch of the amplifiers that a line of a log asked for; 0: a user did.
+    void tell_of(const HandSide::Switched& amplifiers, std::size_t line);
 
     void add_event(EventMark event) { events_.push_back(std::move(event)); }
     void add_events(std::vector<EventMark> events) { std::ranges::move(events, std::back_inserter(events_)); }

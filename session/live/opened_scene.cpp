@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "base/text.hpp"
 #include "base/try.hpp"
@@ -72,6 +73,22 @@ void note_tool(const SculptOptions& options, const Room& room, FoundOut& found) 
     if (!room.carved_object && found.tool_options.shape.empty())
         found.tool_options.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
     found.tool_options = sculpt::with_tool(found.tool_options, longest_side_m);
+}
+
+Result<SessionState> first_state(const SculptOptions& options, const FoundOut& found, const Room& room,
+                                 const HandSide::Handles& handles, const Similarity& placed) {
+    BURIN_TRY(tool, sculpt::parse_tool_settings(found.tool_options));
+    auto meshes = std::make_shared<ToolMeshes>();
+    BURIN_TRY_DO(meshes->read(tool.shape));
+    for (const sculpt::ToolSpec& other : options.live.tools_of_input) BURIN_TRY_DO(meshes->read(other));
+    BURIN_TRY(feel, sculpt::parse_feel_settings(options.feel));
+    std::vector<std::string> names;
+    for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
+    SessionState state = begin_session(room, tool, feel, placed, std::move(meshes), handles, names);
+    state.export_unit = options.export_units.value_or(found.unit);
+    state.saves = options.scene == nullptr && options.activity == nullptr;
+    state.mirror = options.mirror;
+    return state;
 }
 
 }  // namespace burin::session

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sculpt/made_workpiece.hpp"
+#include "session/live/hand_side.hpp"
 #include "session/live/work_side.hpp"
 #include "session/live/world_side.hpp"
 #include "session/options/session_options.hpp"
@@ -28,5 +29,9 @@ void note_world(const WorldSide& world, const SculptOptions& options, Room& room
 
 // Chooses a tool of the size of what there is, where none is given.
 void note_tool(const SculptOptions& options, const Room& room, FoundOut& found);
+
+// Returns what is there before anything is touched. placed: where the workpiece stands in the world.
+[[nodiscard]] Result<SessionState> first_state(const SculptOptions& options, const FoundOut& found, const Room& room,
+                                               const HandSide::Handles& handles, const Similarity& placed);
 
 }  // namespace burin::session

@@ -11,8 +11,8 @@ namespace burin::session {
 void Session::begin_step(Nanoseconds time_ns, std::span<const haptics::ToolState> tools, std::size_t line) {
     log().begin_step(time_ns);
     hands_.take_tools(tools);
-    dt_s_ = seconds(std::max<Nanoseconds>(time_ns - last_step_ns_, 0));
-    last_step_ns_ = time_ns;
+    time_.dt_s = seconds(std::max<Nanoseconds>(time_ns - time_.step_ns, 0));
+    time_.step_ns = time_ns;
     if (line != 0) files().note_line(line);
 }
 
@@ -20,7 +20,7 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     const std::vector<haptics::ToolState> of_hands = hands_.tools_of_hands();
     SessionStep step =
-        step_session(std::move(state_), room_, input.events, {dt_s_, of_hands[state_.hand], of_hands}, leader);
+        step_session(std::move(state_), room_, input.events, {time_.dt_s, of_hands[state_.hand], of_hands}, leader);
     state_ = std::move(step.state);
     SessionOrders& orders = step.orders;
     orders.line = input.line;
@@ -31,21 +31,21 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
     if (const auto taken = take_up(state_); !taken) orders.messages.push_back({taken.error().line()});
     if (before) hold_governed(*before, leader, orders);
     if (!input.keys_taken) activity_.press_keys(input.events, orders);
-    activity_.step(state_, orders, last_step_ns_, hands(), tools(), leader);
+    activity_.step(state_, orders, time_.step_ns, hands(), tools(), leader);
     for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
     scene_.news().frames_for_ticks(activity_.is_running());
     if (step.led.hand)
         hands().move_hand(
-            step.led_hand, step.led.hand_way, last_step_ns_, *step.led.hand,
+            step.led_hand, step.led.hand_way, time_.step_ns, *step.led.hand,
             state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(orders), give);
-    scene_.light(state_, step.led.turns_scene, last_step_ns_, give);
+    scene_.light(state_, step.led.turns_scene, time_.step_ns, give);
     work_.take_outcomes();
     for (const std::string& message : leader.watch(state_, tool_in_use())) notify(message);
     for (const std::string& message : hands().take_messages()) notify_of_event(message);
-    notices_.look(state_, hands(), tools(), tool_in_use(), step.led, scene_.spacing_m(), last_step_ns_);
+    notices_.look(state_, hands(), tools(), tool_in_use(), step.led, scene_.spacing_m(), time_.step_ns);
     notices_.add_events(activity_.take_events());
-    work_.go_on(state_, last_step_ns_, give);
+    work_.go_on(state_, time_.step_ns, give);
 }
 
 // A hand that goes on turning the scene is told once that it stays.
@@ -56,21 +56,10 @@ void Session::hold_governed(const SessionState& before, Leader& leader, SessionO
         orders.messages.pop_back();
 }
 
-// What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
-void Session::switch_amplifiers(const AskedAmplifiers& asked) {
-    if (log().follows_recording()) return;
-    const std::optional<devices::AmplifierAnswer> answer = hands().switch_amplifiers(state_.hand, asked.on);
-    if (answer == devices::AmplifierAnswer::done)
-        return log().notify_of_event(asked.on ? "the amplifiers are on; the force comes back from zero"
-                                              : "the amplifiers are off: no force until they are enabled again");
-    const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
-                                   : "those of " + std::string(hands().device(hands().first_part(state_.hand)).name) +
-                                         " cannot be switched from here";
-    log().notify_of_event("amplifiers: " + why, MessageKind::warning, {files().failed_on(asked.line), {}});
-}
-
 void Session::carry_out(SessionOrders orders, const Give& give) {
-    for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
+    // What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
+    for (const AskedAmplifiers& asked : orders.amplifiers)
+        if (!log().follows_recording()) notices_.tell_of(hands_.switch_amplifiers(state_.hand, asked.on), asked.line);
     if (orders.parameters) publish_parameters();
     if (orders.parameters) hands_.spread(state_, room_, scene_, give);
     auto wanted_save = orders.saves.begin();
@@ -135,7 +124,7 @@ void Session::finish_scene() {
     // What the activity orders now has nobody to carry it out, but for its words.
     SessionOrders orders;
     Leader nobody;
-    activity_.step(state_, orders, last_step_ns_, hands(), tools(), nobody);
+    activity_.step(state_, orders, time_.step_ns, hands(), tools(), nobody);
     notices_.add_events(activity_.take_events());
     for (const Asked& message : orders.messages) notify(message.text);
     if (const auto done = activity_.finish(); !done) files().notify_of_loss(done.error().line());

@@ -82,8 +82,8 @@ public:
     [[nodiscard]] const Room& room() const { return room_; }
     [[nodiscard]] const SculptOptions& options() const { return options_; }
     [[nodiscard]] const FoundOut& found() const { return found_; }
-    [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
-    [[nodiscard]] Nanoseconds step_ns() const { return last_step_ns_; }  // session time of the last step
+    [[nodiscard]] Nanoseconds start_ns() const { return time_.start_ns; }
+    [[nodiscard]] Nanoseconds step_ns() const { return time_.step_ns; }  // session time of the last step
     // Returns the tools that the step has, of each part of the hands, and that of the hand in use.
     [[nodiscard]] std::span<const haptics::ToolState> tools() const { return hands_.tools(); }
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return hands_.tool_of(state_.hand); }
@@ -114,18 +114,20 @@ private:
     Session(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> begin(const Place& place);
-    [[nodiscard]] Result<SessionState> first_state(const Place& place) const;
-    void tell_what_is_not_rendered();
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void hold_governed(const SessionState& before, Leader& leader, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
-    void switch_amplifiers(const AskedAmplifiers& asked);
     void take(const sculpt::SurfaceUpdate& news);
     [[nodiscard]] document::Content saved_content() const;
 
+    // Of the session's beginning, on its clock, and of the step that has begun, since then.
+    struct Time {
+        Nanoseconds start_ns = 0, step_ns = 0;
+        double dt_s = 0.0;  // since the step before
+    };
+
     Clock& clock_;
-    Nanoseconds start_ns_ = 0, last_step_ns_ = 0;
-    double dt_s_ = 0.0;  // of the step that has begun
+    Time time_;
     SculptOptions options_;
     FoundOut found_;
     HandSide hands_;

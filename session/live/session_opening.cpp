@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/try.hpp"
-#include "scene/rendered_material.hpp"
 #include "sculpt/crumbs.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/live/opened_scene.hpp"
@@ -66,54 +65,27 @@ Result<void> Session::load(std::optional<sculpt::MadeWorkpiece> made) {
     return {};
 }
 
-// Returns what is there before anything is touched.
-Result<SessionState> Session::first_state(const Place& place) const {
-    BURIN_TRY(tool, sculpt::parse_tool_settings(found_.tool_options));
-    auto meshes = std::make_shared<ToolMeshes>();
-    BURIN_TRY_DO(meshes->read(tool.shape));
-    for (const sculpt::ToolSpec& other : options_.live.tools_of_input) BURIN_TRY_DO(meshes->read(other));
-    BURIN_TRY(feel, sculpt::parse_feel_settings(options_.feel));
-    std::vector<std::string> names;
-    for (const NamedDevice& hand : options_.live.hands) names.push_back(hand.hand);
-    const Similarity placed = place ? place(room_, hands_.handles().front().get()) : Similarity{};
-    SessionState state = begin_session(room_, tool, feel, placed, std::move(meshes), hands_.handles(), names);
-    state.export_unit = options_.export_units.value_or(found_.unit);
-    const double usual_m = options_.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
-    state.crumbs_m = options_.crumbs_m.value_or(usual_m);
-    state.carves = scene_.workpiece() != nullptr;
-    state.saves = options_.scene == nullptr && !activity_.is_there();
-    state.mirror = options_.mirror;
-    if (scene_.world() != nullptr) state.world = scene_.world()->objects();
-    return state;
-}
-
 Result<void> Session::begin(const Place& place) {
-    BURIN_TRY(first, first_state(place));
+    const Similarity placed = place ? place(room_, hands_.handles().front().get()) : Similarity{};
+    BURIN_TRY(first, first_state(options_, found_, room_, hands_.handles(), placed));
     state_ = std::move(first);
+    state_.carves = scene_.workpiece() != nullptr;
+    if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
+    const double usual_m = options_.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
+    state_.crumbs_m = options_.crumbs_m.value_or(usual_m);
     if (const auto& view = work_.opened().view) state_.world_from_object = *view;
     BURIN_TRY(use, tool_of(state_));
     notices_.look_at_tool(state_.led().tool, use.tool, room_.workpiece_object, scene_.spacing_m());
-    start_ns_ = clock_.now_ns();
+    time_.start_ns = clock_.now_ns();
     BURIN_TRY_DO(hands_.open(options_.live, state_, room_, clock_));
     publish_parameters();
-    tell_what_is_not_rendered();
+    if (!activity_.is_there())
+        for (const std::string& more : hands_.more_than_rendered(state_, room_)) notify(more, MessageKind::info);
     BURIN_TRY_DO(scene_.begin(use, options_.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
-                              activity_.scene_part(), activity_.tap(), start_ns_));
+                              activity_.scene_part(), activity_.tap(), time_.start_ns));
     if (scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
     work_.begin_journal(state_);
     return {};
-}
-
-// Once for each hand, before anything is touched.
-void Session::tell_what_is_not_rendered() {
-    if (!state_.world || activity_.is_there()) return;
-    std::vector<scene::SceneObject> objects;
-    for (const auto& object : state_.world->objects) objects.push_back(*object);
-    for (std::size_t hand = 0; hand < hands().hands(); ++hand) {
-        const devices::DeviceDescription& device = hands().device(hands().first_part(hand));
-        const std::string more = scene::more_than_rendered(objects, device, parameters_of(state_, room_, hand, device));
-        if (!more.empty()) notify(more, MessageKind::info);
-    }
 }
 
 }  // namespace burin::session
