@@ -16,68 +16,16 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "scene/scene_part.hpp"
 #include "sculpt/finishing.hpp"
+#include "sculpt/sculpt_order.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/stroke_reader.hpp"
+#include "sculpt/surface_update.hpp"
 
 namespace burin::sculpt {
-
-struct UseTool {
-    Tool tool;                    // its material's index is looked up when the order is carried out
-    geometry::Material material;  // added to the solid's table if it is new
-    double hardness_Ns_per_m3 = 0.0;
-};
-struct MirrorStrokes {
-    Mirror mirror;  // of all hands, from the next update on
-};
-struct UndoStroke {};
-struct RedoStroke {};
-struct ExportSurface {
-    std::string path;    // .stl, .ply or .obj
-    std::string name{};  // what the message calls it; empty: its path
-    LengthUnit unit = LengthUnit::m;
-    double crumbs_m = 0.0;           // loose pieces below this size are left out (crumbs.hpp)
-    std::size_t asked_by = 0;        // comes back with the outcome; whoever gives the order knows what it means
-    std::optional<Error> refused{};  // why nothing is written; carving takes the same course as if it were
-};
-struct LightFrom {
-    compute::Lamp lamp_object;
-};
-// Has the scene saved as it is between two orders: after the undo that was asked for before.
-struct SaveScene {
-    std::function<void()> save;
-};
-using SculptOrder = std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ExportSurface, LightFrom, SaveScene>;
-
-struct TileUpdate {
-    std::uint32_t tile = 0;
-    std::shared_ptr<const geometry::SurfaceTile> surface;  // null where no surface is left
-    std::shared_ptr<const compute::TileLight> light;       // of the tile's vertices; null means full light
-};
-
-// Tells how an export has ended.
-struct ExportOutcome {
-    std::string message;  // for the user
-    std::string path;
-    std::size_t asked_by = 0;
-    bool written = false, replaced = false;  // replaced: there was a file
-};
-
-// Changes since the previous surface update.
-struct SurfaceUpdate {
-    std::vector<TileUpdate> tiles;
-    std::vector<Box> inner_boxes_object;  // boxes that now lie wholly inside the material
-    Nanoseconds cut_ns = 0;               // time at which the tool worked last
-    std::size_t undoable = 0, redoable = 0;
-    std::uint64_t state = 0;             // of the work (compute::History::state)
-    bool exporting = false;              // an export is under way
-    std::vector<std::string> messages;   // for the user
-    std::vector<ExportOutcome> exports;  // that have ended, for the user as well
-};
 
 // A surface update on its way to the frames.
 class CarvedChange final : public scene::DrawnChange {
@@ -187,10 +135,5 @@ private:
     std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of
     scene::PartSeen seen_;
 };
-
-// Merges a later surface update into one that nobody has taken yet.
-void merge(SurfaceUpdate& into, SurfaceUpdate later);
-// Merges a later surface update, if there is one, into one that may not exist yet.
-void add(std::optional<SurfaceUpdate>& to, std::optional<SurfaceUpdate> later);
 
 }  // namespace burin::sculpt

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "compute/light/clearance.hpp"
+#include "compute/light/lamp.hpp"
 #include "geometry/contact/surface_tile.hpp"
 
 namespace burin::compute {
@@ -40,13 +41,6 @@ inline constexpr float kOpenRange = 24.0f;  // cells
     const float x = distance * (1.0f / kOpenRange), rest = 1.0f - x * x;
     return distance < kOpenRange ? rest * rest : 0.0f;
 }
-
-// The lamp: a disc far away.
-struct Lamp {
-    Vec3 direction_object{0.0, 1.0, 0.0};  // towards the lamp; of any length above zero
-    double tangent = 0.05;                 // tangent of half the angle that it subtends, 0.002 to 0.5
-    bool operator==(const Lamp&) const = default;
-};
 
 void bake_open(const Clearance& clearance, const Lattice& lattice, const geometry::SurfaceTile& tile,
                std::span<geometry::VertexLight> light);

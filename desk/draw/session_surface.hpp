@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/surface/surface_store.hpp"
-#include "sculpt/carved_part.hpp"
+#include "sculpt/surface_update.hpp"
 
 namespace burin::session {
 

@@ -17,7 +17,7 @@
 
 #include "base/space.hpp"
 #include "compute/mesher/tile_grid.hpp"
-#include "sculpt/carved_part.hpp"
+#include "sculpt/surface_update.hpp"
 
 namespace burin::session {
 

@@ -10,7 +10,8 @@
 
 #include "base/image.hpp"
 #include "document/document_writer.hpp"
-#include "sculpt/carved_part.hpp"
+#include "sculpt/sculpt_order.hpp"
+#include "sculpt/surface_update.hpp"
 #include "session/notices/message_log.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/state/session_state.hpp"

@@ -57,7 +57,7 @@ void Session::hold_governed(const SessionState& before, Leader& leader, SessionO
 }
 
 void Session::carry_out(SessionOrders orders, const Give& give) {
-    // What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
+    // What the device answers comes from outside: a replay has it from the recording, and the ticks with it.
     for (const AskedAmplifiers& asked : orders.amplifiers)
         if (!log().follows_recording()) notices_.tell_of(hands_.switch_amplifiers(state_.hand, asked.on), asked.line);
     if (orders.parameters) publish_parameters();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/try.hpp"
+#include "sculpt/stroke_reader.hpp"
 #include "sculpt/tool_mesh.hpp"
 
 namespace burin::session {

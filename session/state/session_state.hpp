@@ -13,7 +13,7 @@
 
 #include "devices/haptic/haptic_device.hpp"
 #include "haptics/channels.hpp"
-#include "sculpt/carved_part.hpp"
+#include "sculpt/sculpt_order.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/tool_options.hpp"
 #include "session/held/hand_state.hpp"

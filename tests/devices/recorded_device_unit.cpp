@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A recorded hand as a device: which sample each turn has. Recordings of sessions are in
-// tests/session/recorded_device_unit.cpp.
+// tests/desk/recorded_device_unit.cpp.
 #include "devices/haptic/recorded_device.hpp"
 
 #include <gtest/gtest.h>
