@@ -102,7 +102,7 @@ TEST(WireBytes, AFalconIsOpenedSettledAndToldByPacketsOfItsOwnForm) {
     ASSERT_TRUE(line.turn({}, state));
     EXPECT_EQ(log.packets.back(), "<AAAAAAAAAAAADA>") << "homed and without force: green (2) and homing (1)";
     const Vec3 force_N(0.7, -1.3, 2.1);
-    ASSERT_TRUE(line.turn(force_N, state));
+    ASSERT_TRUE(line.turn({force_N, Vec3(0.0)}, state));
     const std::string& told = log.packets.back();
     ASSERT_EQ(told.size(), 16u);
     EXPECT_EQ(told.substr(13), "FA>") << "blue (4) and homing (1)";
@@ -124,7 +124,7 @@ TEST(WireBytes, AFalconThatIsNotHomedIsToldNoForceAndTheLampIsRedInEachTurn) {
         log.answers = std::string("<AAAAAAAAAAAA") + static_cast<char>('A' + 16 * homed) + "A>";
         for (int turn = 0; turn < 3; ++turn) {
             ServedState state;
-            ASSERT_TRUE(line.turn(Vec3(0.7, -1.3, 2.1), state));
+            ASSERT_TRUE(line.turn({Vec3(0.7, -1.3, 2.1), Vec3(0.0)}, state));
             EXPECT_NE(state.fault, DeviceFault::none) << homed;
             EXPECT_EQ(log.packets.back(), "<AAAAAAAAAAAAJA>") << homed << " in turn " << turn;
         }
