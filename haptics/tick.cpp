@@ -118,7 +118,7 @@ void turn_along(PassivityInput& input, const TickRecord& record, const Vec3& pre
 
 // Applies the passivity controller to the contact's wrench; pressing_device_N: its force before a drive of one way took
 // it.
-PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const Vec3& pressing_device_N,
+PassivityStep kept_passive(const PassivityObserver& state, const TickRecord& record, const Vec3& pressing_device_N,
                            const MotionState& motion, const TickParameters& parameters,
                            const devices::DeviceDescription& device, double dt_s) {
     PassivityInput input;

@@ -49,7 +49,7 @@ struct TickState {
     GuidanceState guidance;
     MovingAverage force_average;
     EasedForce force;
-    PassivityState passivity;
+    PassivityObserver passivity;
     FreeFill free_fill;
     bool in_contact = false;
     std::uint32_t refused = 0;  // ticks in a row whose input made no sense
