@@ -213,7 +213,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     record.parameter_sequence = parameters.sequence;
     record.sample_finite =
         finite(sample.position_device_m) && unit(sample.orientation_device) && sensible(sample.drive);
-    record.parameters_sensible = parameters_are_sensible(parameters);
+    record.parameters_sensible = parameters_are_sensible(parameters) && materials_are_known(surface);
     record.scale_felt = is_felt_at(parameters.workspace.object_from_device.scale);
     record.within_reach = within_reach(sample.position_device_m, device);
     const bool ahead = seconds(sample.time_ns - now_ns) > parameters.limits.max_ahead_s;
