@@ -16,11 +16,14 @@
 #include "devices/gloves/glove_device.hpp"
 #include "devices/haply/inverse3_device.hpp"
 #include "devices/haptic/mouse_arm.hpp"
+#include "devices/haptic/recorded_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/presence/emulator_socket.hpp"
+#include "devices/sample/sample_device.hpp"
 #include "devices/spacemouse/spacemouse_device.hpp"
 #include "devices/trackers/tracker.hpp"
 
@@ -275,6 +278,17 @@ constexpr std::array kHapticKinds{
                .file_of = spacemouse_file_of,
                .leads_itself = true,
                .has_force = false},
+    HapticKind{
+        .name = kSample,
+        .usage = "a driver to copy: an arm that is made up, that nobody holds, and that a thread of the driver's meets",
+        .parts = 1,
+        .is_upright = false,
+        .is_worn = false,
+        .felt_by_person = false,
+        .has_amplifiers = false,
+        .handle = nullptr,
+        .open = Opening::driver({.open = open_sample, .at_rest = at_rest<sample_that_rests>, .look = look_for_samples}),
+        .leads_itself = true},
     HapticKind{.name = kRecordedDevice,
                .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
                         "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The registry of all force-feedback devices that there are. To add one, write its source beside
-// devices/haptic/simulated_omni.cpp and enter it in the table of device_registry.cpp: the help of --device and its
-// parsing read that table. A row that lacks something does not compile (opening.hpp).
+// The registry of all force-feedback devices that there are. To add one, copy devices/sample/sample_device.hpp and its
+// source, and enter it in the table of device_registry.cpp: the help of --device and its parsing read that table. A row
+// that lacks something does not compile (opening.hpp).
 // Thread: the one that opens the session.
 #pragma once
 
@@ -14,13 +14,13 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "devices/haptic/opened_device.hpp"
-#include "devices/haptic/recorded_device.hpp"
-#include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "devices/presence/device_presence.hpp"
 #include "devices/registry/opening.hpp"
 
 namespace burin::devices {
+
+class Recordings;  // devices/haptic/recorded_device.hpp
 
 // What a device needs of the program. The clock must outlive the device.
 struct HapticHost {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "devices/haptic/recorded_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::devices {
