@@ -110,17 +110,17 @@ SoftPart::SoftPart(const SoftPartSetup& setup, SoftBody body)
     if (setup.material.is_plastic()) held_at_m_ = body_.rest().places_m;
 }
 
-void SoftPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
-    if (hands_.size() <= hand) hands_.resize(hand + 1);
+void SoftPart::take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) {
+    if (hands_.size() <= part) hands_.resize(part + 1);
     if (ticks.empty()) return;
     const haptics::ContactRecord& contact = ticks.back().contact;
-    frame_.take_tick(hand, ticks.back());
-    hands_[hand].time_ns = ticks.back().time_ns;
-    // Where the force is off, or the hand is not in its place yet, it touches nothing.
+    frame_.take_tick(part, ticks.back());
+    hands_[part].time_ns = ticks.back().time_ns;
+    // Where the force is off, or the part is not in its place yet, it touches nothing.
     const bool touches = (ticks.back().flags & haptics::kTickProxyReset) == 0;
-    hands_[hand].points = touches ? contact.point_count : 0;
-    for (std::uint32_t i = 0; i < hands_[hand].points; ++i)
-        hands_[hand].places_scene_m[i] = contact.points[i].hip_object_m;
+    hands_[part].points = touches ? contact.point_count : 0;
+    for (std::uint32_t i = 0; i < hands_[part].points; ++i)
+        hands_[part].places_scene_m[i] = contact.points[i].hip_object_m;
 }
 
 void SoftPart::fall_among(FlightRoom room) { frame_.use(room_of(setup_, std::move(room))); }

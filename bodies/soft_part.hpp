@@ -59,7 +59,7 @@ public:
     // Fails on a body that cannot be, as ellipsoid() and SoftBody::create() do.
     [[nodiscard]] static Result<std::unique_ptr<SoftPart>> create(const SoftPartSetup& setup);
 
-    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) override;
+    void take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const scene::PartSeen* recorded) override;
     [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
     [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;

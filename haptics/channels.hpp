@@ -69,7 +69,7 @@ struct TickParameters {
     FillPlace fills = FillPlace::surface;
     // Limits the stiffness of materials to what the device renders passively; false: uses it as set.
     bool limit_stiffness = true;
-    CouplingSettings coupling;
+    VirtualCoupling coupling;
     PassivitySettings passivity;
     SignalSettings signals;
     WeightSettings weight;

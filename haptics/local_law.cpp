@@ -25,8 +25,7 @@ devices::DriveLaw law_of(const TickRecord& record, const TickState& tick, const 
     for (std::uint32_t i = 0; i < record.contact.point_count; ++i) {
         const PointRecord& point = record.contact.points[i];
         if (point.constraints == 0) continue;
-        const auto material = std::min<std::size_t>(tick.probe.materials[i], kMostMaterials - 1);
-        const TouchMaterial& touched = parameters.materials[material];
+        const TouchMaterial& touched = parameters.materials[tick.probe.materials[i]];
         const double moves = glm::dot(device_from_object * point.normal_object, record.sample.drive.moves_device);
         const double share = parameters.probe.points[i].share;
         law.spring_N_per_m += share * touched.stiffness_N_per_m * moves * moves;

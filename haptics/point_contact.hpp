@@ -4,7 +4,7 @@
 // Frame: object; forces are in the device frame. Pure; no clock, heap, lock or throw.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
 
 #include "haptics/contact/shape_proxy.hpp"
 #include "haptics/forces/easing.hpp"
@@ -46,9 +46,7 @@ public:
     // A tool that cuts is larger than what touches, by the clearance: it is borne by material that this does not reach.
     void bear_on_cut(const Vec3& cut_object_m);
     // The material touched in the last tick until this one has touched: at a border friction changes a tick late.
-    [[nodiscard]] const TouchMaterial& material() const {
-        return input_.parameters.materials[std::min<std::uint32_t>(material_, kMostMaterials - 1)];
-    }
+    [[nodiscard]] const TouchMaterial& material() const { return input_.parameters.materials[material_]; }
     [[nodiscard]] const PointRecord& record() const { return record_; }
     // Of the lever at which its force may turn the tool.
     [[nodiscard]] double squared_arm_m2() const;

@@ -34,7 +34,7 @@ struct TouchedBefore {
 // What contact keeps from tick to tick.
 struct ProbeState {
     std::array<ProxyState, kMostProbePoints> proxies{};
-    std::array<std::uint8_t, kMostProbePoints> materials{};  // material that each point touched in the last tick
+    std::array<std::uint8_t, kMostProbePoints> materials{};  // that each point touched last, below kMostMaterials
     std::array<WatchState, kMostProbePoints> watches{};
     // The contact of each point in the last tick, for a tick in which it is held over, and what its force still leaves
     // out of the spring after an unexplained motion, in the object frame.
@@ -71,7 +71,7 @@ struct ProbeStep {
 };
 
 // Computes, for each point, its proxy on the surface, the wall as the device may render it, and the force; the first
-// point also cuts.
+// point also cuts. materials_are_known() (haptics/tick.hpp) must hold for the surface.
 void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept;
 
 // Sets the proxies of all points in one place, as if they had come there without touching anything.

@@ -118,7 +118,7 @@ void turn_along(PassivityInput& input, const TickRecord& record, const Vec3& pre
 
 // Applies the passivity controller to the contact's wrench; pressing_device_N: its force before a drive of one way took
 // it.
-PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const Vec3& pressing_device_N,
+PassivityStep kept_passive(const PassivityObserver& state, const TickRecord& record, const Vec3& pressing_device_N,
                            const MotionState& motion, const TickParameters& parameters,
                            const devices::DeviceDescription& device, double dt_s) {
     PassivityInput input;
@@ -213,7 +213,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     record.parameter_sequence = parameters.sequence;
     record.sample_finite =
         finite(sample.position_device_m) && unit(sample.orientation_device) && sensible(sample.drive);
-    record.parameters_sensible = parameters_are_sensible(parameters);
+    record.parameters_sensible = parameters_are_sensible(parameters) && materials_are_known(surface);
     record.scale_felt = is_felt_at(parameters.workspace.object_from_device.scale);
     record.within_reach = within_reach(sample.position_device_m, device);
     const bool ahead = seconds(sample.time_ns - now_ns) > parameters.limits.max_ahead_s;

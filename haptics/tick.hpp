@@ -49,7 +49,7 @@ struct TickState {
     GuidanceState guidance;
     MovingAverage force_average;
     EasedForce force;
-    PassivityState passivity;
+    PassivityObserver passivity;
     FreeFill free_fill;
     bool in_contact = false;
     std::uint32_t refused = 0;  // ticks in a row whose input made no sense
@@ -69,6 +69,10 @@ struct Tick {
 // Checks all parameters: finite, positive scale, a unit rotation (to 1e-6), nothing negative, a clearance below 1,
 // limits above 0.
 [[nodiscard]] bool parameters_are_sensible(const TickParameters& parameters) noexcept;
+// Returns whether each mesh of a surface has one of the materials in TickParameters::materials. A surface for which it
+// is false gives zero force and GateCause::bad_parameters; the publisher of a scene refuses to publish it, with the
+// number of the object (scene/touch_publisher.hpp).
+[[nodiscard]] bool materials_are_known(const geometry::LocalSurface& surface) noexcept;
 
 // Whether a scene can be felt at this scale of motions. Beyond, the lengths of device and scene differ by more than the
 // positions of a mesh, which are float, resolve.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Validation of tick parameters.
+// Validation of tick parameters, and of what a surface refers to in them.
+#include <algorithm>
 #include <cmath>
 
 #include "base/space.hpp"
@@ -65,6 +66,10 @@ bool sensible(const WeightSettings& w) {
 }
 
 }  // namespace
+
+bool materials_are_known(const geometry::LocalSurface& surface) noexcept {
+    return std::ranges::all_of(surface.meshes, [](const auto& mesh) { return mesh.material < kMostMaterials; });
+}
 
 bool parameters_are_sensible(const TickParameters& p) noexcept {
     for (const TouchMaterial& material : p.materials)

@@ -47,7 +47,7 @@ haptics::TouchMaterial touch_material(const HapticMaterial& material) noexcept {
     return touched;
 }
 
-MaterialTable::MaterialTable(std::uint32_t reserved) : reserved_(std::min(reserved, kMaxEntries)) {}
+MaterialTable::MaterialTable(std::uint32_t reserved) : reserved_(reserved) { BURIN_CHECK(reserved <= kMaxEntries); }
 
 Result<std::uint8_t> MaterialTable::hold(const HapticMaterial& material) {
     std::uint32_t free = kMaxEntries;

@@ -51,7 +51,7 @@ class MaterialTable {
 public:
     static constexpr std::uint32_t kMaxEntries = haptics::kMostMaterials;
 
-    // The first `reserved` entries are left to others, such as the material of a carved workpiece.
+    // The first `reserved` entries are left to others, such as the material of a carved workpiece; at most kMaxEntries.
     explicit MaterialTable(std::uint32_t reserved = 0);
 
     // Returns the index of the entry for this material, which it makes or shares, and holds it once more. Fails when

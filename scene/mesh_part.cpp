@@ -143,8 +143,8 @@ std::optional<HandPose> MeshPart::frame_of(std::span<const std::size_t> hands) c
     return poses.empty() ? std::nullopt : std::optional(grip_frame(poses));
 }
 
-void MeshPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
-    const auto known = hands_.find(hand);
+void MeshPart::take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) {
+    const auto known = hands_.find(part);
     if (ticks.empty()) {  // no news: it stands still
         if (known != hands_.end())
             known->second.velocity_m_per_s = known->second.angular_velocity_rad_per_s = Vec3(0.0);
@@ -160,8 +160,8 @@ void MeshPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord>
         pose.velocity_m_per_s = v.linear_m_per_s;
         pose.angular_velocity_rad_per_s = v.angular_rad_per_s;
     }
-    move_hand(hand, pose);
-    if (const auto grip_of = grips_.find(hand); grip_of != grips_.end()) grip(hand, grip_of->second, ticks);
+    move_hand(part, pose);
+    if (const auto grip_of = grips_.find(part); grip_of != grips_.end()) grip(part, grip_of->second, ticks);
 }
 
 // While the workspace moves (a phase other than editing) the same button means something else.

@@ -42,7 +42,7 @@ public:
 
     // ScenePart. The first update is the time at which paths begin. A hand's newest tick tells where it is; its
     // velocities are the mean over the ticks of an update. Its buttons take hold (grip_with).
-    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) override;
+    void take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override;
     [[nodiscard]] const PartSeen& seen() const override { return seen_; }
     // Leaves out what the hand itself holds, unless it is to be felt by it.

@@ -147,7 +147,8 @@ std::optional<ReadObject> object_in(const Bytes& bytes, ObjectId id) {
     object.seen = values.yes("seen");
     object.felt = values.yes("felt");
     const auto colour = values.numbers<3>("colour");
-    for (std::size_t k = 0; k < 3; ++k) object.colour[k] = static_cast<std::uint8_t>(std::clamp(colour[k], 0.0, 255.0));
+    if (!std::ranges::all_of(colour, [](double part) { return part >= 0.0 && part <= 255.0; })) return {};
+    for (std::size_t k = 0; k < 3; ++k) object.colour[k] = static_cast<std::uint8_t>(colour[k]);
     object.opacity = values.number("opacity");
     object.both_sides = values.yes("both_sides");
     object.material = {material.number("stiffness_N_per_m"), material.number("damping_Ns_per_m"),

@@ -44,9 +44,10 @@ public:
     ScenePart(const ScenePart&) = delete;
     ScenePart& operator=(const ScenePart&) = delete;
 
-    // Takes what a hand has done since the last update, tick by tick, just before the next one. A part that needs none
-    // of it leaves it.
-    virtual void take_ticks(std::size_t /*hand*/, std::span<const haptics::TickRecord> /*ticks*/) {}
+    // Takes what a part of a hand has done since the last update, tick by tick, just before the next one. `part` counts
+    // the parts of all hands, a stylus' one and a glove's fingertips alike, as the service was given them. A scene part
+    // that needs none of it leaves it.
+    virtual void take_ticks(std::size_t /*part*/, std::span<const haptics::TickRecord> /*ticks*/) {}
     // Takes what all hands have begun and ended to touch since the last update, in the order of time, after their
     // ticks.
     virtual void take_contacts(std::span<const ContactEvent> /*events*/) {}

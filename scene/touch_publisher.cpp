@@ -2,9 +2,11 @@
 #include "scene/touch_publisher.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "geometry/contact/posed_surface.hpp"
+#include "haptics/forces/touch_force.hpp"
 
 namespace burin::scene {
 namespace {
@@ -23,6 +25,14 @@ void clear(geometry::LocalSurface& draft) {
 // Whether the tick would touch the mesh at all.
 bool can_be_touched(const geometry::TouchedMesh& mesh) {
     return geometry::triangles_of(mesh) > 0 && (!mesh.has_pose() || geometry::is_sensible(mesh.motion));
+}
+
+Result<void> check_material(const geometry::TouchedMesh& mesh) {
+    if (mesh.material < haptics::kMostMaterials) return {};
+    return fail("object " + std::to_string(mesh.object),
+                "has material " + std::to_string(mesh.material) + ", and a tick knows those from 0 to " +
+                    std::to_string(haptics::kMostMaterials - 1),
+                "give it the index that MaterialTable::hold() returns");
 }
 
 }  // namespace
@@ -57,6 +67,8 @@ Result<void> TouchPublisher::publish(const ProbeBall& ball, std::span<ScenePart*
     draft.radius_m = ball.radius_m;
     for (ScenePart* part : parts)
         if (const auto added = part->add_near(ball, draft); !added) return added;
+    for (const geometry::TouchedMesh& mesh : draft.meshes)
+        if (const auto known = check_material(mesh); !known) return known;
     draft.center_object = ball.center_scene;
     arrange(draft);
     draft.sequence = ++hand.sequence;

@@ -38,7 +38,8 @@ public:
     // One slot for each hand, null for none; they must outlive the publisher.
     explicit TouchPublisher(std::span<Slot* const> hands);
 
-    // Publishes what the parts have near a hand's probe. Fails when a part does; nothing is published then.
+    // Publishes what the parts have near a hand's probe. Fails when a part does, or offers a mesh of a material that a
+    // tick does not know; nothing is published then.
     [[nodiscard]] Result<void> publish(const ProbeBall& ball, std::span<ScenePart* const> parts, Nanoseconds now_ns);
     // Returns the number of surfaces published for a hand so far.
     [[nodiscard]] std::uint64_t published(std::size_t hand) const { return hands_[hand].sequence; }

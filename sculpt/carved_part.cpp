@@ -73,8 +73,8 @@ double CarvedPart::around_m(std::size_t hand) const {
     return at != carvers_.end() ? at->reader.around_m() : 0.0;
 }
 
-void CarvedPart::take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) {
-    if (Carver* const carver = carver_of(hand)) carver->reader.take(ticks);
+void CarvedPart::take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) {
+    if (Carver* const carver = carver_of(part)) carver->reader.take(ticks);
 }
 
 Result<void> CarvedPart::update(Nanoseconds now_ns, const scene::PartSeen* recorded) {

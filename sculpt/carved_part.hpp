@@ -75,7 +75,7 @@ public:
     // ScenePart. Each release of a button ends a stroke, which is what one undo takes back. Fails when the engine
     // does. A repeated update waits for an export that the recorded one found complete. finish() waits for the export
     // under way, if any.
-    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> ticks) override;
+    void take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const scene::PartSeen* recorded) override;
     [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
     [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;

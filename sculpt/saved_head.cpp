@@ -46,8 +46,11 @@ std::optional<std::vector<geometry::Material>> materials_in(const Json& head) {
         const Json *name = find_value(one, "/name"), *colour = find_value(one, "/colour");
         if (name == nullptr || !name->is_string() || !are_numbers(colour, 3)) return {};
         geometry::Material material{name->get<std::string>()};
-        for (std::size_t k = 0; k < 3; ++k)
-            material.colour[k] = static_cast<std::uint8_t>(std::clamp((*colour)[k].get<double>(), 0.0, 255.0));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double part = (*colour)[k].get<double>();
+            if (!(part >= 0.0 && part <= 255.0)) return {};
+            material.colour[k] = static_cast<std::uint8_t>(part);
+        }
         materials.push_back(std::move(material));
     }
     return materials;

@@ -278,9 +278,9 @@ private:
 
 // Returns the settings with which the motion is felt: those of the exploration where it was one, so that its own world
 // gives its own ticks; those of a wand where its points touch.
-WorldSettings settings_through(const record::RecordReader& reader, const record::RecordedTick& first,
-                               const ThroughProbe& probe) {
-    WorldSettings settings;
+ExplorationSettings settings_through(const record::RecordReader& reader, const record::RecordedTick& first,
+                                     const ThroughProbe& probe) {
+    ExplorationSettings settings;
     const RecordedDevice& device = probe.device;
     const Pose tool{first.sample.position_device_m, first.sample.orientation_device};
     const Vec3 hand = first.object_from_device * (tool * device.probe(probe.radius_m).points[0].offset_device_m);
@@ -311,7 +311,7 @@ struct OtherWorld {
     SteadyUpdates updates = {};
     Similarity mapping = {};
 
-    OtherWorld(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings,
+    OtherWorld(scene::MeshPart& part, const scene::MaterialTable& materials, const ExplorationSettings& settings,
                const ThroughProbe& probe)
         : touch(part, materials, settings, probe.device.probe(probe.radius_m)), mapping(settings.scene_from_device) {}
 

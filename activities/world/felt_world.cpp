@@ -71,7 +71,7 @@ private:
 
 Result<std::unique_ptr<WorldRecorder>> recorder_of(const scene::MeshPart& part, std::span<const scene::ObjectId> ids,
                                                    const devices::DeviceDescription& device,
-                                                   const WorldSettings& settings, const ExploreOptions& options) {
+                                                   const ExplorationSettings& settings, const ExploreOptions& options) {
     if (options.record.empty()) return std::unique_ptr<WorldRecorder>();
     std::vector<std::pair<std::int64_t, std::string>> objects;
     for (const scene::ObjectId id : ids) objects.emplace_back(static_cast<std::int64_t>(id), part.object(id).name);
@@ -95,7 +95,7 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     Result<devices::SimulatedHand> hand = hand_along(stroke, felt.object_from_device, options.grip);
     if (!hand) return std::unexpected(hand.error());
 
-    WorldSettings settings;
+    ExplorationSettings settings;
     settings.tool_radius_m = options.tool_radius_m;
     settings.scene_from_device = felt.object_from_device;
     settings.start_scene_m = stroke.front().position_object_m;

@@ -67,7 +67,7 @@ private:
 
 }  // namespace
 
-Result<WorldSettings> recorded_settings(const record::RecordReader& reader) {
+Result<ExplorationSettings> recorded_settings(const record::RecordReader& reader) {
     const auto& facts = reader.facts();
     const auto activity = facts.find(kActivityFact), settings = facts.find(kSettingsFact);
     if (activity == facts.end() || activity->second != kWorldActivity || settings == facts.end())
@@ -80,7 +80,7 @@ Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::Mes
                                         const scene::MaterialTable& materials, const record::TickRange& range) {
     const RecordedDevice omni;
     if (const auto ok = check_hand(reader, omni); !ok) return std::unexpected(ok.error());
-    const Result<WorldSettings> settings = recorded_settings(reader);
+    const Result<ExplorationSettings> settings = recorded_settings(reader);
     if (!settings) return std::unexpected(settings.error());
     WorldTouch touch(part, materials, *settings);
     const Result<std::unique_ptr<RepeatedHand>> hand = RepeatedHand::create(omni, touch.channels());

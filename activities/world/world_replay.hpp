@@ -9,14 +9,14 @@
 // 16 bytes for each update. One thread.
 #pragma once
 
-#include "activities/world/world_settings.hpp"
+#include "activities/world/exploration_settings.hpp"
 #include "record/compare.hpp"
 #include "scene/mesh_part.hpp"
 
 namespace burin::activities {
 
 // Returns the settings of a recorded exploration. Fails on a recording of anything else.
-[[nodiscard]] Result<WorldSettings> recorded_settings(const record::RecordReader& reader);
+[[nodiscard]] Result<ExplorationSettings> recorded_settings(const record::RecordReader& reader);
 
 // Compares the ticks in the range; all before them are done again too, since each tick depends on the one before. In a
 // difference the first value is the recorded one.

@@ -18,8 +18,8 @@ double spread_of(const haptics::Probe& probe) {
 
 }  // namespace
 
-WorldTouch::WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings,
-                       const haptics::Probe& probe)
+WorldTouch::WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials,
+                       const ExplorationSettings& settings, const haptics::Probe& probe)
     : settings_(settings),
       probe_(probe),
       spread_m_(spread_of(probe)),

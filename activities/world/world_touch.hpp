@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "activities/world/world_settings.hpp"
+#include "activities/world/exploration_settings.hpp"
 #include "haptics/channels.hpp"
 #include "scene/mesh_part.hpp"
 #include "scene/scene_service.hpp"
@@ -16,10 +16,10 @@ namespace burin::activities {
 class WorldTouch {
 public:
     // Part and materials must outlive it. Publishes the parameters of the settings, whose start is the first point's.
-    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings,
+    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const ExplorationSettings& settings,
                const haptics::Probe& probe);
     // With a ball of the settings' radius where the device is.
-    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings)
+    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const ExplorationSettings& settings)
         : WorldTouch(part, materials, settings, haptics::ball_probe(settings.tool_radius_m)) {}
     WorldTouch(const WorldTouch&) = delete;
     WorldTouch& operator=(const WorldTouch&) = delete;
@@ -32,7 +32,7 @@ public:
 private:
     void publish(const Similarity& scene_from_device);
 
-    WorldSettings settings_;
+    ExplorationSettings settings_;
     haptics::Probe probe_;
     double spread_m_ = 0.0;  // from the first point to the farthest, at the device
     std::array<haptics::TouchMaterial, haptics::kMostMaterials> materials_{};

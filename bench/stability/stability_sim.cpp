@@ -244,7 +244,7 @@ private:
     haptics::PassivitySettings settings_;
     haptics::VelocityWindow window_;
     haptics::MovingAverage velocity_, filtered_;
-    haptics::PassivityState passivity_;
+    haptics::PassivityObserver passivity_;
     std::vector<double> told_N_;
     double balance_J_ = 0.0, change_sum_N_ = 0.0, late_sum_N_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
     int late_ticks_ = 0;

@@ -38,7 +38,7 @@ struct StabilityCase {
     double tap_speed_m_per_s = 0.1;
     double wall_damping_Ns_per_m = 0.0;
     haptics::SignalSettings signals;
-    haptics::CouplingSettings coupling;
+    haptics::VirtualCoupling coupling;
     haptics::PassivitySettings passivity;
     bool control = false;  // the passivity controller
     bool limit = false;    // the stiffness limiter

@@ -70,7 +70,7 @@ Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand
     return opened;
 }
 
-OpenedDevice dhd_that_rests(Clock& clock, const std::string& choice_at_library) {
+OpenedDevice dhd_that_rests(const std::string& choice_at_library, Clock& clock) {
     return arm_that_rests(dhd_description(dhd_model_called(without_model(choice_at_library).model)), clock);
 }
 

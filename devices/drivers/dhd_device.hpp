@@ -28,7 +28,7 @@ inline constexpr const char* kEmulatedDhdLibrary = "libburin_emulated_dhd.so";
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, of the model that the text names, for a recording that is done again.
-[[nodiscard]] OpenedDevice dhd_that_rests(Clock& clock, const std::string& choice_at_library = {});
+[[nodiscard]] OpenedDevice dhd_that_rests(const std::string& choice_at_library, Clock& clock);
 // Looks for the maker's library and the devices that it counts, for those that this user may not open, and for emulated
 // ones. Opens none.
 [[nodiscard]] std::vector<DevicePresence> look_for_dhds();

@@ -121,8 +121,9 @@ void DhdLine::close() noexcept {
     opened_.reset();
 }
 
-bool DhdLine::turn(const Vec3& force_N, ServedState& state) noexcept {
+bool DhdLine::turn(const DeviceWrench& wrench, ServedState& state) noexcept {
     const auto id = static_cast<char>(device_);
+    const Vec3& force_N = wrench.force_device_N;
     const double size_N = glm::length(force_N);
     const Vec3 given = to_dhd(size_N > most_N_ ? force_N * (most_N_ / size_N) : force_N);
     // A library that writes nothing is found out.

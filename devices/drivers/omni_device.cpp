@@ -69,7 +69,7 @@ Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand,
     return opened;
 }
 
-OpenedDevice omni_that_rests(Clock& clock, const std::string& name_at_library) {
+OpenedDevice omni_that_rests(const std::string& name_at_library, Clock& clock) {
     return arm_that_rests(omni_description(hd_model_called(without_model(name_at_library).model)), clock);
 }
 

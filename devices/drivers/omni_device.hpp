@@ -28,7 +28,7 @@ inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
 // The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, of the model that the text names, for a recording that is done again.
-[[nodiscard]] OpenedDevice omni_that_rests(Clock& clock, const std::string& name_at_library = {});
+[[nodiscard]] OpenedDevice omni_that_rests(const std::string& name_at_library, Clock& clock);
 // Looks for the maker's library, for devices of the maker's that this user may not open, and for emulated ones. Opens
 // none: that would take it from who uses it.
 [[nodiscard]] std::vector<DevicePresence> look_for_omnis();

@@ -116,10 +116,10 @@ Cable FalconLine::exchange(const FalconCommand& command, FalconReport& report) n
     return Cable::well;
 }
 
-bool FalconLine::turn(const Vec3& force_N, ServedState& state) noexcept {
+bool FalconLine::turn(const DeviceWrench& wrench, ServedState& state) noexcept {
     FalconCommand command;
-    if (has_pose_ && is_homed_) command.motors = falcon_commands(falcon_torques(pose_, force_N));
-    command.lamps = !is_homed_ ? kFalconRed : force_N == Vec3(0.0) ? kFalconGreen : kFalconBlue;
+    if (has_pose_ && is_homed_) command.motors = falcon_commands(falcon_torques(pose_, wrench.force_device_N));
+    command.lamps = !is_homed_ ? kFalconRed : wrench.force_device_N == Vec3(0.0) ? kFalconGreen : kFalconBlue;
     FalconReport report;
     if (exchange(command, report) != Cable::well) {
         if (!std::exchange(is_gone_, true)) tell(kFalconGone);

@@ -36,7 +36,7 @@ public:
         : name_(std::move(name)), open_port_(std::move(open_port)), firmware_(std::move(firmware)) {}
 
     [[nodiscard]] Result<void> open() override;
-    [[nodiscard]] bool turn(const Vec3& force_N, ServedState& state) noexcept override;
+    [[nodiscard]] bool turn(const DeviceWrench& wrench, ServedState& state) noexcept override;
     void close() noexcept override;
     [[nodiscard]] LineNotice notice() noexcept override;
     [[nodiscard]] std::string words_for(const LineNotice& notice) const override;

@@ -86,7 +86,7 @@ bool Inverse3Line::send(const Vec3& force_N) noexcept {
     return sent != WebSocketClient::Outcome::gone;
 }
 
-bool Inverse3Line::turn(const Vec3& force_N, ServedState& state) noexcept {
+bool Inverse3Line::turn(const DeviceWrench& wrench, ServedState& state) noexcept {
     const auto is_lost = [&] {
         if (!std::exchange(is_gone_, true)) tell(kInverse3IsGone);
         return false;
@@ -97,7 +97,7 @@ bool Inverse3Line::turn(const Vec3& force_N, ServedState& state) noexcept {
         return false;
     }
     // What is owed was asked for by zero.
-    if (owed_ == 0 && !send(force_N)) return is_lost();
+    if (owed_ == 0 && !send(wrench.force_device_N)) return is_lost();
     auto heard = socket_->receive(text_, kInverse3Late_ns);
     if (heard == WebSocketClient::Outcome::well) {
         const Nanoseconds now_ns = clock_.now_ns();

@@ -44,7 +44,7 @@ public:
         : name_(std::move(name)), find_(std::move(find)), wanted_(std::move(id)) {}
 
     [[nodiscard]] Result<void> open() override;
-    [[nodiscard]] bool turn(const Vec3& force_N, ServedState& state) noexcept override;
+    [[nodiscard]] bool turn(const DeviceWrench& wrench, ServedState& state) noexcept override;
     void close() noexcept override;
     [[nodiscard]] LineNotice notice() noexcept override;
     [[nodiscard]] std::string words_for(const LineNotice& notice) const override;

@@ -16,11 +16,14 @@
 #include "devices/gloves/glove_device.hpp"
 #include "devices/haply/inverse3_device.hpp"
 #include "devices/haptic/mouse_arm.hpp"
+#include "devices/haptic/recorded_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/presence/emulator_socket.hpp"
+#include "devices/sample/sample_device.hpp"
 #include "devices/spacemouse/spacemouse_device.hpp"
 #include "devices/trackers/tracker.hpp"
 
@@ -63,14 +66,10 @@ Result<OpenedDevice> open_simulated_fingers(HapticHost host, const std::string& 
     return simulated_fingers(std::move(host.hand), host.clock);
 }
 
-Result<OpenedDevice> open_glove_at(HapticHost host, const std::string& port) {
-    const std::string where = "haptic device " + std::string(kGlove);
-    if (host.stands_in) return open_glove({}, std::move(host.hand), host.clock);
-    if (port.empty()) return fail(where, "names no port", "write one: glove:/dev/ttyUSB0");
-    if (dynamic_cast<MonotonicClock*>(&host.clock) == nullptr)
-        return fail(where, "is on a line in real time, and this session's time is simulated",
-                    "run it in a window, or with --record FILE.session, which plays an --input in real time");
-    return open_glove(port, std::move(host.hand), host.clock);
+Result<OpenedDevice> open_glove_at(const std::string& port, AnyHand hand, Clock& clock) {
+    if (port.empty())
+        return fail("haptic device " + std::string(kGlove), "names no port", "write one: glove:/dev/ttyUSB0");
+    return open_glove(port, std::move(hand), clock);
 }
 
 Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& shape) {
@@ -90,53 +89,13 @@ Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& sh
     return simulated_glove(*grip, std::move(host.hand), host.clock);
 }
 
-// Fails where a device that is really there was asked for in simulated time.
-Result<void> in_real_time(Clock& clock, const char* name) {
-    if (dynamic_cast<MonotonicClock*>(&clock) != nullptr) return {};
-    return fail("haptic device " + std::string(name), "is there in real time, and this session's time is simulated",
-                "run it in a window, or with --record FILE.session, which plays an --input in real time");
-}
-
-Result<OpenedDevice> open_omni_by(HapticHost host, const std::string& name) {
-    if (host.stands_in) return omni_that_rests(host.clock, name);
-    if (auto may = in_real_time(host.clock, kOmni); !may) return std::unexpected(may.error());
-    return open_omni(name, std::move(host.hand), host.clock);
-}
-
-Result<OpenedDevice> open_falcon_by(HapticHost host, const std::string& choice) {
-    if (host.stands_in) return falcon_that_rests(host.clock);
-    if (auto may = in_real_time(host.clock, kFalcon); !may) return std::unexpected(may.error());
-    return open_falcon(choice, std::move(host.hand), host.clock);
-}
-
-Result<OpenedDevice> open_dhd_by(HapticHost host, const std::string& choice) {
-    if (host.stands_in) return dhd_that_rests(host.clock, choice);
-    if (auto may = in_real_time(host.clock, kDhd); !may) return std::unexpected(may.error());
-    return open_dhd(choice, std::move(host.hand), host.clock);
-}
-
-Result<OpenedDevice> open_inverse3_by(HapticHost host, const std::string& choice) {
-    if (host.stands_in) return inverse3_that_rests(host.clock);
-    if (auto may = in_real_time(host.clock, kInverse3); !may) return std::unexpected(may.error());
-    return open_inverse3(choice, std::move(host.hand), host.clock);
-}
-
-Result<OpenedDevice> open_wand_by(HapticHost host, const std::string& text) {
-    if (host.stands_in) return wand_that_rests(text, host.clock);
-    if (auto may = in_real_time(host.clock, kHilWand); !may) return std::unexpected(may.error());
-    return open_wand(text, std::move(host.hand), host.clock);
-}
-
-Result<OpenedDevice> open_spacemouse_by(HapticHost host, const std::string& text) {
-    if (host.stands_in) return spacemouse_that_rests(host.clock);
-    if (auto may = in_real_time(host.clock, kSpaceMouse); !may) return std::unexpected(may.error());
-    return open_spacemouse(text, std::move(host.hand), host.clock);
-}
-
-Result<OpenedDevice> open_spacemouse_wand_by(HapticHost host, const std::string& text) {
-    if (host.stands_in) return spacemouse_wand_that_rests(text, host.clock);
-    if (auto may = in_real_time(host.clock, kSpaceMouseWand); !may) return std::unexpected(may.error());
-    return open_spacemouse_wand(text, std::move(host.hand), host.clock);
+// Opens one that rests, of a driver that needs less for it than the row of the table hands on.
+template <auto rests>
+Result<OpenedDevice> at_rest(const std::string& text, AnyHand /*hand*/, Clock& clock) {
+    if constexpr (requires { rests(text, clock); })
+        return rests(text, clock);
+    else
+        return rests(clock);
 }
 
 // Opens what was recorded, to stand in for it, and has its samples played.
@@ -176,7 +135,7 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_simulated_omni},
+               .open = Opening::simulated(open_simulated_omni)},
     HapticKind{.name = kMouseArm,
                .usage = "an arm without friction that goes where the mouse points, and that nobody feels",
                .parts = 1,
@@ -185,7 +144,7 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_mouse_arm,
+               .open = Opening::simulated(open_mouse_arm),
                .has_force = false},
     HapticKind{.name = kSimulatedWand,
                .usage = "a wand that is driven in three forces and two torques, in a simulated hand; "
@@ -196,7 +155,7 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = true,
                .handle = wand_described,
-               .open = open_simulated_wand},
+               .open = Opening::simulated(open_simulated_wand)},
     HapticKind{.name = kSimulatedFingers,
                .usage = "four fingertips of a simulated hand, each pushed by itself",
                .parts = kFingers,
@@ -205,7 +164,7 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_simulated_fingers},
+               .open = Opening::simulated(open_simulated_fingers)},
     HapticKind{.name = kGlove,
                .usage = "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
                .parts = kGloveFingers,
@@ -214,8 +173,10 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_glove_at,
-               .look = look_for_gloves},
+               .open = Opening::driver({.open = open_glove_at,
+                                        .at_rest = [](const std::string&, AnyHand hand,
+                                                      Clock& clock) { return open_glove({}, std::move(hand), clock); },
+                                        .look = look_for_gloves})},
     HapticKind{.name = kSimulatedGlove,
                .usage =
                    "the same without a line, in a simulated hand that the first button closes; "
@@ -227,7 +188,7 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_simulated_glove},
+               .open = Opening::simulated(open_simulated_glove)},
     HapticKind{
         .name = kOmni,
         .usage =
@@ -240,21 +201,20 @@ constexpr std::array kHapticKinds{
         .felt_by_person = true,
         .has_amplifiers = false,
         .handle = nullptr,
-        .open = open_omni_by,
-        .look = look_for_omnis},
-    HapticKind{.name = kHilWand,
-               .usage = "a Quanser 5-DOF wand by its maker's library (HIL); wand:IDENTIFIER of its card, "
-                        "wand:FILE.toml as FILE describes it, wand:IDENTIFIER,FILE.toml, each with @LIBRARY for a "
-                        "library elsewhere; wand:emulated by burin devices emulate",
-               .parts = 1,
-               .is_upright = true,
-               .is_worn = false,
-               .felt_by_person = true,
-               .has_amplifiers = true,
-               .handle = wand_at,
-               .open = open_wand_by,
-               .look = look_for_wands,
-               .file_of = [](const std::string& text) { return wand_address(text).file; }},
+        .open = Opening::driver({.open = open_omni, .at_rest = at_rest<omni_that_rests>, .look = look_for_omnis})},
+    HapticKind{
+        .name = kHilWand,
+        .usage = "a Quanser 5-DOF wand by its maker's library (HIL); wand:IDENTIFIER of its card, "
+                 "wand:FILE.toml as FILE describes it, wand:IDENTIFIER,FILE.toml, each with @LIBRARY for a "
+                 "library elsewhere; wand:emulated by burin devices emulate",
+        .parts = 1,
+        .is_upright = true,
+        .is_worn = false,
+        .felt_by_person = true,
+        .has_amplifiers = true,
+        .handle = wand_at,
+        .open = Opening::driver({.open = open_wand, .at_rest = at_rest<wand_that_rests>, .look = look_for_wands}),
+        .file_of = [](const std::string& text) { return wand_address(text).file; }},
     HapticKind{.name = kFalcon,
                .usage = "a Novint Falcon on USB; falcon:FIRMWARE to give it its firmware, falcon:PLACE or "
                         "falcon:PLACE@FIRMWARE where there are several, falcon:emulated by burin devices emulate",
@@ -264,8 +224,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_falcon_by,
-               .look = look_for_falcons},
+               .open = Opening::driver(
+                   {.open = open_falcon, .at_rest = at_rest<falcon_that_rests>, .look = look_for_falcons})},
     HapticKind{.name = kDhd,
                .usage = "a Force Dimension omega, delta, sigma or lambda by its maker's library; dhd:INDEX as that "
                         "lists them, dhd:SERIAL, dhd:INDEX@LIBRARY for a library elsewhere, dhd:emulated by burin "
@@ -276,8 +236,7 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_dhd_by,
-               .look = look_for_dhds},
+               .open = Opening::driver({.open = open_dhd, .at_rest = at_rest<dhd_that_rests>, .look = look_for_dhds})},
     HapticKind{.name = kInverse3,
                .usage = "a Haply Inverse3 by its maker's service; inverse3:ID as burin devices lists it, "
                         "inverse3:HOST:PORT or inverse3:ID@HOST:PORT for a service elsewhere, inverse3:emulated by "
@@ -288,8 +247,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_inverse3_by,
-               .look = look_for_inverse3s},
+               .open = Opening::driver(
+                   {.open = open_inverse3, .at_rest = at_rest<inverse3_that_rests>, .look = look_for_inverse3s})},
     HapticKind{.name = kSpaceMouse,
                .usage =
                    "a simulated stylus whose hand a 3Dconnexion SpaceMouse leads; spacemouse:PLACE as burin devices "
@@ -301,8 +260,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_spacemouse_by,
-               .look = look_for_spacemice,
+               .open = Opening::driver(
+                   {.open = open_spacemouse, .at_rest = at_rest<spacemouse_that_rests>, .look = look_for_spacemice}),
                .leads_itself = true,
                .has_force = false},
     HapticKind{.name = kSpaceMouseWand,
@@ -313,11 +272,23 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = true,
                .handle = spacemouse_wand_described,
-               .open = open_spacemouse_wand_by,
-               .look = look_for_spacemouse_wands,
+               .open = Opening::driver({.open = open_spacemouse_wand,
+                                        .at_rest = at_rest<spacemouse_wand_that_rests>,
+                                        .look = look_for_spacemouse_wands}),
                .file_of = spacemouse_file_of,
                .leads_itself = true,
                .has_force = false},
+    HapticKind{
+        .name = kSample,
+        .usage = "a driver to copy: an arm that is made up, that nobody holds, and that a thread of the driver's meets",
+        .parts = 1,
+        .is_upright = false,
+        .is_worn = false,
+        .felt_by_person = false,
+        .has_amplifiers = false,
+        .handle = nullptr,
+        .open = Opening::driver({.open = open_sample, .at_rest = at_rest<sample_that_rests>, .look = look_for_samples}),
+        .leads_itself = true},
     HapticKind{.name = kRecordedDevice,
                .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
                         "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",
@@ -327,8 +298,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = open_recorded,
-               .look = look_for_recordings,
+               .open = Opening::simulated(open_recorded),
+               .might_be_there = look_for_recordings,
                .has_force = false},
 };
 
@@ -379,7 +350,7 @@ Result<std::string> played_by(std::string_view name, const Recordings* recording
 // Whether a driver's device is one of burin devices emulate: by the name of the emulator, or, of a line, by a
 // pseudo-terminal, which no cable ends in.
 bool is_emulated(const ChosenKind& wanted) {
-    if (wanted.kind->look == nullptr || wanted.kind->name == kRecordedDevice) return false;
+    if (!wanted.kind->open.is_driver()) return false;
     if (wanted.kind->name != kGlove) return wanted.file.starts_with(kEmulatedName);
     std::error_code ignored;
     return std::filesystem::weakly_canonical(wanted.file, ignored).string().starts_with("/dev/pts/");
@@ -402,12 +373,21 @@ DeviceNature nature_of(const ChosenKind& wanted) {
 
 }  // namespace
 
+Result<OpenedDevice> Opening::operator()(std::string_view name, HapticHost host, const std::string& text) const {
+    if (simulated_ != nullptr) return simulated_(std::move(host), text);
+    if (host.stands_in) return driver_.at_rest(text, std::move(host.hand), host.clock);
+    if (dynamic_cast<MonotonicClock*>(&host.clock) == nullptr)
+        return fail("haptic device " + std::string(name), "is there in real time, and this session's time is simulated",
+                    "run it in a window, or with --record FILE.session, which plays an --input in real time");
+    return driver_.open(text, std::move(host.hand), host.clock);
+}
+
 std::span<const HapticKind> haptic_kinds() { return kHapticKinds; }
 
 Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
     const Result<ChosenKind> wanted = chosen(name);
     if (!wanted) return std::unexpected(wanted.error());
-    return wanted->kind->open(std::move(host), wanted->file);
+    return wanted->kind->open(wanted->kind->name, std::move(host), wanted->file);
 }
 
 Result<DeviceNature> nature_of_name(std::string_view name) {

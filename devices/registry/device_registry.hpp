@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The registry of all force-feedback devices that there are. To add one, write its source beside
-// devices/haptic/simulated_omni.cpp and enter it in the table of device_registry.cpp: the help of --device and its
-// parsing read that table.
+// The registry of all force-feedback devices that there are. To add one, copy devices/sample/sample_device.hpp and its
+// source, and enter it in the table of device_registry.cpp: the help of --device and its parsing read that table. A row
+// that lacks something does not compile (opening.hpp).
 // Thread: the one that opens the session.
 #pragma once
 
@@ -14,12 +14,13 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "devices/haptic/opened_device.hpp"
-#include "devices/haptic/recorded_device.hpp"
-#include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "devices/presence/device_presence.hpp"
+#include "devices/registry/opening.hpp"
 
 namespace burin::devices {
+
+class Recordings;  // devices/haptic/recorded_device.hpp
 
 // What a device needs of the program. The clock must outlive the device.
 struct HapticHost {
@@ -52,14 +53,13 @@ struct HapticKind {
     std::string_view name;   // as --device spells it
     std::string_view usage;  // what it is, for the help
     // As in DeviceNature:
-    std::size_t parts;
-    bool is_upright, is_worn, felt_by_person, has_amplifiers;
+    Needed<std::size_t> parts;
+    Needed<bool> is_upright, is_worn, felt_by_person, has_amplifiers;
     // Returns the handle's description: of the file, or the program's where none is named; null: it has no handle.
     Result<WandDescription> (*handle)(const std::string& file);
-    // `file` is what follows the name and a colon: a description of the device; empty: none was named.
-    Result<OpenedDevice> (*open)(HapticHost host, const std::string& file);
-    // Looks for such devices without opening them; null: it is simulated and always there.
-    std::vector<DevicePresence> (*look)() = nullptr;
+    Opening open;
+    // Says what of a kind without a driver might be there; null: it is simulated and always there.
+    std::vector<DevicePresence> (*might_be_there)() = nullptr;
     // Returns the file in what follows the name, where more than a file can; null: all of it is the file.
     std::string (*file_of)(const std::string& text) = nullptr;
     // Mean what they mean in DeviceNature.

@@ -13,8 +13,10 @@ std::vector<LookedForKind> look_for_devices() {
     std::vector<LookedForKind> all;
     for (const HapticKind& kind : haptic_kinds()) {
         LookedForKind looked{"--device", kind.usage, {}};
-        if (kind.look != nullptr)
-            looked.found = kind.look();
+        if (kind.open.is_driver())
+            looked.found = kind.open.look();
+        else if (kind.might_be_there != nullptr)
+            looked.found = kind.might_be_there();
         else
             looked.found = {{Presence::there, std::string(kind.name), "simulated: it needs nothing", {}}};
         all.push_back(std::move(looked));

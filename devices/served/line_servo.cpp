@@ -42,7 +42,7 @@ void LineServo::run() {
             open_again();
     }
     if (is_open_) {
-        static_cast<void>(line_->turn(Vec3(0.0), state_));
+        static_cast<void>(line_->turn(DeviceWrench{}, state_));
         line_->close();
     }
 }
@@ -51,7 +51,7 @@ void LineServo::turn() noexcept {
     const Nanoseconds now_ns = clock_->now_ns();
     const bool may = held_ == DeviceFault::none && state_.fault == DeviceFault::none;
     state_.fault = DeviceFault::none;
-    if (!line_->turn(may ? exchange_.wanted_N(now_ns) : Vec3(0.0), state_)) return lose();
+    if (!line_->turn(may ? exchange_.wanted(now_ns) : DeviceWrench{}, state_)) return lose();
     if (!finite(state_.pose_device.position_m)) state_.fault = DeviceFault::other;
     publish(clock_->now_ns());
     take_notice();
@@ -73,7 +73,7 @@ void LineServo::publish(Nanoseconds now_ns) noexcept {
 
 void LineServo::lose() noexcept {
     // What the device held is not to stay, where it still hears.
-    static_cast<void>(line_->turn(Vec3(0.0), state_));
+    static_cast<void>(line_->turn(DeviceWrench{}, state_));
     take_notice();
     line_->close();
     is_open_ = false;

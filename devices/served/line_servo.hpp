@@ -34,9 +34,10 @@ public:
     virtual ~DeviceLine() = default;
     // Opens it, at first and again after close(). An Error says why not.
     [[nodiscard]] virtual Result<void> open() = 0;
-    // Gives a force and takes the newest state, whose time the servo sets: pose, buttons and a fault of its own. Its
-    // pose is left alone where none is known. Returns false where the device is gone.
-    [[nodiscard]] virtual bool turn(const Vec3& force_N, ServedState& state) noexcept = 0;
+    // Gives a force and a torque and takes the newest state, whose time the servo sets: pose, buttons and a fault of
+    // its own. Its pose is left alone where none is known. A device without a motor for the torque leaves it, as its
+    // description says (DeviceDescription::max_torque_Nm). Returns false where the device is gone.
+    [[nodiscard]] virtual bool turn(const DeviceWrench& wrench, ServedState& state) noexcept = 0;
     virtual void close() noexcept = 0;
     // Returns what has been noticed since, once; what == 0: nothing. Then the words for it, on the frame's thread.
     [[nodiscard]] virtual LineNotice notice() noexcept = 0;

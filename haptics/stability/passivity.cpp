@@ -34,7 +34,7 @@ Vec3 honest_velocity(const PassivityInput& in, const PassivitySettings& settings
 }
 
 // Updates E, U, R and A for the motion since the last tick.
-void count(PassivityState& next, const PassivityState& before, const PassivityInput& in, double wanted_N,
+void count(PassivityObserver& next, const PassivityObserver& before, const PassivityInput& in, double wanted_N,
            const PassivitySettings& settings, const devices::DeviceDescription& device, double dt_s) {
     // No sample is of a time to come, whatever its stamp says.
     const Nanoseconds taken_ns = in.now_ns > 0 ? std::min(in.time_ns, in.now_ns) : in.time_ns;
@@ -58,7 +58,7 @@ void count(PassivityState& next, const PassivityState& before, const PassivityIn
 
 // Velocity along a direction, over the shortest window in which the tool has moved by two encoder steps; 0 where there
 // is none, or where the tool has turned since.
-double clear_speed(const PassivityState& before, const PassivityInput& in, const Vec3& along, double step_m,
+double clear_speed(const PassivityObserver& before, const PassivityInput& in, const Vec3& along, double step_m,
                    double dt_s) {
     // Positions are multiples of the encoder step; rounding in their last bits must not make two steps count as less.
     const double least_m = 2.0 * step_m * (1.0 - 1e-6);
@@ -77,7 +77,7 @@ double clear_speed(const PassivityState& before, const PassivityInput& in, const
 }
 
 // Adds the damping that dissipates -R.
-void take_back(PassivityStep& step, const PassivityState& before, const PassivityInput& in, double wanted_N,
+void take_back(PassivityStep& step, const PassivityObserver& before, const PassivityInput& in, double wanted_N,
                const PassivitySettings& settings, const devices::DeviceDescription& device, double dt_s) {
     const Vec3 along = in.wanted.force_device_N / wanted_N;
     const double v = clear_speed(before, in, along, device.resolution_m, dt_s);
@@ -92,7 +92,7 @@ void take_back(PassivityStep& step, const PassivityState& before, const Passivit
 
 }  // namespace
 
-PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in, const PassivitySettings& settings,
+PassivityStep keep_passive(const PassivityObserver& state, const PassivityInput& in, const PassivitySettings& settings,
                            const devices::DeviceDescription& device, double dt_s) noexcept {
     PassivityStep step;
     step.next = state;
@@ -131,7 +131,7 @@ double promised_gap_s(const PassivitySettings& settings, const devices::DeviceDe
     return promises ? longest_gap_s(promise_of(settings, dt_s)) : 0.0;
 }
 
-void set_commanded_wrench(PassivityState& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept {
+void set_commanded_wrench(PassivityObserver& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept {
     remember(state.account, wrench, now_ns);
     if (glm::length(wrench.force_device_N) < kGiven * state.asked_N)
         state.faded_ticks = 1 + state.delay_ticks;

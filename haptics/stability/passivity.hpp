@@ -52,7 +52,8 @@ struct PassivitySettings {
     double surface_speed_m_per_s = 2.0;
 };
 
-struct PassivityState {
+// What the observer has counted since contact began, and of the last tick.
+struct PassivityObserver {
     EnergyAccount account;
     Vec3 position_device_m{0.0};  // x(n-1)
     double asked_N = 0.0;         // magnitude of the desired force, as far as the device can give it
@@ -97,14 +98,14 @@ struct PassivityRecord {
 };
 
 struct PassivityStep {
-    PassivityState next;           // set_commanded_wrench() completes it after the gate
+    PassivityObserver next;        // set_commanded_wrench() completes it after the gate
     devices::DeviceWrench wrench;  // the desired one with the controller's damping, scaled to what is affordable
     PassivityRecord record;
 };
 
 // Updates the energy account with this tick's motion, damps the desired force where more would come out than went in,
 // and scales the wrench to what the account affords.
-[[nodiscard]] PassivityStep keep_passive(const PassivityState& state, const PassivityInput& input,
+[[nodiscard]] PassivityStep keep_passive(const PassivityObserver& state, const PassivityInput& input,
                                          const PassivitySettings& settings, const devices::DeviceDescription& device,
                                          double dt_s) noexcept;
 
@@ -115,6 +116,6 @@ struct PassivityStep {
                                     double dt_s) noexcept;
 
 // Stores the wrench commanded to the device after the gate. Call it once a tick, after keep_passive().
-void set_commanded_wrench(PassivityState& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept;
+void set_commanded_wrench(PassivityObserver& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept;
 
 }  // namespace burin::haptics

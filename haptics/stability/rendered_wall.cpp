@@ -73,7 +73,7 @@ Cover by_damping(const Loop& loop, const devices::DeviceDescription& device) {
 
 }  // namespace
 
-CoupledWall through(const CouplingSettings& coupling, const CoupledWall& wall) noexcept {
+CoupledWall through(const VirtualCoupling& coupling, const CoupledWall& wall) noexcept {
     if (!(coupling.stiffness_N_per_m > 0.0)) return wall;
     const double sum = wall.stiffness_N_per_m + coupling.stiffness_N_per_m;
     const double of_wall = coupling.stiffness_N_per_m / sum;  // share of the motion taken up by the wall

@@ -57,7 +57,7 @@ namespace burin::haptics {
 
 // ---- Virtual coupling
 
-struct CouplingSettings {
+struct VirtualCoupling {
     double stiffness_N_per_m = 0.0;  // Kc; 0: no coupling, the hand is the tool
     double damping_Ns_per_m = 0.0;   // Bc
 };
@@ -68,7 +68,7 @@ struct CoupledWall {
 };
 
 // The wall as the device feels it through the coupling.
-[[nodiscard]] CoupledWall through(const CouplingSettings& coupling, const CoupledWall& wall) noexcept;
+[[nodiscard]] CoupledWall through(const VirtualCoupling& coupling, const CoupledWall& wall) noexcept;
 
 // ---- Stiffness limit
 
@@ -120,7 +120,7 @@ struct ContactDemand {
 // The wall that a point asks of its device, and what acts beside it.
 struct WallDemand {
     CoupledWall wall;              // of the material
-    CouplingSettings coupling;     // through which it is felt
+    VirtualCoupling coupling;      // through which it is felt
     double points = 1.0;           // how many such walls act side by side
     double squared_arms_m2 = 0.0;  // sum over these points; 0: they do not turn the tool
     double filter_lag_s = 0.0;     // as in ContactDemand

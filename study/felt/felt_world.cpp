@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/sha256.hpp"
+#include "haptics/forces/touch_force.hpp"
 #include "study/felt/tube_mesh.hpp"
 
 namespace burin::study {
@@ -75,6 +76,7 @@ Result<std::unique_ptr<const FeltWorld>> FeltWorld::create(const StudyWorld& wor
     if (const auto near = made->part_->add_near({0, made->bounds_.center(), reach_m}, surface); !near)
         return std::unexpected(near.error());
     // The tube comes first, as the objects are numbered.
+    static_assert(kTubeMaterial < haptics::kMostMaterials && kFunnelMaterial < haptics::kMostMaterials);
     for (std::size_t i = 0; i < surface.meshes.size(); ++i)
         surface.meshes[i].material = i == 0 ? kTubeMaterial : kFunnelMaterial;
     surface.sequence = 1;

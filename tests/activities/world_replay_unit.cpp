@@ -249,7 +249,7 @@ TEST(FeltThrough, EndsWhereARowIsNotTaken) {
 }
 
 TEST(SettingsOfAWorld, AreReadBackToTheBit) {
-    WorldSettings settings;
+    ExplorationSettings settings;
     settings.tool_radius_m = 0.1 + 0.2;
     settings.scene_from_device = {{1.0 / 3.0, -2e-7, 5.0}, glm::normalize(Quat(0.3, -0.1, 0.7, 0.2)), 1.0 / 7.0};
     settings.start_scene_m = {-0.0, 1e-300, 7.0};

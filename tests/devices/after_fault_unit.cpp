@@ -52,10 +52,11 @@ public:
         ++record_.opened;
         return {};
     }
-    [[nodiscard]] bool turn(const Vec3& force_N, ServedState& state) noexcept override {
+    [[nodiscard]] bool turn(const DeviceWrench& wrench, ServedState& state) noexcept override {
         LineServo* const servo = servo_.load();
         if (servo == nullptr || record_.turns.size() == turns_) return true;
-        SeenTurn seen{.time_ns = clock_.now_ns(), .force_N = force_N, .did = script_(record_.turns.size())};
+        SeenTurn seen{
+            .time_ns = clock_.now_ns(), .force_N = wrench.force_device_N, .did = script_(record_.turns.size())};
         seen.told_before = servo->exchange().newest().fault;
         record_.turns.push_back(seen);
         servo->exchange().command({asked_N(), Vec3(0.0)}, clock_.now_ns());

@@ -5,7 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <string_view>
+#include <type_traits>
 
+#include "devices/haptic/recorded_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::devices {
@@ -25,6 +30,21 @@ TEST(HapticRegistry, NamesEachKindOnceAndInItsUsage) {
         EXPECT_TRUE(haptic_usage().contains(std::string(kind.name) + ": ")) << haptic_usage();
     }
     EXPECT_TRUE(names.contains(kDefaultHapticDevice));
+}
+
+// A row is an aggregate whose fields have no default, and so has no value without them.
+TEST(HapticRegistry, HasNoRowOfADriverWithoutAllItsFunctions) {
+    static_assert(!std::is_default_constructible_v<Needed<bool>>);
+    static_assert(!std::is_default_constructible_v<DriverFunctions>);
+    static_assert(!std::is_default_constructible_v<Opening>);
+    static_assert(!std::is_default_constructible_v<HapticKind>);
+    SimulatedClock clock;
+    for (const HapticKind& kind : haptic_kinds()) {
+        if (!kind.open.is_driver()) continue;
+        const auto opened = open_haptic_device(std::string(kind.name) + ":emulated", host_of(clock));
+        ASSERT_FALSE(opened) << kind.name << " was opened in simulated time";
+        EXPECT_TRUE(opened.error().line().contains("time is simulated")) << opened.error().line();
+    }
 }
 
 TEST(HapticRegistry, OpensTheSimulatedOmniOnTheClockThatItIsGiven) {

@@ -191,7 +191,7 @@ TEST(DhdCalls, HaveAxesOfTheLibrarysForPlaceTurnAndForceAndTheDevicesOwnMost) {
             DhdLine line = noted_line(index);
             ASSERT_TRUE(line.open());
             ServedState state;
-            ASSERT_TRUE(line.turn(Vec3(0.7, -1.3, 2.1), state));
+            ASSERT_TRUE(line.turn({Vec3(0.7, -1.3, 2.1), Vec3(0.0)}, state));
             // To the right 0.7, up -1.3 and to the user 2.1 are its y, z and x.
             EXPECT_EQ(device.force_N, Vec3(2.1, 0.7, -1.3));
             ASSERT_FALSE(device.calls.empty());
@@ -204,7 +204,7 @@ TEST(DhdCalls, HaveAxesOfTheLibrarysForPlaceTurnAndForceAndTheDevicesOwnMost) {
             EXPECT_LT(glm::distance(turn * Vec3(1, 0, 0), Vec3(0, 1, 0)), 1e-9);
             EXPECT_LT(glm::distance(turn * Vec3(0, 1, 0), Vec3(-1, 0, 0)), 1e-9);
             const Vec3 way = uneven_direction(2);
-            ASSERT_TRUE(line.turn(50.0 * way, state));
+            ASSERT_TRUE(line.turn({50.0 * way, Vec3(0.0)}, state));
             const Vec3& strong = device.force_N;
             EXPECT_LT(glm::distance(Vec3(strong.y, strong.z, strong.x), most_N * way), 1e-9) << type;
         }

@@ -209,10 +209,10 @@ TEST(Dhd, TriesZeroLastWhereverItFailsInAHundredOfAHundred) {
         ServedState state;
         bool is_there = true;
         // As LineServo turns it: with force while it is well, and once with none when it is not.
-        for (int i = 0; i < 300 && is_there; ++i) is_there = line.turn(Vec3(0.5, 1.0, 2.0), state);
+        for (int i = 0; i < 300 && is_there; ++i) is_there = line.turn({Vec3(0.5, 1.0, 2.0), Vec3(0.0)}, state);
         EXPECT_FALSE(is_there);
         EXPECT_EQ(FailingDhd::last_written_N, Vec3(2.0, 0.5, 1.0)) << "it was pressing";
-        static_cast<void>(line.turn(Vec3(0.0), state));
+        static_cast<void>(line.turn({}, state));
         line.close();
         zero += FailingDhd::last_written_N == Vec3(0.0) ? 1 : 0;
     }

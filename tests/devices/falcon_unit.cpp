@@ -205,11 +205,11 @@ TEST(Falcon, TriesZeroLastWhereverItsCableIsPulledInAHundredOfAHundred) {
         // As LineServo turns it: with force while it is well, and once with none when it is not.
         for (int i = 0; i < 300 && is_there; ++i) {
             before = log.last_written;
-            is_there = line.turn(Vec3(0.5, 1.0, 2.0), state);
+            is_there = line.turn({Vec3(0.5, 1.0, 2.0), Vec3(0.0)}, state);
         }
         pressed += is_zero(before) ? 0 : 1;
         EXPECT_FALSE(is_there);
-        static_cast<void>(line.turn(Vec3(0.0), state));
+        static_cast<void>(line.turn({}, state));
         line.close();
         zero += is_zero(log.last_written) ? 1 : 0;
     }

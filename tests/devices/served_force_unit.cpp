@@ -26,25 +26,25 @@ class SilencedLine final : public DeviceLine {
 public:
     struct Turn {
         Nanoseconds since_command_ns = 0;
-        Vec3 force_N{0.0};
+        Vec3 force_N{0.0}, torque_Nm{0.0};
     };
     struct Record {
         LineServo* servo = nullptr;
         std::vector<Turn> turns;
-        Vec3 last_force_N{0.0};  // also when the turns are over
+        DeviceWrench last;  // also when the turns are over
         std::promise<void> begins, is_over;
     };
     SilencedLine(ToldClock& clock, Record& record) : clock_(clock), record_(record) {}
     static constexpr std::size_t kSpeaks = 20, kSilent = 80, kTurns = 3 * (kSpeaks + kSilent);
 
     [[nodiscard]] Result<void> open() override { return {}; }
-    [[nodiscard]] bool turn(const Vec3& force_N, ServedState& state) noexcept override {
-        record_.last_force_N = force_N;
+    [[nodiscard]] bool turn(const DeviceWrench& wrench, ServedState& state) noexcept override {
+        record_.last = wrench;
         state.pose_device = uneven_pose(record_.turns.size());
         if (waits_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return true;
         const std::size_t turn = record_.turns.size() % (kSpeaks + kSilent);
         if (record_.turns.size() < kTurns) {
-            record_.turns.push_back({clock_.now_ns() - commanded_ns_, force_N});
+            record_.turns.push_back({clock_.now_ns() - commanded_ns_, wrench.force_device_N, wrench.torque_device_Nm});
             if (record_.turns.size() == kTurns) record_.is_over.set_value();
         }
         // In the end it goes on to speak, so that the last turn has something to take away.
@@ -83,7 +83,7 @@ private:
 
 }  // namespace
 
-TEST(ServedForce, NoTurnHasForceOnceTheHapticThreadIsSilentAndTheLastTurnHasNoneEither) {
+TEST(ServedForce, NoTurnHasForceOrTorqueOnceTheHapticThreadIsSilentAndTheLastTurnHasNoneEither) {
     SilencedLine::Record record;
     {
         auto clock = std::make_unique<ToldClock>();
@@ -94,14 +94,17 @@ TEST(ServedForce, NoTurnHasForceOnceTheHapticThreadIsSilentAndTheLastTurnHasNone
         record.begins.set_value();
         ASSERT_EQ(record.is_over.get_future().wait_for(std::chrono::seconds(30)), std::future_status::ready);
     }
-    EXPECT_EQ(record.last_force_N, Vec3(0.0)) << "the end";
+    EXPECT_EQ(record.last.force_device_N, Vec3(0.0)) << "the end";
+    EXPECT_EQ(record.last.torque_device_Nm, Vec3(0.0)) << "the end";
     int with = 0, without = 0;
     for (std::size_t i = 1; i < record.turns.size(); ++i) {
-        const auto& [since_ns, force_N] = record.turns[i];
+        const auto& [since_ns, force_N, torque_Nm] = record.turns[i];
         if (since_ns < kServedSilent_ns) {
             EXPECT_EQ(force_N, wrench_asked().force_device_N) << i << ", " << since_ns;
+            EXPECT_EQ(torque_Nm, wrench_asked().torque_device_Nm) << i << ", a line's device may have a motor for it";
         } else {
             EXPECT_EQ(force_N, Vec3(0.0)) << i << ", " << since_ns;
+            EXPECT_EQ(torque_Nm, Vec3(0.0)) << i << ", " << since_ns;
         }
         (since_ns < kServedSilent_ns ? with : without) += 1;
     }

@@ -92,17 +92,17 @@ TEST(WireBytes, AFalconIsOpenedSettledAndToldByPacketsOfItsOwnForm) {
     log.answers =
         "<DCBANNOPGFAA\xb6"
         "A>";
-    ASSERT_TRUE(line.turn(Vec3(0.0), state));
+    ASSERT_TRUE(line.turn({}, state));
     EXPECT_EQ(log.packets, (std::vector<std::string>{"<AAAAAAAAAAAAJA>"})) << "red until it has said that it is homed";
     EXPECT_EQ(state.buttons, 5u);
     EXPECT_EQ(state.fault, DeviceFault::none);
     const auto where = falcon_forward(falcon_angles({0x0123, static_cast<std::int16_t>(0xfedd), 0x0056}));
     ASSERT_TRUE(where);
     EXPECT_LT(glm::distance(state.pose_device.position_m, where->grip_m - Vec3(0.0, 0.0, 0.1245)), 1e-9);
-    ASSERT_TRUE(line.turn(Vec3(0.0), state));
+    ASSERT_TRUE(line.turn({}, state));
     EXPECT_EQ(log.packets.back(), "<AAAAAAAAAAAADA>") << "homed and without force: green (2) and homing (1)";
     const Vec3 force_N(0.7, -1.3, 2.1);
-    ASSERT_TRUE(line.turn(force_N, state));
+    ASSERT_TRUE(line.turn({force_N, Vec3(0.0)}, state));
     const std::string& told = log.packets.back();
     ASSERT_EQ(told.size(), 16u);
     EXPECT_EQ(told.substr(13), "FA>") << "blue (4) and homing (1)";
@@ -124,7 +124,7 @@ TEST(WireBytes, AFalconThatIsNotHomedIsToldNoForceAndTheLampIsRedInEachTurn) {
         log.answers = std::string("<AAAAAAAAAAAA") + static_cast<char>('A' + 16 * homed) + "A>";
         for (int turn = 0; turn < 3; ++turn) {
             ServedState state;
-            ASSERT_TRUE(line.turn(Vec3(0.7, -1.3, 2.1), state));
+            ASSERT_TRUE(line.turn({Vec3(0.7, -1.3, 2.1), Vec3(0.0)}, state));
             EXPECT_NE(state.fault, DeviceFault::none) << homed;
             EXPECT_EQ(log.packets.back(), "<AAAAAAAAAAAAJA>") << homed << " in turn " << turn;
         }

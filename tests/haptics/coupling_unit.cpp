@@ -13,7 +13,7 @@ namespace {
 
 // Stiffness and damping that a hand feels which moves the coupling's end by sin(w t): the parts of the force in phase
 // with the motion and with its speed.
-CoupledWall felt(const CouplingSettings& c, const CoupledWall& wall, double w) {
+CoupledWall felt(const VirtualCoupling& c, const CoupledWall& wall, double w) {
     const double period = 2.0 * std::numbers::pi / w, dt = period / 20000;
     double tool = 0.0, in_phase = 0.0, ahead = 0.0;
     const int kPeriods = 12, kMeasured = 4;
@@ -38,9 +38,9 @@ CoupledWall felt(const CouplingSettings& c, const CoupledWall& wall, double w) {
 }  // namespace
 
 TEST(VirtualCoupling, FeelsAsASimulatedToolBetweenTwoSpringsAndDampers) {
-    const CouplingSettings couplings[] = {{500.0, 2.0}, {2000.0, 0.5}, {300.0, 0.0}};
+    const VirtualCoupling couplings[] = {{500.0, 2.0}, {2000.0, 0.5}, {300.0, 0.0}};
     const CoupledWall walls[] = {{600.0, 0.5}, {100.0, 3.0}, {5000.0, 0.2}};
-    for (const CouplingSettings& c : couplings) {
+    for (const VirtualCoupling& c : couplings) {
         for (const CoupledWall& wall : walls) {
             const double corner =
                 (wall.stiffness_N_per_m + c.stiffness_N_per_m) / (wall.damping_Ns_per_m + c.damping_Ns_per_m);
@@ -52,7 +52,7 @@ TEST(VirtualCoupling, FeelsAsASimulatedToolBetweenTwoSpringsAndDampers) {
 }
 
 TEST(VirtualCoupling, IsNeverStifferThanEitherAndAsStiffAsItselfOnAHardWall) {
-    const CouplingSettings c{800.0, 1.5};
+    const VirtualCoupling c{800.0, 1.5};
     for (const double k : {1.0, 100.0, 800.0, 1e4, 1e9}) {
         const CoupledWall wall = through(c, {k, 0.5});
         EXPECT_LE(wall.stiffness_N_per_m, std::min(k, 800.0));

@@ -264,7 +264,7 @@ private:
     std::deque<Command> commands_;
     VelocityWindow window_;
     MovingAverage velocity_, force_;
-    PassivityState passivity_;
+    PassivityObserver passivity_;
     GateState gate_;
     bool touched_ = false, over_ = true, too_fast_ = false;
     int cut_ = 0, contact_ = 0;

@@ -39,12 +39,12 @@ PassivityInput wall_input(double y_m, double stiffness, double max_force_N = 0.0
 }
 
 // A tick after the last one.
-PassivityInput next(const PassivityState& state, PassivityInput in) {
+PassivityInput next(const PassivityObserver& state, PassivityInput in) {
     in.time_ns = in.now_ns = state.account.time_ns + nanoseconds(kDt);
     return in;
 }
 
-PassivityState commanded(PassivityState state, const Vec3& force_device_N) {
+PassivityObserver commanded(PassivityObserver state, const Vec3& force_device_N) {
     set_commanded_wrench(state, {force_device_N, Vec3(0.0)}, state.account.time_ns);
     return state;
 }
@@ -58,7 +58,7 @@ struct Push {
 };
 Push push(double stiffness, double speed, double depth_m, const devices::DeviceDescription& d,
           PassivitySettings settings = {}, double max_force_N = 1e9) {
-    PassivityState state;
+    PassivityObserver state;
     Push out;
     double told_N = 0.0, acting_N = 0.0, y = 0.0042e-3, before = y;
     bool down = true;
@@ -126,7 +126,7 @@ TEST(PassivityController, NeverTurnsAForceAddsEnergyOrExceedsItsGainOnAnyMotion)
         const double known = run % 2;
         const devices::DeviceDescription d =
             wall_device(known * number(0.0, 0.2), known * number(0.0, 0.2), number(0.0, 0.02));
-        PassivityState state;
+        PassivityObserver state;
         Vec3 position(0.0);
         for (int i = 0; i < 200; ++i) {
             const Vec3 moved = Vec3(number(-1, 1), number(-1, 1), number(-1, 1)) * number(0.0, 4e-4);
@@ -160,7 +160,7 @@ TEST(PassivityController, ActsOnASlowLeakOverAWindowOfTicksAndNotOnAMotionThatHa
     const devices::DeviceDescription d = wall_device(0.0, 0.0, 0.0);
     const auto damping = [&](double last_steps) {
         VelocityWindow window;
-        PassivityState state;
+        PassivityObserver state;
         state.known = state.account.counting = true;
         state.reserve_J = -1e-6;
         PassivityInput in;
@@ -180,7 +180,7 @@ TEST(PassivityController, ActsOnASlowLeakOverAWindowOfTicksAndNotOnAMotionThatHa
 }
 
 TEST(PassivityObserver, StartsAnewInFreeSpaceOnceTheLastForceHasActed) {
-    PassivityState state;
+    PassivityObserver state;
     const devices::DeviceDescription d = wall_device();
     const auto go = [&](double y) {
         const PassivityStep step = keep_passive(state, next(state, wall_input(y, 1000.0)), {}, d, kDt);
@@ -196,7 +196,7 @@ TEST(PassivityObserver, StartsAnewInFreeSpaceOnceTheLastForceHasActed) {
 }
 
 TEST(PassivityController, DoesNothingWhereNobodySaysWhatTheDeviceWasTold) {
-    PassivityState state;
+    PassivityObserver state;
     for (int i = 0; i < 40; ++i) {
         const PassivityStep step =
             keep_passive(state, next(state, wall_input(-0.0003 * i, 2000.0)), {}, wall_device(0.0, 0.0, 0.0), kDt);
@@ -207,7 +207,7 @@ TEST(PassivityController, DoesNothingWhereNobodySaysWhatTheDeviceWasTold) {
 }
 
 TEST(PassivityController, WaitsWhileTheGateFadesAForceIn) {
-    PassivityState state;
+    PassivityObserver state;
     const devices::DeviceDescription d = wall_device(0.0, 0.0, 0.0);
     double damping = 0.0;
     for (int i = 0; i < 40; ++i) {
@@ -225,7 +225,7 @@ TEST(PassivityController, BelievesABodyUpToASpeed) {
     const devices::DeviceDescription d = wall_device();
     const PassivitySettings settings{.reserve_J = 1.0, .surface_speed_m_per_s = 2.0};
     const auto reserve_after = [&](double speed) {
-        PassivityState state;
+        PassivityObserver state;
         for (int i = 0; i < 4; ++i) {
             PassivityInput in = wall_input(-0.003, 600.0);
             in.surface_velocity_device_m_per_s = {0.0, speed, 0.0};
@@ -305,7 +305,7 @@ TEST(PassivityObserver, CountsNeitherTheToolsWeightNorGuidanceNorTheWorkspacesFo
 }
 
 TEST(PassivityController, ALongQuietContactSavesUpNoMoreThanTheReserve) {
-    PassivityState state;
+    PassivityObserver state;
     PassivitySettings settings;
     const devices::DeviceDescription d = wall_device(0.26, 0.05, 0.0);
     double most = 0.0;
@@ -321,7 +321,7 @@ TEST(PassivityController, ALongQuietContactSavesUpNoMoreThanTheReserve) {
 TEST(PassivityController, TakesBackNoMoreInOneTickThanTheOrdersUnderWayWill) {
     // What is ordered goes on acting until the next order arrives: with a delay of three ticks four orders take the
     // same debt back, and each has a quarter of it to take.
-    PassivityState state;
+    PassivityObserver state;
     state.known = true;
     state.reserve_J = -1e-5;
     PassivitySettings settings;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/geometry/touch_samples.hpp"
 #include "tests/haptics/cutting_ball.hpp"
+#include "tests/haptics/smooth_shapes.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/test_units.hpp"
 
@@ -208,6 +210,23 @@ TEST(Tick, NonsenseInGivesZeroForceAndAFreshStart) {
     EXPECT_TRUE(refused([&](TickParameters& p) { p.workspace.object_from_device.scale = 0.0; }));
     EXPECT_TRUE(refused([&](TickParameters& p) { p.workspace.object_from_device.orientation = Quat(2, 0, 0, 0); }));
     EXPECT_TRUE(refused([&](TickParameters& p) { p.workspace.object_from_device.position_m.z = nan; }));
+}
+
+TEST(Tick, ASurfaceOfAnUnknownMaterialGivesNoForceAndIsNotFeltAsAnother) {
+    const auto felt_of = [](std::uint8_t material) {
+        test::Surface cube = test::touchable(geometry::test::cube(20 * kMm));
+        cube->meshes[0].material = material;
+        Ticker t{cube.get(), parameters_for(4 * kMm)};
+        (void)t.at({0.0, 30 * kMm, 0.0});
+        TickRecord last;
+        for (double y = 30 * kMm; y > 22 * kMm; y -= 0.5 * kMm) last = t.at({0.0, y, 0.0});
+        return last;
+    };
+    const TickRecord known = felt_of(kMostMaterials - 1), unknown = felt_of(kMostMaterials);
+    EXPECT_GT(known.wanted.force_device_N.y, 0.1);
+    EXPECT_TRUE(known.parameters_sensible);
+    EXPECT_EQ(unknown.wanted.force_device_N, Vec3(0.0));
+    EXPECT_EQ(pass_gate({}, gate_input(unknown, test::kStrongDevice), {}, kDt).output.cause, GateCause::bad_parameters);
 }
 
 TEST(Tick, AGapInTheSamplesDoesNotLookLikeSpeed) {

@@ -35,7 +35,7 @@ std::vector<std::string> all_files(const fs::path& root) {
         const fs::path relative = it->path().lexically_relative(root);
         if (it->is_directory(ignored)) {
             if (is_left_aside(relative)) it.disable_recursion_pending();
-        } else if (it->is_regular_file(ignored)) {
+        } else if (relative != ".git" && it->is_regular_file(ignored)) {  // a second work tree has a file of this name
             files.push_back(relative.generic_string());
         }
     }

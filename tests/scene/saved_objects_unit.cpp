@@ -158,6 +158,7 @@ TEST(SavedObjects, WithWhatNoObjectCanHaveAreLostAndNothingCrashes) {
                                    {"\"object 1\"", "\"object 2\""},
                                    {"123.456", "1e999"},
                                    {"0.03\n", "1e300\n"},
+                                   {"255\n", "256\n"},
                                    {"\"pivot_m\"", "\"pivot\""},
                                    {"{", ""}}) {
         const auto loaded = with(from, to);

@@ -15,8 +15,8 @@ namespace {
 // Writes down what it is given.
 class NotedPart final : public ScenePart {
 public:
-    void take_ticks(std::size_t hand, std::span<const haptics::TickRecord> samples) override {
-        for (const haptics::TickRecord& sample : samples) ticks.emplace_back(hand, sample.tick);
+    void take_ticks(std::size_t part, std::span<const haptics::TickRecord> samples) override {
+        for (const haptics::TickRecord& sample : samples) ticks.emplace_back(part, sample.tick);
     }
     Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override {
         ++updates;

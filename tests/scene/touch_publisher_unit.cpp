@@ -133,6 +133,23 @@ TEST(TouchPublisher, LeavesOutWhatCannotBeTouched) {
     EXPECT_EQ(scene.slot.newest().radius_m, 1.0);
 }
 
+TEST(TouchPublisher, AMaterialThatATickDoesNotKnowIsRefusedWithTheObjectsNumberAndNotFeltAsAnother) {
+    Published scene;
+    geometry::TouchedMesh cube = cube_at(cube_snapshot(), Vec3(0.0));
+    cube.object = 7;
+    cube.material = haptics::kMostMaterials - 1;
+    scene.part.meshes = {cube};
+    EXPECT_EQ(scene.publish().meshes.size(), 1u) << "the last that there is";
+    scene.part.meshes[0].material = haptics::kMostMaterials;
+    ScenePart* const parts[] = {&scene.part};
+    const Result<void> refused = scene.publisher.publish({0, Vec3(0.0), 1.0}, parts, 2);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().where, "object 7");
+    EXPECT_TRUE(refused.error().what.contains("material 16")) << refused.error().line();
+    EXPECT_FALSE(refused.error().remedy.empty());
+    EXPECT_EQ(scene.slot.newest().sequence, 1u) << "nothing is published";
+}
+
 TEST(TouchPublisher, WhatMovesIsAsNearAsItsVelocityTakesIt) {
     const auto snapshot = cube_snapshot();
     geometry::TouchedMesh mesh = cube_at(snapshot, {0.11, 0.0, 0.0}, 1);

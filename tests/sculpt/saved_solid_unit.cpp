@@ -220,6 +220,7 @@ TEST(SavedSolid, WithAnImpossibleNumberInItsHeadIsRefusedAtOnce) {
         expect_refused(place, nullptr);
     expect_refused("/materials", Json::array());
     expect_refused("/page_side", 1e300);
+    for (const double part : {-1.0, 256.0, 1e300}) expect_refused("/materials/0/colour/1", part);
 }
 
 TEST(SavedSolid, OfDamagedBytesIsToldAndNeverTaken) {

@@ -12,7 +12,7 @@
 
 namespace burin::activities {
 
-struct WorldSettings {
+struct ExplorationSettings {
     double tool_radius_m = 0.004;  // of the ball that touches
     Similarity scene_from_device;
     Vec3 start_scene_m{0.0};  // where the tool is before the first tick
@@ -26,16 +26,16 @@ struct WorldSettings {
 };
 
 // Returns the parameters of the tick, but for sequence and materials.
-[[nodiscard]] haptics::TickParameters parameters_of(const WorldSettings& settings);
+[[nodiscard]] haptics::TickParameters parameters_of(const ExplorationSettings& settings);
 
 // Facts by which a session file says what it is of (table meta).
 inline constexpr const char* kActivityFact = "activity";
 inline constexpr const char* kSettingsFact = "settings";
 inline constexpr const char* kWorldActivity = "world";
 
-[[nodiscard]] std::string settings_text(const WorldSettings& settings);
+[[nodiscard]] std::string settings_text(const ExplorationSettings& settings);
 // Reads what settings_text() has written. Fails on any other text, and on values that cannot be felt; `where` names the
 // file.
-[[nodiscard]] Result<WorldSettings> read_settings(const std::string& text, const std::string& where);
+[[nodiscard]] Result<ExplorationSettings> read_settings(const std::string& text, const std::string& where);
 
 }  // namespace burin::activities

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "activities/world/world_settings.hpp"
+#include "activities/world/exploration_settings.hpp"
 
 #include <cmath>
 #include <optional>
@@ -76,7 +76,7 @@ void visit_tick(Settings& s, const Number& number, const Flag& flag) {
 
 }  // namespace
 
-haptics::TickParameters parameters_of(const WorldSettings& settings) {
+haptics::TickParameters parameters_of(const ExplorationSettings& settings) {
     haptics::TickParameters parameters;
     parameters.workspace.object_from_device = settings.scene_from_device;
     parameters.probe = haptics::ball_probe(settings.tool_radius_m);
@@ -91,7 +91,7 @@ haptics::TickParameters parameters_of(const WorldSettings& settings) {
     return parameters;
 }
 
-std::string settings_text(const WorldSettings& settings) {
+std::string settings_text(const ExplorationSettings& settings) {
     const Similarity& map = settings.scene_from_device;
     Json json{{"tool_radius_m", settings.tool_radius_m},
               {"scene_from_device_m", numbers_of(map.position_m)},
@@ -105,10 +105,10 @@ std::string settings_text(const WorldSettings& settings) {
     return json.dump();
 }
 
-Result<WorldSettings> read_settings(const std::string& text, const std::string& where) {
+Result<ExplorationSettings> read_settings(const std::string& text, const std::string& where) {
     const Json json = Json::parse(text, nullptr, false);
     SettingsReader reader(json);
-    WorldSettings settings;
+    ExplorationSettings settings;
     settings.tool_radius_m = reader.number("tool_radius_m");
     settings.scene_from_device = {reader.vector("scene_from_device_m"), reader.turn("scene_from_device_qxyzw"),
                                   reader.number("scene_from_device_scale")};
