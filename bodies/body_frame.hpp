@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "bodies/flight/ball_flight.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "scene/scene_motion.hpp"
 
 namespace burin::bodies {

@@ -32,12 +32,15 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "haptics/channels.hpp"
 #include "haptics/histogram.hpp"
 #include "haptics/local_law.hpp"
 #include "haptics/tick.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::haptics {
+
+struct HapticChannels;  // haptics/channels.hpp
 
 // A part of a device: what is read and written, and what the other threads exchange with it. Each has its own channels.
 struct LoopPart {

@@ -3,13 +3,15 @@
 // Frame: object; wrenches are in the device frame. Pure; no clock, heap, lock or throw.
 #pragma once
 
-#include "haptics/channels.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "haptics/contact/contact_watch.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/moving_bodies.hpp"
 #include "haptics/contact/point_turns.hpp"
 #include "haptics/forces/cutting.hpp"
 #include "haptics/forces/easing.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::haptics {
 

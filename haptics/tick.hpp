@@ -17,9 +17,11 @@
 // bits.
 #pragma once
 
-#include "haptics/channels.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "haptics/probe_contact.hpp"
 #include "haptics/signals/filters.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::haptics {
 

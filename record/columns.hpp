@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::record {
 

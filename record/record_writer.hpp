@@ -34,6 +34,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "haptics/histogram.hpp"
+#include "base/ring.hpp"
 #include "record/columns.hpp"
 
 namespace burin::record {

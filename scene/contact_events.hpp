@@ -18,7 +18,7 @@
 
 #include "base/clock.hpp"
 #include "geometry/contact/local_surface.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "scene/scene_object.hpp"
 
 namespace burin::scene {

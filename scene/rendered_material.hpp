@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "scene/haptic_material.hpp"
 #include "scene/scene_object.hpp"
 

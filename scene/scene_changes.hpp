@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "scene/contact_events.hpp"
 #include "scene/haptic_material.hpp"
 #include "scene/scene_object.hpp"

@@ -17,7 +17,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "geometry/contact/local_surface.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "scene/contact_events.hpp"
 #include "scene/pages.hpp"
 #include "scene/scene_changes.hpp"

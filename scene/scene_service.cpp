@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 
 namespace burin::scene {

@@ -15,9 +15,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "scene/scene_part.hpp"
 #include "scene/touch_publisher.hpp"
+
+namespace burin::haptics {
+struct HapticChannels;  // haptics/channels.hpp
+}  // namespace burin::haptics
 
 namespace burin::scene {
 

@@ -10,7 +10,10 @@
 #pragma once
 
 #include "compute/tools/tool.hpp"
-#include "haptics/channels.hpp"
+
+#include "haptics/forces/tool_surface.hpp"
+#include "haptics/contact/probe.hpp"
+#include "haptics/contact/tool_shape.hpp"
 
 namespace burin::sculpt {
 

@@ -20,7 +20,8 @@
 #include <span>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tick_record.hpp"
 #include "sculpt/tool_options.hpp"
 
 namespace burin::sculpt {

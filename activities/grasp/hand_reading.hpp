@@ -11,7 +11,7 @@
 
 #include "devices/gloves/glove_hand.hpp"
 #include "geometry/hand/hand_model.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::activities {
 

@@ -7,6 +7,7 @@
 #include "haptics/haptic_loop.hpp"
 #include "record/record_writer.hpp"
 #include "record/touched_columns.hpp"
+#include "haptics/channels.hpp"
 #include "scene/scene_service.hpp"
 
 namespace burin::activities {

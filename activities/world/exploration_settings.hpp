@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/space.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
 
 namespace burin::activities {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "picture/picture.hpp"
 #include "scene/mesh_part.hpp"
 #include "session/objects/drawn_world.hpp"

@@ -10,6 +10,7 @@
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
 #include "sculpt/tool_mesh.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::bench {

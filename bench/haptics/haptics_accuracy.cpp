@@ -10,6 +10,7 @@
 #include "bench/haptics/haptics.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "geometry/contact/touch_mesh.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 
 namespace burin::bench {

@@ -9,6 +9,7 @@
 #include "bench/haptics/haptics.hpp"
 #include "bench/measure/timing.hpp"
 #include "geometry/contact/touch_mesh.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 
 namespace burin::bench {

@@ -9,6 +9,7 @@
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/haptics/touch_run.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 
 namespace burin::bench {

@@ -5,6 +5,7 @@
 
 #include "base/statistics.hpp"
 #include "bench/haptics/touch_run.hpp"
+#include "haptics/channels.hpp"
 #include "bench/peers/proxy_peer.hpp"
 
 namespace burin::bench {

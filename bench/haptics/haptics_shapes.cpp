@@ -11,6 +11,7 @@
 #include "bench/haptics/touch_run.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/felt_tool.hpp"
 
 namespace burin::bench {

@@ -2,6 +2,8 @@
 // Times the ticks of the haptic loop on meshes.
 #include "bench/haptics/touch_run.hpp"
 
+#include "haptics/channels.hpp"
+
 namespace burin::bench {
 namespace {
 

@@ -14,6 +14,7 @@
 #include "bench/haptics/touch_run.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/stroke_file.hpp"
 
 namespace burin::bench {

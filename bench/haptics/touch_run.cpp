@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/haptics/touch_run.hpp"
 
+#include "haptics/channels.hpp"
+
 #include <unistd.h>
 
 #include <algorithm>

@@ -16,7 +16,7 @@
 #include "geometry/contact/local_surface.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
 
 namespace burin::bench {
 

@@ -10,6 +10,7 @@
 #include "geometry/contact/touch_mesh.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/tool_mesh.hpp"
 
 namespace burin::bench {

@@ -7,6 +7,7 @@
 #include "bench/measure/split_mix.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "geometry/contact/touch_mesh.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 
 namespace burin::bench {

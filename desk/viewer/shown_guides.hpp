@@ -7,7 +7,7 @@
 #include <array>
 #include <memory>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "picture/picture.hpp"
 
 namespace burin::session {

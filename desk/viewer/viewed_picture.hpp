@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "desk/viewer/viewer.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "picture/picture.hpp"
 #include "wall/comfort.hpp"
 

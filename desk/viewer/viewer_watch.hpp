@@ -7,7 +7,7 @@
 #include <string>
 
 #include "desk/viewer/viewer.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "wall/head_prediction.hpp"
 
 namespace burin::session {

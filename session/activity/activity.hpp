@@ -23,7 +23,8 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tick_record.hpp"
 #include "picture/picture.hpp"
 #include "scene/contact_events.hpp"
 #include "scene/scene_changes.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/drive/driver.hpp"
 
+#include "haptics/channels.hpp"
+
 #include <utility>
 
 namespace burin::session {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::session {
 

@@ -10,7 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
+
+namespace burin::haptics {
+struct HapticChannels;  // haptics/channels.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
 

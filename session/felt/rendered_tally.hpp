@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::session {
 

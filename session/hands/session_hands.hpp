@@ -17,6 +17,7 @@
 
 #include "devices/hand/steered_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "scene/contact_events.hpp"
 

@@ -13,7 +13,8 @@
 
 #include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tick_record.hpp"
 #include "picture/picture.hpp"
 
 namespace burin::session {

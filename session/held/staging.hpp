@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 #include "picture/picture.hpp"
 #include "session/held/held_tool.hpp"
 

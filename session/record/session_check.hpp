@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::session {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "devices/haptic/haptic_device.hpp"
-#include "haptics/channels.hpp"
-#include "sculpt/sculpt_order.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "sculpt/feel_options.hpp"
+#include "sculpt/sculpt_order.hpp"
 #include "sculpt/tool_options.hpp"
 #include "session/held/hand_state.hpp"
 #include "session/input/input_event.hpp"

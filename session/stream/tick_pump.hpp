@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::session {
 

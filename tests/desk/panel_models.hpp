@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "desk/panel/panel.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::session {
 

@@ -19,7 +19,7 @@
 #include "base/clock.hpp"
 #include "base/json.hpp"
 #include "bodies/soft_part.hpp"
-#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "session/activity/activity.hpp"
 
 namespace burin::activities {
