@@ -24,7 +24,6 @@
 #include "app/cli/command_table.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
 #include "study/report/html_report.hpp"
 
 namespace burin::app {
@@ -92,18 +91,6 @@ struct StudyEnrolOptions {
 [[nodiscard]] Result<void> study_enrol(const StudyEnrolOptions& options);
 [[nodiscard]] CommandRow study_enrol_row();
 
-struct StudyRunOptions {
-    std::string study, key;
-    std::string participant;              // one participant; empty: simulated learners
-    session::LiveOptions live;            // its input: of a live session, or a script of simulated time
-    std::vector<std::string> live_names;  // of its options
-    bool simulated = false, without_motion = false, pictures = false;
-    bool resume = false, any_delay = false;  // what of the protocol's calendar need not be kept
-    double effect = 0.0;
-    unsigned threads = 0;  // 0: one for each core
-};
-// Goes on where the journal ends. `given`: the names of the options that were given; fails where one has no effect.
-[[nodiscard]] Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given);
 [[nodiscard]] CommandRow study_run_row();
 
 // Every recorded motion through the haptic tick again; fails where one does not give what was stored.

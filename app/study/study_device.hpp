@@ -7,7 +7,7 @@
 #include <string>
 
 #include "activities/train/stage_on_disk.hpp"
-#include "app/study/study_command.hpp"
+#include "app/study/study_run_command.hpp"
 #include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "study/folder/study_folder.hpp"

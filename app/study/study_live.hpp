@@ -7,7 +7,7 @@
 #include <string>
 
 #include "activities/train/study_activity.hpp"
-#include "app/study/study_command.hpp"
+#include "app/study/study_run_command.hpp"
 #include "session/options/session_options.hpp"
 #include "study/folder/study_folder.hpp"
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "app/study/study_run_command.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
