@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "app/cli/command_table.hpp"
-#include "app/study/study_trials.hpp"
 #include "base/error.hpp"
 #include "study/report/html_report.hpp"
+#include "study/report/study_trials.hpp"
 
 namespace burin::app {
 
@@ -35,12 +35,12 @@ inline constexpr const char* kStudyHelp = "The study's folder";
 // ---- burin study analyse (study_analyse_command.cpp)
 
 struct StudyAnalyseOptions {
-    std::string data;       // CSV; empty: of the study
-    std::string study;      // a study's folder; empty: data is given
-    TrialChoice chosen;     // with a study
-    std::string published;  // CSV; empty: only studies that Burin knows
-    std::string json;       // a file; empty: none
-    std::string out;        // a folder that does not exist yet; empty: none
+    std::string data;           // CSV; empty: of the study
+    std::string study;          // a study's folder; empty: data is given
+    study::TrialChoice chosen;  // with a study
+    std::string published;      // CSV; empty: only studies that Burin knows
+    std::string json;           // a file; empty: none
+    std::string out;            // a folder that does not exist yet; empty: none
     std::uint64_t seed = 1;
     std::vector<std::string> groups;  // of a study, in its protocol's order; empty: in the order of the rows
     std::vector<std::string> notes;   // whole sentences that stand beside the figures in every form
