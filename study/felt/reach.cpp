@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "study/felt/felt_world.hpp"
 #include "study/felt/stage_touch.hpp"
 
 namespace burin::study {

@@ -16,7 +16,7 @@
 
 #include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
-#include "study/felt/felt_world.hpp"
+#include "study/protocol/protocol.hpp"
 #include "study/trial/stage_step.hpp"
 
 namespace burin::study {
