@@ -16,7 +16,7 @@
 #include "activities/rehab/rehab.hpp"
 #include "app/cli/live_options.hpp"
 #include "app/cli/output_files.hpp"
-#include "app/cli/temporary_folder.hpp"
+#include "base/temporary_folder.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "app/rehab/rehab_pages.hpp"
 #include "app/rehab/rehab_results.hpp"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "activities/wand/felt_wand.hpp"
+#include "activities/wand/wand_stroke.hpp"
 #include "activities/wand/wand_view.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/picture_folder.hpp"
@@ -157,10 +158,14 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
     BURIN_TRY_DO(make_folder_of(options.report));
     BURIN_TRY_DO(check_felt_report(options.report, inputs.list()));
     BURIN_TRY_DO(record::check_new_place(options.record));
-    BURIN_TRY(opened, open_wand_world(options));
-    WandWorld& w = *opened;
+    const activities::WandStroke stroke{options.world, options.stroke, options.device, options.points,
+                                        options.radius_m};
+    BURIN_TRY(opened, activities::open_wand_world(stroke));
+    activities::WandWorld& w = *opened;
     w.feel.record = options.record;
-    if (!options.record.empty()) w.feel.facts = facts_of_wand(options, w);
+    if (!options.record.empty())
+        w.feel.facts =
+            facts_of_wand(stroke, w, {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}});
 
     tell_what_is_not_rendered(options.world, *w.part, w.ids, devices::device_of(w.feel.wand),
                               probe_of(w.feel.wand, w.feel.points));
