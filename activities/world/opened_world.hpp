@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -40,5 +41,11 @@ struct OpenedWorld {
 };
 [[nodiscard]] Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path,
                                                               const MaterialOverride& materials);
+
+// Returns what a recording of a stroke through a world says of both, after the facts of the program. Fails where one of
+// the files cannot be read.
+[[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> facts_of_stroke(
+    const std::string& world_file, const OpenedWorld& world, const std::string& stroke_file,
+    std::vector<std::pair<std::string, std::string>> facts);
 
 }  // namespace burin::activities
