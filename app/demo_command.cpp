@@ -16,6 +16,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/cli/picture_folder.hpp"
 #include "app/study/study_command.hpp"
+#include "app/study/study_run_command.hpp"
 #include "app/world/hand_command.hpp"
 #include "app/world/world_explore.hpp"
 #include "base/assets.hpp"

@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "activities/world/opened_world.hpp"
 #include "activities/world/repeated_hand.hpp"
 #include "activities/world/world_recorder.hpp"
 #include "activities/world/world_touch.hpp"
+#include "base/try.hpp"
+#include "record/motion.hpp"
 #include "record/touched_columns.hpp"
 
 namespace burin::activities {
@@ -123,6 +128,22 @@ Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::Mes
         }
         ++result.ticks;
     }
+}
+
+Result<record::Comparison> replay_world(record::RecordReader& reader, const std::string& given,
+                                        const record::TickRange& range) {
+    const std::string path = given.empty() ? reader.fact("world") : given;
+    if (path.empty()) return fail(reader.path(), "does not name its world", "name it by --world FILE");
+    if (std::error_code ignored; !std::filesystem::exists(path, ignored))
+        return fail(path, "is the world of the recording, and is not there", "say where it is now by --world FILE");
+    BURIN_TRY(world, open_world(path, {}));
+    const std::string recorded = reader.fact(record::kWorldDigestFact);
+    if (world->digest != recorded)
+        return fail(path,
+                    "is another world than the one that was recorded: SHA-256 " + world->digest +
+                        ", recorded: " + (recorded.empty() ? "none" : recorded),
+                    "name the same world by --world, or feel the motion in this one by --through");
+    return repeat_world(reader, *world->part, world->materials, range);
 }
 
 }  // namespace burin::activities

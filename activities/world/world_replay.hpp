@@ -9,6 +9,8 @@
 // 16 bytes for each update. One thread.
 #pragma once
 
+#include <string>
+
 #include "activities/world/exploration_settings.hpp"
 #include "record/compare.hpp"
 #include "scene/mesh_part.hpp"
@@ -22,6 +24,11 @@ namespace burin::activities {
 // difference the first value is the recorded one.
 [[nodiscard]] Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::MeshPart& part,
                                                       const scene::MaterialTable& materials,
+                                                      const record::TickRange& range);
+
+// Opens the recording's world and compares likewise. `given`: where the world is now; empty: where it was. Fails where
+// it is another world than was recorded.
+[[nodiscard]] Result<record::Comparison> replay_world(record::RecordReader& reader, const std::string& given,
                                                       const record::TickRange& range);
 
 }  // namespace burin::activities

@@ -7,6 +7,8 @@
 
 #include "base/statistics.hpp"
 #include "geometry/mesh/mesh_health.hpp"
+#include "sculpt/feel_options.hpp"
+#include "session/felt/felt_figures.hpp"
 
 namespace burin::app {
 

@@ -8,7 +8,13 @@
 
 #include "base/json.hpp"
 #include "sculpt/sculpture.hpp"
-#include "session/felt/felt_stroke.hpp"
+
+namespace burin::session {
+struct FeltFigures;
+}
+namespace burin::sculpt {
+struct Feel;
+}
 
 namespace burin::app {
 

@@ -27,10 +27,25 @@ Result<PictureFolder> PictureFolder::create(const std::string& folder, const std
     return PictureFolder(folder, std::move(*device), std::move(renderer));
 }
 
+Result<std::optional<PictureFolder>> PictureFolder::create_if_named(const std::string& folder,
+                                                                    const std::string& option) {
+    if (folder.empty()) return std::nullopt;
+    return create(folder, option);
+}
+
 Result<void> PictureFolder::take(const picture::Picture& scene, const std::string& name) {
     BURIN_TRY(image, renderer_.render(scene));
+    return write(name, image.left);
+}
+
+Result<void> PictureFolder::take_both_eyes(const picture::Picture& scene, const std::string& name) {
+    BURIN_TRY(image, renderer_.render(scene));
+    return write(name, side_by_side(image));
+}
+
+Result<void> PictureFolder::write(const std::string& name, const Image& image) const {
     const std::filesystem::path path = std::filesystem::path(folder_) / name;
-    BURIN_TRY_DO(picture::write_png(path, image.left));
+    BURIN_TRY_DO(picture::write_png(path, image));
     std::printf("wrote %s\n", path.string().c_str());
     return {};
 }

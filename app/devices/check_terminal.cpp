@@ -41,8 +41,8 @@ void TerminalGuide::show(const std::string& line) {
     has_shown_ = true;
 }
 
-CheckAnswers TerminalGuide::answers(Nanoseconds now_ns) {
-    CheckAnswers answers;
+bench::CheckAnswers TerminalGuide::answers(Nanoseconds now_ns) {
+    bench::CheckAnswers answers;
     answers.ends = signals_.came();
     pollfd waits{STDIN_FILENO, POLLIN, 0};
     while (takes_keys_ && ::poll(&waits, 1, 0) > 0) {

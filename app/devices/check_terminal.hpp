@@ -9,12 +9,12 @@
 
 #include <string>
 
-#include "app/devices/device_check.hpp"
+#include "bench/devices/device_check.hpp"
 #include "session/drive/end_signals.hpp"
 
 namespace burin::app {
 
-class TerminalGuide final : public CheckGuide {
+class TerminalGuide final : public bench::CheckGuide {
 public:
     static constexpr Nanoseconds kFirst_ns = 600'000'000, kAgain_ns = 150'000'000;
 
@@ -29,7 +29,7 @@ public:
 
     void say(const std::string& line) override;
     void show(const std::string& line) override;
-    [[nodiscard]] CheckAnswers answers(Nanoseconds now_ns) override;
+    [[nodiscard]] bench::CheckAnswers answers(Nanoseconds now_ns) override;
 
 private:
     bool is_quiet_, takes_keys_, shows_;

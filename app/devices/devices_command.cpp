@@ -11,10 +11,10 @@
 
 #include "app/cli/output_files.hpp"
 #include "app/devices/check_terminal.hpp"
-#include "app/devices/device_check.hpp"
 #include "base/clock.hpp"
 #include "base/json.hpp"
 #include "base/try.hpp"
+#include "bench/devices/device_check.hpp"
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/emulators/emulator_registry.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -48,13 +48,13 @@ void print(const std::vector<devices::LookedForKind>& all) {
         }
 }
 
-Json described(const std::string& device, const std::vector<CheckLine>& lines) {
-    const bool failed = !checks_with(Verdict::failed, lines).empty();
-    const bool unclear = !failed && !checks_with(Verdict::unclear, lines).empty();
+Json described(const std::string& device, const std::vector<bench::CheckLine>& lines) {
+    const bool failed = !bench::checks_with(bench::Verdict::failed, lines).empty();
+    const bool unclear = !failed && !bench::checks_with(bench::Verdict::unclear, lines).empty();
     Json list = Json::array();
-    for (const CheckLine& line : lines)
+    for (const bench::CheckLine& line : lines)
         list.push_back({{"check", line.check},
-                        {"verdict", name_of(line.verdict)},
+                        {"verdict", bench::name_of(line.verdict)},
                         {"found", line.found},
                         {"figures", line.figures}});
     return {{"device", device}, {"passed", !failed && !unclear}, {"cannot_tell", unclear}, {"checks", list}};
@@ -111,14 +111,14 @@ CommandAction add_devices_emulate(Command command) {
 
 struct AskedCheck {
     std::string device, json;
-    CheckOptions check;
+    bench::CheckOptions check;
     std::optional<double> watch_s;
     std::optional<std::uint64_t> seed;
 };
 
 Result<int> test_device(const AskedCheck& asked) {
     const std::string where = "burin devices test " + asked.device;
-    CheckOptions check = asked.check;
+    bench::CheckOptions check = asked.check;
     check.watch_s = asked.watch_s.value_or(check.by_itself ? 15.0 : 60.0);
     check.seed = asked.seed ? *asked.seed : std::random_device{}();
     BURIN_TRY(nature, devices::nature_of_device(asked.device, &session::session_recordings()));
@@ -135,16 +135,16 @@ Result<int> test_device(const AskedCheck& asked) {
     BURIN_TRY(device, devices::open_haptic_device(asked.device, {clock, std::move(hand)}));
     // The check is the haptic loop here; where real-time priority is refused it goes on without.
     static_cast<void>(haptics::ask_for_realtime());
-    std::vector<CheckLine> lines;
+    std::vector<bench::CheckLine> lines;
     {
         TerminalGuide guide(asked.json == kStandardOutput, !check.by_itself);
-        lines = check_device(device, clock, guide, check);
+        lines = bench::check_device(device, clock, guide, check);
     }
     BURIN_TRY_DO(write_output(asked.json, json_text(described(asked.device, lines))));
-    const auto outcome = outcome_of(where, lines);
-    if (outcome && *outcome == kCannotTell)
+    const auto outcome = bench::outcome_of(where, lines);
+    if (outcome && *outcome == bench::kCannotTell)
         std::fprintf(stderr, "burin: %s: cannot tell: %s; the lines above say what to do, then try again\n",
-                     where.c_str(), checks_with(Verdict::unclear, lines).c_str());
+                     where.c_str(), bench::checks_with(bench::Verdict::unclear, lines).c_str());
     return outcome;
 }
 

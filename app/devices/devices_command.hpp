@@ -7,7 +7,7 @@
 
 namespace burin::app {
 
-// Its exit status is that of its check too: kCannotTell (app/devices/device_check.hpp).
+// Its exit status is that of its check too: kCannotTell (bench/devices/device_check.hpp).
 [[nodiscard]] CommandRow devices_row();
 
 }  // namespace burin::app

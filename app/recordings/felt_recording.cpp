@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/cli/temporary_folder.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
+#include "base/temporary_folder.hpp"
 #include "base/try.hpp"
 #include "session/options/option_bounds.hpp"
 

@@ -9,7 +9,8 @@
 #include <optional>
 
 #include "activities/registry.hpp"
-#include "app/recordings/recorded_device.hpp"
+#include "activities/replay/recorded_device.hpp"
+#include "activities/wand/wand_facts.hpp"
 #include "base/file_io.hpp"
 #include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
@@ -157,18 +158,19 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
         const session::NamedDevice& hand = own.live.hands[i];
         const std::string fact = wand_fact_of(hand), what = "wand of hand " + hand.hand;
         if (const auto same = check_recorded_file(reader, {fact.c_str(), what.c_str(), "hands"}, hand.device,
-                                                  digest_of(wand_file_of(hand.device)), sets);
+                                                  digest_of(activities::wand_file_of(hand.device)), sets);
             !same)
             return same;
     }
     const bool several = !own.live.hands.empty();
     if (device == first_device)
-        return check_wand_file(reader, device,
-                               several ? "say where it is now by --set 'hands=" + hands_text(own.live.hands) +
-                                             "', with its place in there, or put it back"
-                                       : "say where it is now by --set device=simulated-wand:FILE, or put it back");
+        return activities::check_wand_file(
+            reader, device,
+            several ? "say where it is now by --set 'hands=" + hands_text(own.live.hands) +
+                          "', with its place in there, or put it back"
+                    : "say where it is now by --set device=simulated-wand:FILE, or put it back");
     return check_recorded_file(reader, {record::kWandDigestFact, "wand", "device"}, device,
-                               digest_of(wand_file_of(device)), sets);
+                               digest_of(activities::wand_file_of(device)), sets);
 }
 
 // Refuses changes that would have no effect on this recording: they would count as tried.
@@ -261,9 +263,9 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     add(record::kWorldDigestFact, digest_of_world(options.world, options.world_reading));
     if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
-    std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));
+    std::ranges::move(activities::facts_of_wand_file(options.live.device), std::back_inserter(facts));
     for (std::size_t i = 1; i < options.live.hands.size(); ++i)
-        if (const auto digest = digest_of(wand_file_of(options.live.hands[i].device)))
+        if (const auto digest = digest_of(activities::wand_file_of(options.live.hands[i].device)))
             facts.emplace_back(wand_fact_of(options.live.hands[i]), *digest);
     return facts;
 }
@@ -278,7 +280,7 @@ Result<void> run_recorded_session(const session::SculptOptions& given, const std
 }
 
 std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
-    const Result<std::string> shape = session::option_on(live_settings_of(reader), "--tool");
+    const Result<std::string> shape = session::option_on(activities::live_settings_of(reader), "--tool");
     if (!shape) return {};
     const auto tool = sculpt::parse_tool_spec(*shape, "--tool");
     if (!tool || tool->kind != sculpt::ToolKind::ball) return {};

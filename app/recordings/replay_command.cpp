@@ -8,13 +8,12 @@
 #include <memory>
 #include <optional>
 
+#include "activities/wand/wand_stroke.hpp"
 #include "activities/world/world_replay.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/recordings/felt_recording.hpp"
 #include "app/recordings/live_replay.hpp"
-#include "app/recordings/recorded_device.hpp"
-#include "app/recordings/replay_through.hpp"
-#include "app/recordings/wand_stroke.hpp"
+#include "app/recordings/through_report.hpp"
 #include "base/try.hpp"
 #include "record/examination.hpp"
 #include "record/motion.hpp"
@@ -36,22 +35,6 @@ Result<void> check_build(const record::RecordReader& reader) {
                     ", and this is Burin " BURIN_VERSION ", compiler " __VERSION__
                     ": its ticks would not be the same to the bit",
                 "replay it with that program; with this one read, convert, or feel it --through a world");
-}
-
-Result<record::Comparison> replay_world(record::RecordReader& reader, const std::string& given,
-                                        const record::TickRange& range) {
-    const std::string path = given.empty() ? reader.fact("world") : given;
-    if (path.empty()) return fail(reader.path(), "does not name its world", "name it by --world FILE");
-    if (std::error_code ignored; !std::filesystem::exists(path, ignored))
-        return fail(path, "is the world of the recording, and is not there", "say where it is now by --world FILE");
-    BURIN_TRY(world, open_world(path, {}));
-    const std::string recorded = reader.fact(record::kWorldDigestFact);
-    if ((world)->digest != recorded)
-        return fail(path,
-                    "is another world than the one that was recorded: SHA-256 " + (world)->digest +
-                        ", recorded: " + (recorded.empty() ? "none" : recorded),
-                    "name the same world by --world, or feel the motion in this one by --through");
-    return activities::repeat_world(reader, *(world)->part, (world)->materials, range);
 }
 
 Result<void> tell(const record::RecordReader& reader, const record::Comparison& found, double took_s,
@@ -87,7 +70,7 @@ struct AskedReplay {
     std::string pictures;
     double every_s = 1.0;
     std::optional<double> radius_m;
-    MaterialOverride materials;
+    activities::MaterialOverride materials;
     std::optional<std::uint64_t> from, to;  // ticks; none: all
 
     [[nodiscard]] record::TickRange range() const {
@@ -115,15 +98,16 @@ Result<void> AskedReplay::replay() const {
                     "is for live sessions, and " + file + " is of another kind",
                     activity == kFeltActivity ? "leave it out, or give --set engine=cpu or engine=vulkan alone"
                                               : "leave it out");
-    if (activity != activities::kWorldActivity && activity != kFeltActivity && activity != kWandActivity)
+    if (activity != activities::kWorldActivity && activity != kFeltActivity && activity != activities::kWandActivity)
         return fail(file, "does not hold what a replay needs",
                     "replay what burin world --record or burin sculpt --record has written; other "
                     "motions can be felt --through a world");
     BURIN_TRY_DO(check_build(reader));
     const auto begun = std::chrono::steady_clock::now();
-    BURIN_TRY(found, activity == activities::kWorldActivity ? replay_world(reader, world, range())
-                     : activity == kWandActivity            ? replay_wand(reader, world, stroke, range())
-                                                 : replay_felt(reader, {stroke, workpiece, engine}, range()));
+    BURIN_TRY(found, activity == activities::kWorldActivity ? activities::replay_world(reader, world, range())
+                     : activity == activities::kWandActivity
+                         ? activities::replay_wand(reader, world, stroke, range())
+                         : replay_felt(reader, {stroke, workpiece, engine}, range()));
     if (!found.difference && found.ticks > 0 && is_whole()) BURIN_TRY_DO(session::check_unchanged(reader));
     return tell(reader, found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
 }

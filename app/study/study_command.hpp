@@ -22,10 +22,9 @@
 #include <vector>
 
 #include "app/cli/command_table.hpp"
-#include "app/study/study_trials.hpp"
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
 #include "study/report/html_report.hpp"
+#include "study/report/study_trials.hpp"
 
 namespace burin::app {
 
@@ -36,12 +35,12 @@ inline constexpr const char* kStudyHelp = "The study's folder";
 // ---- burin study analyse (study_analyse_command.cpp)
 
 struct StudyAnalyseOptions {
-    std::string data;       // CSV; empty: of the study
-    std::string study;      // a study's folder; empty: data is given
-    TrialChoice chosen;     // with a study
-    std::string published;  // CSV; empty: only studies that Burin knows
-    std::string json;       // a file; empty: none
-    std::string out;        // a folder that does not exist yet; empty: none
+    std::string data;           // CSV; empty: of the study
+    std::string study;          // a study's folder; empty: data is given
+    study::TrialChoice chosen;  // with a study
+    std::string published;      // CSV; empty: only studies that Burin knows
+    std::string json;           // a file; empty: none
+    std::string out;            // a folder that does not exist yet; empty: none
     std::uint64_t seed = 1;
     std::vector<std::string> groups;  // of a study, in its protocol's order; empty: in the order of the rows
     std::vector<std::string> notes;   // whole sentences that stand beside the figures in every form
@@ -92,18 +91,6 @@ struct StudyEnrolOptions {
 [[nodiscard]] Result<void> study_enrol(const StudyEnrolOptions& options);
 [[nodiscard]] CommandRow study_enrol_row();
 
-struct StudyRunOptions {
-    std::string study, key;
-    std::string participant;              // one participant; empty: simulated learners
-    session::LiveOptions live;            // its input: of a live session, or a script of simulated time
-    std::vector<std::string> live_names;  // of its options
-    bool simulated = false, without_motion = false, pictures = false;
-    bool resume = false, any_delay = false;  // what of the protocol's calendar need not be kept
-    double effect = 0.0;
-    unsigned threads = 0;  // 0: one for each core
-};
-// Goes on where the journal ends. `given`: the names of the options that were given; fails where one has no effect.
-[[nodiscard]] Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given);
 [[nodiscard]] CommandRow study_run_row();
 
 // Every recorded motion through the haptic tick again; fails where one does not give what was stored.

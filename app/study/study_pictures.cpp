@@ -1,152 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "app/study/study_pictures.hpp"
 
-#include <algorithm>
 #include <cstdio>
-#include <map>
-#include <sstream>
+#include <filesystem>
 
-#include "activities/train/stage_view.hpp"
+#include "activities/train/stage_pictures.hpp"
 #include "app/cli/output_files.hpp"
-#include "base/plot/svg.hpp"
-#include "base/text.hpp"
 #include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "gpu/device.hpp"
 #include "picture/png.hpp"
 #include "renderer/frame/renderer.hpp"
-#include "study/replay/stage_replay.hpp"
 
 namespace burin::app {
-namespace {
-
-constexpr ImageSize kStagePicture{1280, 800};
-constexpr std::uint64_t kLookEvery = 20;  // ticks
-
-// Moments of one stage, fewer the longer it lasts.
-struct StageMoments {
-    std::vector<activities::StageMoment> all;
-    std::vector<bool> running;  // the attempt's clock ran
-
-    // Of those that tell most, within an attempt and where the wall is touched, the one whose wand is farthest from
-    // both ends of the path, whose funnels would hide it; of a wand that rests, the middle one.
-    [[nodiscard]] const activities::StageMoment* chosen(const std::vector<Vec3>& spine_m) const {
-        for (const bool touching : {true, false}) {
-            for (const bool attempt : {true, false}) {
-                std::vector<const activities::StageMoment*> fit;
-                for (std::size_t i = 0; i < all.size(); ++i)
-                    if ((!attempt || running[i]) && (!touching || all[i].touches_wall)) fit.push_back(&all[i]);
-                if (!fit.empty()) return clearest_of(fit, spine_m);
-            }
-        }
-        return nullptr;
-    }
-
-    static const activities::StageMoment* clearest_of(const std::vector<const activities::StageMoment*>& fit,
-                                                      const std::vector<Vec3>& spine_m) {
-        constexpr double kRests_m = 0.01;
-        const auto away_m = [&](const activities::StageMoment* moment) { return from_ends_m(*moment, spine_m); };
-        const auto [least, most] = std::ranges::minmax_element(fit, {}, away_m);
-        return away_m(*most) - away_m(*least) < kRests_m ? fit[fit.size() / 2] : *most;
-    }
-
-    static double from_ends_m(const activities::StageMoment& moment, const std::vector<Vec3>& spine_m) {
-        const Vec3 middle_m = 0.5 * (moment.points_m[0] + moment.points_m[1]);
-        return std::min(glm::distance(middle_m, spine_m.front()), glm::distance(middle_m, spine_m.back()));
-    }
-};
-
-Result<StageMoments> moments_of(const study::StudyFolder& study, const study::StageVisit& visit,
-                                const study::FeltWorld& world) {
-    StageMoments moments;
-    std::uint64_t ticks = 0;
-    BURIN_TRY_DO(study::replay_stage(study.path() / visit.recording, study.protocol(), study.facts().protocol_digest,
-                                     world, [&](const study::StageSession& session, const haptics::TickRecord& record) {
-                                         if (ticks++ % kLookEvery != 0) return;
-                                         moments.all.push_back(activities::moment_of(world, session, record));
-                                         moments.running.push_back(session.state().phase == study::StagePhase::running);
-                                     }));
-    return moments;
-}
-
-// The first visit of the group to a stage whose motion is there.
-const study::StageVisit* first_visit(const std::vector<study::Participant>& people, const std::string& group,
-                                     const study::StagePlace& at) {
-    for (const study::Participant& p : people) {
-        if (p.group != group || p.erased) continue;
-        for (const study::StageVisit& v : p.visits) {
-            if (v.day == at.day && v.place == at.place && v.status == study::StageStatus::ended && !v.recording.empty())
-                return &v;
-        }
-    }
-    return nullptr;
-}
-
-// A page as its reader sees it: the text in lines no longer than can be read at ease.
-std::string page_picture(const std::string& text) {
-    constexpr std::size_t kLineLetters = 62;
-    constexpr double kLine_px = 34.0;
-    std::vector<std::string> lines(1);
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        if (!lines.back().empty() && lines.back().size() + 1 + word.size() > kLineLetters) lines.emplace_back();
-        lines.back() += (lines.back().empty() ? "" : " ") + word;
-    }
-    std::string svg = formatted(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%u\" height=\"%u\" font-size=\"24\" "
-        "font-family=\"DejaVu Sans, Arial, sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-        kStagePicture.width, kStagePicture.height);
-    double y = 0.5 * (kStagePicture.height - kLine_px * (static_cast<double>(lines.size()) - 1.0));
-    for (const std::string& line : lines) {
-        svg += plot::write(0.5 * kStagePicture.width, y, "text-anchor=\"middle\"", line);
-        y += kLine_px;
-    }
-    return svg + "</svg>\n";
-}
-
-Result<void> draw_pages(const study::StudyFolder& study, const std::filesystem::path& folder) {
-    for (const study::StagePlace& at : study::places_of(study.protocol())) {
-        if (at.stage->kind != study::StageKind::page) continue;
-        const std::string name = formatted("day%zu-%02zu-%s.svg", at.day, at.place, at.stage->name.c_str());
-        BURIN_TRY_DO(write_text((folder / name).string(), page_picture(at.stage->page_text)));
-        std::printf("wrote %s\n", (folder / name).c_str());
-    }
-    return {};
-}
-
-}  // namespace
 
 Result<void> draw_stages(const study::StudyFolder& study) {
     const std::filesystem::path folder = study.path() / "pictures";
     BURIN_TRY_DO(session::make_picture_folder(folder, "--pictures"));
-    BURIN_TRY_DO(draw_pages(study, folder));
+    for (const activities::PagePicture& page : activities::page_pictures(study.protocol())) {
+        BURIN_TRY_DO(write_text((folder / page.file).string(), page.svg));
+        std::printf("wrote %s\n", (folder / page.file).c_str());
+    }
     auto device = gpu::Device::create();
     if (!device) return fail("--pictures", device.error().what, device.error().remedy);
-    BURIN_TRY(renderer, renderer::Renderer::create(*device, kStagePicture));
-    const std::vector<study::Participant> people = study.participants();
-    std::map<std::string, std::unique_ptr<const study::FeltWorld>> worlds;
-    for (const study::Group& group : study.protocol().groups) {
-        for (const study::StagePlace& at : study::places_of(study.protocol())) {
-            const study::StageVisit* visit = first_visit(people, group.code, at);
-            const study::StudyWorld* world = study.protocol().world(at.stage->world);
-            if (visit == nullptr || world == nullptr) continue;
-            auto& felt = worlds[world->name];
-            if (!felt) {
-                BURIN_TRY(made, study::FeltWorld::create(*world));
-                felt = std::move(made);
-            }
-            BURIN_TRY(moments, moments_of(study, *visit, *felt));
-            const activities::StageMoment* moment = moments.chosen(world->spine_m);
-            if (moment == nullptr) continue;
-            activities::StageView view(*felt, study.protocol(), *at.stage, group);
-            BURIN_TRY(image, renderer.render(view.scene(*moment)));
-            const std::string name =
-                formatted("%s-day%zu-%02zu-%s.png", group.code.c_str(), at.day, at.place, at.stage->name.c_str());
-            BURIN_TRY_DO(picture::write_png(folder / name, image.left));
-            std::printf("wrote %s\n", (folder / name).c_str());
-        }
-    }
-    return {};
+    BURIN_TRY(renderer, renderer::Renderer::create(*device, activities::kStagePicture));
+    return activities::draw_stages(study, [&](const picture::Picture& stage, const std::string& file) -> Result<void> {
+        BURIN_TRY(image, renderer.render(stage));
+        BURIN_TRY_DO(picture::write_png(folder / file, image.left));
+        std::printf("wrote %s\n", (folder / file).c_str());
+        return {};
+    });
 }
 
 }  // namespace burin::app

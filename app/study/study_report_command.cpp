@@ -5,10 +5,10 @@
 #include <system_error>
 
 #include "app/study/study_command.hpp"
-#include "app/study/study_sections.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "study/report/study_sections.hpp"
 
 namespace burin::app {
 
@@ -29,7 +29,7 @@ Result<void> study_report(const std::string& folder) {
     options.groups = made.groups;
     if (!made.simulated.empty()) options.notes.push_back(made.simulated);
     BURIN_TRY(study, study::StudyFolder::open(folder, study::StudyAccess::read));
-    options.sections = report_sections(study);
+    options.sections = study::report_sections(study);
     options.title = study.protocol().title.empty() ? study.protocol().name : study.protocol().title;
     for (const std::string& fact : made.facts) std::printf("%s\n", fact.c_str());
     std::printf("\n");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "app/study/study_run_command.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -6,12 +8,12 @@
 #include <memory>
 #include <span>
 
+#include "activities/train/live_visit.hpp"
 #include "activities/train/scripted_visit.hpp"
 #include "activities/train/simulated_study.hpp"
 #include "app/cli/live_options.hpp"
+#include "app/recordings/live_replay.hpp"
 #include "app/study/study_command.hpp"
-#include "app/study/study_device.hpp"
-#include "app/study/study_live.hpp"
 #include "app/study/study_pictures.hpp"
 #include "app/study/study_trials.hpp"
 #include "base/file_io.hpp"
@@ -24,7 +26,23 @@ namespace {
 constexpr std::uint64_t kMostScriptBytes = std::uint64_t{16} << 20;
 
 bool is_live(const StudyRunOptions& options) {
-    return !options.simulated && (options.live.input.empty() || is_session_log(options.live.input));
+    return !options.simulated && (options.live.input.empty() || activities::is_session_log(options.live.input));
+}
+
+// Program, version, compiler, command and settings of a run; no file's name, which may name somebody.
+activities::Provenance provenance_of(const StudyRunOptions& options) {
+    std::string settings = options.simulated            ? formatted("simulated learners, effect %g SD", options.effect)
+                           : options.live.input.empty() ? "a participant in a live session"
+                           : activities::is_session_log(options.live.input)
+                               ? "a participant in a live session, by a log"
+                               : "a participant by a script";
+    if (options.resume) settings += ", --resume";
+    if (options.any_delay) settings += ", --any-delay";
+    return {{"program", "burin"},
+            {"version", BURIN_VERSION},
+            {"compiler", __VERSION__},
+            {"command", "study run"},
+            {"settings", settings}};
 }
 
 // Those of the options given that are in the list, with commas between them.
@@ -155,17 +173,32 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
                 "correct the script; the visit's stages are kept");
 }
 
+// Opens the window, or plays the log.
+Result<void> take_live_participant(study::StudyFolder& study, const StudyRunOptions& options) {
+    BURIN_TRY(visit, activities::LiveVisit::prepare(
+                         study, {.participant = options.participant,
+                                 .live = options.live,
+                                 .leave = {.resumes_late = options.resume, .any_delay = options.any_delay},
+                                 .records_motion = !options.without_motion,
+                                 .provenance = provenance_of(options)}));
+    const Result<void> done = run_recorded_session(visit->session(), "study run");
+    std::printf("%zu stages ended; %zu of the day are left\n", visit->stages_ended(), visit->stages_left());
+    if (const auto made = make_trials(options.study))
+        std::printf("%s/trials.csv: %s\n", options.study.c_str(), made->count_text().c_str());
+    return done;
+}
+
 }  // namespace
 
 Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given) {
     BURIN_TRY_DO(check_usage(options));
     BURIN_TRY_DO(check_effect(options, given));
-    BURIN_TRY_DO(check_visit_input(options.live.input));
+    BURIN_TRY_DO(activities::check_visit_input(options.live.input));
     BURIN_TRY(study, study::StudyFolder::open(options.study, study::StudyAccess::write));
     warn_of_journal(study);
     study.use_key(options.key);
     const auto went = options.simulated  ? take_learners(study, options)
-                      : is_live(options) ? run_live_visit(study, options)
+                      : is_live(options) ? take_live_participant(study, options)
                                          : take_participant(study, options);
     if (!went) return went;
     return options.pictures ? draw_stages(study) : Result<void>();

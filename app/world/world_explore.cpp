@@ -4,85 +4,23 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include "activities/world/felt_world.hpp"
+#include "activities/world/opened_world.hpp"
+#include "activities/world/touch_pictures.hpp"
 #include "activities/world/world_plot.hpp"
-#include "activities/world/world_view.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/picture_folder.hpp"
 #include "app/world/rendered_report.hpp"
-#include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
-#include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
-#include "gpu/device.hpp"
-#include "picture/png.hpp"
-#include "record/motion.hpp"
 #include "record/record_writer.hpp"
-#include "renderer/frame/renderer.hpp"
-#include "scene/world_digest.hpp"
-#include "session/live/world_side.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
-
-constexpr ImageSize kPictureSize{1280, 960};
-constexpr std::size_t kMostTouchPictures = 24;
-
-// A name that is safe in a file's name: letters, digits, dashes.
-std::string file_word(const std::string& name) {
-    std::string word;
-    for (const char c : name.substr(0, 40)) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        word += plain ? c : '-';
-    }
-    return word;
-}
-
-// Draws the pictures of an exploration, on its folder and device.
-class WorldPictures {
-public:
-    static Result<std::optional<WorldPictures>> create(const std::string& folder) {
-        if (folder.empty()) return std::optional<WorldPictures>();
-        BURIN_TRY_DO(session::make_picture_folder(folder, "--pictures"));
-        Result<gpu::Device> device = gpu::Device::create();
-        if (!device) {
-            Error e = device.error();
-            e.what += ", and --pictures needs one";
-            return std::unexpected(e);
-        }
-        BURIN_TRY(renderer, renderer::Renderer::create(*device, kPictureSize));
-        return std::optional<WorldPictures>(WorldPictures(folder, std::move(*device), std::move(renderer)));
-    }
-
-    // Writes one picture, as seen from the middle between the eyes.
-    Result<void> take(const picture::Picture& scene, const std::string& name) {
-        BURIN_TRY(image, renderer_.render(scene));
-        return write(name, image.left);
-    }
-    Result<void> take_both_eyes(const picture::Picture& scene, const std::string& name) {
-        BURIN_TRY(image, renderer_.render(scene));
-        return write(name, side_by_side(image));
-    }
-
-private:
-    WorldPictures(std::string folder, gpu::Device device, renderer::Renderer renderer)
-        : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {}
-    Result<void> write(const std::string& name, const Image& image) {
-        const std::filesystem::path path = std::filesystem::path(folder_) / name;
-        BURIN_TRY_DO(picture::write_png(path, image));
-        std::printf("wrote %s\n", path.string().c_str());
-        return {};
-    }
-
-    std::string folder_;
-    gpu::Device device_;
-    renderer::Renderer renderer_;
-};
 
 Json touches_json(const activities::WorldFigures& figures) {
     Json list = Json::array();
@@ -136,25 +74,6 @@ Result<void> write_world_report(const WorldExploration& options, const activitie
     return write_text(options.report, json_text(report));
 }
 
-// What a session file says of the program and of what was explored.
-Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const WorldExploration& options,
-                                                                        const scene::World& world) {
-    const auto world_file = file_digest(options.world), stroke_file = file_digest(options.stroke);
-    if (!world_file) return std::unexpected(world_file.error());
-    if (!stroke_file) return std::unexpected(stroke_file.error());
-    return std::vector<std::pair<std::string, std::string>>{
-        {"program", "burin"},
-        {"version", BURIN_VERSION},
-        {"compiler", __VERSION__},
-        {"command", "world --stroke"},
-        {"world", options.world},
-        {"world file sha256", *world_file},
-        {record::kWorldDigestFact, scene::world_digest(world.objects)},
-        {"stroke", options.stroke},
-        {"stroke sha256", *stroke_file},
-        {"time", "simulated"}};
-}
-
 }  // namespace
 
 void print_motion_scaled(double scene_from_device_scale) {
@@ -170,40 +89,28 @@ Result<void> explore_world(const WorldExploration& options) {
     BURIN_TRY_DO(check_felt_report(options.report, inputs.list()));
     BURIN_TRY_DO(record::check_new_place(options.record));
     BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
-    BURIN_TRY(world, session::read_sound_world(options.world));
+    BURIN_TRY(world, activities::open_world(options.world, {}));
     activities::ExploreOptions explore;
     explore.tool_radius_m = options.radius_m;
     explore.record = options.record;
     if (!options.record.empty()) {
-        BURIN_TRY(facts, facts_of_world(options, world));
+        BURIN_TRY(facts, activities::facts_of_stroke(
+                             options.world, *world, options.stroke,
+                             {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}}));
         explore.facts = std::move(facts);
     }
-    std::vector<scene::ObjectId> ids;
-    for (const scene::SceneObject& object : world.objects) ids.push_back(object.id);
-    scene::MaterialTable materials;
-    BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), materials));
-
-    tell_what_is_not_rendered(options.world, *part, ids, devices::description_of({}),
+    tell_what_is_not_rendered(options.world, *world->part, world->ids, devices::description_of({}),
                               haptics::ball_probe(options.radius_m));
 
-    BURIN_TRY(pictures, WorldPictures::create(options.pictures));
-    activities::WorldView view(*part, ids, options.radius_m);
-    std::set<std::string> pictured;
-    bool began = false;
-    const auto frame = [&](double, const activities::WorldMoment& moment) -> Result<void> {
-        view.take((part)->take_object_updates());
-        if (!pictures) return {};
-        if (!std::exchange(began, true)) return (pictures)->take(view.close_scene({}), "world.png");
-        if (!moment.newly_touched || pictured.size() >= kMostTouchPictures) return {};
-        pictured.insert(*moment.newly_touched);
-        return (pictures)->take(view.close_scene(moment.tool), "touched-" + std::to_string(pictured.size()) + "-" +
-                                                                   file_word(*moment.newly_touched) + ".png");
-    };
-    BURIN_TRY(figures, activities::explore_by_feel(*part, ids, materials, stroke, explore, frame));
-    if (pictures) {
-        const auto done = (pictures)->take_both_eyes(view.wall_scene(figures.felt.last_tool), "stereo.png");
-        if (!done) return done;
-    }
+    BURIN_TRY(folder, PictureFolder::create_if_named(options.pictures, "--pictures"));
+    activities::PictureDrawer draw;
+    if (folder)
+        draw = [&](const picture::Picture& scene, const std::string& file) { return folder->take(scene, file); };
+    activities::TouchPictures pictures(*world->part, world->ids, options.radius_m, std::move(draw));
+    BURIN_TRY(figures, activities::explore_by_feel(
+                           *world->part, world->ids, world->materials, stroke, explore,
+                           [&](double, const activities::WorldMoment& moment) { return pictures.at(moment); }));
+    if (folder) BURIN_TRY_DO(folder->take_both_eyes(pictures.on_wall(figures.felt.last_tool), "stereo.png"));
     if (!options.record.empty())
         std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(figures.felt.ticks).c_str());
     print_touches(figures);

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "activities/wand/felt_wand.hpp"
-#include "activities/wand/wand_view.hpp"
+#include "activities/wand/wand_pictures.hpp"
+#include "activities/wand/wand_stroke.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/picture_folder.hpp"
 #include "app/world/rendered_report.hpp"
@@ -23,62 +23,6 @@
 
 namespace burin::app {
 namespace {
-
-constexpr std::size_t kMostWandPictures = 24;
-
-// A name that is safe in a file's name: letters, digits, dashes.
-std::string safe_word(const std::string& name) {
-    std::string word = name.substr(0, 40);
-    for (char& c : word)
-        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '-';
-    return word;
-}
-
-activities::WandPose pose_felt(const activities::WandFelt& felt) {
-    activities::WandPose pose;
-    pose.scene_from_tool = felt.scene_from_tool;
-    for (const activities::PointFelt& point : felt.points) pose.points_scene.push_back(point.place_m);
-    pose.force_N = felt.given_force_N;
-    return pose;
-}
-
-// Draws the world where an object is first pressed, and at the end.
-class WandPictures {
-public:
-    WandPictures(const scene::MeshPart& part, const std::vector<scene::ObjectId>& ids, const WorldExploration& options,
-                 const devices::WandDescription& wand)
-        : view_(part, ids, options.radius_m), avatar_(wand, wand.gain, options.radius_m) {
-        const Vec3 size_m = view_.bounds_scene().extent();
-        camera_.middle_scene = view_.bounds_scene().center();
-        camera_.half_height_m = 0.55 * std::max({size_m.x, size_m.y, size_m.z});
-    }
-
-    Result<void> open(const std::string& folder) {
-        if (folder.empty()) return {};
-        BURIN_TRY(made, PictureFolder::create(folder, "--pictures"));
-        folder_.emplace(std::move(made));
-        return {};
-    }
-    void take_updates(const std::vector<scene::ObjectUpdate>& updates) { view_.take(updates); }
-    Result<void> at(const activities::WandMoment& moment) {
-        if (!folder_ || moment.felt == nullptr) return {};
-        last_ = pose_felt(*moment.felt);
-        if (!moment.newly_touched || touched_ >= kMostWandPictures) return {};
-        return take("touched-" + std::to_string(++touched_) + "-" + safe_word(*moment.newly_touched) + ".png");
-    }
-    Result<void> finish() { return folder_ ? take("end.png") : Result<void>{}; }
-
-private:
-    Result<void> take(const std::string& name) {
-        return folder_->take(avatar_.close_scene(view_, last_, camera_), name);
-    }
-    activities::WorldView view_;
-    activities::WandView avatar_;
-    activities::WandCamera camera_;
-    std::optional<PictureFolder> folder_;
-    activities::WandPose last_;
-    std::size_t touched_ = 0;
-};
 
 void print_point_touches(const activities::WandExploredWorld& explored) {
     std::size_t objects = 6, points = 5;
@@ -157,20 +101,25 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
     BURIN_TRY_DO(make_folder_of(options.report));
     BURIN_TRY_DO(check_felt_report(options.report, inputs.list()));
     BURIN_TRY_DO(record::check_new_place(options.record));
-    BURIN_TRY(opened, open_wand_world(options));
-    WandWorld& w = *opened;
+    const activities::WandStroke stroke{options.world, options.stroke, options.device, options.points,
+                                        options.radius_m};
+    BURIN_TRY(opened, activities::open_wand_world(stroke));
+    activities::WandWorld& w = *opened;
     w.feel.record = options.record;
-    if (!options.record.empty()) w.feel.facts = facts_of_wand(options, w);
+    if (!options.record.empty())
+        w.feel.facts =
+            facts_of_wand(stroke, w, {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}});
 
     tell_what_is_not_rendered(options.world, *w.part, w.ids, devices::device_of(w.feel.wand),
                               probe_of(w.feel.wand, w.feel.points));
-    WandPictures pictures(*w.part, w.ids, options, w.feel.wand);
-    BURIN_TRY_DO(pictures.open(options.pictures));
-    const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(
-        *w.part, w.materials, w.stroke, w.feel, [&](const activities::WandMoment& moment) -> Result<void> {
-            pictures.take_updates(w.part->take_object_updates());
-            return pictures.at(moment);
-        });
+    BURIN_TRY(folder, PictureFolder::create_if_named(options.pictures, "--pictures"));
+    activities::PictureDrawer draw;
+    if (folder)
+        draw = [&](const picture::Picture& scene, const std::string& file) { return folder->take(scene, file); };
+    activities::WandPictures pictures(*w.part, w.ids, w.feel, std::move(draw));
+    const Result<activities::WandExploredWorld> explored =
+        activities::explore_with_wand(*w.part, w.materials, w.stroke, w.feel,
+                                      [&](const activities::WandMoment& moment) { return pictures.at(moment); });
     if (!explored) return std::unexpected(explored.error());
     if (explored->fitted)
         std::fprintf(stderr, "burin: %s: leaves the wand's workspace; it is centred in it, scaled by %.3g\n",

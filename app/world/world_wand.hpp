@@ -4,7 +4,7 @@
 // it looked like into pictures.
 #pragma once
 
-#include "app/recordings/wand_stroke.hpp"
+#include "app/world/world_explore.hpp"
 #include "base/error.hpp"
 
 namespace burin::app {

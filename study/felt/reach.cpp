@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
+#include "study/felt/felt_world.hpp"
 #include "study/felt/stage_touch.hpp"
 
 namespace burin::study {
@@ -173,6 +175,16 @@ std::vector<std::string> reach_warnings(const Protocol& protocol, const StudyWor
                                      world.name.c_str(), name, 1e3 * reach.room_m, reach.slope_degrees));
     }
     return warnings;
+}
+
+Result<std::vector<WorldReach>> reach_of(const Protocol& protocol) {
+    std::vector<WorldReach> found;
+    for (const StudyWorld& world : protocol.worlds) {
+        BURIN_TRY(felt, FeltWorld::create(world));
+        const Box& bounds_m = felt->bounds();
+        found.push_back({reach_faults(protocol, world, bounds_m), reach_warnings(protocol, world, bounds_m)});
+    }
+    return found;
 }
 
 }  // namespace burin::study

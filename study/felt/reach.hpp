@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
-#include "study/felt/felt_world.hpp"
+#include "study/protocol/protocol.hpp"
 #include "study/trial/stage_step.hpp"
 
 namespace burin::study {
@@ -45,5 +46,13 @@ struct ReachFault {
 inline constexpr double kLittleRoom_m = 0.002;
 [[nodiscard]] std::vector<std::string> reach_warnings(const Protocol& protocol, const StudyWorld& world,
                                                       const Box& bounds_m);
+
+// The findings of a world of a protocol.
+struct WorldReach {
+    std::vector<ReachFault> faults;
+    std::vector<std::string> warnings;
+};
+// Returns those of each of the protocol's worlds, in its order. Fails where a world's tube cannot be made.
+[[nodiscard]] Result<std::vector<WorldReach>> reach_of(const Protocol& protocol);
 
 }  // namespace burin::study

@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "study/felt/stage_session.hpp"
 #include "study/folder/held_device.hpp"
+#include "study/trial/stage_step.hpp"
 
 namespace burin::study {
+
+struct ModelTouch;  // study/felt/stage_session.hpp
+struct FeltForces;
 
 // Of a trial as it ended and of what the haptic model makes of its motion; null for what is no valid trial. Deviation
 // (W17) is given twice: by distance to the wall, which is the headline, and to the proxy of the model. The two agree

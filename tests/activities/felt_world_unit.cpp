@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "activities/world/touch_pictures.hpp"
 #include "activities/world/world_view.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
@@ -168,6 +169,28 @@ TEST(FeltWorld, AFailureOfAFrameEndsIt) {
                                       });
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().where, "picture");
+}
+
+// ---- Pictures
+
+TEST(TouchPictures, AreOfTheWorldAtFirstAndOfEachObjectAsItIsFirstPressed) {
+    const ExploreOptions options;
+    for (const bool draws : {true, false}) {
+        Explored world(row_of({250.0, 500.0}));
+        ASSERT_NE(world.part, nullptr);
+        std::vector<std::string> drawn;
+        PictureDrawer draw;
+        if (draws)
+            draw = [&](const picture::Picture&, const std::string& file) -> Result<void> {
+                drawn.push_back(file);
+                return {};
+            };
+        TouchPictures pictures(*world.part, world.ids, options.tool_radius_m, draw);
+        world.explore(press_on_each(2, options.tool_radius_m), options,
+                      [&](double, const WorldMoment& moment) { return pictures.at(moment); });
+        const std::vector<std::string> wanted{"world.png", "touched-1-cube-1.png", "touched-2-cube-2.png"};
+        EXPECT_EQ(drawn, draws ? wanted : std::vector<std::string>{});
+    }
 }
 
 // ---- The command

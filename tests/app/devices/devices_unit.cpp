@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// burin devices, by the command line.
+// burin devices, by the command line: the list of what there is, and the guided check against emulated devices.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -94,6 +94,68 @@ TEST(DevicesCommand, SaysTheSameAsThePanelsPage) {
     }
     EXPECT_GE(listed.size(), devices::haptic_kinds().size() + devices::tracker_kinds().size());
     EXPECT_EQ(listed, shown);
+}
+
+TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    const auto glove = at.run(burin + " devices test simulated-glove --yes");
+    EXPECT_EQ(glove.status, 0) << glove.output;
+    EXPECT_TRUE(glove.output.contains("skipped  force of thumb: its simulated fingers")) << glove.output;
+    for (const std::string kind : {"wand", "spacemouse"}) {
+        // A busy machine may keep the emulator or the check from its steps for so long that the device rightly fails.
+        const auto tested =
+            at.run("(" + burin + " devices emulate " + kind + " --seconds 120 --at emulated-one-$$ > " + kind +
+                   ".txt &) ; while ! test -s " + kind + ".txt; do sleep 0.05; done; " + burin + " devices test " +
+                   kind + ":emulated-one-$$ --yes || " + burin + " devices test " + kind + ":emulated-one-$$ --yes");
+        EXPECT_EQ(tested.status, 0) << tested.output;
+        EXPECT_TRUE(tested.output.contains(kind == "wand" ? "skipped  buttons: it has none" : "passed   buttons: seen"))
+            << tested.output;
+    }
+}
+
+TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    // Side by side, as each takes half a minute; once more where a busy machine kept one from its steps for too long.
+    const auto tested =
+        at.run("for k in omni falcon dhd inverse3; do (" + burin +
+               " devices emulate $k --seconds 120 --at emulated-check-$$ > $k.txt &) ; while ! test -s "
+               "$k.txt; do sleep 0.05; done; (" +
+               burin + " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said || " + burin +
+               " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said; echo $? > $k.status) & "
+               "done; wait");
+    EXPECT_EQ(tested.status, 0) << tested.output;
+    for (const std::string kind : {"omni", "falcon", "dhd", "inverse3"}) {
+        const std::string said = at.read(kind + ".said");
+        EXPECT_EQ(at.read(kind + ".status"), "0\n") << said;
+        const Json found = Json::parse(at.read(kind + ".json"));
+        EXPECT_TRUE(found["passed"].get<bool>());
+        EXPECT_EQ(found["checks"].size(), 7u);
+        for (const Json& check : found["checks"])
+            EXPECT_TRUE(said.contains(check["found"].get<std::string>())) << check;
+    }
+}
+
+TEST(DeviceCheck, TheCommandFailsWhereADeviceIsPulledAndSaysWhatItNeeds) {
+    const Workplace at;
+    const std::string burin = kBurinCommand;
+    // Once the check has seen the device the emulator is killed, however long either took to get there.
+    const auto pulled = at.run("(" + burin +
+                               " devices emulate falcon --at emulated-pulled-$$ > f.txt & emulator=$!; while ! test -s "
+                               "f.txt; do sleep 0.05; done; " +
+                               burin +
+                               " devices test falcon:emulated-pulled-$$ --yes --seconds 2 > said.txt 2>&1 & check=$!; "
+                               "while ! grep -q answers said.txt && kill -0 $check; do sleep 0.05; done; kill -9 "
+                               "$emulator; wait $check; status=$?; cat said.txt; exit $status)");
+    EXPECT_EQ(pulled.status, 1);
+    EXPECT_TRUE(pulled.output.contains("failed   position")) << pulled.output;
+    EXPECT_TRUE(pulled.output.contains("is gone: see that its cable and its power are plugged in")) << pulled.output;
+    const auto nobody = at.run(burin + " devices test simulated < /dev/null");
+    EXPECT_EQ(nobody.status, 1);
+    EXPECT_TRUE(nobody.output.contains("asks a person at a terminal, and there is none")) << nobody.output;
+    EXPECT_EQ(at.run(burin + " devices test simulated --yes --force 50").status, 2);
+    EXPECT_TRUE(at.run(burin + " devices test nosuch --yes").output.contains("is no device that Burin knows"));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "activities/train/live_visit.hpp"
 #include "activities/train/study_activity.hpp"
-#include "app/study/study_live.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session.hpp"
 #include "desk/run/session_frames.hpp"
@@ -24,7 +24,7 @@ public:
         worlds_ = activities::felt_worlds(protocol_).value();
         session::LiveOptions live;
         live.panel_window = asks_for_panel_window;
-        const session::SculptOptions options = participant_session(
+        const session::SculptOptions options = activities::participant_session(
             live,
             std::make_shared<activities::StudyActivity>(protocol_, protocol_.groups.at(group), worlds_,
                                                         std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}},

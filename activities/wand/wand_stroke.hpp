@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A stroke that explores a world by touch, and what its recording keeps of it so that it can be done again with a wand.
+// A stroke that explores a world by touch with a wand, and what its recording keeps of it so that it can be done again.
 // One thread. Every Error names a file or an option and the remedy.
 #pragma once
 
@@ -13,22 +13,20 @@
 #include "record/compare.hpp"
 #include "scene/mesh_part.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 
-struct WorldExploration {
-    std::string world;                 // a world.toml or a .wrl (docs/formats.md)
-    std::string stroke;                // a CSV file; its button has no meaning here
-    double radius_m = 0.004;           // of the ball that touches
-    std::string pictures;              // a folder; empty: none
-    std::string report;                // a JSON file; empty: none
-    std::string record;                // a new session file; empty: none
-    std::string device = "simulated";  // or a wand (app/world/world_wand.hpp)
-    std::string points;                // of a wand, that touch; empty: devices::usual_points()
+// Options of a stroke that explores a world with a wand.
+struct WandStroke {
+    std::string world;        // a world.toml or a .wrl (docs/formats.md)
+    std::string stroke;       // a CSV file; its button has no meaning here
+    std::string device;       // a wand, as --device names it
+    std::string points;       // of the wand, that touch; empty: devices::usual_points()
+    double radius_m = 0.004;  // of the ball that touches
 };
 
 // All that a stroke with a wand is felt with.
 struct WandWorld {
-    activities::WandOptions feel;
+    WandOptions feel;
     sculpt::Stroke stroke;
     std::vector<scene::ObjectId> ids;
     scene::MaterialTable materials;
@@ -37,17 +35,17 @@ struct WandWorld {
 };
 
 // Fails with all problems of the world printed, when it has some, and where the device has no handle with points.
-[[nodiscard]] Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options);
+[[nodiscard]] Result<std::unique_ptr<WandWorld>> open_wand_world(const WandStroke& options);
 
-// Returns what a recording of the stroke says of the program and of what was explored.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExploration& options,
-                                                                             const WandWorld& opened);
+// Returns what a recording of the stroke says of the program and of what was explored. `facts`: of the program.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_wand(
+    const WandStroke& options, const WandWorld& opened, std::vector<std::pair<std::string, std::string>> facts);
 
 // The fact "activity" of a recording of such a stroke.
 inline constexpr const char* kWandActivity = "wand stroke";
 
 // Reads what was explored how from the settings of such a recording. Fails where they are unsound.
-[[nodiscard]] Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader);
+[[nodiscard]] Result<WandStroke> recorded_wand_stroke(const record::RecordReader& reader);
 
 // Leads the wand again as a recording's settings say, and compares the ticks in the range. In a difference the first
 // value is the recorded one. Where the world or the stroke is another one than was recorded, says so on standard error
@@ -55,4 +53,4 @@ inline constexpr const char* kWandActivity = "wand stroke";
 [[nodiscard]] Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
                                                      const std::string& stroke, const record::TickRange& range);
 
-}  // namespace burin::app
+}  // namespace burin::activities

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
-// burin replay FILE --through WORLD: the recorded motion is felt in a world with the device that it was recorded with,
-// and becomes a derived table of FILE (docs/formats.md, "Replaying"). Computed again, it is compared with the table
-// that is there. One thread.
+// A world that is opened to be touched, as its file has it or with other materials. One thread; reads the file.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "record/record_reader.hpp"
-#include "record/row_walk.hpp"
 #include "scene/mesh_part.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 
 // Values that all objects of a world get instead of their own.
 struct MaterialOverride {
@@ -44,13 +42,10 @@ struct OpenedWorld {
 [[nodiscard]] Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path,
                                                               const MaterialOverride& materials);
 
-struct ThroughOptions {
-    std::string file, world;
-    std::optional<double> radius_m;  // of the balls that touch; none: as recorded
-    MaterialOverride materials;
-    record::TickRange range;
-    std::string json;  // a file for the figures, "-" for standard output; empty: none
-};
-[[nodiscard]] Result<void> replay_through(const ThroughOptions& options);
+// Returns what a recording of a stroke through a world says of both, after the facts of the program. Fails where one of
+// the files cannot be read.
+[[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> facts_of_stroke(
+    const std::string& world_file, const OpenedWorld& world, const std::string& stroke_file,
+    std::vector<std::pair<std::string, std::string>> facts);
 
-}  // namespace burin::app
+}  // namespace burin::activities

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/devices/tap_series.hpp"
+#include "bench/devices/tap_series.hpp"
 
 #include <utility>
 
-namespace burin::app {
+namespace burin::bench {
 
 std::vector<int> tap_order(std::mt19937_64& random, bool is_one_way) {
     std::vector<int> order;
@@ -86,4 +86,4 @@ void TapSeries::end_tap() {
     is_over_ = answer_.finding != TapFinding::unclear || taps_.size() == kMostTaps;
 }
 
-}  // namespace burin::app
+}  // namespace burin::bench

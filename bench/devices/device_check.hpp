@@ -4,8 +4,8 @@
 //
 // Force: along each of its directions it taps to and fro with no more than CheckOptions::force_N, through the same gate
 // as a session's (haptics/stability/safety_gate.hpp), and only while the dead man's key is held. Taps without force,
-// between the others in a random order (app/devices/tap_series.hpp), show what the hand does by itself; the verdict
-// follows from both (app/devices/tap_response.hpp). A hand that moves so much that neither a motor that works nor one
+// between the others in a random order (bench/devices/tap_series.hpp), show what the hand does by itself; the verdict
+// follows from both (bench/devices/tap_response.hpp). A hand that moves so much that neither a motor that works nor one
 // that does not can be told is a verdict of its own, Verdict::unclear.
 // Thread: one, which ticks the device a thousand times a second by the clock; with a simulated clock at once.
 #pragma once
@@ -19,7 +19,7 @@
 #include "base/json.hpp"
 #include "devices/haptic/opened_device.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 
 struct CheckOptions {
     double force_N = 1.0;   // the most that it taps with
@@ -70,4 +70,4 @@ inline constexpr int kCannotTell = 3;
 [[nodiscard]] std::vector<CheckLine> check_device(devices::OpenedDevice& device, Clock& clock, CheckGuide& guide,
                                                   const CheckOptions& options);
 
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/devices/tap_response.hpp"
+#include "bench/devices/tap_response.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-namespace burin::app {
+namespace burin::bench {
 namespace {
 
 constexpr double kLookDeviations = 4.16;       // each of two looks has half the probability of 4
@@ -141,4 +141,4 @@ double student_quantile(double deviations, double degrees_of_freedom) {
     return z + (first + (second + (third + fourth / n) / n) / n) / n;
 }
 
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -20,9 +20,9 @@
 #include <random>
 #include <vector>
 
-#include "app/devices/tap_response.hpp"
+#include "bench/devices/tap_response.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 
 inline constexpr double kTapSlot_s = 0.25, kTapForce_s = 0.13;
 inline constexpr std::size_t kTapsToALook = 24, kMostTaps = 48;
@@ -84,4 +84,4 @@ private:
     TapAnswer answer_;
 };
 
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "app/recordings/recorded_device.hpp"
+#include "activities/replay/recorded_device.hpp"
 
-#include <filesystem>
-#include <string_view>
-
-#include "app/recordings/wand_stroke.hpp"
-#include "base/file_io.hpp"
+#include "activities/wand/wand_facts.hpp"
+#include "activities/wand/wand_stroke.hpp"
 #include "base/sha256.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
@@ -17,7 +14,7 @@
 #include "session/record/session_recording.hpp"
 #include "session/state/session_settings.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 namespace {
 
 constexpr const char* kPutBack = "put the file back, unchanged, where it was";
@@ -71,37 +68,13 @@ Result<devices::WandDescription> recorded_wand(const record::RecordReader& reade
 
 }  // namespace
 
-std::string wand_file_of(const std::string& device) { return devices::handle_file_of(device); }
-
-std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::string& device) {
-    const std::string file = wand_file_of(device);
-    if (file.empty()) return {};
-    const Result<std::vector<std::byte>> bytes = read_file(file);
-    if (!bytes) return {};
-    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    return {{record::kWandDigestFact, sha256(text)}, {record::kWandTextFact, text}};
-}
-
-Result<void> check_wand_file(const record::RecordReader& reader, const std::string& device, const std::string& remedy) {
-    const std::string file = wand_file_of(device), recorded = reader.fact(record::kWandDigestFact);
-    if (file.empty() || recorded.empty()) return {};
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        return fail(file, "is the description of the recording's wand, and is not there", remedy);
-    const Result<std::string> now = file_digest(file);
-    if (!now) return fail(now.error().where, now.error().what, remedy);
-    if (*now == recorded) return {};
-    return fail(file, "is another wand than the one that was recorded: SHA-256 " + *now + ", recorded: " + recorded,
-                remedy);
-}
-
 std::string live_settings_of(const record::RecordReader& reader) {
     return session::settings_on(reader.fact(record::kLogHeaderFact));
 }
 
-Result<activities::RecordedDevice> recorded_device(const record::RecordReader& reader) {
+Result<RecordedDevice> recorded_device(const record::RecordReader& reader) {
     BURIN_TRY(words, device_words_of(reader));
-    activities::RecordedDevice recorded;
+    RecordedDevice recorded;
     if (!devices::has_handle(words.device, &session::session_recordings())) return recorded;
     BURIN_TRY(wand, recorded_wand(reader, words.device));
     recorded.wand = std::move(wand);
@@ -114,4 +87,4 @@ Result<activities::RecordedDevice> recorded_device(const record::RecordReader& r
     return recorded;
 }
 
-}  // namespace burin::app
+}  // namespace burin::activities

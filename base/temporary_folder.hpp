@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder of a command's own, which goes away with what is in it.
+// A folder of its owner's alone, which goes away with what is in it. Blocks on the disk.
 #pragma once
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 
-namespace burin::app {
+namespace burin {
 
 class TemporaryFolder {
 public:
@@ -35,4 +35,4 @@ private:
     std::string path_;
 };
 
-}  // namespace burin::app
+}  // namespace burin

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <string>
 
-#include "app/devices/device_check.hpp"
-#include "app/devices/tap_series.hpp"
-#include "tests/app/devices/held_handle.hpp"
+#include "bench/devices/device_check.hpp"
+#include "bench/devices/tap_series.hpp"
+#include "tests/bench/devices/held_handle.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 namespace {
 
 constexpr std::array<double, 5> kSways_m{0.0, 0.001, 0.002, 0.004, 0.010};
@@ -232,4 +232,4 @@ TEST(DeviceTaps, OneJerkThatNoControlHasSeenIsNoAnswer) {
     EXPECT_EQ(judge_taps(taps, {0, false, 0.0006, 0.00005}).finding, TapFinding::elsewhere);
 }
 
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The guided check of a force-feedback device: what it finds of simulated ones that are well, and of ones that are not;
-// and the command against emulated devices.
-#include "app/devices/device_check.hpp"
+// The guided check of a force-feedback device: what it finds of simulated ones that are well, and of ones that are not.
+#include "bench/devices/device_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +12,8 @@
 
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/haptic/simulated_omni.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/run_command.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 namespace {
 
 // An Omni in a circling hand, of which a test spoils what it says or what it is told.
@@ -211,66 +208,4 @@ TEST(DeviceCheck, SaysWhichFaultInterruptedTheTaps) {
     EXPECT_FALSE(said.contains("no fault")) << said;
 }
 
-TEST(DeviceCheck, TheCommandPassesASimulatedGloveAWandAndASpaceMouse) {
-    const Workplace at;
-    const std::string burin = kBurinCommand;
-    const auto glove = at.run(burin + " devices test simulated-glove --yes");
-    EXPECT_EQ(glove.status, 0) << glove.output;
-    EXPECT_TRUE(glove.output.contains("skipped  force of thumb: its simulated fingers")) << glove.output;
-    for (const std::string kind : {"wand", "spacemouse"}) {
-        // A busy machine may keep the emulator or the check from its steps for so long that the device rightly fails.
-        const auto tested =
-            at.run("(" + burin + " devices emulate " + kind + " --seconds 120 --at emulated-one-$$ > " + kind +
-                   ".txt &) ; while ! test -s " + kind + ".txt; do sleep 0.05; done; " + burin + " devices test " +
-                   kind + ":emulated-one-$$ --yes || " + burin + " devices test " + kind + ":emulated-one-$$ --yes");
-        EXPECT_EQ(tested.status, 0) << tested.output;
-        EXPECT_TRUE(tested.output.contains(kind == "wand" ? "skipped  buttons: it has none" : "passed   buttons: seen"))
-            << tested.output;
-    }
-}
-
-TEST(DeviceCheck, TheCommandPassesEveryEmulatedArmWithVerdictsAsJson) {
-    const Workplace at;
-    const std::string burin = kBurinCommand;
-    // Side by side, as each takes half a minute; once more where a busy machine kept one from its steps for too long.
-    const auto tested =
-        at.run("for k in omni falcon dhd inverse3; do (" + burin +
-               " devices emulate $k --seconds 120 --at emulated-check-$$ > $k.txt &) ; while ! test -s "
-               "$k.txt; do sleep 0.05; done; (" +
-               burin + " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said || " + burin +
-               " devices test $k:emulated-check-$$ --yes --json $k.json > $k.said; echo $? > $k.status) & "
-               "done; wait");
-    EXPECT_EQ(tested.status, 0) << tested.output;
-    for (const std::string kind : {"omni", "falcon", "dhd", "inverse3"}) {
-        const std::string said = at.read(kind + ".said");
-        EXPECT_EQ(at.read(kind + ".status"), "0\n") << said;
-        const Json found = Json::parse(at.read(kind + ".json"));
-        EXPECT_TRUE(found["passed"].get<bool>());
-        EXPECT_EQ(found["checks"].size(), 7u);
-        for (const Json& check : found["checks"])
-            EXPECT_TRUE(said.contains(check["found"].get<std::string>())) << check;
-    }
-}
-
-TEST(DeviceCheck, TheCommandFailsWhereADeviceIsPulledAndSaysWhatItNeeds) {
-    const Workplace at;
-    const std::string burin = kBurinCommand;
-    // Once the check has seen the device the emulator is killed, however long either took to get there.
-    const auto pulled = at.run("(" + burin +
-                               " devices emulate falcon --at emulated-pulled-$$ > f.txt & emulator=$!; while ! test -s "
-                               "f.txt; do sleep 0.05; done; " +
-                               burin +
-                               " devices test falcon:emulated-pulled-$$ --yes --seconds 2 > said.txt 2>&1 & check=$!; "
-                               "while ! grep -q answers said.txt && kill -0 $check; do sleep 0.05; done; kill -9 "
-                               "$emulator; wait $check; status=$?; cat said.txt; exit $status)");
-    EXPECT_EQ(pulled.status, 1);
-    EXPECT_TRUE(pulled.output.contains("failed   position")) << pulled.output;
-    EXPECT_TRUE(pulled.output.contains("is gone: see that its cable and its power are plugged in")) << pulled.output;
-    const auto nobody = at.run(burin + " devices test simulated < /dev/null");
-    EXPECT_EQ(nobody.status, 1);
-    EXPECT_TRUE(nobody.output.contains("asks a person at a terminal, and there is none")) << nobody.output;
-    EXPECT_EQ(at.run(burin + " devices test simulated --yes --force 50").status, 2);
-    EXPECT_TRUE(at.run(burin + " devices test nosuch --yes").output.contains("is no device that Burin knows"));
-}
-
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -8,8 +8,8 @@
 #include "study/folder/study_folder.hpp"
 #include "study/report/html_report.hpp"
 
-namespace burin::app {
+namespace burin::study {
 
-[[nodiscard]] std::vector<study::ReportSection> report_sections(const study::StudyFolder& study);
+[[nodiscard]] std::vector<ReportSection> report_sections(const StudyFolder& study);
 
-}  // namespace burin::app
+}  // namespace burin::study

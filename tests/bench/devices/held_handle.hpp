@@ -12,7 +12,7 @@
 
 #include "devices/haptic/haptic_device.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 
 // Sinusoids of 0.3 to 8 Hz which together reach sway_m along each axis, a drift of up to 5 mm/s, and a tremor of 8 to
 // 12 Hz and up to 0.1 mm. The softest direction has 100 to 700 N/m, the stiffest up to 3 times as much.
@@ -64,4 +64,4 @@ private:
     std::size_t writes_ = 0;
 };
 
-}  // namespace burin::app
+}  // namespace burin::bench

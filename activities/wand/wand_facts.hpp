@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The device of a recording. A simulated wand is as its description says, so a recording keeps the description's text
-// and digest: then its motion can be felt anywhere, and a replay with another wand is refused. One thread.
+// What a recording keeps of its wand. A simulated wand is as its description says, so a recording holds the
+// description's text and digest: then its motion can be felt anywhere, and a replay with another wand is refused.
+// One thread; reads the description's file.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "activities/world/repeated_hand.hpp"
+#include "base/error.hpp"
 #include "record/record_reader.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 
 // Returns the facts that describe a wand (record/motion.hpp); none where the device is no wand that a file describes,
 // or the file cannot be read.
@@ -24,11 +25,4 @@ namespace burin::app {
 [[nodiscard]] Result<void> check_wand_file(const record::RecordReader& reader, const std::string& device,
                                            const std::string& remedy);
 
-// Returns the line of a live session's settings (session/state/session_settings.hpp); empty: it was none.
-[[nodiscard]] std::string live_settings_of(const record::RecordReader& reader);
-
-// Returns the device with which a motion was recorded, and which of its points touched: of a wand as the recording
-// describes it, or as its file does where the recording holds only the digest. What is no wand is the simulated Omni.
-[[nodiscard]] Result<activities::RecordedDevice> recorded_device(const record::RecordReader& reader);
-
-}  // namespace burin::app
+}  // namespace burin::activities

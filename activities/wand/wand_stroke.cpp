@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "app/recordings/wand_stroke.hpp"
+#include "activities/wand/wand_stroke.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
-#include "app/cli/temporary_folder.hpp"
-#include "app/recordings/recorded_device.hpp"
+#include "activities/wand/wand_facts.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
+#include "base/temporary_folder.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/motion.hpp"
-#include "scene/vrml_world.hpp"
 #include "scene/world_digest.hpp"
+#include "session/live/world_side.hpp"
 #include "session/record/recordings.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 namespace {
-
-Result<scene::World> world_to_explore(const std::string& path) {
-    scene::WorldOrProblems world = scene::read_any_world(path);
-    if (world) return std::move(*world);
-    if (world.error().size() == 1) return std::unexpected(world.error().front());
-    for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
-    return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
-}
 
 // Fails where a file is another one than was recorded: its ticks could not be the same.
 Result<void> check_as_recorded(const record::RecordReader& reader, const std::string& file, const std::string& what,
@@ -41,7 +32,7 @@ Result<void> check_as_recorded(const record::RecordReader& reader, const std::st
 
 }  // namespace
 
-Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options) {
+Result<std::unique_ptr<WandWorld>> open_wand_world(const WandStroke& options) {
     auto opened = std::make_unique<WandWorld>();
     BURIN_TRY(nature, devices::nature_of_device(options.device, &session::session_recordings()));
     if (!nature.handle) return fail("--device " + options.device, "has no handle with points", "name a wand");
@@ -53,8 +44,7 @@ Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& optio
     opened->feel.points = std::move(points);
     BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
     opened->stroke = std::move(stroke);
-    BURIN_TRY(world, world_to_explore(options.world));
-    for (const std::string& remark : world.remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
+    BURIN_TRY(world, session::read_sound_world(options.world));
     for (const scene::SceneObject& object : world.objects) opened->ids.push_back(object.id);
     opened->digest = scene::world_digest(world.objects);
     BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), opened->materials));
@@ -62,34 +52,30 @@ Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& optio
     return opened;
 }
 
-std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExploration& options,
-                                                               const WandWorld& opened) {
+std::vector<std::pair<std::string, std::string>> facts_of_wand(const WandStroke& options, const WandWorld& opened,
+                                                               std::vector<std::pair<std::string, std::string>> facts) {
     const Json settings{{"world", options.world},
                         {"stroke", options.stroke},
                         {"device", options.device},
                         {"points", options.points},
                         {"radius_m", options.radius_m}};
-    std::vector<std::pair<std::string, std::string>> facts{
-        {"program", "burin"},
-        {"version", BURIN_VERSION},
-        {"compiler", __VERSION__},
-        {"command", "world --stroke --device"},
-        {"time", "simulated"},
-        {"world", options.world},
-        {"stroke", options.stroke},
-        {"device", options.device},
-        {"activity", kWandActivity},
-        {"settings", settings.dump(-1, ' ', false, Json::error_handler_t::replace)},
-        {record::kWorldDigestFact, opened.digest}};
+    facts.emplace_back("command", "world --stroke --device");
+    facts.emplace_back("time", "simulated");
+    facts.emplace_back("world", options.world);
+    facts.emplace_back("stroke", options.stroke);
+    facts.emplace_back("device", options.device);
+    facts.emplace_back("activity", kWandActivity);
+    facts.emplace_back("settings", settings.dump(-1, ' ', false, Json::error_handler_t::replace));
+    facts.emplace_back(record::kWorldDigestFact, opened.digest);
     if (const auto digest = file_digest(options.stroke)) facts.emplace_back("stroke sha256", *digest);
     std::ranges::move(facts_of_wand_file(options.device), std::back_inserter(facts));
     return facts;
 }
 
-Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader) {
+Result<WandStroke> recorded_wand_stroke(const record::RecordReader& reader) {
     const auto settings = reader.facts().find("settings");
     const Json json = settings == reader.facts().end() ? Json() : Json::parse(settings->second, nullptr, false);
-    WorldExploration options;
+    WandStroke options;
     const auto text = [&](const char* key, std::string& to) {
         if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return false;
         to = json[key].get<std::string>();
@@ -110,7 +96,7 @@ Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader
 Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
                                        const std::string& stroke, const record::TickRange& range) {
     BURIN_TRY(recorded, recorded_wand_stroke(reader));
-    WorldExploration& options = recorded;
+    WandStroke& options = recorded;
     if (!world.empty()) options.world = world;
     if (!stroke.empty()) options.stroke = stroke;
     BURIN_TRY_DO(check_wand_file(reader, options.device, "put the file back, unchanged, where it was"));
@@ -124,9 +110,9 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
     }
     BURIN_TRY(folder, TemporaryFolder::create());
     again.feel.record = folder / "again.session";
-    BURIN_TRY_DO(activities::explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {}));
+    BURIN_TRY_DO(explore_with_wand(*again.part, again.materials, again.stroke, again.feel, {}));
     BURIN_TRY(other, record::RecordReader::open(again.feel.record));
     return record::compare(reader, other, {}, range);
 }
 
-}  // namespace burin::app
+}  // namespace burin::activities

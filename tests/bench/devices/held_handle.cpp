@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tests/app/devices/held_handle.hpp"
+#include "tests/bench/devices/held_handle.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace burin::app {
+namespace burin::bench {
 namespace {
 
 // The same everywhere, which std::uniform_real_distribution is not.
@@ -112,4 +112,4 @@ void HeldHandle::write(const devices::DeviceWrench& wrench) noexcept {
     written_N_[++writes_ % written_N_.size()] = wrench.force_device_N;
 }
 
-}  // namespace burin::app
+}  // namespace burin::bench

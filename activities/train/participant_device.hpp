@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The device of a participant's visit: which is opened, what the study tells of it, and what its recordings keep of the
-// program.
+// The device of a participant's visit: which is opened, and what the study tells of it.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "activities/train/stage_on_disk.hpp"
-#include "app/study/study_command.hpp"
 #include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "study/folder/study_folder.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 
 struct ParticipantDevice {
     std::string opened;                            // as a session's --device
@@ -25,7 +22,4 @@ struct ParticipantDevice {
 [[nodiscard]] Result<ParticipantDevice> participant_device(const std::string& asked, const study::StudyFolder& study,
                                                            const study::Group& group);
 
-// Program, version, compiler, command and settings of a run; no file's name, which may name somebody.
-[[nodiscard]] activities::Provenance provenance_of(const StudyRunOptions& options);
-
-}  // namespace burin::app
+}  // namespace burin::activities

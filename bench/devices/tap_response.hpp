@@ -3,7 +3,7 @@
 // statistics of `burin devices test`. Pure; one thread. Lengths in metres, times in seconds, forces in newtons; frame:
 // device.
 //
-// Taps and their order: app/devices/tap_series.hpp.
+// Taps and their order: bench/devices/tap_series.hpp.
 //
 // Remnants. What a tap leaves behind (a handle that still swings, a hand that answers late) moves it in the next one.
 // Its part that follows the way of the tap before is taken off by least squares within the kinds of tap (analysis of
@@ -37,7 +37,7 @@
 
 #include "base/space.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 
 struct Tap {
     int way = 0;  // of the force: 1 forwards, -1 backwards, 0 none
@@ -69,4 +69,4 @@ struct TapAnswer {
 // Returns Student's quantile with the probability that the normal law has beyond so many deviations.
 [[nodiscard]] double student_quantile(double deviations, double degrees_of_freedom);
 
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/devices/device_check.hpp"
+#include "bench/devices/device_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,17 +7,17 @@
 #include <limits>
 #include <random>
 
-#include "app/devices/tap_series.hpp"
 #include "base/text.hpp"
+#include "bench/devices/tap_series.hpp"
 #include "haptics/stability/safety_gate.hpp"
 
-namespace burin::app {
+namespace burin::bench {
 namespace {
 
 using devices::DeviceFault;
 using devices::DeviceSample;
 
-constexpr Nanoseconds kTick_ns = 1'000'000;
+constexpr Nanoseconds kCheckTick_ns = 1'000'000;
 constexpr double kShow_s = 0.1;
 
 const char* words_for(DeviceFault fault) {
@@ -75,7 +75,7 @@ public:
 private:
     // Takes all parts on by a tick, each with the force that is wanted of it as the gate lets it through.
     void tick() {
-        due_ns_ = std::max(due_ns_ + kTick_ns, clock_.now_ns());
+        due_ns_ = std::max(due_ns_ + kCheckTick_ns, clock_.now_ns());
         clock_.sleep_until(due_ns_);
         const Nanoseconds now_ns = clock_.now_ns();
         const double gap_s = last_ns_ > 0 ? seconds(now_ns - last_ns_) : 0.0, dt_s = std::max(gap_s, 1e-4);
@@ -394,4 +394,4 @@ std::vector<CheckLine> check_device(devices::OpenedDevice& device, Clock& clock,
     return DeviceCheck(device, clock, guide, options).run();
 }
 
-}  // namespace burin::app
+}  // namespace burin::bench

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "app/study/study_device.hpp"
+#include "activities/train/participant_device.hpp"
 
 #include <filesystem>
+#include <span>
+#include <vector>
 
-#include "app/cli/output_files.hpp"
-#include "app/study/study_live.hpp"
+#include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/recordings.hpp"
+#include "study/felt/stage_touch.hpp"
 
-namespace burin::app {
+namespace burin::activities {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,7 +28,7 @@ Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& 
         text += formatted("\n[[point]]\nname = \"%s\"\noffset = [%.9g, %.9g, %.9g]\n", point.name.c_str(),
                           point.offset_m.x, point.offset_m.y, point.offset_m.z);
     const std::string file = (study / "wand.toml").string();
-    BURIN_TRY_DO(write_text(file, text));
+    BURIN_TRY_DO(write_file_atomically(file, std::as_bytes(std::span(text.data(), text.size()))));
     return file;
 }
 
@@ -88,18 +90,4 @@ Result<ParticipantDevice> participant_device(const std::string& asked, const stu
     return made;
 }
 
-activities::Provenance provenance_of(const StudyRunOptions& options) {
-    std::string settings = options.simulated            ? formatted("simulated learners, effect %g SD", options.effect)
-                           : options.live.input.empty() ? "a participant in a live session"
-                           : is_session_log(options.live.input) ? "a participant in a live session, by a log"
-                                                                : "a participant by a script";
-    if (options.resume) settings += ", --resume";
-    if (options.any_delay) settings += ", --any-delay";
-    return {{"program", "burin"},
-            {"version", BURIN_VERSION},
-            {"compiler", __VERSION__},
-            {"command", "study run"},
-            {"settings", settings}};
-}
-
-}  // namespace burin::app
+}  // namespace burin::activities

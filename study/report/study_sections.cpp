@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/study/study_sections.hpp"
+#include "study/report/study_sections.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,25 +11,21 @@
 #include "study/report/study_figures.hpp"
 #include "study/report/trial_figures.hpp"
 
-namespace burin::app {
+namespace burin::study {
 namespace {
-
-using study::Participant;
-using study::StageStatus;
-using study::StageVisit;
 
 constexpr std::size_t kMostSentences = 40;
 
-bool is_outcome_trial(const study::Protocol& protocol, const StageVisit& visit) {
-    const study::Stage* stage = protocol.stage(visit.stage);
+bool is_outcome_trial(const Protocol& protocol, const StageVisit& visit) {
+    const Stage* stage = protocol.stage(visit.stage);
     return stage != nullptr && stage->outcome && visit.status == StageStatus::ended;
 }
 
-study::ReportSection flow_of(const study::StudyFolder& study, const study::TrialRows& trials) {
-    const std::vector<study::FlowOfGroup> groups = study::flow_of_groups(study, trials);
-    study::ReportSection section{"Flow of participants", {}, {study::flow_figure(groups)}};
-    const std::size_t outcomes = study::outcome_trials(study.protocol());
-    for (const study::FlowOfGroup& g : groups)
+ReportSection flow_of(const StudyFolder& study, const TrialRows& trials) {
+    const std::vector<FlowOfGroup> groups = flow_of_groups(study, trials);
+    ReportSection section{"Flow of participants", {}, {flow_figure(groups)}};
+    const std::size_t outcomes = outcome_trials(study.protocol());
+    for (const FlowOfGroup& g : groups)
         section.sentences.push_back(formatted(
             "Group %s: of %zu allocated %zu withdrew, %zu have stages left and no valid outcome trial, %zu went "
             "through "
@@ -52,24 +48,24 @@ std::string listed(const std::map<std::string, std::size_t>& reasons) {
 
 // Why attempts failed, by group: a task that nobody can do shows here first. What the operator or the device
 // interrupted is told beside it, and is no failure of a participant.
-study::ReportSection failures_of(const study::StudyFolder& study) {
-    study::ReportSection section{"Failed attempts", {}, {}};
-    for (const study::Group& group : study.protocol().groups) {
+ReportSection failures_of(const StudyFolder& study) {
+    ReportSection section{"Failed attempts", {}, {}};
+    for (const Group& group : study.protocol().groups) {
         std::size_t trials = 0, failed = 0, interrupted = 0, never_begun = 0;
         std::map<std::string, std::size_t> of_person, of_others;
         for (const Participant& p : study.participants()) {
             if (p.group != group.code || p.withdrawn) continue;
             for (const StageVisit& v : p.visits) {
-                const study::Stage* stage = study.protocol().stage(v.stage);
-                const bool trial = stage != nullptr && stage->kind == study::StageKind::trial;
+                const Stage* stage = study.protocol().stage(v.stage);
+                const bool trial = stage != nullptr && stage->kind == StageKind::trial;
                 trials += trial && v.status == StageStatus::ended ? 1 : 0;
-                const study::FailureCounts counts = study::failure_counts(v);
+                const FailureCounts counts = failure_counts(v);
                 failed += counts.of_person;
                 interrupted += counts.of_operator_or_device;
                 never_begun += counts.never_begun ? 1 : 0;
                 for (const auto& [why, times] : v.failures)
-                    if (const auto failure = study::failure_named(why))
-                        (study::is_of_person(*failure) ? of_person : of_others)[why] += times;
+                    if (const auto failure = failure_named(why))
+                        (is_of_person(*failure) ? of_person : of_others)[why] += times;
             }
         }
         std::string sentence =
@@ -95,12 +91,12 @@ struct StageDeviation {
 };
 
 // Of one stage as it was gone through.
-StageDeviation deviation_of(const study::StudyFolder& study, const Participant& p, const StageVisit& v) {
+StageDeviation deviation_of(const StudyFolder& study, const Participant& p, const StageVisit& v) {
     const std::string which = formatted("%s, %s (day %zu, stage %zu)", p.id.c_str(), v.stage.c_str(), v.day, v.place);
     if (v.status == StageStatus::aborted) return {which + ": interrupted; what was recorded until then is kept."};
     if (!is_outcome_trial(study.protocol(), v)) return {};
-    if (v.file.empty() && v.result == name_of(study::StageResult::stopped)) return {};  // is told as a deviation
-    if (v.file.empty() && v.result == name_of(study::StageResult::time_over))
+    if (v.file.empty() && v.result == name_of(StageResult::stopped)) return {};  // is told as a deviation
+    if (v.file.empty() && v.result == name_of(StageResult::time_over))
         return {which + ": no valid exit in the time there was."};
     if (v.file.empty()) return {which + ": no valid exit after all attempts."};
     const auto record = study.recorded(v);
@@ -113,18 +109,18 @@ std::string joined_trials(const std::vector<std::string>& trials) {
         "Deviation to the proxy and to the wall differ by more than %g mm in %zu trial%s, as the hand left the tube "
         "where "
         "the proxy could not follow; these have no figures of contact and force: ",
-        study::kDeviationsAgree_mm, trials.size(), trials.size() == 1 ? "" : "s");
+        kDeviationsAgree_mm, trials.size(), trials.size() == 1 ? "" : "s");
     for (std::size_t i = 0; i < trials.size(); ++i) text += (i > 0 ? "; " : "") + trials[i];
     return text + ".";
 }
 
-study::ReportSection deviations_of(const study::StudyFolder& study) {
-    study::ReportSection section{"Deviations from the protocol", {}, {}};
+ReportSection deviations_of(const StudyFolder& study) {
+    ReportSection section{"Deviations from the protocol", {}, {}};
     std::vector<std::string> of_proxy;
     std::size_t more = 0;
     for (const Participant& p : study.participants()) {
         if (!p.withdrawn)
-            for (const study::ProtocolDeviation& d : p.deviations)
+            for (const ProtocolDeviation& d : p.deviations)
                 section.sentences.push_back(p.id + ": " + d.text + " (" + d.utc + ").");
         for (const StageVisit& v : p.visits) {
             StageDeviation one = p.withdrawn ? StageDeviation{} : deviation_of(study, p, v);
@@ -153,7 +149,7 @@ struct SampleTrial {
 
 // The trial of the group whose deviation is the middle one, of those whose motion is there and, where there are such,
 // whose proxy followed the hand.
-std::optional<SampleTrial> sample_of(const study::StudyFolder& study, const std::string& group) {
+std::optional<SampleTrial> sample_of(const StudyFolder& study, const std::string& group) {
     std::vector<SampleTrial> trials;
     for (const Participant& p : study.participants()) {
         if (p.group != group || p.withdrawn) continue;
@@ -169,18 +165,18 @@ std::optional<SampleTrial> sample_of(const study::StudyFolder& study, const std:
     return trials[(trials.size() - 1) / 2];
 }
 
-study::ReportSection trial_section(const study::StudyFolder& study, const std::string& group) {
-    study::ReportSection section{"A trial of group " + group, {}, {}};
+ReportSection trial_section(const StudyFolder& study, const std::string& group) {
+    ReportSection section{"A trial of group " + group, {}, {}};
     const auto sample = sample_of(study, group);
     if (!sample) {
         section.sentences.emplace_back("No motion of a valid trial was recorded.");
         return section;
     }
-    const study::StudyWorld* world = study.protocol().world(study.protocol().stage(sample->visit.stage)->world);
-    const auto felt = study::FeltWorld::create(*world);
+    const StudyWorld* world = study.protocol().world(study.protocol().stage(sample->visit.stage)->world);
+    const auto felt = FeltWorld::create(*world);
     const std::filesystem::path file = study.path() / sample->visit.recording;
-    auto replay = felt ? study::replay_stage(file, study.protocol(), study.facts().protocol_digest, **felt)
-                       : Result<study::StageReplay>(std::unexpected(felt.error()));
+    auto replay = felt ? replay_stage(file, study.protocol(), study.facts().protocol_digest, **felt)
+                       : Result<StageReplay>(std::unexpected(felt.error()));
     if (!replay) {
         section.sentences.push_back(replay.error().line());
         return section;
@@ -199,18 +195,16 @@ study::ReportSection trial_section(const study::StudyFolder& study, const std::s
             "deviation and force of its points say nothing of the wall from there on.");
     if (replay->difference)
         section.sentences.push_back("The replay does not give what was stored: " + replay->difference->line());
-    section.figures =
-        study::trial_figures({group + ": " + sample->person, std::move(replay->model), &(*felt)->world()});
+    section.figures = trial_figures({group + ": " + sample->person, std::move(replay->model), &(*felt)->world()});
     return section;
 }
 
 }  // namespace
 
-std::vector<study::ReportSection> report_sections(const study::StudyFolder& study) {
-    std::vector<study::ReportSection> sections{flow_of(study, study::trial_rows(study)), failures_of(study),
-                                               deviations_of(study)};
-    for (const study::Group& group : study.protocol().groups) sections.push_back(trial_section(study, group.code));
+std::vector<ReportSection> report_sections(const StudyFolder& study) {
+    std::vector<ReportSection> sections{flow_of(study, trial_rows(study)), failures_of(study), deviations_of(study)};
+    for (const Group& group : study.protocol().groups) sections.push_back(trial_section(study, group.code));
     return sections;
 }
 
-}  // namespace burin::app
+}  // namespace burin::study
