@@ -20,8 +20,8 @@ struct Captured {
 // What a viewer's step must know besides the session.
 struct ViewerLook {
     Nanoseconds display_ns = 0;  // when the picture is to be seen
-    ImageSize eye_size;          // of the main screen
-    Captured captured;
+    ImageSize eye_size = {};     // of the main screen
+    Captured captured = {};
     wall::OutputPlace output = {};         // of the main screen
     const SeenSurface* surface = nullptr;  // null: none is known, and the mouse flies freely
 };

@@ -112,7 +112,6 @@ TEST(DeskView, TheCubeStandsAsThePartDoesAndBesideThePanel) {
     press_key(desk, Key::tab);
     press_key(desk, Key::digit_3, {.ctrl = true});
     const Similarity cube = view_cube(desk.desk->seen()).value();
-    const SessionState& state = desk.session().state();
     const Vec3 eye = desk.desk->viewer().seen_from.eye_world;
     EXPECT_LT(glm::length(glm::normalize(glm::conjugate(cube.orientation) * (eye - cube.position_m)) - Vec3(0, 1, 0)),
               1e-3)

@@ -10,6 +10,7 @@
 
 #include "devices/haptic/simulated_fingers.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "haptics/channels.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics::test {

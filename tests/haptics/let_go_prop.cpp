@@ -26,6 +26,7 @@
 #include "haptics/contact/separation.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "tests/haptics/session_tools.hpp"
+#include "haptics/channels.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics {

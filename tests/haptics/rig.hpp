@@ -6,6 +6,7 @@
 
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "haptics/channels.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics::test {

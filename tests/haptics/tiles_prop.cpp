@@ -12,6 +12,7 @@
 #include "haptics/realtime.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/haptics/rig.hpp"
+#include "haptics/channels.hpp"
 #include "tests/haptics/workpiece.hpp"
 
 namespace burin::haptics {

@@ -3,6 +3,8 @@
 #include "record/block.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cstring>
 #include <zstd.h>
 
 #include <string>

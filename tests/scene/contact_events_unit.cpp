@@ -9,6 +9,7 @@
 #include <span>
 
 #include "scene/scene_service.hpp"
+#include "haptics/channels.hpp"
 #include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {

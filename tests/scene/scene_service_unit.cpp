@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "scene/scene_thread.hpp"
+#include "haptics/channels.hpp"
 #include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sculpt/carved_scene.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {

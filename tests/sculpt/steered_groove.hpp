@@ -15,6 +15,7 @@
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {

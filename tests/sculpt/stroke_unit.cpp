@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sculpt/carved_scene.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
