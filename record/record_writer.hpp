@@ -33,8 +33,8 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
-#include "haptics/histogram.hpp"
 #include "base/ring.hpp"
+#include "haptics/histogram.hpp"
 #include "record/columns.hpp"
 
 namespace burin::record {

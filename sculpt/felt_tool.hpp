@@ -11,9 +11,9 @@
 
 #include "compute/tools/tool.hpp"
 
-#include "haptics/forces/tool_surface.hpp"
 #include "haptics/contact/probe.hpp"
 #include "haptics/contact/tool_shape.hpp"
+#include "haptics/forces/tool_surface.hpp"
 
 namespace burin::sculpt {
 

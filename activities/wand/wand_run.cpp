@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "record/record_writer.hpp"
 #include "record/touched_columns.hpp"
-#include "haptics/channels.hpp"
 #include "scene/scene_service.hpp"
 
 namespace burin::activities {

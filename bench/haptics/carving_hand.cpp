@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "haptics/channels.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
 #include "sculpt/tool_mesh.hpp"
-#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::bench {

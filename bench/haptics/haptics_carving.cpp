@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "bench/haptics/touch_run.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/feel_options.hpp"
-#include "haptics/channels.hpp"
 #include "sculpt/felt_tool.hpp"
 
 namespace burin::bench {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <random>
 
-#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/measure/timing.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "haptics/channels.hpp"

@@ -5,8 +5,8 @@
 
 #include "base/statistics.hpp"
 #include "bench/haptics/touch_run.hpp"
-#include "haptics/channels.hpp"
 #include "bench/peers/proxy_peer.hpp"
+#include "haptics/channels.hpp"
 
 namespace burin::bench {
 namespace {

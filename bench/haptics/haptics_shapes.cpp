@@ -9,9 +9,9 @@
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/haptics/touch_run.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "haptics/channels.hpp"
 #include "sculpt/felt_tool.hpp"
 
 namespace burin::bench {

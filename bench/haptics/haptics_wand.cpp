@@ -13,8 +13,8 @@
 #include "bench/haptics/haptics.hpp"
 #include "bench/haptics/touch_run.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
-#include "haptics/haptic_loop.hpp"
 #include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "sculpt/stroke_file.hpp"
 
 namespace burin::bench {

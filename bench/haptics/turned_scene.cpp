@@ -8,9 +8,9 @@
 
 #include "bench/measure/bumpy_sphere.hpp"
 #include "geometry/contact/touch_mesh.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
-#include "haptics/channels.hpp"
 #include "sculpt/tool_mesh.hpp"
 
 namespace burin::bench {

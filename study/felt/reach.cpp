@@ -139,21 +139,22 @@ std::vector<ReachFault> reach_faults(const Protocol& protocol, const StudyWorld&
         const CapReach reach = cap_reach(cap, wand, workspace_m);
         const double apart_m = 2.0 * std::abs(glm::dot(along_m, cap.z));
         if (reach.room_m < 0.0)
-            faults.push_back({which + formatted("hold both points at %.1f degrees: upright they are %.1f mm apart "
-                                                "along the path's end, and the cap is %g mm deep and %g mm wide; ",
-                                                reach.slope_degrees, 1e3 * apart_m, 1e3 * cap.depth_m,
-                                                2e3 * cap.half_width_m) +
-                                  lean_text(reach),
-                              formatted("write cap_depth_m = %.3f or more, or have the path end less steeply",
-                                        std::ceil(1e3 * (apart_m + kLittleRoom_m)) * 1e-3)});
+            faults.push_back(
+                {which +
+                     formatted("hold both points at %.1f degrees: upright they are %.1f mm apart "
+                               "along the path's end, and the cap is %g mm deep and %g mm wide; ",
+                               reach.slope_degrees, 1e3 * apart_m, 1e3 * cap.depth_m, 2e3 * cap.half_width_m) +
+                     lean_text(reach),
+                 formatted("write cap_depth_m = %.3f or more, or have the path end less steeply",
+                           std::ceil(1e3 * (apart_m + kLittleRoom_m)) * 1e-3)});
         else if (!reach.in_workspace)
-            faults.push_back({which + "be reached: the wand's middle does not come where both points are in it; " +
-                                  lean_text(reach),
-                              "move the path's end into what the wand reaches, 0.48 x 0.25 x 0.45 m"});
+            faults.push_back(
+                {which + "be reached: the wand's middle does not come where both points are in it; " + lean_text(reach),
+                 "move the path's end into what the wand reaches, 0.48 x 0.25 x 0.45 m"});
         if (!passes_mouth(world, cap, along_m))
-            faults.push_back({formatted("world %s: both points do not pass the mouth behind the %s cap",
-                                        world.name.c_str(), name),
-                              "widen funnel or tube"});
+            faults.push_back(
+                {formatted("world %s: both points do not pass the mouth behind the %s cap", world.name.c_str(), name),
+                 "widen funnel or tube"});
     }
     const double out_m = farthest_out_m(world, workspace_m);
     if (out_m > world.tube_radius_m)

@@ -27,7 +27,7 @@ struct CapReach {
     // By how much the cap could be narrower, along the axis with the least room, for an upright wand; below 0: it holds
     // the points nowhere, or where the wand does not reach.
     double room_m = 0.0;
-    bool in_workspace = true;            // of the places that hold both points one is within the wand's workspace
+    bool in_workspace = true;  // of the places that hold both points one is within the wand's workspace
     std::optional<double> least_lean_degrees = {};  // with which the wand fits; none: no turn of it does
 
     [[nodiscard]] bool fits() const { return room_m >= 0.0 && in_workspace; }

@@ -23,10 +23,10 @@
 #include "geometry/contact/touch_mesh.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/contact/separation.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "tests/haptics/session_tools.hpp"
-#include "haptics/channels.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics {

@@ -13,8 +13,8 @@
 
 #include "bench/measure/rough_surfaces.hpp"
 #include "geometry/contact/touch_mesh.hpp"
-#include "haptics/haptic_loop.hpp"
 #include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics {

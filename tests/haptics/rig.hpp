@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "devices/haptic/simulated_omni.hpp"
-#include "haptics/haptic_loop.hpp"
 #include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics::test {

@@ -8,10 +8,10 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "haptics/channels.hpp"
 #include "tests/haptics/fingertip.hpp"
 #include "tests/haptics/rig.hpp"
 #include "tests/haptics/workpiece.hpp"
-#include "haptics/channels.hpp"
 #include "tests/support/realtime_counters.hpp"
 
 namespace burin::haptics {

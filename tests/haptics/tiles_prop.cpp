@@ -6,13 +6,13 @@
 #include <set>
 
 #include "geometry/contact/local_surface_search.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/touching.hpp"
 #include "haptics/contact/triangle_contact.hpp"
 #include "haptics/realtime.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/haptics/rig.hpp"
-#include "haptics/channels.hpp"
 #include "tests/haptics/workpiece.hpp"
 
 namespace burin::haptics {

@@ -107,18 +107,18 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     std::vector<std::string> members = private_members(read_text(root / "session/live/session.hpp"), "Session");
     figures.push_back({"members of a Session", static_cast<double>(members.size()), 12.0, std::move(members), ""});
     std::vector<std::string> of_desk = private_members(read_text(root / "desk/live/desk.hpp"), "Desk");
-    figures.push_back({"members of a Desk", static_cast<double>(of_desk.size()), 17.0, std::move(of_desk), ""});
+    figures.push_back({"members of a Desk", static_cast<double>(of_desk.size()), 18.0, std::move(of_desk), ""});
     double lines = 0.0;
     for (const char* const file : {"session.hpp", "session.cpp", "session_opening.cpp"})
         lines += static_cast<double>(reading.lines_of(std::string("session/live/") + file));
     figures.push_back({"lines of a Session", lines, 382.0, {}, ""});
     figures.push_back({"sources that read haptics/channels.hpp",
                        reading.sources_that_read("haptics/channels.hpp"),
-                       266.0,
+                       56.0,
                        {},
                        "of the product"});
     for (const auto& [folder, bar] :
-         {std::pair("session/", 9830.0), std::pair("desk/", 8650.0), std::pair("app/", 7900.0)})
+         {std::pair("session/", 7300.0), std::pair("desk/", 8520.0), std::pair("app/", 6280.0)})
         figures.push_back({std::string("lines of our headers that a source reads in ") + folder,
                            reading.mean_lines(folder),
                            bar,

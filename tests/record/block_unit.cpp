@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <zstd.h>
+#include <cstring>
 
 #include <string>
 

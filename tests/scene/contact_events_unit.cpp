@@ -8,8 +8,8 @@
 #include <set>
 #include <span>
 
-#include "scene/scene_service.hpp"
 #include "haptics/channels.hpp"
+#include "scene/scene_service.hpp"
 #include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <thread>
 
-#include "scene/scene_thread.hpp"
 #include "haptics/channels.hpp"
+#include "scene/scene_thread.hpp"
 #include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {

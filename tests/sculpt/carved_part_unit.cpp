@@ -7,11 +7,11 @@
 #include <mutex>
 #include <thread>
 
+#include "haptics/channels.hpp"
 #include "haptics/tick.hpp"
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
-#include "haptics/channels.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::sculpt {

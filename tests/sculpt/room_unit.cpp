@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sculpt/carved_scene.hpp"
 #include "haptics/channels.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "devices/haptic/simulated_omni.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
-#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {

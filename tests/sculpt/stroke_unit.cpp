@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "sculpt/carved_scene.hpp"
 #include "haptics/channels.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
