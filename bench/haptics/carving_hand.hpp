@@ -13,6 +13,7 @@
 #include "bench/haptics/hand_path.hpp"
 #include "compute/tools/tool.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
 

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh_part.hpp"
+#include "scene/haptic_material.hpp"
+#include "scene/scene_changes.hpp"
+#include "scene/scene_object.hpp"
 #include "scene/object_property.hpp"
 
 namespace burin::session {

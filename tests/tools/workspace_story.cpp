@@ -11,6 +11,7 @@
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/tool_options.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin {
