@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Validation of tick parameters, and of what a surface refers to in them.
+#include "haptics/tick_parameters.hpp"
+
 #include <algorithm>
 #include <cmath>
 

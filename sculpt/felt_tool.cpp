@@ -10,6 +10,7 @@
 
 #include "haptics/contact/half_spaces.hpp"
 #include "haptics/contact/separation.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "sculpt/tool_samples.hpp"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compute/light/surface_light.hpp"
+#include "sculpt/surface_update.hpp"
 #include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/state/leader.hpp"

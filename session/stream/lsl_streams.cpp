@@ -10,6 +10,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/ring.hpp"
 #include "base/text.hpp"
 #include "session/stream/stream_inlets.hpp"
 #include "session/stream/stream_text.hpp"

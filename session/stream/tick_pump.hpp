@@ -14,6 +14,8 @@
 
 #include "haptics/tick_record.hpp"
 
+#include "base/ring.hpp"
+
 namespace burin::session {
 
 class TickPump {

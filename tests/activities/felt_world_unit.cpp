@@ -9,6 +9,7 @@
 
 #include "activities/world/touch_pictures.hpp"
 #include "activities/world/world_view.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 

@@ -2,6 +2,8 @@
 // burin replay, as a user's shell runs it: a world and a felt stroke are recorded and done again.
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include <filesystem>
 #include <fstream>
 
