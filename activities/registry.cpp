@@ -9,26 +9,24 @@
 #include "activities/rehab/rehab.hpp"
 #include "activities/seek/seek.hpp"
 #include "activities/train/recorded_visit.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
 
 Result<session::MadeActivity> seek_as_recorded(const std::string& settings, const session::RecordedFact& /*fact*/) {
-    const Result<SeekOptions> options = seek_options_of(settings);
-    if (!options) return std::unexpected(options.error());
-    return session::MadeActivity{std::make_shared<Seek>(*options), nullptr};
+    BURIN_TRY(options, seek_options_of(settings));
+    return session::MadeActivity{std::make_shared<Seek>(options), nullptr};
 }
 
 Result<session::MadeActivity> grasp_as_recorded(const std::string& settings, const session::RecordedFact& /*fact*/) {
-    const Result<GraspOptions> options = grasp_options_of(settings);
-    if (!options) return std::unexpected(options.error());
-    return session::MadeActivity{std::make_shared<Grasp>(*options), nullptr};
+    BURIN_TRY(options, grasp_options_of(settings));
+    return session::MadeActivity{std::make_shared<Grasp>(options), nullptr};
 }
 
 Result<session::MadeActivity> rehab_as_recorded(const std::string& settings, const session::RecordedFact& /*fact*/) {
-    Result<std::unique_ptr<Exercise>> exercise = exercise_of(settings);
-    if (!exercise) return std::unexpected(exercise.error());
-    return session::MadeActivity{std::make_shared<Rehab>(std::move(*exercise)), nullptr};
+    BURIN_TRY(exercise, exercise_of(settings));
+    return session::MadeActivity{std::make_shared<Rehab>(std::move(exercise)), nullptr};
 }
 
 constexpr std::array kActivityKinds{

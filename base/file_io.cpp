@@ -4,6 +4,7 @@
 #include "base/flush_folder.hpp"
 #include "base/places.hpp"
 #include "base/sha256.hpp"
+#include "base/try.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -71,12 +72,12 @@ const char* writing_remedy(int code) {
 }
 
 std::unexpected<Error> cannot_read(const fs::path& path, int code) {
-    if (const auto ok = check_working_folder(path); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_working_folder(path));
     return fail(path.string(), "cannot be read: " + reason(code), reading_remedy(code));
 }
 
 std::unexpected<Error> cannot_write(const fs::path& path, int code) {
-    if (const auto ok = check_working_folder(path); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_working_folder(path));
     return fail(path.string(), "cannot be written: " + reason(code), writing_remedy(code));
 }
 
@@ -226,24 +227,21 @@ Result<std::string_view> utf8_text(std::string_view bytes, const std::string& na
 Result<std::string> read_text_file(const fs::path& path, std::uint64_t max_bytes) {
     Result<std::string> bytes = read_whole<std::string>(path, max_bytes);
     if (!bytes) return bytes;
-    const Result<std::string_view> text = utf8_text(*bytes, path.string());
-    if (!text) return std::unexpected(text.error());
-    bytes->erase(0, bytes->size() - text->size());
+    BURIN_TRY(text, utf8_text(*bytes, path.string()));
+    bytes->erase(0, bytes->size() - text.size());
     unify_line_ends(*bytes);
     return bytes;
 }
 
 Result<std::string> file_digest(const fs::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path);
-    if (!bytes) return std::unexpected(bytes.error());
-    return sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    BURIN_TRY(bytes, read_file(path));
+    return sha256({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Result<void> check_writable(const fs::path& path) {
-    if (const auto ok = check_working_folder(path); !ok) return ok;
-    const Result<Target> target = examine_target(path);
-    if (!target) return std::unexpected(target.error());
-    const fs::path parent = target->path.parent_path(), folder = parent.empty() ? "." : parent;
+    BURIN_TRY_DO(check_working_folder(path));
+    BURIN_TRY(target, examine_target(path));
+    const fs::path parent = target.path.parent_path(), folder = parent.empty() ? "." : parent;
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) {
         return fail(path.string(), "cannot be written: there is no folder " + absolute_path(folder).string(),
@@ -255,16 +253,15 @@ Result<void> check_writable(const fs::path& path) {
 }
 
 Result<void> write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-    const Result<Target> target = examine_target(path);
-    if (!target) return std::unexpected(target.error());
-    const fs::path temporary = temporary_beside(target->path);
-    int code = write_and_flush(temporary, *target, bytes);
-    if (code == 0 && ::rename(temporary.c_str(), target->path.c_str()) != 0) code = errno;
+    BURIN_TRY(target, examine_target(path));
+    const fs::path temporary = temporary_beside(target.path);
+    int code = write_and_flush(temporary, target, bytes);
+    if (code == 0 && ::rename(temporary.c_str(), target.path.c_str()) != 0) code = errno;
     if (code != 0) {
         if (code != EEXIST) ::unlink(temporary.c_str());  // EEXIST: another writer's file
         return cannot_write(path, code);
     }
-    flush_folder_of(target->path);
+    flush_folder_of(target.path);
     return {};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/places.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <system_error>
 
@@ -11,7 +13,7 @@ namespace fs = std::filesystem;
 
 template <typename Iterator>
 Result<std::vector<fs::path>> entries(const fs::path& folder) {
-    if (const auto ok = check_working_folder(folder); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_working_folder(folder));
     std::error_code error;
     std::vector<fs::path> found;
     for (Iterator at(folder, error), end; !error && at != end; at.increment(error)) found.push_back(at->path());

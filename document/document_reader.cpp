@@ -5,6 +5,7 @@
 #include <charconv>
 #include <utility>
 
+#include "base/try.hpp"
 #include "record/compressed.hpp"
 #include "record/store_reading.hpp"
 
@@ -22,20 +23,17 @@ constexpr const char* kRemedy = kDocumentKind.words.wrong_file;
 }  // namespace
 
 Result<DocumentReader> DocumentReader::open(const std::string& path) {
-    if (const auto ok = record::check_regular(path, "is empty", kRemedy); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(record::check_regular(path, "is empty", kRemedy));
     DocumentReader reader;
     reader.path_ = path;
-    Result<Database> opened = Database::open(path, Database::Use::read, {}, kDocumentKind.words);
-    if (!opened) return std::unexpected(opened.error());
-    reader.database_.emplace(std::move(*opened));
+    BURIN_TRY(opened, Database::open(path, Database::Use::read, {}, kDocumentKind.words));
+    reader.database_.emplace(std::move(opened));
     reader.database_->limit_steps(kMostSteps);
-    if (const auto set = reader.database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"); !set)
-        return std::unexpected(set.error());
-    if (const auto ok = record::check_marks(*reader.database_, path, kDocumentKind); !ok)
-        return std::unexpected(ok.error());
+    BURIN_TRY_DO(reader.database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"));
+    BURIN_TRY_DO(record::check_marks(*reader.database_, path, kDocumentKind));
     for (const auto step : {&DocumentReader::check_tables, &DocumentReader::read_facts, &DocumentReader::read_commands,
                             &DocumentReader::read_parts, &DocumentReader::count_changes})
-        if (const auto done = (reader.*step)(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO((reader.*step)());
     return reader;
 }
 
@@ -44,39 +42,34 @@ Result<void> DocumentReader::check_tables() {
 }
 
 Result<void> DocumentReader::read_facts() {
-    auto facts = record::read_facts(*database_);
-    if (!facts) return std::unexpected(facts.error());
-    facts_ = std::move(*facts);
+    BURIN_TRY(facts, record::read_facts(*database_));
+    facts_ = std::move(facts);
     return {};
 }
 
 Result<void> DocumentReader::read_commands() {
-    Result<Statement> read = database_->prepare(
-        "SELECT text FROM command WHERE length(text) <= 4096 ORDER BY at LIMIT " + std::to_string(kMostFacts));
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) commands_.push_back(read->text(0));
+    BURIN_TRY(read, database_->prepare("SELECT text FROM command WHERE length(text) <= 4096 ORDER BY at LIMIT " +
+                                       std::to_string(kMostFacts)));
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) commands_.push_back(read.text(0));
     if (!row) return std::unexpected(row.error());
     return {};
 }
 
 Result<void> DocumentReader::read_parts() {
-    Result<Statement> read = database_->prepare(
-        "SELECT part, kind FROM part WHERE length(kind) <= 1000 ORDER BY part LIMIT " + std::to_string(kMostParts));
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) parts_.push_back({.number = read->integer(0), .kind = read->text(1)});
+    BURIN_TRY(read, database_->prepare("SELECT part, kind FROM part WHERE length(kind) <= 1000 ORDER BY part LIMIT " +
+                                       std::to_string(kMostParts)));
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) parts_.push_back({.number = read.integer(0), .kind = read.text(1)});
     if (!row) return std::unexpected(row.error());
     for (PartPlace& part : parts_) {
-        Result<Statement> sum =
-            database_->prepare("SELECT count(*), sum(bytes), sum(length(data)) FROM page WHERE part = ?");
-        if (!sum) return std::unexpected(sum.error());
-        sum->bind(1, part.number);
+        BURIN_TRY(sum, database_->prepare("SELECT count(*), sum(bytes), sum(length(data)) FROM page WHERE part = ?"));
+        sum.bind(1, part.number);
         // A damaged table has no sums; its pages are looked for one by one.
-        if (const Result<bool> found = sum->step(); !found || !*found) continue;
-        part.pages = static_cast<std::uint64_t>(sum->integer(0));
-        part.bytes = static_cast<std::uint64_t>(sum->integer(1));
-        part.data_bytes = static_cast<std::uint64_t>(sum->integer(2));
+        if (const Result<bool> found = sum.step(); !found || !*found) continue;
+        part.pages = static_cast<std::uint64_t>(sum.integer(0));
+        part.bytes = static_cast<std::uint64_t>(sum.integer(1));
+        part.data_bytes = static_cast<std::uint64_t>(sum.integer(2));
     }
     return {};
 }
@@ -97,14 +90,14 @@ Version DocumentReader::version() const { return {fact(kIdFact), number(kSavesFa
 
 // Names come from the index of the table, so that a page which SQLite cannot read takes no other along.
 Result<scene::Pages> DocumentReader::pages(const PartPlace& part) {
-    Result<Statement> read = database_->prepare(
-        "SELECT kind, number FROM page WHERE part = ? AND length(kind) <= 1000 ORDER BY kind, number LIMIT " +
-        std::to_string(kMostPages));
-    if (!read) return std::unexpected(read.error());
-    read->bind(1, part.number);
+    BURIN_TRY(read,
+              database_->prepare(
+                  "SELECT kind, number FROM page WHERE part = ? AND length(kind) <= 1000 ORDER BY kind, number LIMIT " +
+                  std::to_string(kMostPages)));
+    read.bind(1, part.number);
     std::vector<scene::PageName> names;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) names.push_back({read->text(0), read->integer(1)});
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) names.push_back({read.text(0), read.integer(1)});
     if (!row) return std::unexpected(row.error());
     scene::Pages pages{.part = part.kind};
     for (scene::PageName& name : names) {
@@ -125,9 +118,8 @@ Result<std::vector<std::byte>> DocumentReader::page(const char* table, std::int6
     read->bind(1, part);
     read->bind(2, std::string_view(name.kind));
     read->bind(3, name.number);
-    const Result<bool> row = read->step();
-    if (!row) return std::unexpected(row.error());
-    if (!*row) return fail(where, "is not there");
+    BURIN_TRY(row, read->step());
+    if (!row) return fail(where, "is not there");
     const std::int64_t bytes = read->integer(0);
     const std::span<const std::byte> data = read->blob(2);
     if (bytes < 0 || static_cast<std::uint64_t>(bytes) > kMostPageBytes)
@@ -139,13 +131,11 @@ Result<std::vector<std::byte>> DocumentReader::page(const char* table, std::int6
 }
 
 Result<void> DocumentReader::count_changes() {
-    const Result<bool> there = database_->has_table("change");
-    if (!there) return std::unexpected(there.error());
-    if (!*there) return {};
+    BURIN_TRY(there, database_->has_table("change"));
+    if (!there) return {};
     // Counts the changes and does not trust their numbers: a gap is found when they are applied.
-    const Result<std::int64_t> last = database_->integer("SELECT count(DISTINCT number) FROM change");
-    if (!last) return std::unexpected(last.error());
-    changes_ = *last;
+    BURIN_TRY(last, database_->integer("SELECT count(DISTINCT number) FROM change"));
+    changes_ = last;
     return {};
 }
 
@@ -155,19 +145,16 @@ Result<scene::Pages> DocumentReader::change(const PartPlace& part, std::int64_t 
 
 Result<std::optional<scene::Steps>> DocumentReader::steps(const PartPlace& part) {
     for (const char* const table : {"history", "step"}) {
-        const Result<bool> there = database_->has_table(table);
-        if (!there) return std::unexpected(there.error());
-        if (!*there) return std::nullopt;
+        BURIN_TRY(there, database_->has_table(table));
+        if (!there) return std::nullopt;
     }
-    Result<Statement> read = database_->prepare("SELECT saves, first, done, last, crc FROM history WHERE part = ?");
-    if (!read) return std::unexpected(read.error());
-    read->bind(1, part.number);
-    const Result<bool> row = read->step();
-    if (!row) return std::unexpected(row.error());
-    if (!*row) return std::nullopt;
-    scene::Steps steps{.first = read->integer(1), .done = read->integer(2), .last = read->integer(3)};
-    const std::int64_t saves = read->integer(0);
-    const bool is_sound = std::int64_t{crc_of(part.number, saves, steps)} == read->integer(4) &&
+    BURIN_TRY(read, database_->prepare("SELECT saves, first, done, last, crc FROM history WHERE part = ?"));
+    read.bind(1, part.number);
+    BURIN_TRY(row, read.step());
+    if (!row) return std::nullopt;
+    scene::Steps steps{.first = read.integer(1), .done = read.integer(2), .last = read.integer(3)};
+    const std::int64_t saves = read.integer(0);
+    const bool is_sound = std::int64_t{crc_of(part.number, saves, steps)} == read.integer(4) &&
                           steps.first >= -kFarthestStep && steps.first <= steps.done + 1 && steps.done <= steps.last &&
                           steps.last <= kFarthestStep;
     if (!is_sound) return fail(path_ + ": the history of " + part.kind, "is damaged");
@@ -183,20 +170,18 @@ Result<scene::Pages> DocumentReader::step(const PartPlace& part, std::int64_t nu
 }
 
 Result<scene::Pages> DocumentReader::numbered(const char* table, const PartPlace& part, std::int64_t number) {
-    Result<Statement> read = database_->prepare("SELECT kind FROM " + std::string(table) +
-                                                " WHERE part = ? AND number = ? AND length(kind) <= 1000 LIMIT 1000");
-    if (!read) return std::unexpected(read.error());
-    read->bind(1, part.number);
-    read->bind(2, number);
+    BURIN_TRY(read, database_->prepare("SELECT kind FROM " + std::string(table) +
+                                       " WHERE part = ? AND number = ? AND length(kind) <= 1000 LIMIT 1000"));
+    read.bind(1, part.number);
+    read.bind(2, number);
     std::vector<std::string> kinds;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) kinds.push_back(read->text(0));
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) kinds.push_back(read.text(0));
     if (!row) return std::unexpected(row.error());
     scene::Pages pages{.part = part.kind, .whole = false};
     for (std::string& kind : kinds) {
-        Result<std::vector<std::byte>> bytes = page(table, part.number, {kind, number});
-        if (!bytes) return std::unexpected(bytes.error());
-        pages.pages[{std::move(kind), 0}] = std::move(*bytes);
+        BURIN_TRY(bytes, page(table, part.number, {kind, number}));
+        pages.pages[{std::move(kind), 0}] = std::move(bytes);
     }
     return pages;
 }

@@ -18,6 +18,7 @@
 
 #include "base/flush_folder.hpp"
 #include "base/places.hpp"
+#include "base/try.hpp"
 #include "document/document_rows.hpp"
 
 namespace burin::document {
@@ -45,19 +46,17 @@ std::string new_id() {
 
 // Writes the content within a transaction, which commits.
 Result<void> put_all(Database& database, const Content& content, Saved& saved) {
-    if (const auto done = put_content(database, content, saved); !done) return done;
-    if (const auto done = put_fact(database, kIdFact, saved.version.id); !done) return done;
-    if (const auto done = put_fact(database, kSavesFact, std::to_string(saved.version.saves)); !done) return done;
-    if (const auto done = put_fact(database, kSavedFact, utc_now()); !done) return done;
+    BURIN_TRY_DO(put_content(database, content, saved));
+    BURIN_TRY_DO(put_fact(database, kIdFact, saved.version.id));
+    BURIN_TRY_DO(put_fact(database, kSavesFact, std::to_string(saved.version.saves)));
+    BURIN_TRY_DO(put_fact(database, kSavedFact, utc_now()));
     return database.run("COMMIT");
 }
 
 Result<Version> version_in(Database& database) {
-    Result<std::string> id = database.text("SELECT value FROM meta WHERE key = '" + std::string(kIdFact) + "'");
-    if (!id) return std::unexpected(id.error());
-    const auto saves = database.integer("SELECT value FROM meta WHERE key = '" + std::string(kSavesFact) + "'");
-    if (!saves) return std::unexpected(saves.error());
-    return Version{std::move(*id), *saves};
+    BURIN_TRY(id, database.text("SELECT value FROM meta WHERE key = '" + std::string(kIdFact) + "'"));
+    BURIN_TRY(saves, database.integer("SELECT value FROM meta WHERE key = '" + std::string(kSavesFact) + "'"));
+    return Version{std::move(id), saves};
 }
 
 // Returns whether a file is at rest as the last who wrote it has closed it (bytes 18 and 19 of SQLite's header): then
@@ -69,9 +68,8 @@ bool is_at_rest(const std::string& path) {
 }
 
 Result<void> check_version(Database& database, const std::string& path, const Version& known) {
-    const Result<Version> there = version_in(database);
-    if (!there) return std::unexpected(there.error());
-    if (*there == known) return {};
+    BURIN_TRY(there, version_in(database));
+    if (there == known) return {};
     return fail(path, "was saved by another window or program meanwhile",
                 "save this one under another name, so that both are kept");
 }
@@ -149,7 +147,7 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
     std::error_code ignored;
     Saved saved{.version = {new_id(), 1}, .replaced = fs::exists(path, ignored)};
     if (place == Place::nothing && saved.replaced) return record::cannot_make(path, EEXIST, kDocumentKind);
-    if (const auto ok = check_replaceable(path); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_replaceable(path));
     remove_leftovers(path);
     const std::string made_as = beside(path);
     const auto name_the_place = [&](Error error) {
@@ -160,8 +158,8 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
     Result<StoreFile> file = StoreFile::make(
         made_as, kDocumentKind,
         [&](Database& database) -> Result<void> {
-            if (const auto begun = database.run("BEGIN IMMEDIATE"); !begun) return begun;
-            if (const auto made = database.run(document_tables()); !made) return made;
+            BURIN_TRY_DO(database.run("BEGIN IMMEDIATE"));
+            BURIN_TRY_DO(database.run(document_tables()));
             return put_all(database, content, saved);
         },
         vfs);
@@ -177,26 +175,23 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
 Result<Saved> update_document(const std::string& path, const Content& changed, const Version& known,
                               const std::string& vfs) {
     if (is_at_rest(path)) {  // another's is not even opened to write to it
-        Result<Database> reader = Database::open(path, Database::Use::read, vfs, kDocumentKind.words);
-        if (!reader) return std::unexpected(reader.error());
-        if (const auto marks = record::check_marks(*reader, path, kDocumentKind); !marks)
-            return std::unexpected(marks.error());
-        if (const auto same = check_version(*reader, path, known); !same) return std::unexpected(same.error());
+        BURIN_TRY(reader, Database::open(path, Database::Use::read, vfs, kDocumentKind.words));
+        BURIN_TRY_DO(record::check_marks(reader, path, kDocumentKind));
+        BURIN_TRY_DO(check_version(reader, path, known));
     }
-    Result<StoreFile> file = StoreFile::open(path, kDocumentKind, vfs);
-    if (!file) return std::unexpected(file.error());
-    Database& database = file->database();
+    BURIN_TRY(file, StoreFile::open(path, kDocumentKind, vfs));
+    Database& database = file.database();
     Saved saved{.version = {known.id, known.saves + 1}, .replaced = true};
     Result<void> done = database.run("BEGIN IMMEDIATE");
     if (done) done = check_version(database, path, known);
     if (done) done = put_all(database, changed, saved);
     if (!done) {
         if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
-        static_cast<void>(file->close());  // at rest, as it was
+        static_cast<void>(file.close());  // at rest, as it was
         return std::unexpected(done.error());
     }
     // The commit is on the disk. Where its log cannot be merged into the file now, the next to open it does that.
-    static_cast<void>(file->close());
+    static_cast<void>(file.close());
     return saved;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/places.hpp"
+#include "base/try.hpp"
 #include "document/document_reader.hpp"
 #include "document/document_rows.hpp"
 #include "document/log_check.hpp"
@@ -26,7 +27,7 @@ void remove_with_log(const std::string& path) {
 // Runs a transaction whole or not at all.
 template <typename Write>
 Result<void> in_transaction(Database& database, Write write) {
-    if (const auto begun = database.run("BEGIN IMMEDIATE"); !begun) return begun;
+    BURIN_TRY_DO(database.run("BEGIN IMMEDIATE"));
     Result<void> done = write();
     if (done) done = database.run("COMMIT");
     if (!done && database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
@@ -40,7 +41,7 @@ Result<Journal> Journal::begin(const std::string& path, const Content& beginning
     Result<StoreFile> file = StoreFile::make(
         path, kDocumentKind,
         [&](Database& database) -> Result<void> {
-            if (const auto made = database.run(document_tables()); !made) return made;
+            BURIN_TRY_DO(database.run(document_tables()));
             return in_transaction(database, [&] { return put_content(database, beginning, ignored); });
         },
         vfs);

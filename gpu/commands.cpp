@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/commands.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -66,9 +68,8 @@ std::optional<double> Submission::seconds_between(Stamp earlier, Stamp later) co
 // ---- Commands
 
 Result<Commands> Commands::begin(Device& device) {
-    auto set = device.core()->take_command_set();
-    if (!set) return std::unexpected(set.error());
-    Commands commands(device.core(), std::move(*set));
+    BURIN_TRY(set, device.core()->take_command_set());
+    Commands commands(device.core(), std::move(set));
     auto info = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     Core& core = *commands.core_;
@@ -314,12 +315,10 @@ std::uint64_t piece_bytes(const Device& device) {
 Result<void> write(Device& device, const Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes) {
     const std::uint64_t most = piece_bytes(device);
     for (std::uint64_t done = 0; done < bytes.size(); done += most) {
-        auto commands = Commands::begin(device);
-        if (!commands) return std::unexpected(commands.error());
-        commands->upload(to, offset_bytes + done, bytes.subspan(done, std::min(most, bytes.size() - done)));
-        auto submission = std::move(*commands).submit();
-        if (!submission) return std::unexpected(submission.error());
-        if (const auto waited = submission->wait(); !waited) return waited;
+        BURIN_TRY(commands, Commands::begin(device));
+        commands.upload(to, offset_bytes + done, bytes.subspan(done, std::min(most, bytes.size() - done)));
+        BURIN_TRY(submission, std::move(commands).submit());
+        BURIN_TRY_DO(submission.wait());
     }
     return {};
 }
@@ -329,18 +328,15 @@ Result<std::vector<std::byte>> read(Device& device, const Buffer& from, std::uin
     std::vector<std::byte> all;
     if (size_bytes == 0) return all;
     const std::uint64_t most = std::min(piece_bytes(device), size_bytes);
-    auto readback = Buffer::create(device, BufferUse::readback, most, "readback");
-    if (!readback) return std::unexpected(readback.error());
+    BURIN_TRY(readback, Buffer::create(device, BufferUse::readback, most, "readback"));
     all.resize(size_bytes);
     for (std::uint64_t done = 0; done < size_bytes; done += most) {
         const std::uint64_t piece = std::min(most, size_bytes - done);
-        auto commands = Commands::begin(device);
-        if (!commands) return std::unexpected(commands.error());
-        commands->copy(from, offset_bytes + done, *readback, 0, piece);
-        auto submission = std::move(*commands).submit();
-        if (!submission) return std::unexpected(submission.error());
-        if (const auto waited = submission->wait(); !waited) return std::unexpected(waited.error());
-        std::memcpy(all.data() + done, readback->mapped().data(), piece);
+        BURIN_TRY(commands, Commands::begin(device));
+        commands.copy(from, offset_bytes + done, readback, 0, piece);
+        BURIN_TRY(submission, std::move(commands).submit());
+        BURIN_TRY_DO(submission.wait());
+        std::memcpy(all.data() + done, readback.mapped().data(), piece);
     }
     return all;
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/try.hpp"
 #include "gpu/core.hpp"
 
 namespace burin::gpu {
@@ -137,14 +138,13 @@ Result<void> create_instance(Core& core, bool validation, const DeviceOptions& o
     auto app = structure<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     app.pApplicationName = "burin";
     app.apiVersion = VK_API_VERSION_1_2;
-    auto extensions = extensions_to_enable(options);
-    if (!extensions) return std::unexpected(extensions.error());
+    BURIN_TRY(extensions, extensions_to_enable(options));
     if (validation) {
-        extensions->emplace_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-        extensions->emplace_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+        extensions.emplace_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.emplace_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
     std::vector<const char*> names;
-    for (const std::string& name : *extensions) names.push_back(name.c_str());
+    for (const std::string& name : extensions) names.push_back(name.c_str());
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info();
     // Adds checks for missing barriers to the default checks.
     constexpr VkValidationFeatureEnableEXT kAlsoChecked = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -165,7 +165,7 @@ Result<void> create_instance(Core& core, bool validation, const DeviceOptions& o
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return fail("Vulkan", "no Vulkan driver found", kNoDriver);
     if (result != VK_SUCCESS) return vulkan_failure("Vulkan", "the instance could not be created", result);
     load_instance_functions(core.instance, validation);
-    load_surface_functions(core, *extensions);
+    load_surface_functions(core, extensions);
     if (validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(core.instance, "vkCreateDebugUtilsMessengerEXT"));
@@ -255,22 +255,21 @@ int preference(DeviceKind kind, Prefer prefer) {
 }
 
 Result<void> pick(Core& core, const DeviceOptions& options) {
-    const auto devices = physical_devices(core.instance);
-    if (!devices) return std::unexpected(devices.error());
-    if (devices->empty()) return fail("Vulkan", "no Vulkan driver found", kNoDriver);
-    if (options.index && *options.index >= devices->size()) {
+    BURIN_TRY(devices, physical_devices(core.instance));
+    if (devices.empty()) return fail("Vulkan", "no Vulkan driver found", kNoDriver);
+    if (options.index && *options.index >= devices.size()) {
         return fail("Vulkan", "there is no device " + std::to_string(*options.index),
-                    "choose one of 0 to " + std::to_string(devices->size() - 1) + ", see burin --version");
+                    "choose one of 0 to " + std::to_string(devices.size() - 1) + ", see burin --version");
     }
     std::string reasons;
-    for (unsigned i = 0; i < devices->size(); ++i) {
+    for (unsigned i = 0; i < devices.size(); ++i) {
         if (options.index && *options.index != i) continue;
-        DeviceInfo info = describe((*devices)[i], i);
+        DeviceInfo info = describe(devices[i], i);
         if (!info.unusable.empty()) {
             reasons += (reasons.empty() ? "" : ", ") + info.name + " " + info.unusable;
         } else if (core.physical == VK_NULL_HANDLE ||
                    preference(info.kind, options.prefer) > preference(core.info.kind, options.prefer)) {
-            core.physical = (*devices)[i];
+            core.physical = devices[i];
             core.info = std::move(info);
         }
     }
@@ -458,11 +457,10 @@ std::string DeviceInfo::line() const {
 
 Result<std::vector<DeviceInfo>> list_devices() {
     Core core;
-    if (const auto created = create_instance(core, false); !created) return std::unexpected(created.error());
-    const auto devices = physical_devices(core.instance);
-    if (!devices) return std::unexpected(devices.error());
+    BURIN_TRY_DO(create_instance(core, false));
+    BURIN_TRY(devices, physical_devices(core.instance));
     std::vector<DeviceInfo> infos;
-    for (unsigned i = 0; i < devices->size(); ++i) infos.push_back(describe((*devices)[i], i));
+    for (unsigned i = 0; i < devices.size(); ++i) infos.push_back(describe(devices[i], i));
     return infos;
 }
 

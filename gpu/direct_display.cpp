@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/direct_display.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -186,28 +188,26 @@ std::vector<std::string> direct_display_optional_extensions() {
 }
 
 Result<std::vector<DisplayInfo>> list_displays(Device& device) {
-    const auto displays = find_displays(*device.core(), Functions(device.core()->instance));
-    if (!displays) return std::unexpected(displays.error());
+    BURIN_TRY(displays, find_displays(*device.core(), Functions(device.core()->instance)));
     std::vector<DisplayInfo> infos;
-    for (const Display& d : *displays) infos.push_back(d.info);
+    for (const Display& d : displays) infos.push_back(d.info);
     return infos;
 }
 
 Result<DisplaySurface> create_display_surface(Device& device, const DisplayChoice& choice) {
     const Core& core = *device.core();
     const Functions f(core.instance);
-    const auto displays = find_displays(core, f);
-    if (!displays) return std::unexpected(displays.error());
+    BURIN_TRY(displays, find_displays(core, f));
     if (choice.stereo != DisplayStereo::none && !core.capabilities.display_stereo) {
         return fail(kWhere, core.info.name + std::string(" offers no stereo (") + kStereoExtension + ")",
                     "update the graphics driver, or choose another output mode, such as side_by_side");
     }
-    const std::vector<std::string> names = names_of(*displays);
+    const std::vector<std::string> names = names_of(displays);
     const int meant = choose_display(names, choice.display);
     if (meant < 0) {
         return fail(kWhere, "there is no display '" + choice.display + "'", "choose one of: " + in_words(names));
     }
-    const Display& display = (*displays)[static_cast<std::size_t>(meant)];
+    const Display& display = displays[static_cast<std::size_t>(meant)];
     DisplayChoice wanted = choice;
     if (wanted.width == 0) wanted.width = display.native.width;
     if (wanted.height == 0) wanted.height = display.native.height;

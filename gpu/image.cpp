@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/image.hpp"
 
+#include "base/try.hpp"
+
 namespace burin::gpu {
 
 Result<Image> Image::create(Device& device, const ImageSpec& spec) {
@@ -47,9 +49,8 @@ Result<Image> Image::create(Device& device, const ImageSpec& spec) {
     }
     image.aspect_ = spec.aspect;
     image.layers_ = spec.layers;
-    auto view = image.view_as(device, spec.format);
-    if (!view) return std::unexpected(view.error());
-    image.view_ = std::move(*view);
+    BURIN_TRY(view, image.view_as(device, spec.format));
+    image.view_ = std::move(view);
     return image;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/pipelines.hpp"
 
+#include "base/try.hpp"
+
 #include <array>
 
 namespace burin::gpu {
@@ -106,18 +108,15 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, const ComputePip
                                    core->info.name + " has " +
                                    std::to_string(core->capabilities.max_push_constant_bytes));
     }
-    auto shader = create_shader(device, spec.spirv, spec.name);
-    if (!shader) return std::unexpected(shader.error());
-    auto set_layout = create_set_layout(core, spec);
-    if (!set_layout) return std::unexpected(set_layout.error());
-    auto layout = create_layout(core, spec, set_layout->raw());
-    if (!layout) return std::unexpected(layout.error());
+    BURIN_TRY(shader, create_shader(device, spec.spirv, spec.name));
+    BURIN_TRY(set_layout, create_set_layout(core, spec));
+    BURIN_TRY(layout, create_layout(core, spec, set_layout.raw()));
 
     const auto entries = map_entries(spec.constants);
     const VkSpecializationInfo constants = specialization(entries, spec.constants);
     auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
-    info.layout = layout->raw();
-    info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, shader->raw());
+    info.layout = layout.raw();
+    info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, shader.raw());
     info.stage.pSpecializationInfo = entries.empty() ? nullptr : &constants;
     VkPipeline raw = VK_NULL_HANDLE;
     if (const VkResult r =
@@ -126,8 +125,8 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, const ComputePip
         return vulkan_failure(spec.name, "could not be compiled", r);
     }
     ComputePipeline pipeline;
-    pipeline.set_layout_ = std::move(*set_layout);
-    pipeline.layout_ = std::move(*layout);
+    pipeline.set_layout_ = std::move(set_layout);
+    pipeline.layout_ = std::move(layout);
     pipeline.pipeline_ = PipelineHandle(core, raw);
     pipeline.storage_buffers_ = spec.storage_buffers;
     pipeline.push_constant_bytes_ = spec.push_constant_bytes;
@@ -136,14 +135,12 @@ Result<ComputePipeline> ComputePipeline::create(Device& device, const ComputePip
 
 Result<PipelineHandle> create_graphics_pipeline(Device& device, const GraphicsPipelineSpec& spec) {
     const std::shared_ptr<Core>& core = device.core();
-    auto vertex = create_shader(device, spec.vertex_spirv, spec.name + " vertex shader");
-    if (!vertex) return std::unexpected(vertex.error());
+    BURIN_TRY(vertex, create_shader(device, spec.vertex_spirv, spec.name + " vertex shader"));
     ShaderHandle fragment;
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{stage_of(VK_SHADER_STAGE_VERTEX_BIT, vertex->raw()), {}};
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{stage_of(VK_SHADER_STAGE_VERTEX_BIT, vertex.raw()), {}};
     if (!spec.fragment_spirv.empty()) {
-        auto shader = create_shader(device, spec.fragment_spirv, spec.name + " fragment shader");
-        if (!shader) return std::unexpected(shader.error());
-        fragment = std::move(*shader);
+        BURIN_TRY(shader, create_shader(device, spec.fragment_spirv, spec.name + " fragment shader"));
+        fragment = std::move(shader);
         stages[1] = stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.raw());
     }
 

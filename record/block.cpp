@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/try.hpp"
 #include "record/compressed.hpp"
 #include "record/crc32c.hpp"
 
@@ -67,9 +68,8 @@ Result<PackedBlock> pack(const Block& block, BlockHeader header) {
     std::vector<std::byte> raw;
     raw.reserve(block.rows_ * row_bytes(block.types_));
     for (const std::vector<std::byte>& column : block.columns_) raw.insert(raw.end(), column.begin(), column.end());
-    Result<std::vector<std::byte>> data = compressed(raw);
-    if (!data) return std::unexpected(data.error());
-    PackedBlock packed{header, 0, std::move(*data)};
+    BURIN_TRY(data, compressed(raw));
+    PackedBlock packed{header, 0, std::move(data)};
     packed.crc = crc_of(header, packed.data);
     return packed;
 }
@@ -81,11 +81,10 @@ Result<Block> unpack(const PackedBlock& packed, std::span<const ColumnType> type
     if (rows == 0 || rows > kMostBlockRows || types.empty() || types.size() > kMostColumns || size > kMostBlockBytes)
         return fail(where, "claims " + std::to_string(rows) + " rows of " + std::to_string(each) + " bytes",
                     kDamagedRemedy);
-    const Result<std::vector<std::byte>> raw = decompressed(packed.data, size, where, kDamagedRemedy);
-    if (!raw) return std::unexpected(raw.error());
+    BURIN_TRY(raw, decompressed(packed.data, size, where, kDamagedRemedy));
     Block block(std::vector<ColumnType>(types.begin(), types.end()));
     block.rows_ = rows;
-    auto from = raw->cbegin();
+    auto from = raw.cbegin();
     for (std::size_t c = 0; c < types.size(); ++c) {
         const auto to = from + static_cast<std::ptrdiff_t>(rows * size_of(types[c]));
         block.columns_[c].assign(from, to);

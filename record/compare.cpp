@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/compare.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -92,11 +94,9 @@ Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view co
         if (!std::equal(common.begin(), common.end(), of_a.size() <= of_b.size() ? of_b.begin() : of_a.begin()))
             return fail(b.path(), "has other columns than " + a.path() + " for " + a.hands()[hand].name,
                         "compare recordings of the same device and probe");
-        const auto chosen = choose_columns(common, columns);
-        if (!chosen) return std::unexpected(chosen.error());
-        result.columns += chosen->size();
-        if (const auto done = compare_hand(a, b, hand, *chosen, range, result); !done)
-            return std::unexpected(done.error());
+        BURIN_TRY(chosen, choose_columns(common, columns));
+        result.columns += chosen.size();
+        BURIN_TRY_DO(compare_hand(a, b, hand, chosen, range, result));
         if (result.difference) return result;
     }
     return result;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/derived.hpp"
 
+#include "base/try.hpp"
+
 #include <utility>
 
 namespace burin::record {
@@ -52,34 +54,31 @@ Result<void> DerivedWriter::seal() {
 }
 
 Result<void> DerivedWriter::finish(const std::string& path) {
-    if (const auto sealed = seal(); !sealed) return sealed;
+    BURIN_TRY_DO(seal());
     if (std::fflush(spool_.get()) != 0) return no_spool();
     std::rewind(spool_.get());
-    Result<Database> database = Database::open(path, Database::Use::write);
-    if (!database) return std::unexpected(database.error());
-    if (const auto set = database->run("PRAGMA synchronous = FULL"); !set) return set;
-    if (const auto begun = database->run("BEGIN IMMEDIATE"); !begun) return begun;
-    if (const auto done = insert_all(*database); !done) {
-        if (database->in_transaction()) static_cast<void>(database->run("ROLLBACK"));
+    BURIN_TRY(database, Database::open(path, Database::Use::write));
+    BURIN_TRY_DO(database.run("PRAGMA synchronous = FULL"));
+    BURIN_TRY_DO(database.run("BEGIN IMMEDIATE"));
+    if (const auto done = insert_all(database); !done) {
+        if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
         return done;
     }
-    if (const auto done = database->run("COMMIT"); !done) {
-        if (database->in_transaction()) static_cast<void>(database->run("ROLLBACK"));
+    if (const auto done = database.run("COMMIT"); !done) {
+        if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
         return done;
     }
-    return database->close();
+    return database.close();
 }
 
 Result<void> DerivedWriter::insert_all(Database& database) {
-    if (const auto made = database.run(kObjectTable); !made) return made;
+    BURIN_TRY_DO(database.run(kObjectTable));
     {
-        Result<Statement> find = database.prepare("SELECT count(*) FROM derived WHERE name = ? AND program = ?");
-        if (!find) return std::unexpected(find.error());
-        find->bind(1, std::string_view(table_.name));
-        find->bind(2, std::string_view(table_.program));
-        const Result<bool> row = find->step();
-        if (!row) return std::unexpected(row.error());
-        if (*row && find->integer(0) > 0)
+        BURIN_TRY(find, database.prepare("SELECT count(*) FROM derived WHERE name = ? AND program = ?"));
+        find.bind(1, std::string_view(table_.name));
+        find.bind(2, std::string_view(table_.program));
+        BURIN_TRY(row, find.step());
+        if (row && find.integer(0) > 0)
             return fail("derived table " + table_.name, "exists, and is not written over",
                         "read the one that is there");
     }
@@ -105,13 +104,13 @@ Result<void> DerivedWriter::insert_all(Database& database) {
         insert->bind(7, waiting.header.t0_ns);
         insert->bind(8, std::int64_t{waiting.crc});
         insert->bind(9, std::span<const std::byte>(data));
-        if (const auto done = insert->run(); !done) return done;
+        BURIN_TRY_DO(insert->run());
     }
     for (const RecordedObject& each : table_.objects) {
         object->bind(1, std::string_view(table_.name));
         object->bind(2, each.number);
         object->bind(3, std::string_view(each.name));
-        if (const auto done = object->run(); !done) return done;
+        BURIN_TRY_DO(object->run());
     }
     fact->bind(1, std::string_view(key));
     fact->bind(2, std::string_view(table_.settings));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "record/record_reader.hpp"
+#include "base/try.hpp"
 #include "record/row_walk.hpp"
 #include "record/store_file.hpp"
 #include "record/store_reading.hpp"
@@ -48,25 +49,22 @@ std::size_t find_column(const HandRecord& table, std::string_view name, ColumnTy
 }
 
 Result<RecordReader> RecordReader::open(const std::string& path) {
-    if (const auto ok = check_regular(path, "is empty: its recording ended before it began, or it is none", kRemedy);
-        !ok)
-        return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_regular(path, "is empty: its recording ended before it began, or it is none", kRemedy));
     take_back_what_was_interrupted(path);
     RecordReader reader;
     reader.path_ = path;
-    Result<Database> opened = Database::open(path, Database::Use::read);
-    if (!opened) return std::unexpected(opened.error());
-    reader.database_.emplace(std::move(*opened));
+    BURIN_TRY(opened, Database::open(path, Database::Use::read));
+    reader.database_.emplace(std::move(opened));
     reader.database_->limit_steps(kMostSteps);
     for (const auto step :
          {&RecordReader::check_marks, &RecordReader::check_tables, &RecordReader::read_facts, &RecordReader::read_hands,
           &RecordReader::read_places, &RecordReader::read_derived, &RecordReader::read_objects})
-        if (const auto done = (reader.*step)(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO((reader.*step)());
     return reader;
 }
 
 Result<void> RecordReader::check_marks() {
-    if (const auto set = database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"); !set) return set;
+    BURIN_TRY_DO(database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"));
     return burin::record::check_marks(*database_, path_, kRecordingKind);
 }
 
@@ -76,40 +74,36 @@ Result<void> RecordReader::check_tables() {
 }
 
 Result<void> RecordReader::read_facts() {
-    auto facts = burin::record::read_facts(*database_);
-    if (!facts) return std::unexpected(facts.error());
-    facts_ = std::move(*facts);
+    BURIN_TRY(facts, burin::record::read_facts(*database_));
+    facts_ = std::move(facts);
     return {};
 }
 
 Result<void> RecordReader::read_hands() {
-    Result<Statement> read = database_->prepare("SELECT hand, name FROM hand ORDER BY hand");
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) {
+    BURIN_TRY(read, database_->prepare("SELECT hand, name FROM hand ORDER BY hand"));
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) {
         HandRecord hand;
-        hand.number = static_cast<std::uint32_t>(read->integer(0));
-        hand.name = read->text(1);
-        if (!fits_u32(read->integer(0)) || hands_.size() >= kMostHands || hand.name.size() > 1000)
+        hand.number = static_cast<std::uint32_t>(read.integer(0));
+        hand.name = read.text(1);
+        if (!fits_u32(read.integer(0)) || hands_.size() >= kMostHands || hand.name.size() > 1000)
             return fail(path_, "has hands that no recording has", kRemedy);
         hands_.push_back(std::move(hand));
     }
     if (!row) return std::unexpected(row.error());
-    for (HandRecord& hand : hands_)
-        if (const auto done = read_columns(hand); !done) return done;
+    for (HandRecord& hand : hands_) BURIN_TRY_DO(read_columns(hand));
     return {};
 }
 
 Result<void> RecordReader::read_columns(HandRecord& hand) {
-    Result<Statement> read =
-        database_->prepare("SELECT position, name, unit, frame, type FROM column WHERE hand = ? ORDER BY position");
-    if (!read) return std::unexpected(read.error());
-    read->bind(1, std::int64_t{hand.number});
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) {
-        const auto type = column_type_named(read->text(4));
-        Column column{read->text(1), read->text(2), read->text(3), type.value_or(ColumnType::f64)};
-        if (read->integer(0) != static_cast<std::int64_t>(hand.columns.size()) || hand.columns.size() >= kMostColumns)
+    BURIN_TRY(read, database_->prepare(
+                        "SELECT position, name, unit, frame, type FROM column WHERE hand = ? ORDER BY position"));
+    read.bind(1, std::int64_t{hand.number});
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) {
+        const auto type = column_type_named(read.text(4));
+        Column column{read.text(1), read.text(2), read.text(3), type.value_or(ColumnType::f64)};
+        if (read.integer(0) != static_cast<std::int64_t>(hand.columns.size()) || hand.columns.size() >= kMostColumns)
             return fail(path_, "column " + std::to_string(hand.columns.size()) + " of " + hand.name + " is missing",
                         kRemedy);
         if (!type || column.name.empty() || column.name.size() + column.unit.size() + column.frame.size() > 1000)
@@ -125,20 +119,19 @@ Result<void> RecordReader::read_columns(HandRecord& hand) {
 }
 
 Result<void> RecordReader::read_places() {
-    Result<Statement> read = database_->prepare("SELECT id, hand, tick0, rows, t0_ns FROM block ORDER BY id LIMIT " +
-                                                std::to_string(kMostBlocks + 1));
-    if (!read) return std::unexpected(read.error());
+    BURIN_TRY(read, database_->prepare("SELECT id, hand, tick0, rows, t0_ns FROM block ORDER BY id LIMIT " +
+                                       std::to_string(kMostBlocks + 1)));
     std::size_t blocks = 0;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) {
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) {
         if (++blocks > kMostBlocks) return fail(path_, "has more blocks than a month of ticks", kRemedy);
-        const std::int64_t number = read->integer(1), rows = read->integer(3);
+        const std::int64_t number = read.integer(1), rows = read.integer(3);
         const auto hand = std::ranges::find_if(hands_, [&](const HandRecord& h) { return h.number == number; });
         if (hand == hands_.end())
             return fail(path_, "has a block of hand " + std::to_string(number) + ", which it does not name", kRemedy);
         // A number of rows that no block has stays there as one that is refused when the block is read.
         const auto kept_rows = rows < 0 || rows > kMostBlockRows ? 0 : static_cast<std::uint32_t>(rows);
-        hand->blocks.push_back({read->integer(0), {hand->number, read->integer(2), kept_rows, read->integer(4)}});
+        hand->blocks.push_back({read.integer(0), {hand->number, read.integer(2), kept_rows, read.integer(4)}});
     }
     if (!row) return std::unexpected(row.error());
     return {};
@@ -146,27 +139,26 @@ Result<void> RecordReader::read_places() {
 
 // A table's name and the program that made it are in its blocks; the first one lists the columns.
 Result<void> RecordReader::read_derived() {
-    Result<Statement> read = database_->prepare(
-        "SELECT id, name, program, columns, hand, tick0, rows, t0_ns FROM derived ORDER BY name, program, id LIMIT " +
-        std::to_string(kMostBlocks + 1));
-    if (!read) return std::unexpected(read.error());
+    BURIN_TRY(read, database_->prepare("SELECT id, name, program, columns, hand, tick0, rows, t0_ns FROM derived ORDER "
+                                       "BY name, program, id LIMIT " +
+                                       std::to_string(kMostBlocks + 1)));
     std::size_t blocks = 0;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) {
-        const std::string name = read->text(1), program = read->text(2);
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) {
+        const std::string name = read.text(1), program = read.text(2);
         if (derived_.empty() || derived_.back().name != name || derived_.back().program != program) {
-            Result<std::vector<Column>> columns = columns_in(read->text(3));
+            Result<std::vector<Column>> columns = columns_in(read.text(3));
             if (!columns || name.size() + program.size() > 1000 || program.empty() || derived_.size() >= kMostDerived)
                 return fail(path_, "has a derived table that this program does not know", kRemedy);
             derived_.push_back({0, name, program, std::move(*columns), {}, {}});
         }
-        const std::int64_t number = read->integer(4), rows = read->integer(6);
+        const std::int64_t number = read.integer(4), rows = read.integer(6);
         if (!fits_u32(number) || ++blocks > kMostBlocks)
             return fail(path_, "has a derived table of no hand, or a month of ticks", kRemedy);
         HandRecord& table = derived_.back();
         table.number = static_cast<std::uint32_t>(number);
         const auto kept_rows = rows < 0 || rows > kMostBlockRows ? 0 : static_cast<std::uint32_t>(rows);
-        table.blocks.push_back({read->integer(0), {table.number, read->integer(5), kept_rows, read->integer(7)}});
+        table.blocks.push_back({read.integer(0), {table.number, read.integer(5), kept_rows, read.integer(7)}});
     }
     if (!row) return std::unexpected(row.error());
     return {};
@@ -174,17 +166,15 @@ Result<void> RecordReader::read_derived() {
 
 // Recordings from before there were names of objects have no table of them.
 Result<void> RecordReader::read_objects() {
-    const Result<bool> there = database_->has_table("object");
-    if (!there) return std::unexpected(there.error());
-    if (!*there) return {};
-    Result<Statement> read = database_->prepare(
-        "SELECT part, number, name FROM object WHERE length(part) + length(name) <= " + std::to_string(kMostTextBytes) +
-        " ORDER BY part, number LIMIT " + std::to_string(kMostObjects));
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) {
-        const std::string part = read->text(0);
-        const RecordedObject object{read->integer(1), read->text(2)};
+    BURIN_TRY(there, database_->has_table("object"));
+    if (!there) return {};
+    BURIN_TRY(read, database_->prepare("SELECT part, number, name FROM object WHERE length(part) + length(name) <= " +
+                                       std::to_string(kMostTextBytes) + " ORDER BY part, number LIMIT " +
+                                       std::to_string(kMostObjects)));
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) {
+        const std::string part = read.text(0);
+        const RecordedObject object{read.integer(1), read.text(2)};
         for (HandRecord& hand : hands_)
             if (part.empty()) hand.objects.push_back(object);
         for (HandRecord& table : derived_)
@@ -218,49 +208,44 @@ Result<Block> RecordReader::block(std::size_t table, std::size_t number) {
 }
 
 Result<std::vector<TrialRecord>> RecordReader::trials() {
-    Result<Statement> read =
-        database_->prepare("SELECT id, name, state, begun_ns, ended_ns FROM trial ORDER BY id LIMIT 100000");
-    if (!read) return std::unexpected(read.error());
+    BURIN_TRY(read,
+              database_->prepare("SELECT id, name, state, begun_ns, ended_ns FROM trial ORDER BY id LIMIT 100000"));
     std::vector<TrialRecord> trials;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step())
-        trials.push_back({read->integer(0), read->text(1), read->text(2), read->integer(3), read->integer(4)});
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step())
+        trials.push_back({read.integer(0), read.text(1), read.text(2), read.integer(3), read.integer(4)});
     if (!row) return std::unexpected(row.error());
     return trials;
 }
 
 Result<std::vector<EventRecord>> RecordReader::events() {
-    Result<Statement> read = database_->prepare("SELECT time_ns, name, value FROM event ORDER BY id LIMIT 100000");
-    if (!read) return std::unexpected(read.error());
+    BURIN_TRY(read, database_->prepare("SELECT time_ns, name, value FROM event ORDER BY id LIMIT 100000"));
     std::vector<EventRecord> events;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) events.push_back({read->integer(0), read->text(1), read->text(2)});
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) events.push_back({read.integer(0), read.text(1), read.text(2)});
     if (!row) return std::unexpected(row.error());
     return events;
 }
 
 Result<std::vector<ClockPair>> RecordReader::clocks() {
-    Result<Statement> read =
-        database_->prepare("SELECT mono_ns, utc_ns FROM clock ORDER BY id LIMIT " + std::to_string(kMostBlocks));
-    if (!read) return std::unexpected(read.error());
+    BURIN_TRY(read,
+              database_->prepare("SELECT mono_ns, utc_ns FROM clock ORDER BY id LIMIT " + std::to_string(kMostBlocks)));
     std::vector<ClockPair> clocks;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) clocks.push_back({read->integer(0), read->integer(1)});
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) clocks.push_back({read.integer(0), read.integer(1)});
     if (!row) return std::unexpected(row.error());
     return clocks;
 }
 
 Result<std::uint64_t> RecordReader::lines() {
-    const Result<std::int64_t> count = database_->integer("SELECT count(*) FROM line");
-    if (!count) return std::unexpected(count.error());
-    return static_cast<std::uint64_t>(*count);
+    BURIN_TRY(count, database_->integer("SELECT count(*) FROM line"));
+    return static_cast<std::uint64_t>(count);
 }
 
 Result<void> RecordReader::each_line(const std::function<void(std::int64_t, const std::string&)>& take) {
-    Result<Statement> read = database_->prepare("SELECT time_ns, text FROM line ORDER BY id");
-    if (!read) return std::unexpected(read.error());
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) take(read->integer(0), read->text(1));
+    BURIN_TRY(read, database_->prepare("SELECT time_ns, text FROM line ORDER BY id"));
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) take(read.integer(0), read.text(1));
     if (!row) return std::unexpected(row.error());
     return {};
 }
@@ -270,9 +255,8 @@ Result<ChainExamination> RecordReader::examine_chain() { return record::examine_
 Result<std::string> RecordReader::last_digest() { return record::last_digest(*database_); }
 
 Result<std::string> RecordReader::structure_fault() {
-    const Result<std::string> found = database_->text("PRAGMA quick_check(1)");
-    if (!found) return std::unexpected(found.error());
-    return *found == "ok" ? std::string() : *found;
+    BURIN_TRY(found, database_->text("PRAGMA quick_check(1)"));
+    return found == "ok" ? std::string() : found;
 }
 
 }  // namespace burin::record

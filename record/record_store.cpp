@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/record_store.hpp"
 
+#include "base/try.hpp"
+
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -71,21 +73,20 @@ Result<void> RecordStore::make() {
 }
 
 Result<void> RecordStore::fill_tables() {
-    if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
-    if (const auto made = database_->run(std::string(store_tables()) + chain_table()); !made) return made;
+    BURIN_TRY_DO(database_->run("BEGIN IMMEDIATE"));
+    BURIN_TRY_DO(database_->run(std::string(store_tables()) + chain_table()));
     Result<Statement> object = database_->prepare("INSERT OR REPLACE INTO object VALUES('', ?, ?)");
     if (!object) return fail(path_, "its tables cannot be made", "choose another disk");
-    for (const auto& [key, value] : options_.facts)
-        if (const auto done = put_fact(key, value); !done) return done;
+    for (const auto& [key, value] : options_.facts) BURIN_TRY_DO(put_fact(key, value));
     for (const auto& [number, name] : options_.objects) {
         object->bind(1, number);
         object->bind(2, std::string_view(name));
-        if (const auto done = object->run(); !done) return done;
+        BURIN_TRY_DO(object->run());
     }
-    if (const auto filled = fill_columns(); !filled) return filled;
+    BURIN_TRY_DO(fill_columns());
     for (std::size_t h = 0; h < parts_.size(); ++h)
-        if (const auto done = put_fact(period_fact(h), std::to_string(parts_[h].period_ns)); !done) return done;
-    if (const auto noted = insert_clock(); !noted) return noted;
+        BURIN_TRY_DO(put_fact(period_fact(h), std::to_string(parts_[h].period_ns)));
+    BURIN_TRY_DO(insert_clock());
     return commit_with_link();
 }
 
@@ -94,19 +95,18 @@ Result<void> RecordStore::commit_with_link() {
     std::vector<std::int64_t> ended;
     for (const StoreNote& note : notes_)
         if (note.kind == StoreNote::Kind::trial_end && note.trial) ended.push_back(*note.trial);
-    if (const auto linked = chain_.add(*database_, new_facts_, ended); !linked) return linked;
-    if (const auto done = database_->run("COMMIT"); !done) return done;
+    BURIN_TRY_DO(chain_.add(*database_, new_facts_, ended));
+    BURIN_TRY_DO(database_->run("COMMIT"));
     chain_.added();
     new_facts_.clear();
     return {};
 }
 
 Result<void> RecordStore::put_fact(const std::string& key, const std::string& value) {
-    Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
-    if (!fact) return std::unexpected(fact.error());
-    fact->bind(1, std::string_view(key));
-    fact->bind(2, std::string_view(value));
-    if (const auto done = fact->run(); !done) return done;
+    BURIN_TRY(fact, database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)"));
+    fact.bind(1, std::string_view(key));
+    fact.bind(2, std::string_view(value));
+    BURIN_TRY_DO(fact.run());
     if (std::ranges::find(new_facts_, key) == new_facts_.end()) new_facts_.push_back(key);
     return {};
 }
@@ -119,7 +119,7 @@ Result<void> RecordStore::fill_columns() {
         const Part& part = parts_[h];
         hand->bind(1, static_cast<std::int64_t>(h));
         hand->bind(2, std::string_view(part.hand.name));
-        if (const auto done = hand->run(); !done) return done;
+        BURIN_TRY_DO(hand->run());
         for (std::size_t c = 0; c < part.columns.size(); ++c) {
             column->bind(1, static_cast<std::int64_t>(h));
             column->bind(2, static_cast<std::int64_t>(c));
@@ -127,7 +127,7 @@ Result<void> RecordStore::fill_columns() {
             column->bind(4, std::string_view(part.columns[c].unit));
             column->bind(5, std::string_view(part.columns[c].frame));
             column->bind(6, name_of(part.columns[c].type));
-            if (const auto done = column->run(); !done) return done;
+            BURIN_TRY_DO(column->run());
         }
     }
     return {};
@@ -214,7 +214,7 @@ void RecordStore::commit_what_is_due(bool last) {
 }
 
 Result<void> RecordStore::commit() {
-    if (const auto there = check_place(); !there) return there;
+    BURIN_TRY_DO(check_place());
     const Nanoseconds begun_ns = clock_.now_ns();
     Result<void> done = insert_all();
     transaction_duration_.add(clock_.now_ns() - begun_ns);
@@ -232,22 +232,20 @@ Result<void> RecordStore::commit() {
 }
 
 Result<void> RecordStore::insert_all() {
-    if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
-    Result<Statement> insert =
-        database_->prepare("INSERT INTO block(hand, tick0, rows, t0_ns, crc, data) VALUES(?, ?, ?, ?, ?, ?)");
-    if (!insert) return std::unexpected(insert.error());
+    BURIN_TRY_DO(database_->run("BEGIN IMMEDIATE"));
+    BURIN_TRY(insert,
+              database_->prepare("INSERT INTO block(hand, tick0, rows, t0_ns, crc, data) VALUES(?, ?, ?, ?, ?, ?)"));
     for (const PackedBlock& block : sealed_) {
-        insert->bind(1, std::int64_t{block.header.hand});
-        insert->bind(2, block.header.tick0);
-        insert->bind(3, std::int64_t{block.header.rows});
-        insert->bind(4, block.header.t0_ns);
-        insert->bind(5, std::int64_t{block.crc});
-        insert->bind(6, std::span<const std::byte>(block.data));
-        if (const auto done = insert->run(); !done) return done;
+        insert.bind(1, std::int64_t{block.header.hand});
+        insert.bind(2, block.header.tick0);
+        insert.bind(3, std::int64_t{block.header.rows});
+        insert.bind(4, block.header.t0_ns);
+        insert.bind(5, std::int64_t{block.crc});
+        insert.bind(6, std::span<const std::byte>(block.data));
+        BURIN_TRY_DO(insert.run());
     }
-    for (const StoreNote& note : notes_)
-        if (const auto done = insert_note(note); !done) return done;
-    if (const auto done = insert_clock(); !done) return done;
+    for (const StoreNote& note : notes_) BURIN_TRY_DO(insert_note(note));
+    BURIN_TRY_DO(insert_clock());
     return commit_with_link();
 }
 
@@ -258,21 +256,19 @@ Result<void> RecordStore::insert_note(const StoreNote& note) {
         : note.kind == Kind::event       ? "INSERT INTO event(time_ns, name, trial, value) VALUES(?1, ?2, ?3, ?4)"
         : note.kind == Kind::trial_begin ? "INSERT INTO trial(id, name, begun_ns, state) VALUES(?3, ?2, ?1, 'open')"
                                          : "UPDATE trial SET ended_ns = ?1, state = ?2 WHERE id = ?3";
-    Result<Statement> statement = database_->prepare(sql);
-    if (!statement) return std::unexpected(statement.error());
-    statement->bind(1, note.time_ns);
-    statement->bind(2, std::string_view(note.text));
-    if (note.kind != Kind::line && note.trial) statement->bind(3, *note.trial);
-    if (note.kind == Kind::event) statement->bind(4, std::string_view(note.value));
-    return statement->run();
+    BURIN_TRY(statement, database_->prepare(sql));
+    statement.bind(1, note.time_ns);
+    statement.bind(2, std::string_view(note.text));
+    if (note.kind != Kind::line && note.trial) statement.bind(3, *note.trial);
+    if (note.kind == Kind::event) statement.bind(4, std::string_view(note.value));
+    return statement.run();
 }
 
 Result<void> RecordStore::insert_clock() {
-    Result<Statement> statement = database_->prepare("INSERT INTO clock(mono_ns, utc_ns) VALUES(?, ?)");
-    if (!statement) return std::unexpected(statement.error());
-    statement->bind(1, std::int64_t{clock_.now_ns()});
-    statement->bind(2, utc_ns());
-    return statement->run();
+    BURIN_TRY(statement, database_->prepare("INSERT INTO clock(mono_ns, utc_ns) VALUES(?, ?)"));
+    statement.bind(1, std::int64_t{clock_.now_ns()});
+    statement.bind(2, utc_ns());
+    return statement.run();
 }
 
 // ---- What can go wrong, and the end
@@ -320,18 +316,16 @@ void RecordStore::give_up(Error why) {
 
 Result<void> RecordStore::write_facts_of_end(std::uint64_t notes_lost,
                                              const std::vector<std::pair<std::string, std::string>>& facts) {
-    if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
+    BURIN_TRY_DO(database_->run("BEGIN IMMEDIATE"));
     for (std::size_t h = 0; h < parts_.size(); ++h) {
         const std::string of_hand = ", hand " + std::to_string(h),
                           lost = std::to_string(parts_[h].lost + parts_[h].hand.ring->refused());
-        if (const auto done = put_fact("ticks lost" + of_hand, lost); !done) return done;
-        if (const auto done = put_fact("ticks never run" + of_hand, std::to_string(parts_[h].never_run)); !done)
-            return done;
+        BURIN_TRY_DO(put_fact("ticks lost" + of_hand, lost));
+        BURIN_TRY_DO(put_fact("ticks never run" + of_hand, std::to_string(parts_[h].never_run)));
     }
-    for (const auto& [key, value] : facts)
-        if (const auto done = put_fact(key, value); !done) return done;
-    if (const auto done = put_fact("notes lost", std::to_string(notes_lost)); !done) return done;
-    if (const auto done = put_fact("end", failure_ ? failure_->line() : "regular"); !done) return done;
+    for (const auto& [key, value] : facts) BURIN_TRY_DO(put_fact(key, value));
+    BURIN_TRY_DO(put_fact("notes lost", std::to_string(notes_lost)));
+    BURIN_TRY_DO(put_fact("end", failure_ ? failure_->line() : "regular"));
     return commit_with_link();
 }
 

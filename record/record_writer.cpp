@@ -3,6 +3,7 @@
 
 #include <ctime>
 
+#include "base/try.hpp"
 #include "record/record_store.hpp"
 
 namespace burin::record {
@@ -27,7 +28,7 @@ Result<std::unique_ptr<RecordWriter>> RecordWriter::create(const std::string& pa
     writer->hands_ = hands.size();
     writer->acknowledged_ = std::make_unique<std::atomic<std::uint64_t>[]>(hands.size());
     writer->store_ = std::make_unique<Store>(path, std::move(hands), std::move(options));
-    if (const auto made = writer->store_->make(); !made) return std::unexpected(made.error());
+    BURIN_TRY_DO(writer->store_->make());
     writer->thread_ = std::thread([w = writer.get()] { w->run(); });
     return writer;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/flush_folder.hpp"
+#include "base/try.hpp"
 
 namespace burin::record {
 namespace {
@@ -18,10 +19,9 @@ namespace fs = std::filesystem;
 
 Result<void> use_log(Database& database, const std::string& path, const StoreKind& kind) {
     // Exclusive before WAL: the connection keeps the lock and needs no memory shared with other programs.
-    if (const auto set = database.run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
-    const Result<std::string> mode = database.text("PRAGMA journal_mode = WAL");
-    if (!mode) return std::unexpected(mode.error());
-    if (*mode != "wal") return fail(path, "its file system takes no write-ahead log", kind.words.no_log);
+    BURIN_TRY_DO(database.run("PRAGMA locking_mode = EXCLUSIVE"));
+    BURIN_TRY(mode, database.text("PRAGMA journal_mode = WAL"));
+    if (mode != "wal") return fail(path, "its file system takes no write-ahead log", kind.words.no_log);
     return database.run("PRAGMA synchronous = FULL");
 }
 
@@ -67,9 +67,8 @@ Result<void> check_no_log_of(const std::string& path) {
 }
 
 Result<void> check_marks(Database& database, const std::string& path, const StoreKind& kind) {
-    const Result<std::int64_t> mark = database.integer("PRAGMA application_id");
-    if (!mark) return std::unexpected(mark.error());
-    if (*mark != kind.application_id) return fail(path, what_else(database, path, *mark), kind.words.wrong_file);
+    BURIN_TRY(mark, database.integer("PRAGMA application_id"));
+    if (mark != kind.application_id) return fail(path, what_else(database, path, mark), kind.words.wrong_file);
     const Result<std::int64_t> version = database.integer("PRAGMA user_version");
     if (!version) return std::unexpected(version.error());
     if (*version > kind.version)
@@ -104,15 +103,14 @@ Result<void> StoreFile::hold() {
 }
 
 Result<void> StoreFile::connect(const StoreKind& kind, const std::string& vfs) {
-    Result<Database> opened = Database::open(path_, Database::Use::write, vfs, kind.words);
-    if (!opened) return std::unexpected(opened.error());
-    database_.emplace(std::move(*opened));
+    BURIN_TRY(opened, Database::open(path_, Database::Use::write, vfs, kind.words));
+    database_.emplace(std::move(opened));
     return {};
 }
 
 Result<StoreFile> StoreFile::make(const std::string& path, const StoreKind& kind, const Fill& fill,
                                   const std::string& vfs) {
-    if (const auto ok = check_no_log_of(path); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_no_log_of(path));
     const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0) return cannot_make(path, errno, kind);
     ::close(fd);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/store_reading.hpp"
 
+#include "base/try.hpp"
+
 #include <sys/stat.h>
 
 #include <array>
@@ -33,20 +35,18 @@ bool lacks_its_log(const std::string& path) {
 Result<void> check_tables(Database& database, const std::string& path, std::initializer_list<const char*> tables,
                           const char* remedy) {
     for (const char* name : tables) {
-        const Result<bool> there = database.has_table(name);
-        if (!there) return std::unexpected(there.error());
-        if (!*there) return fail(path, "has no table " + std::string(name), remedy);
+        BURIN_TRY(there, database.has_table(name));
+        if (!there) return fail(path, "has no table " + std::string(name), remedy);
     }
     return {};
 }
 
 Result<std::map<std::string, std::string>> read_facts(Database& database) {
-    Result<Statement> read = database.prepare("SELECT key, value FROM meta WHERE length(key) + length(value) <= " +
-                                              std::to_string(kMostTextBytes) + " LIMIT " + std::to_string(kMostFacts));
-    if (!read) return std::unexpected(read.error());
+    BURIN_TRY(read, database.prepare("SELECT key, value FROM meta WHERE length(key) + length(value) <= " +
+                                     std::to_string(kMostTextBytes) + " LIMIT " + std::to_string(kMostFacts)));
     std::map<std::string, std::string> facts;
-    Result<bool> row = read->step();
-    for (; row && *row; row = read->step()) facts[read->text(0)] = read->text(1);
+    Result<bool> row = read.step();
+    for (; row && *row; row = read.step()) facts[read.text(0)] = read.text(1);
     if (!row) return std::unexpected(row.error());
     return facts;
 }

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "base/try.hpp"
 #include "picture/png.hpp"
 
 namespace burin::renderer {
@@ -92,8 +93,7 @@ Result<void> Film::add(const Image& picture) {
         ++waits_;
         return {};
     }
-    if (last_)
-        if (const auto done = append_frame(); !done) return done;
+    if (last_) BURIN_TRY_DO(append_frame());
     last_ = picture;
     // Where there is nothing new one pixel stands for the picture.
     waiting_ = changed.empty() ? PixelRect{0, 0, 1, 1} : changed;
@@ -102,8 +102,7 @@ Result<void> Film::add(const Image& picture) {
 }
 
 Result<void> Film::append_frame() {
-    const auto png = picture::encode_png(part_of(*last_, waiting_));
-    if (!png) return std::unexpected(png.error());
+    BURIN_TRY(png, picture::encode_png(part_of(*last_, waiting_)));
     std::vector<std::byte> control;
     append_number(control, numbered_++);
     for (const std::uint32_t n : {waiting_.width, waiting_.height, waiting_.x, waiting_.y}) append_number(control, n);
@@ -111,7 +110,7 @@ Result<void> Film::append_frame() {
     append_number(control, 1000, 2);
     append_number(control, 0, 2);  // left as it is, and drawn over
     append_chunk(frames_bytes_, "fcTL", control);
-    for_each_chunk(*png, [&](std::string_view name, std::span<const std::byte> content) {
+    for_each_chunk(png, [&](std::string_view name, std::span<const std::byte> content) {
         if (frames_ == 0 && (name == "IHDR" || name == "sRGB")) append_chunk(head_, name, content);
         if (name != "IDAT") return;
         if (frames_ == 0) return append_chunk(frames_bytes_, "IDAT", content);
@@ -126,7 +125,7 @@ Result<void> Film::append_frame() {
 
 Result<std::vector<std::byte>> Film::finish() {
     if (!last_) return fail("film", "has no pictures", "give a folder with pictures as PNG files");
-    if (const auto done = append_frame(); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(append_frame());
     constexpr std::array<unsigned char, kSignatureBytes> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     std::vector<std::byte> file;
     for (const unsigned char c : kSignature) file.push_back(static_cast<std::byte>(c));

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string>
 
+#include "base/try.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "scene/touch_publisher.hpp"
 
@@ -37,8 +38,7 @@ bool feels_alike(const SceneObject& a, const SceneObject& b) {
 Result<std::unique_ptr<MeshPart>> MeshPart::create(std::vector<SceneObject> objects, MaterialTable& materials) {
     std::unique_ptr<MeshPart> part(new MeshPart(materials));
     part->objects_.reserve(objects.size());
-    for (SceneObject& object : objects)
-        if (const auto added = part->add(std::move(object)); !added) return std::unexpected(added.error());
+    for (SceneObject& object : objects) BURIN_TRY_DO(part->add(std::move(object)));
     part->sort_by_motion();
     return part;
 }
@@ -58,7 +58,7 @@ Result<void> MeshPart::add(SceneObject object) {
     if (!object.mesh) return fail(object.name, "has no mesh", "give it one");
     const ObjectId id = object.id;
     Placed placed;
-    if (const auto replaced = replace(placed, std::move(object)); !replaced) return replaced;
+    BURIN_TRY_DO(replace(placed, std::move(object)));
     index_of_.emplace(id, static_cast<std::uint32_t>(objects_.size()));
     objects_.push_back(std::move(placed));
     return {};
@@ -70,9 +70,8 @@ Result<void> MeshPart::replace(Placed& placed, SceneObject object) {
     Snapshot snapshot;
     std::uint8_t material = placed.material;
     if (object.felt) {
-        Result<Snapshot> made = snapshot_of(object);
-        if (!made) return std::unexpected(made.error());
-        snapshot = std::move(*made);
+        BURIN_TRY(made, snapshot_of(object));
+        snapshot = std::move(made);
         const Result<std::uint8_t> index =
             placed.snapshot ? materials_.change(placed.material, object.material) : materials_.hold(object.material);
         if (!index) return fail(object.name, index.error().what, index.error().remedy);
@@ -112,9 +111,8 @@ Result<void> MeshPart::edit(ObjectId id, const ObjectEdit& edit) {
     const auto at = index_of_.find(id);
     if (at == index_of_.end()) return fail("object " + std::to_string(id), "there is none with this number");
     Placed& placed = objects_[at->second];
-    Result<SceneObject> changed = edited(placed.object, edit);
-    if (!changed) return std::unexpected(changed.error());
-    return replace(placed, std::move(*changed));
+    BURIN_TRY(changed, edited(placed.object, edit));
+    return replace(placed, std::move(changed));
 }
 
 Result<void> MeshPart::let_go(ObjectId id) {

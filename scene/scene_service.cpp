@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/try.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 
@@ -71,7 +72,7 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
     for (ScenePart* part : parts_) part->take_contacts(contacts_);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const PartSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
-        if (const auto updated = parts_[i]->update(now_ns, part_seen); !updated) return updated;
+        BURIN_TRY_DO(parts_[i]->update(now_ns, part_seen));
         seen_.parts[i] = parts_[i]->seen();
     }
     for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
@@ -79,7 +80,7 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
         // In something soft the hand is farther from its tool than it moves until the next update.
         const double beyond_m = std::max(sunk_m_[hand] - 0.5 * reach_m, 0.0);
         const ProbeBall ball{hand, places_[hand], hands_[hand].around_m + reach_m + beyond_m};
-        if (const auto published = publisher_.publish(ball, parts_, now_ns); !published) return published;
+        BURIN_TRY_DO(publisher_.publish(ball, parts_, now_ns));
     }
     for (ScenePart* part : parts_) part->after_publication();
     return {};

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/try.hpp"
 #include "geometry/contact/posed_surface.hpp"
 #include "haptics/forces/touch_force.hpp"
 
@@ -65,10 +66,8 @@ Result<void> TouchPublisher::publish(const ProbeBall& ball, std::span<ScenePart*
     clear(draft);
     draft.center_object = draft.origin_object = ball.center_scene;
     draft.radius_m = ball.radius_m;
-    for (ScenePart* part : parts)
-        if (const auto added = part->add_near(ball, draft); !added) return added;
-    for (const geometry::TouchedMesh& mesh : draft.meshes)
-        if (const auto known = check_material(mesh); !known) return known;
+    for (ScenePart* part : parts) BURIN_TRY_DO(part->add_near(ball, draft));
+    for (const geometry::TouchedMesh& mesh : draft.meshes) BURIN_TRY_DO(check_material(mesh));
     draft.center_object = ball.center_scene;
     arrange(draft);
     draft.sequence = ++hand.sequence;

@@ -8,6 +8,7 @@
 
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 #include "scene/mesh_world.hpp"
@@ -149,9 +150,8 @@ Result<double> metres_in_vrml(const std::filesystem::path& path, const WorldRead
     if (!reading.unit.empty()) return parse_world_unit(reading.unit, "--units");
     if (!has_settings(path)) return 1.0;
     const std::filesystem::path settings = settings_of(path);
-    const Result<std::string> text = read_text_file(settings, kMaxWorldBytes);
-    if (!text) return std::unexpected(text.error());
-    return unit_in_settings(*text, settings.string());
+    BURIN_TRY(text, read_text_file(settings, kMaxWorldBytes));
+    return unit_in_settings(text, settings.string());
 }
 
 void scale_vrml(geometry::VrmlWorld& world, double factor) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "scene/object_keys.hpp"
 #include "scene/value_text.hpp"
@@ -49,9 +50,8 @@ bool has_settings(const std::filesystem::path& world) {
 }
 
 Result<double> unit_in_settings(std::string_view text, const std::string& name) {
-    const Result<toml::table> root = parse_toml(text, name);
-    if (!root) return std::unexpected(root.error());
-    const auto unit = (*root)["world"]["unit"].value<std::string>();
+    BURIN_TRY(root, parse_toml(text, name));
+    const auto unit = root["world"]["unit"].value<std::string>();
     return unit ? parse_world_unit(*unit, name + ": [world] unit") : 1.0;
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/try.hpp"
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "sculpt/tool_mesh.hpp"
@@ -80,8 +81,7 @@ void CarvedPart::take_ticks(std::size_t part, std::span<const haptics::TickRecor
 Result<void> CarvedPart::update(Nanoseconds now_ns, const scene::PartSeen* recorded) {
     seen_ = recorded != nullptr ? *recorded : scene::PartSeen{export_is_done()};
     if (seen_.background_ended) finish();
-    for (Carver& carver : carvers_)
-        if (const auto carved = carve(carver); !carved) return carved;
+    for (Carver& carver : carvers_) BURIN_TRY_DO(carve(carver));
     carry_out_waiting(now_ns);
     if (!pressed() || now_ns - journal_told_ns_ >= kJournal_ns) {
         tell_journal();
@@ -116,7 +116,7 @@ Result<void> CarvedPart::carve(Carver& carver) {
         drop_invalid(carver, swept.sweeps);
         note_border(carver, swept.sweeps);
         if (!swept.sweeps.empty()) {
-            if (const auto updated = sculpture_.update(swept.sweeps); !updated) return updated;
+            BURIN_TRY_DO(sculpture_.update(swept.sweeps));
         }
         if (swept.stroke_ended) {
             sculpture_.end_stroke();

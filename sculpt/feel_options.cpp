@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sculpt/feel_options.hpp"
 
+#include "base/try.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -94,17 +96,17 @@ Result<FeelSettings> parse_feel_settings(const FeelOptions& options) {
     settings->grain_mm = options.grain_mm;
     settings->stiffness_N_per_m = options.stiffness_N_per_m;
     settings->friction = options.friction;
-    if (const auto good = check_feel(*settings); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_feel(*settings));
     return settings;
 }
 
 Result<void> check_feel(const FeelSettings& settings) {
     const haptics::TouchMaterial material = touch_material(settings);
-    if (const auto good = check("--yield", 1e-3 * material.cutting_yield_Pa, 1e6); !good) return good;
-    if (const auto good = check("--grain", 1e3 * material.grain_spacing_m, 1e3); !good) return good;
+    BURIN_TRY_DO(check("--yield", 1e-3 * material.cutting_yield_Pa, 1e6));
+    BURIN_TRY_DO(check("--grain", 1e3 * material.grain_spacing_m, 1e3));
     if (material.grain_spacing_m > 0.0 && 1e3 * material.grain_spacing_m < kFinestGrain_mm)
         return fail("--grain", "is out of range", "give 0 for none, or a spacing from 0.01 mm on");
-    if (const auto good = check("--stiffness", material.stiffness_N_per_m, 1e5); !good) return good;
+    BURIN_TRY_DO(check("--stiffness", material.stiffness_N_per_m, 1e5));
     return check("--friction", material.dynamic_friction, 2.0);
 }
 
@@ -140,17 +142,16 @@ haptics::TouchMaterial touch_material(const FeelSettings& settings) {
 }
 
 Result<Feel> parse_feel(const FeelOptions& options) {
-    const Result<FeelSettings> settings = parse_feel_settings(options);
-    if (!settings) return std::unexpected(settings.error());
+    BURIN_TRY(settings, parse_feel_settings(options));
     Feel feel;
-    feel.material = touch_material(*settings);
-    feel.name = settings->hardness_kPa_per_mm_s ? "given" : numbers_of(settings->preset).name;
+    feel.material = touch_material(settings);
+    feel.name = settings.hardness_kPa_per_mm_s ? "given" : numbers_of(settings.preset).name;
     feel.press_N = options.press_N;
     feel.grip.stiffness_N_per_m = options.grip_N_per_m;
     // Keeps the damping ratio of the default grip: damping goes with the root of the stiffness.
     const devices::HandGrip usual;
     feel.grip.damping_Ns_per_m = usual.damping_Ns_per_m * std::sqrt(options.grip_N_per_m / usual.stiffness_N_per_m);
-    if (const auto good = check("--press", feel.press_N, 10.0); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check("--press", feel.press_N, 10.0));
     if (!(options.grip_N_per_m >= 10.0 && options.grip_N_per_m <= 5000.0))
         return fail("--grip", "is out of range",
                     "give a number from 10 to 5000 N/m; a loose hand has 100, a firm one 1000");

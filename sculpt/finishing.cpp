@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
 #include "geometry/files/mesh_export.hpp"
@@ -116,10 +117,9 @@ Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute:
     if (!finished.too_thin.empty()) std::printf("  %s\n", finished.too_thin.c_str());
     finished.crumbs = drop_crumbs(finished.mesh, unit, crumbs_m);
     if (simplify_bound_m) {
-        Result<SimplifiedMesh> simplified = simplify_with_progress(finished.mesh, unit, *simplify_bound_m, pool);
-        if (!simplified) return std::unexpected(simplified.error());
-        finished.mesh = std::move(simplified->mesh);
-        finished.simplification = std::move(simplified->figures);
+        BURIN_TRY(simplified, simplify_with_progress(finished.mesh, unit, *simplify_bound_m, pool));
+        finished.mesh = std::move(simplified.mesh);
+        finished.simplification = std::move(simplified.figures);
         finished.self_intersections["left"] = finished.simplification["self_intersections"];
     }
     return finished;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sculpt/made_workpiece.hpp"
 
+#include "base/try.hpp"
+
 #include <utility>
 
 namespace burin::sculpt {
@@ -8,9 +10,8 @@ namespace burin::sculpt {
 Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoice engine, unsigned threads,
                                      const LoadWatch& watch) {
     auto pool = std::make_unique<WorkerPool>(threads);
-    Result<LoadedWorkpiece> loaded = load_workpiece(options, *pool, watch);
-    if (!loaded) return std::unexpected(loaded.error());
-    return ready_to_carve(std::move(*loaded), engine, std::move(pool), watch, meshing_from(options));
+    BURIN_TRY(loaded, load_workpiece(options, *pool, watch));
+    return ready_to_carve(std::move(loaded), engine, std::move(pool), watch, meshing_from(options));
 }
 
 Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, EngineChoice engine, std::unique_ptr<WorkerPool> pool,

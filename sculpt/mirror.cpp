@@ -4,6 +4,7 @@
 #include <cctype>
 #include <utility>
 
+#include "base/try.hpp"
 #include "compute/tools/mesh_tool.hpp"
 
 namespace burin::sculpt {
@@ -90,10 +91,9 @@ Result<compute::ToolShape> StrokeMirror::reflected(const compute::ToolShape& sha
     const auto* tool = std::get_if<compute::MeshTool>(&shape);
     if (tool == nullptr) return shape;
     if (mesh_ != tool->mesh) {
-        auto image = compute::prepare_mesh_tool(reflected_mesh(*tool->mesh));
-        if (!image) return std::unexpected(image.error());
+        BURIN_TRY(image, compute::prepare_mesh_tool(reflected_mesh(*tool->mesh)));
         mesh_ = tool->mesh;
-        image_ = std::move(*image);
+        image_ = std::move(image);
     }
     return image_;
 }
@@ -108,9 +108,8 @@ Result<std::vector<compute::ToolSweep>> StrokeMirror::with_images(std::span<cons
         for (const MirrorImage& image : images) {
             compute::ToolSweep other = sweep;
             if (turns && image.reverses()) {
-                auto shape = reflected(sweep.shape);
-                if (!shape) return std::unexpected(shape.error());
-                other.shape = std::move(*shape);
+                BURIN_TRY(shape, reflected(sweep.shape));
+                other.shape = std::move(shape);
             }
             for (Pose* pose : {&other.start, &other.end}) {
                 const Pose moved = image_of(*pose, image, middle_object_);

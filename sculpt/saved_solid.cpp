@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/length_unit.hpp"
+#include "base/try.hpp"
 #include "compute/rays/memory_need.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "sculpt/saved_head.hpp"
@@ -83,8 +84,7 @@ Result<compute::Solid> empty_solid(const scene::Pages& pages, const std::string&
     std::optional<SavedHead> head = bytes != nullptr ? head_in(*bytes) : std::nullopt;
     if (!head || head->page_side != kPageSide) return damaged();
     const compute::Lattice& lattice = head->lattice;
-    if (const auto fits = compute::check_memory(lattice, compute::memory_available()); !fits)
-        return std::unexpected(fits.error());
+    BURIN_TRY_DO(compute::check_memory(lattice, compute::memory_available()));
     compute::Solid solid{lattice, {}, std::move(head->materials)};
     for (int axis = 0; axis < 3; ++axis)
         solid.sets[static_cast<std::size_t>(axis)] = DexelSet(lattice.rays_u(axis), lattice.rays_v(axis));
@@ -292,27 +292,26 @@ void save_solid(const compute::Solid& solid, const ChangedPages& changed, scene:
 }
 
 Result<LoadedSolid> load_solid(const scene::Pages& pages, const std::string& where) {
-    Result<compute::Solid> solid = empty_solid(pages, where);
-    if (!solid) return std::unexpected(solid.error());
+    BURIN_TRY(solid, empty_solid(pages, where));
     LostPages lost;
     std::size_t missing = 0, all = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        const int most_depth = solid->lattice.cells[a] * shared::kUnitsPerCell;
+        const int most_depth = solid.lattice.cells[a] * shared::kUnitsPerCell;
         std::vector<std::optional<ReadPage>> read;
-        for (std::size_t page = 0; page < pages_of(solid->lattice, axis); ++page, ++all) {
+        for (std::size_t page = 0; page < pages_of(solid.lattice, axis); ++page, ++all) {
             const auto* bytes = pages.find({kRaysAlong[a], static_cast<std::int64_t>(page)});
-            const std::size_t rays = rays_of(solid->lattice, axis, page).count();
-            read.push_back(bytes ? page_in(*bytes, rays, most_depth, solid->materials.size()) : std::nullopt);
+            const std::size_t rays = rays_of(solid.lattice, axis, page).count();
+            read.push_back(bytes ? page_in(*bytes, rays, most_depth, solid.materials.size()) : std::nullopt);
             lost[a].push_back(!read.back());
             missing += lost[a].back() ? 1 : 0;
         }
-        put_pages(read, solid->lattice, axis, solid->sets[a]);
+        put_pages(read, solid.lattice, axis, solid.sets[a]);
     }
-    if (missing == 0) return LoadedSolid{std::move(*solid)};
+    if (missing == 0) return LoadedSolid{std::move(solid)};
     if (missing == all) return fail(where, "none of its pages can be read", "open an earlier copy of the file");
-    std::string told = make_again(*solid, lost);
-    return LoadedSolid{std::move(*solid), std::move(told)};
+    std::string told = make_again(solid, lost);
+    return LoadedSolid{std::move(solid), std::move(told)};
 }
 
 }  // namespace burin::sculpt

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "base/try.hpp"
 #include "compute/tools/tool_spans.hpp"
 #include "compute/vulkan/standby_engine.hpp"
 
@@ -59,8 +60,7 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
     }
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
-    const Result<compute::CarveStats> cut = compute::apply(*engine_, sweeps, pool_);
-    if (!cut) return std::unexpected(cut.error());
+    BURIN_TRY(cut, compute::apply(*engine_, sweeps, pool_));
     const Nanoseconds cut_ns = clock.now_ns();
     const compute::Changes changes = engine_->take_changes();
     const compute::RemeshStats remeshed = surface_.update(engine_->solid(), changes, pool_);
@@ -71,8 +71,8 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
     note_changed_tiles();
     ++figures_.updates;
     figures_.sweeps += sweeps.size();
-    figures_.rays_touched += cut->rays_touched;
-    figures_.rays_changed += cut->rays_changed;
+    figures_.rays_touched += cut.rays_touched;
+    figures_.rays_changed += cut.rays_changed;
     figures_.tiles_remeshed += remeshed.tiles;
     figures_.cells_remeshed += remeshed.cells;
     figures_.triangles_remeshed += remeshed.triangles;
@@ -96,7 +96,7 @@ void Sculpture::mesh_on_device() {
 
 Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> sweeps) {
     for (const compute::ToolSweep& sweep : sweeps) {
-        if (const auto good = compute::check_sweep(engine_->solid(), sweep); !good) return good;
+        BURIN_TRY_DO(compute::check_sweep(engine_->solid(), sweep));
     }
     if (only_on_device_.size() == kMostOnDevice) read_back();
     if (!on_device_) return carve(sweeps);  // it was lost just now
@@ -118,7 +118,7 @@ Result<void> Sculpture::begin_on_device(std::span<const compute::ToolSweep> swee
         balls.push_back({sweep.start.position_m, sweep.end.position_m,
                          std::get<compute::BallTool>(sweep.shape).radius_m, sweep.material, sweep.operation});
     }
-    if (const auto done = finish_on_device(); !done) return done;
+    BURIN_TRY_DO(finish_on_device());
     std::optional<compute::DeviceSurface::Ball> touched;
     if (asked_radius_m_ > 0.0 && !balls.empty()) touched = {balls.back().end_object_m, asked_radius_m_};
     counts_before_ = on_device_->counts();
@@ -127,7 +127,7 @@ Result<void> Sculpture::begin_on_device(std::span<const compute::ToolSweep> swee
 }
 
 Result<void> Sculpture::finish_on_device() {
-    if (const auto done = on_device_->finish(); !done) return done;
+    BURIN_TRY_DO(on_device_->finish());
     if (!under_way_) return {};
     under_way_ = false;
     figures_.rays_touched += on_device_->carved().rays_touched;
@@ -150,8 +150,8 @@ void Sculpture::read_back() {
 }
 
 Result<void> Sculpture::fetch_from_device() {
-    if (const auto done = finish_on_device(); !done) return done;
-    if (const auto read = static_cast<compute::StandbyEngine&>(*engine_).on_device()->read_back(); !read) return read;
+    BURIN_TRY_DO(finish_on_device());
+    BURIN_TRY_DO(static_cast<compute::StandbyEngine&>(*engine_).on_device()->read_back());
     follow_engine();
     return {};
 }
@@ -210,10 +210,8 @@ Result<std::size_t> Sculpture::walk_history(std::size_t strokes, compute::Histor
     end_stroke();
     std::size_t walked = 0;
     while (history_ && walked < strokes) {
-        const Result<bool> stepped =
-            step == compute::HistoryStep::undo ? history_->undo(*engine_) : history_->redo(*engine_);
-        if (!stepped) return std::unexpected(stepped.error());
-        if (!*stepped) break;
+        BURIN_TRY(stepped, step == compute::HistoryStep::undo ? history_->undo(*engine_) : history_->redo(*engine_));
+        if (!stepped) break;
         follow_engine();
         note_step(step);
         ++walked;
@@ -263,7 +261,7 @@ Result<void> Sculpture::save(scene::Pages& pages) {
 Result<void> Sculpture::keep_light(const compute::Lamp& lamp_object) {
     if (light_) return light_->set_lamp(lamp_object);
     compute::SurfaceLight light(surface_.lattice(), compute::Lamp{});
-    if (const auto set = light.set_lamp(lamp_object); !set) return set;
+    BURIN_TRY_DO(light.set_lamp(lamp_object));
     light_.emplace(std::move(light));
     light_->follow(engine_->solid(), surface_, pool_);
     return {};

@@ -8,6 +8,7 @@
 
 #include "base/csv.hpp"
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "sculpt/progress.hpp"
 
 namespace burin::sculpt {
@@ -80,10 +81,9 @@ Result<StrokeRow> make_row(const std::array<double, kColumns>& n, bool as_axis, 
     }
     if (!before.empty() && n[0] - before.front().time_s > kLongest_s)
         return fail(where, "its time is more than a day after that of the first row", "write time_s in seconds");
-    const Result<Quat> turn = turn_in(n, as_axis, where);
-    if (!turn) return std::unexpected(turn.error());
+    BURIN_TRY(turn, turn_in(n, as_axis, where));
     if (n[8] != 0.0 && n[8] != 1.0) return fail(where, "its button is neither 0 nor 1", "write 0 or 1");
-    return StrokeRow{n[0], {n[1], n[2], n[3]}, *turn, n[8] == 1.0};
+    return StrokeRow{n[0], {n[1], n[2], n[3]}, turn, n[8] == 1.0};
 }
 
 }  // namespace
@@ -116,9 +116,8 @@ Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
                         std::string("does not hold nine numbers, each with a decimal point and between them ") +
                             name_of_separator(*separator),
                         "write " + std::string(as_axis ? kAxisHeader : kHeader));
-        Result<StrokeRow> row = make_row(*values, as_axis, where, stroke);
-        if (!row) return std::unexpected(row.error());
-        stroke.push_back(*row);
+        BURIN_TRY(row, make_row(*values, as_axis, where, stroke));
+        stroke.push_back(row);
     }
     if (stroke.empty())
         return fail(name, "holds no stroke", "give it the header " + std::string(kHeader) + " and rows");
@@ -126,9 +125,8 @@ Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
 }
 
 Result<Stroke> read_stroke(const std::filesystem::path& path) {
-    const auto text = read_text_file(path);
-    if (!text) return std::unexpected(text.error());
-    return parse_stroke(*text, path.string());
+    BURIN_TRY(text, read_text_file(path));
+    return parse_stroke(text, path.string());
 }
 
 Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Tool& tool, bool merge_rows) {
@@ -144,7 +142,7 @@ Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Too
         // Without merging, the first row is an update of its own, as if the tool had been set down before it moved.
         if (!merge_rows && run.size() > 1) sweeps.insert(sweeps.begin(), tool.sweep(run.front(), run.front()));
         for (std::size_t done = 0; done < sweeps.size(); ++done) {
-            if (const auto updated = sculpture.update({&sweeps[done], 1}); !updated) return updated;
+            BURIN_TRY_DO(sculpture.update({&sweeps[done], 1}));
             const double of_run = static_cast<double>(done * run.size()) / static_cast<double>(sweeps.size());
             progress.show((static_cast<double>(i) + of_run) / static_cast<double>(stroke.size()));
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/try.hpp"
 #include "compute/tools/mesh_tool.hpp"
 #include "sculpt/workpiece.hpp"
 
@@ -16,10 +17,9 @@ constexpr std::string_view kAboveZero = "give sizes above zero, in metres";
 constexpr std::string_view kConeSizes = "give a length above zero, and one radius above zero";
 
 Made read_mesh_tool(const ToolSpec& spec) {
-    Result<ClosedMesh> closed = load_closed_mesh({.source = spec.file, .units = spec.units});
-    if (!closed) return std::unexpected(closed.error());
+    BURIN_TRY(closed, load_closed_mesh({.source = spec.file, .units = spec.units}));
     Result<compute::MeshTool> tool =
-        compute::prepare_mesh_tool(std::make_shared<const geometry::TriangleMesh>(std::move(closed->mesh)));
+        compute::prepare_mesh_tool(std::make_shared<const geometry::TriangleMesh>(std::move(closed.mesh)));
     if (!tool) {
         tool.error().where = spec.file;
         return std::unexpected(tool.error());
@@ -146,10 +146,9 @@ Result<ToolSpec> parse_tool_spec(std::string_view text, const std::string& where
         tool.file = rest;
         return tool;
     }
-    const auto sizes = parse_numbers(rest, count, where);
-    if (!sizes) return std::unexpected(sizes.error());
-    std::ranges::copy(*sizes, tool.sizes_m.begin());
-    if (const auto good = check_sizes(tool, where); !good) return std::unexpected(good.error());
+    BURIN_TRY(sizes, parse_numbers(rest, count, where));
+    std::ranges::copy(sizes, tool.sizes_m.begin());
+    BURIN_TRY_DO(check_sizes(tool, where));
     return tool;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "compute/tools/turning_sweep.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
@@ -86,19 +87,17 @@ ToolOptions with_tool(ToolOptions options, double longest_side_m) {
 Result<ToolSettings> parse_tool_settings(const ToolOptions& options) {
     ToolSettings settings;
     if (!options.shape.empty()) {
-        auto shape = parse_tool_spec(options.shape, "--tool " + options.shape);
-        if (!shape) return std::unexpected(shape.error());
-        settings.shape = std::move(*shape);
+        BURIN_TRY(shape, parse_tool_spec(options.shape, "--tool " + options.shape));
+        settings.shape = std::move(shape);
         settings.shape.units = options.units;
     }
     settings.operation = options.operation;
     settings.sweep_tolerance_cells = options.sweep_tolerance_cells;
     settings.smooth_strength = options.smooth_strength;
-    if (const auto good = check_tool(settings); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_tool(settings));
     if (options.material.empty()) return settings;
-    const auto colour = parse_colour(options.material);
-    if (!colour) return std::unexpected(colour.error());
-    settings.colour = *colour;
+    BURIN_TRY(colour, parse_colour(options.material));
+    settings.colour = colour;
     return settings;
 }
 
@@ -108,9 +107,8 @@ Result<void> check_tool(const ToolSettings& settings) {
 }
 
 Result<Tool> make_tool(const ToolSettings& settings) {
-    Result<compute::ToolShape> shape = make_shape(settings.shape);
-    if (!shape) return std::unexpected(shape.error());
-    return make_tool(settings, std::move(*shape));
+    BURIN_TRY(shape, make_shape(settings.shape));
+    return make_tool(settings, std::move(shape));
 }
 
 Tool make_tool(const ToolSettings& settings, compute::ToolShape shape) {
@@ -118,9 +116,8 @@ Tool make_tool(const ToolSettings& settings, compute::ToolShape shape) {
 }
 
 Result<Tool> parse_tool(const ToolOptions& options) {
-    const auto settings = parse_tool_settings(options);
-    if (!settings) return std::unexpected(settings.error());
-    return make_tool(*settings);
+    BURIN_TRY(settings, parse_tool_settings(options));
+    return make_tool(settings);
 }
 
 geometry::Material material_of(const ToolSettings& settings) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "compute/rays/room.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/vulkan/standby_engine.hpp"
@@ -176,25 +177,24 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
 }
 
 Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool, const LoadWatch& watch) {
-    Result<ClosedMesh> closed = load_closed_mesh(options, watch);
-    if (!closed) return std::unexpected(closed.error());
+    BURIN_TRY(closed, load_closed_mesh(options, watch));
     LoadedWorkpiece workpiece{
-        {}, std::move(closed->report), std::move(closed->size), closed->unit, closed->size_m, closed->closed};
+        {}, std::move(closed.report), std::move(closed.size), closed.unit, closed.size_m, closed.closed};
     const LoadShares shares = shares_of(options);
     begin_step(watch.work, "building the solid", shares.checked, shares.solid);
-    Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
+    Result<compute::ScanConversion> converted = compute::scan_convert(closed.mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
         if (error.where == "mesh") error.where = options.source;
-        if (!closed->joined.empty()) error.what += "; " + closed->joined + ", as --weld LENGTH decides";
+        if (!closed.joined.empty()) error.what += "; " + closed.joined + ", as --weld LENGTH decides";
         return std::unexpected(error);
     }
-    workpiece.report["triangles_converted"] = closed->mesh.triangles.size();
+    workpiece.report["triangles_converted"] = closed.mesh.triangles.size();
     workpiece.report["ray_crossings"] = converted->crossings;
     workpiece.report["unmatched_rays"] = converted->unmatched_rays;
     workpiece.report["inside_by_parity"] = converted->by_parity;
     workpiece.solid = std::move(converted->solid);
-    note_unmet_parts(closed->mesh, workpiece.solid, workpiece.size, workpiece.report);
+    note_unmet_parts(closed.mesh, workpiece.solid, workpiece.size, workpiece.report);
     return workpiece;
 }
 
@@ -202,18 +202,13 @@ Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     const std::size_t colon = options.source.find(':');
     const std::string shape = options.source.substr(0, colon);
     const std::string_view sizes = std::string_view(options.source).substr(colon + 1);
-    const auto numbers = parse_numbers(sizes, shape == "block" ? 3 : 1, "--workpiece " + options.source);
-    if (!numbers) return std::unexpected(numbers.error());
-    Result<compute::Solid> solid =
-        shape == "block"
-            ? compute::make_block({(*numbers)[0], (*numbers)[1], (*numbers)[2]}, options.resolution, kPlainMaterial)
-            : compute::make_ball((*numbers)[0], options.resolution, kPlainMaterial);
-    if (!solid) return std::unexpected(solid.error());
-    const Vec3 size_m =
-        shape == "block" ? Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]) : Vec3(2.0 * (*numbers)[0]);
+    BURIN_TRY(numbers, parse_numbers(sizes, shape == "block" ? 3 : 1, "--workpiece " + options.source));
+    BURIN_TRY(solid, shape == "block"
+                         ? compute::make_block({numbers[0], numbers[1], numbers[2]}, options.resolution, kPlainMaterial)
+                         : compute::make_ball(numbers[0], options.resolution, kPlainMaterial));
+    const Vec3 size_m = shape == "block" ? Vec3(numbers[0], numbers[1], numbers[2]) : Vec3(2.0 * numbers[0]);
     const std::string size = options.source + ": " + in_millimetres(size_m);
-    return LoadedWorkpiece{
-        std::move(*solid), {{"source", options.source}, {"size", size}}, size, LengthUnit::m, size_m};
+    return LoadedWorkpiece{std::move(solid), {{"source", options.source}, {"size", size}}, size, LengthUnit::m, size_m};
 }
 
 std::string threads_of(const WorkerPool& pool) { return std::to_string(pool.threads()) + " threads"; }
@@ -276,20 +271,15 @@ Result<void> check_weld(std::optional<double> weld_m, double longest_side_m) {
 Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options, const LoadWatch& watch) {
     const std::string& file = options.source;
     begin_step(watch.work, "reading the file", 0.0, shares_of(options).read);
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(file, options.units);
-    if (!imported) return std::unexpected(imported.error());
-    const Vec3& size_m = imported->report.size_m;
-    if (const auto ok = check_weld(options.weld_m, std::max({size_m.x, size_m.y, size_m.z})); !ok)
-        return std::unexpected(ok.error());
-    geometry::ImportReport& import = imported->report;
+    BURIN_TRY(imported, geometry::import_mesh(file, options.units));
+    const Vec3& size_m = imported.report.size_m;
+    BURIN_TRY_DO(check_weld(options.weld_m, std::max({size_m.x, size_m.y, size_m.z})));
+    geometry::ImportReport& import = imported.report;
     if (!import.pictures.empty()) import.remarks.push_back(geometry::flattened_in_words(import.pictures));
-    if (watch.look) watch.look(imported->mesh);
+    if (watch.look) watch.look(imported.mesh);
     if (!go_on(watch.work, 1.0)) return no_longer_wanted();
-    ClosedMesh closed{std::move(imported->mesh),
-                      {},
-                      describe_size(file, import.size_m, import.unit),
-                      import.unit.unit,
-                      import.size_m};
+    ClosedMesh closed{
+        std::move(imported.mesh), {}, describe_size(file, import.size_m, import.unit), import.unit.unit, import.size_m};
     closed.report["source"] = file;
     closed.report["import"] = describe(import);
     if (const auto ready = make_ready(closed, options, import.weld_tolerance_m, watch.work); !ready) {
@@ -319,10 +309,8 @@ Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPo
     const double room_m = options.room.value_or(0.0) * longest_side_m(workpiece->bounds_object);
     const double cells = std::ceil(room_m / workpiece->solid.lattice.spacing_m);
     const int most = compute::most_room_cells(workpiece->solid.lattice);
-    Result<compute::Solid> roomy =
-        compute::with_room(std::move(workpiece->solid), std::min(most, static_cast<int>(cells)));
-    if (!roomy) return std::unexpected(roomy.error());
-    workpiece->solid = std::move(*roomy);
+    BURIN_TRY(roomy, compute::with_room(std::move(workpiece->solid), std::min(most, static_cast<int>(cells))));
+    workpiece->solid = std::move(roomy);
     return workpiece;
 }
 

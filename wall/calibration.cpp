@@ -8,6 +8,7 @@
 
 #include "base/space.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "wall/rectangle_fit.hpp"
 
 namespace burin::wall {
@@ -203,35 +204,32 @@ std::optional<ScreenPlace> screen_place(const std::string& name) {
 }
 
 Result<ScreenFit> fit_screen(std::span<const CalibrationSample> samples, const std::optional<ScreenSize>& known_size) {
-    const auto points = points_of(samples);
-    if (!points) return std::unexpected(points.error());
-    auto start = rough_rectangle(medians(samples, *points));
+    BURIN_TRY(points, points_of(samples));
+    auto start = rough_rectangle(medians(samples, points));
     if (!start) return std::unexpected(underdetermined());
     if (known_size) start->width_m = known_size->width_m, start->height_m = known_size->height_m;
     std::vector<bool> used;
-    const auto rectangle = fit_without_outliers(*points, *start, known_size, used);
-    if (!rectangle) return std::unexpected(rectangle.error());
-    if (const auto ok = check_places(samples, used); !ok) return std::unexpected(ok.error());
-    auto fit = described(*rectangle);
-    if (fit) add_residuals(*fit, samples, *points, *rectangle, used);
+    BURIN_TRY(rectangle, fit_without_outliers(points, *start, known_size, used));
+    BURIN_TRY_DO(check_places(samples, used));
+    auto fit = described(rectangle);
+    if (fit) add_residuals(*fit, samples, points, rectangle, used);
     return fit;
 }
 
 Result<SampleDistances> distances_from(const WallScreen& screen, std::span<const CalibrationSample> samples) {
-    const auto points = points_of(samples);
-    if (!points) return std::unexpected(points.error());
+    BURIN_TRY(points, points_of(samples));
     const Vec3 right = screen.lower_right_tracker - screen.lower_left_tracker;
     const Vec3 up = screen.upper_left_tracker - screen.lower_left_tracker;
     const FitRectangle rectangle{0.5 * (screen.lower_right_tracker + screen.upper_left_tracker), glm::normalize(right),
                                  glm::normalize(up), glm::length(right), glm::length(up)};
     SampleDistances distances;
     double sum_mm2 = 0.0;
-    for (const FitPoint& p : *points) {
+    for (const FitPoint& p : points) {
         const double mm = 1e3 * residual(rectangle, p).length_m();
         sum_mm2 += mm * mm;
         distances.max_mm = std::max(distances.max_mm, mm);
     }
-    if (!points->empty()) distances.rms_mm = std::sqrt(sum_mm2 / static_cast<double>(points->size()));
+    if (!points.empty()) distances.rms_mm = std::sqrt(sum_mm2 / static_cast<double>(points.size()));
     return distances;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/file_io.hpp"
 #include "base/toml_table.hpp"
+#include "base/try.hpp"
 
 namespace burin::wall {
 namespace {
@@ -184,18 +185,16 @@ WallSetup read_setup(TableReading& reading, const toml::table& root) {
 }  // namespace
 
 Result<WallSetup> parse_wall(std::string_view text, const std::string& name) {
-    const Result<toml::table> root = parse_toml(text, name);
-    if (!root) return std::unexpected(root.error());
+    BURIN_TRY(root, parse_toml(text, name));
     TableReading reading{name};
-    WallSetup setup = read_setup(reading, *root);
+    WallSetup setup = read_setup(reading, root);
     if (!reading.errors.empty()) return std::unexpected(reading.errors.front());
     return setup;
 }
 
 Result<WallSetup> read_wall(const std::filesystem::path& path) {
-    const auto text = read_text_file(path, kMostBytes);
-    if (!text) return std::unexpected(text.error());
-    return parse_wall(*text, path.string());
+    BURIN_TRY(text, read_text_file(path, kMostBytes));
+    return parse_wall(text, path.string());
 }
 
 }  // namespace burin::wall

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/try.hpp"
 #include "window/key_names.hpp"
 #include "window/lost_display.hpp"
 #include "window/window_system.hpp"
@@ -160,8 +161,7 @@ Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
 Result<Window> Window::create(const WindowOptions& options) {
-    const auto system = WindowSystem::use();
-    if (!system) return std::unexpected(system.error());
+    BURIN_TRY(system, WindowSystem::use());
     if (options.width < 1 || options.height < 1 || options.width > 32768 || options.height > 32768) {
         return fail("window",
                     "its size is impossible: " + std::to_string(options.width) + " x " + std::to_string(options.height),
@@ -169,9 +169,8 @@ Result<Window> Window::create(const WindowOptions& options) {
     }
     GLFWmonitor* monitor = nullptr;
     if (options.full_screen) {
-        const auto found = (*system)->find(*options.full_screen);
-        if (!found) return std::unexpected(found.error());
-        monitor = *found;
+        BURIN_TRY(found, system->find(*options.full_screen));
+        monitor = found;
     }
     set_hints(options, monitor);
     int width = options.width, height = options.height;
@@ -183,7 +182,7 @@ Result<Window> Window::create(const WindowOptions& options) {
     if (handle == nullptr) {
         return fail("window", "it could not be opened: " + WindowSystem::take_errors(), "check the display's settings");
     }
-    auto made = std::make_unique<Implementation>(*system, handle);
+    auto made = std::make_unique<Implementation>(system, handle);
     made->desktop_place.width = options.width;
     made->desktop_place.height = options.height;
     if (monitor != nullptr) made->filled_monitor = glfwGetMonitorName(monitor);
@@ -294,13 +293,12 @@ void Window::show_pointer(bool shown) {
 }
 
 Result<void> Window::fill_monitor(const std::string& monitor) {
-    const auto found = implementation_->system().find(monitor);
-    if (!found) return std::unexpected(found.error());
-    const GLFWvidmode* mode = glfwGetVideoMode(*found);
+    BURIN_TRY(found, implementation_->system().find(monitor));
+    const GLFWvidmode* mode = glfwGetVideoMode(found);
     if (mode == nullptr) return fail("monitor", "'" + monitor + "' has no mode", "switch it on");
     implementation_->remember_place();
-    implementation_->filled_monitor = glfwGetMonitorName(*found);
-    glfwSetWindowMonitor(implementation_->handle(), *found, 0, 0, mode->width, mode->height, mode->refreshRate);
+    implementation_->filled_monitor = glfwGetMonitorName(found);
+    glfwSetWindowMonitor(implementation_->handle(), found, 0, 0, mode->width, mode->height, mode->refreshRate);
     return {};
 }
 

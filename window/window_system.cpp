@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "base/try.hpp"
 #include "window/lost_display.hpp"
 
 namespace burin::window {
@@ -137,14 +138,12 @@ Result<GLFWmonitor*> WindowSystem::find(const std::string& name_or_index) const 
 }
 
 Result<std::vector<Monitor>> monitors() {
-    const auto system = WindowSystem::use();
-    if (!system) return std::unexpected(system.error());
-    return (*system)->monitors();
+    BURIN_TRY(system, WindowSystem::use());
+    return system->monitors();
 }
 
 Result<std::vector<std::string>> required_extensions() {
-    const auto system = WindowSystem::use();
-    if (!system) return std::unexpected(system.error());
+    BURIN_TRY(system, WindowSystem::use());
     std::uint32_t count = 0;
     const char** names = glfwVulkanSupported() == GLFW_TRUE ? glfwGetRequiredInstanceExtensions(&count) : nullptr;
     if (names == nullptr) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "session/record/session_check.hpp"
 
 namespace burin::activities {
@@ -178,18 +179,17 @@ Result<void> Rehab::follow(RunOrder order, session::ActivityOrders& orders) {
         return fail("do " + std::string(name_of(order)), "comes too late: the exercise has ended", "begin it anew");
     const bool asks_no_more = order == RunOrder::start && control_.runs() && is_asking();
     if (asks_no_more) {
-        if (auto begun = start_without_presses(); !begun) return begun;
+        BURIN_TRY_DO(start_without_presses());
     } else {
-        const Result<RunControl> next = with_order(control_, order);
-        if (!next) return std::unexpected(next.error());
-        const bool breaks = control_.gives_force() && !next->gives_force();
+        BURIN_TRY(next, with_order(control_, order));
+        const bool breaks = control_.gives_force() && !next.gives_force();
         if (breaks && !is_asking()) {
             const std::size_t first = orders.trials.size();
             exercise_->interrupt(control_.exercise_ns(control_.last_ns), orders);
             on_loop_clock(orders.trials, first);
             measures_.begun = false;  // what it goes on with is a part of its own
         }
-        control_ = *next;
+        control_ = next;
     }
     orders.parameters = true;
     orders_.push_back({control_.last_ns, std::string(name_of(order)), formatted("%.3f s", exercise_->course().time_s)});

@@ -2,6 +2,7 @@
 #include "activities/train/ended_stage.hpp"
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/people/recorded_trial.hpp"
 
 namespace burin::activities {
@@ -63,9 +64,8 @@ std::string outcome_text(const study::Stage& stage, const study::StageState& end
 Result<FeltWorlds> felt_worlds(const study::Protocol& protocol) {
     FeltWorlds worlds;
     for (const study::StudyWorld& world : protocol.worlds) {
-        auto felt = study::FeltWorld::create(world);
-        if (!felt) return std::unexpected(felt.error());
-        worlds[world.name] = std::move(*felt);
+        BURIN_TRY(felt, study::FeltWorld::create(world));
+        worlds[world.name] = std::move(felt);
     }
     return worlds;
 }

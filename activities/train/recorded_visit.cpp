@@ -8,6 +8,7 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "record/motion.hpp"
 
@@ -80,21 +81,18 @@ std::string visit_settings(const std::string& protocol_digest, const study::Grou
 }
 
 Result<session::MadeActivity> visit_as_recorded(const std::string& settings, const session::RecordedFact& fact) {
-    const Result<VisitWords> words = visit_words(settings);
-    if (!words) return std::unexpected(words.error());
-    Result<study::Protocol> protocol = recorded_protocol(words->protocol_digest, fact);
-    if (!protocol) return std::unexpected(protocol.error());
+    BURIN_TRY(words, visit_words(settings));
+    BURIN_TRY(protocol, recorded_protocol(words.protocol_digest, fact));
     const auto visit = std::make_shared<RepeatedVisit>();
-    visit->protocol = std::move(*protocol);
-    const auto group = std::ranges::find(visit->protocol.groups, words->group, &study::Group::code);
+    visit->protocol = std::move(protocol);
+    const auto group = std::ranges::find(visit->protocol.groups, words.group, &study::Group::code);
     std::vector<study::StagePlace> places;
     for (const study::StagePlace& at : study::places_of(visit->protocol))
-        if (at.day == words->day && std::ranges::find(words->places, at.place) != words->places.end())
+        if (at.day == words.day && std::ranges::find(words.places, at.place) != words.places.end())
             places.push_back(at);
-    if (group == visit->protocol.groups.end() || places.size() != words->places.size()) return not_of_a_visit(settings);
-    Result<FeltWorlds> worlds = felt_worlds(visit->protocol);
-    if (!worlds) return std::unexpected(worlds.error());
-    visit->worlds = std::move(*worlds);
+    if (group == visit->protocol.groups.end() || places.size() != words.places.size()) return not_of_a_visit(settings);
+    BURIN_TRY(worlds, felt_worlds(visit->protocol));
+    visit->worlds = std::move(worlds);
     StudyDevice device;
     if (const std::string text = fact(record::kWandTextFact); !text.empty()) {
         devices::WandOrProblems wand = devices::parse_wand(text, record::kWandTextFact);

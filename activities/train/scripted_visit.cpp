@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "study/folder/interruption.hpp"
 
@@ -40,14 +41,13 @@ public:
             clock_.sleep_until(kNanosecondsPerSecond + tick * kVisitTick_ns);  // a loop's clock is never 0
             const bool is_frame =
                 tick * kFramesASecond / 1000 != (tick - 1) * kFramesASecond / 1000 || tick == 0 || tick == last;
-            if (is_frame)
-                if (const auto ok = frame(seconds(tick * kVisitTick_ns)); !ok) return std::unexpected(ok.error());
+            if (is_frame) BURIN_TRY_DO(frame(seconds(tick * kVisitTick_ns)));
             const TrainingRun::Ticked ticked = run_.tick(wand_.read(), clock_.now_ns());
             wand_.write(ticked.record != nullptr ? ticked.record->gate.given : devices::DeviceWrench{});
             disk_.take(ticked);
             figures_.ticks += ticked.record != nullptr ? 1 : 0;
             if (run_.phase() == TrainingRun::Phase::ended) {
-                if (const auto ok = end_stage(seconds(tick * kVisitTick_ns)); !ok) return std::unexpected(ok.error());
+                BURIN_TRY_DO(end_stage(seconds(tick * kVisitTick_ns)));
                 if (run_.stopped()) break;
             }
             figures_.simulated_s = seconds(tick * kVisitTick_ns);
@@ -55,8 +55,8 @@ public:
         for (; said_ < script_.said.size(); ++said_)
             refuse(figures_.simulated_s, script_.said[said_], "the visit has ended before; leave it out");
         figures_.interrupted = run_.phase() == TrainingRun::Phase::in_stage;
-        if (const auto ok = disk_.take(run_.frame(clock_.now_ns()).events); !ok) return std::unexpected(ok.error());
-        if (const auto ok = disk_.close(); !ok) return std::unexpected(ok.error());
+        BURIN_TRY_DO(disk_.take(run_.frame(clock_.now_ns()).events));
+        BURIN_TRY_DO(disk_.close());
         return figures_;
     }
 
@@ -71,12 +71,11 @@ private:
             const auto before = run_.phase();
             run_.command(said.command, clock_.now_ns());
             if (before == TrainingRun::Phase::between && run_.phase() == TrainingRun::Phase::in_stage)
-                if (const auto ok = disk_.begin(run_); !ok) return ok;
+                BURIN_TRY_DO(disk_.begin(run_));
         }
         const TrainingShown shown = run_.frame(clock_.now_ns());
-        if (const auto ok = disk_.take(shown.events); !ok) return ok;
-        if (options_.on_frame)
-            if (const auto ok = options_.on_frame(time_s, shown, run_); !ok) return ok;
+        BURIN_TRY_DO(disk_.take(shown.events));
+        if (options_.on_frame) BURIN_TRY_DO(options_.on_frame(time_s, shown, run_));
         return {};
     }
 
@@ -91,9 +90,8 @@ private:
 
     Result<void> end_stage(double time_s) {
         const TrainingShown shown = run_.frame(clock_.now_ns());
-        if (const auto ok = disk_.take(shown.events); !ok) return ok;
-        if (options_.on_frame)
-            if (const auto ok = options_.on_frame(time_s, shown, run_); !ok) return ok;
+        BURIN_TRY_DO(disk_.take(shown.events));
+        if (options_.on_frame) BURIN_TRY_DO(options_.on_frame(time_s, shown, run_));
         ++figures_.stages;
         const study::Stage& stage = *run_.place()->stage;
         const EndedStage ended = run_.take_end();
@@ -115,26 +113,23 @@ private:
 
 Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::string& participant,
                                         const VisitScript& script, const VisitOptions& options) {
-    const auto plan = plan_visit(study, participant, options.leave, study::now_utc_ns());
-    if (!plan) return std::unexpected(plan.error());
-    const std::size_t wanted = plan->places.size();
+    BURIN_TRY(plan, plan_visit(study, participant, options.leave, study::now_utc_ns()));
+    const std::size_t wanted = plan.places.size();
     const std::vector<study::Participant> people = study.participants();
     const study::Participant& person = *std::ranges::find(people, participant, &study::Participant::id);
     const auto group = std::ranges::find(study.protocol().groups, person.group, &study::Group::code);
     if (group == study.protocol().groups.end())
         return fail(participant, "is in a group that the protocol has not", "restore the journal from a copy");
-    const auto worlds = felt_worlds(study.protocol());
-    if (!worlds) return std::unexpected(worlds.error());
+    BURIN_TRY(worlds, felt_worlds(study.protocol()));
     const devices::WandDescription wand = study::study_wand(study.protocol());
-    auto hand = devices::SimulatedHand::create(at_device(script.hand, wand));
-    if (!hand) return std::unexpected(hand.error());
+    BURIN_TRY(hand, devices::SimulatedHand::create(at_device(script.hand, wand)));
     const study::HeldDevice held{study::kScriptedDevice, study::Hand::script};
-    if (const auto ok = begin_visit(study, participant, held, *plan); !ok) return std::unexpected(ok.error());
-    TrainingRun run(study.protocol(), *group, *worlds, plan->places);
+    BURIN_TRY_DO(begin_visit(study, participant, held, plan));
+    TrainingRun run(study.protocol(), *group, worlds, plan.places);
     StageOnDisk disk(study, participant, *group,
                      options.records ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none, held,
                      options.provenance);
-    auto figures = ScriptedVisit(run, disk, script, options, std::move(*hand), wand).go();
+    auto figures = ScriptedVisit(run, disk, script, options, std::move(hand), wand).go();
     if (figures) figures->left = wanted - figures->stages;
     return figures;
 }

@@ -11,6 +11,7 @@
 
 #include "activities/train/simulated_stage.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/assign/allocation.hpp"
 #include "study/folder/interruption.hpp"
 #include "study/folder/stage_recording.hpp"
@@ -35,7 +36,7 @@ Result<void> enrol_learners(study::StudyFolder& study) {
         study::Random random(study.facts().seed, kCodesStream + n);
         const std::size_t drawn = random.below(strata.size());
         const std::string id = formatted("sim%03zu", n + 1);
-        if (const auto made = study.enrol(id, strata[drawn], true); !made) return std::unexpected(made.error());
+        BURIN_TRY_DO(study.enrol(id, strata[drawn], true));
     }
     return {};
 }
@@ -48,7 +49,7 @@ Result<void> check_resumptions(study::StudyFolder& study, bool resumes_late) {
         const auto late = study::late_resumption(study, person, now_ns);
         if (!late) continue;
         if (!resumes_late) return study::check_resumption(study, person, now_ns);
-        if (const auto ok = study.note_deviation(person.id, late->text(study.protocol())); !ok) return ok;
+        BURIN_TRY_DO(study.note_deviation(person.id, late->text(study.protocol())));
     }
     return {};
 }
@@ -115,12 +116,11 @@ private:
             const std::uint64_t stream = kStagesStream + index * kStagesOfPerson + number++;
             if (!person.has_ended(at.day, at.place)) {
                 study::Random random(study_.facts().seed, stream);
-                const auto stage = go_through(person, at, learner, random, clock_s);
-                if (!stage) return std::unexpected(stage.error());
+                BURIN_TRY(stage, go_through(person, at, learner, random, clock_s));
                 ++went.stages;
-                went.ticks += stage->ticks;
-                went.simulated_s += stage->duration_s;
-                clock_s += stage->duration_s;
+                went.ticks += stage.ticks;
+                went.simulated_s += stage.duration_s;
+                clock_s += stage.duration_s;
             } else {
                 clock_s = std::max(clock_s, ended_at_s(person, at));
             }
@@ -157,10 +157,9 @@ private:
             const study::HeldDevice held{study::kLearnersDevice, study::Hand::learner};
             std::ranges::move(study::facts_of_hand(person.id, held), std::back_inserter(facts));
             facts.insert(facts.end(), options_.provenance.begin(), options_.provenance.end());
-            auto made =
-                study::StageRecording::create(study_.path() / files->recording, touch, std::move(facts), kBlock_ns);
-            if (!made) return std::unexpected(made.error());
-            recording = std::move(*made);
+            BURIN_TRY(made, study::StageRecording::create(study_.path() / files->recording, touch, std::move(facts),
+                                                          kBlock_ns));
+            recording = std::move(made);
         }
         EndedStage stage = simulate_stage(
             in, random,
@@ -168,14 +167,12 @@ private:
                 if (recording) recording->take(record, act, session);
             });
         if (recording) {
-            if (const auto closed = recording->close(); !closed) return std::unexpected(closed.error());
+            BURIN_TRY_DO(recording->close());
         }
         const std::lock_guard lock(mutex_);
-        if (const auto deviation = deviation_of(at, stage))
-            if (const auto ok = study_.note_deviation(person.id, *deviation); !ok) return std::unexpected(ok.error());
-        const auto ended = study_.end_stage(person.id, at, study::name_of(stage.end.result), stage.record, *files,
-                                            failures_of(*at.stage, stage), clock_s + stage.duration_s);
-        if (!ended) return std::unexpected(ended.error());
+        if (const auto deviation = deviation_of(at, stage)) BURIN_TRY_DO(study_.note_deviation(person.id, *deviation));
+        BURIN_TRY_DO(study_.end_stage(person.id, at, study::name_of(stage.end.result), stage.record, *files,
+                                      failures_of(*at.stage, stage), clock_s + stage.duration_s));
         return stage;
     }
 
@@ -193,12 +190,11 @@ private:
 }  // namespace
 
 Result<SimulationFigures> run_simulated(study::StudyFolder& study, const SimulationOptions& options) {
-    if (const auto ok = check_resumptions(study, options.resumes_late); !ok) return std::unexpected(ok.error());
-    if (const auto ok = study.begin_simulation(options.effect); !ok) return std::unexpected(ok.error());
-    if (const auto ok = enrol_learners(study); !ok) return std::unexpected(ok.error());
-    const auto worlds = felt_worlds(study.protocol());
-    if (!worlds) return std::unexpected(worlds.error());
-    SharedStudy shared(study, *worlds, options);
+    BURIN_TRY_DO(check_resumptions(study, options.resumes_late));
+    BURIN_TRY_DO(study.begin_simulation(options.effect));
+    BURIN_TRY_DO(enrol_learners(study));
+    BURIN_TRY(worlds, felt_worlds(study.protocol()));
+    SharedStudy shared(study, worlds, options);
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     const unsigned wanted = options.threads > 0 ? options.threads : cores;
     const auto threads = static_cast<unsigned>(

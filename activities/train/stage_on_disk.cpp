@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/folder/interruption.hpp"
 
 namespace burin::activities {
@@ -73,9 +74,8 @@ Result<VisitPlan> plan_visit(const study::StudyFolder& study, const std::string&
 
 Result<void> begin_visit(study::StudyFolder& study, const std::string& participant, const study::HeldDevice& held,
                          const VisitPlan& plan) {
-    if (const auto ok = study.begin_visit(participant, held); !ok) return ok;
-    for (const std::string& text : plan.deviations)
-        if (const auto ok = study.note_deviation(participant, text); !ok) return ok;
+    BURIN_TRY_DO(study.begin_visit(participant, held));
+    for (const std::string& text : plan.deviations) BURIN_TRY_DO(study.note_deviation(participant, text));
     return {};
 }
 
@@ -83,9 +83,8 @@ Result<void> StageOnDisk::begin(const TrainingRun& run) {
     at_ = *run.place();
     const study::StageSession* session = run.session();
     const bool has_motion = session != nullptr && at_.stage->records && motion_ != Motion::none;
-    auto files = study_.begin_stage(participant_, at_, has_motion);
-    if (!files) return std::unexpected(files.error());
-    files_ = std::move(*files);
+    BURIN_TRY(files, study_.begin_stage(participant_, at_, has_motion));
+    files_ = std::move(files);
     recording_.reset();
     if (!has_motion) return {};
     auto facts =
@@ -93,10 +92,9 @@ Result<void> StageOnDisk::begin(const TrainingRun& run) {
     std::ranges::move(study::facts_of_hand(participant_, held_), std::back_inserter(facts));
     facts.insert(facts.end(), provenance_.begin(), provenance_.end());
     if (motion_ == Motion::session_ticks) facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
-    auto made = study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
-                                              kVisitBlock_ns);
-    if (!made) return std::unexpected(made.error());
-    recording_ = std::move(*made);
+    BURIN_TRY(made, study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
+                                                  kVisitBlock_ns));
+    recording_ = std::move(made);
     return {};
 }
 
@@ -108,16 +106,15 @@ Result<void> StageOnDisk::take(const std::vector<RunEvent>& events) {
     for (const RunEvent& event : events) {
         if (recording_) recording_->note(event.time_ns, event.name, event.value);
         if (event.name != "note") continue;
-        if (const auto ok = study_.note_of(participant_, event.value); !ok) return ok;
+        BURIN_TRY_DO(study_.note_of(participant_, event.value));
     }
     return {};
 }
 
 Result<void> StageOnDisk::end(const EndedStage& ended) {
-    if (const auto ok = close(); !ok) return ok;
+    BURIN_TRY_DO(close());
     const auto deviation = deviation_of(at_, ended);
-    if (deviation)
-        if (const auto ok = study_.note_deviation(participant_, *deviation); !ok) return ok;
+    if (deviation) BURIN_TRY_DO(study_.note_deviation(participant_, *deviation));
     return study_.end_stage(participant_, at_, study::name_of(ended.end.result), ended.record, files_,
                             failures_of(*at_.stage, ended));
 }

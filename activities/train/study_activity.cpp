@@ -7,6 +7,7 @@
 
 #include "activities/train/stage_view.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -59,10 +60,9 @@ void StudyActivity::tell(const Result<void>& done, session::ActivityOrders& orde
 Result<void> StudyActivity::act(std::span<const std::string> words, session::ActivityOrders& orders) {
     if (words[0] == "jig") return check_jig(orders);
     const std::string text = words[0] == "go-on" ? "go on" : joined_words(words);
-    const Result<OperatorCommand> command = operator_command(text);
-    if (!command) return std::unexpected(command.error());
-    if (const auto ok = check_order(*command); !ok) return fail("do " + words[0], ok.error().what, ok.error().remedy);
-    if (command->says == OperatorSays::start) {
+    BURIN_TRY(command, operator_command(text));
+    if (const auto ok = check_order(command); !ok) return fail("do " + words[0], ok.error().what, ok.error().remedy);
+    if (command.says == OperatorSays::start) {
         // On a busy machine frames come before the first tick.
         starts_with_first_tick_ = now_ns_ == 0;
         if (starts_with_first_tick_)
@@ -71,7 +71,7 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
             begin_stage(orders);
         return {};
     }
-    run_.command(*command, now_ns_);
+    run_.command(command, now_ns_);
     return {};
 }
 
@@ -86,7 +86,7 @@ void StudyActivity::begin_stage(session::ActivityOrders& orders) {
 // Checks that the operator may give this order now.
 Result<void> StudyActivity::check_order(const OperatorCommand& command) const {
     const bool starts = command.says == OperatorSays::start;
-    if (const auto ok = run_.check(command); !ok) return ok;
+    BURIN_TRY_DO(run_.check(command));
     if (!jig_off_.empty() && (starts || command.says == OperatorSays::go_on))
         return fail("", "the wand read " + jig_off_ + " in its jig",
                     "put it there and say do jig until it reads right");

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -300,7 +301,7 @@ Result<CubeTest> run_cube_test(scene::MeshPart& part, const scene::MaterialTable
     const Vec3 ends_m =
         devices::offset_device_m(wand, wand.points.front()) - devices::offset_device_m(wand, wand.points.back());
     const Setup setup{cube_scene_m, 0.5 * options.scene_from_device.scale * glm::length(ends_m), radius_m};
-    if (const auto ok = check_room(setup, wand, options.scene_from_device); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_room(setup, wand, options.scene_from_device));
 
     CubeTest test;
     test.face_m = setup.face_m();
@@ -314,13 +315,11 @@ Result<CubeTest> run_cube_test(scene::MeshPart& part, const scene::MaterialTable
         return run;
     };
     options.points = {wand.points.front(), wand.points.back()};
-    Result<WandRun> two = lead(with_both_ends(setup), test.two_points);
-    if (!two) return std::unexpected(two.error());
+    BURIN_TRY(two, lead(with_both_ends(setup), test.two_points));
     options.points = {{"centre", Vec3(0.0)}};
-    Result<WandRun> one = lead(with_the_middle(setup), test.one_point);
-    if (!one) return std::unexpected(one.error());
-    test.two_points_run = *two;
-    test.one_point_run = *one;
+    BURIN_TRY(one, lead(with_the_middle(setup), test.one_point));
+    test.two_points_run = two;
+    test.one_point_run = one;
     test.findings = findings_of(test.measures);
     return test;
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/try.hpp"
 #include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
@@ -138,10 +139,9 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::
         }
         return on_moment ? on_moment(moment) : Result<void>{};
     };
-    Result<WandRun> run = run_wand(part, materials, script_in_device(script_of(stroke), placed.scene_from_device),
-                                   placed, at_tick, at_update);
-    if (!run) return std::unexpected(run.error());
-    explored.run = *run;
+    BURIN_TRY(run, run_wand(part, materials, script_in_device(script_of(stroke), placed.scene_from_device), placed,
+                            at_tick, at_update));
+    explored.run = run;
     explored.touches = touches.all();
     return explored;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/try.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "record/record_writer.hpp"
@@ -83,21 +84,18 @@ std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> s
 Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
                          std::vector<devices::HandPose> script, const WandOptions& options, const OnWandTick& on_tick,
                          const OnWandUpdate& on_update) {
-    Result<devices::SimulatedHand> hand =
-        devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, options.grip);
-    if (!hand) return std::unexpected(hand.error());
-    const double end_s = hand->end_s();
-    const devices::HandTarget start = hand->target(0.0);
+    BURIN_TRY(hand, devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, options.grip));
+    const double end_s = hand.end_s();
+    const devices::HandTarget start = hand.target(0.0);
 
     SimulatedClock clock;
     haptics::HapticChannels channels(haptics::HapticChannels::kTicks,
                                      options.record.empty() ? haptics::HapticChannels::kRecords : record::kRingTicks);
-    devices::SimulatedWand wand(std::move(*hand), options.wand, &clock);
+    devices::SimulatedWand wand(std::move(hand), options.wand, &clock);
     const haptics::TickParameters parameters = wand_parameters(options, wand.description(), materials);
     channels.parameters.draft() = parameters;
     channels.parameters.publish();
-    const auto recorder = record_wand(options, part, wand.description(), parameters.probe, channels);
-    if (!recorder) return std::unexpected(recorder.error());
+    BURIN_TRY(recorder, record_wand(options, part, wand.description(), parameters.probe, channels));
     haptics::HapticLoop loop(wand, clock, channels);
     scene::SceneService service(
         {&part}, {hand_in_scene(options, {0.0, start.position_device_m, start.orientation_device, 0}, channels)});
@@ -109,25 +107,22 @@ Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& mate
     haptics::TickRecord last, drained;
     while (clock.now_ns() < end_ns) {
         if (clock.now_ns() >= next_update_ns) {
-            if (const auto updated = service.update(clock.now_ns()); !updated) return std::unexpected(updated.error());
-            if (*recorder) {
+            BURIN_TRY_DO(service.update(clock.now_ns()));
+            if (recorder) {
                 // Simulated time is not held back by any clock: the ring would overflow.
-                (*recorder)->take_now();
-                if (const auto failed = (*recorder)->failure()) return std::unexpected(*failed);
+                recorder->take_now();
+                if (const auto failed = recorder->failure()) return std::unexpected(*failed);
             }
             next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
-            if (on_update)
-                if (const auto done = on_update(seconds(clock.now_ns() - start_ns), last); !done)
-                    return std::unexpected(done.error());
+            if (on_update) BURIN_TRY_DO(on_update(seconds(clock.now_ns() - start_ns), last));
         }
         clock.sleep_until(clock.now_ns() + loop.period_ns());
         last = loop.step();
-        while (!*recorder && channels.records.pop(drained)) {
+        while (!recorder && channels.records.pop(drained)) {
         }
         if (on_tick) on_tick(seconds(clock.now_ns() - start_ns), last);
     }
-    if (*recorder)
-        if (const auto closed = (*recorder)->close(); !closed) return std::unexpected(closed.error());
+    if (recorder) BURIN_TRY_DO(recorder->close());
     run.ticks = loop.ticks();
     run.surfaces_published = service.published(0);
     run.trips = wand.trips();

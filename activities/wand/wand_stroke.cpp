@@ -102,9 +102,7 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
     BURIN_TRY_DO(check_wand_file(reader, options.device, "put the file back, unchanged, where it was"));
     BURIN_TRY(opened, open_wand_world(options));
     WandWorld& again = *opened;
-    if (const auto as_was = check_as_recorded(reader, options.world, "world", again.digest, record::kWorldDigestFact);
-        !as_was)
-        return std::unexpected(as_was.error());
+    BURIN_TRY_DO(check_as_recorded(reader, options.world, "world", again.digest, record::kWorldDigestFact));
     if (const auto now = file_digest(options.stroke)) {
         BURIN_TRY_DO(check_as_recorded(reader, options.stroke, "stroke", *now, "stroke sha256"));
     }

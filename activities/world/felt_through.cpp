@@ -10,6 +10,7 @@
 #include "activities/world/nearest_object.hpp"
 #include "activities/world/world_replay.hpp"
 #include "activities/world/world_touch.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -317,8 +318,7 @@ struct OtherWorld {
 
     Result<haptics::TickRecord> feel(const record::RecordedTick& tick) {
         if (!same_mapping(mapping, tick.object_from_device)) touch.use_mapping(mapping = tick.object_from_device);
-        const auto updated = updates.before(tick, hand->period_ns(), touch.service());
-        if (!updated) return std::unexpected(updated.error());
+        BURIN_TRY_DO(updates.before(tick, hand->period_ns(), touch.service()));
         return hand->repeated(tick);
     }
 };
@@ -327,9 +327,8 @@ Result<std::unique_ptr<OtherWorld>> begin_through(const record::RecordReader& re
                                                   scene::MeshPart& part, const scene::MaterialTable& materials,
                                                   const ThroughProbe& probe) {
     auto world = std::make_unique<OtherWorld>(part, materials, settings_through(reader, first, probe), probe);
-    Result<std::unique_ptr<RepeatedHand>> hand = RepeatedHand::create(probe.device, world->touch.channels());
-    if (!hand) return std::unexpected(hand.error());
-    world->hand = std::move(*hand);
+    BURIN_TRY(hand, RepeatedHand::create(probe.device, world->touch.channels()));
+    world->hand = std::move(hand);
     return world;
 }
 
@@ -344,7 +343,7 @@ std::vector<record::Column> through_columns(const RecordedDevice& device) {
 Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPart& part,
                                     std::span<const scene::ObjectId> ids, const scene::MaterialTable& materials,
                                     const ThroughProbe& probe, const record::TickRange& range, const TakeRow& take) {
-    if (const auto ok = check_hand(reader, probe.device); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_hand(reader, probe.device));
     const Result<record::MotionColumns> motion = record::MotionColumns::find(reader, 0);
     const Result<RecordedTouch> recorded = RecordedTouch::find(reader, probe.device);
     if (!motion) return std::unexpected(motion.error());
@@ -354,29 +353,26 @@ Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPar
     ThroughFigures figures;
     record::RowWalk walk(reader, 0);
     for (;;) {
-        const Result<bool> more = walk.next();
-        if (!more) return std::unexpected(more.error());
-        if (!*more) return figures;
+        BURIN_TRY(more, walk.next());
+        if (!more) return figures;
         const record::RecordedTick tick = motion->at(walk.block(), walk.row());
         if (tick.tick < range.from) continue;
         if (tick.tick > range.to) return figures;
-        if (const auto ok = check_tick(reader, tick); !ok) return std::unexpected(ok.error());
+        BURIN_TRY_DO(check_tick(reader, tick));
         const bool is_first = !world;
         if (is_first) {
-            Result<std::unique_ptr<OtherWorld>> begun = begin_through(reader, tick, part, materials, probe);
-            if (!begun) return std::unexpected(begun.error());
-            world = std::move(*begun);
+            BURIN_TRY(begun, begin_through(reader, tick, part, materials, probe));
+            world = std::move(begun);
         }
-        const Result<haptics::TickRecord> felt = world->feel(tick);
-        if (!felt) return std::unexpected(felt.error());
-        const TickThrough through = tick_through(tick, *felt, *recorded, walk, probe.device);
+        BURIN_TRY(felt, world->feel(tick));
+        const TickThrough through = tick_through(tick, felt, *recorded, walk, probe.device);
         if (is_first) note_beginning(figures, through, part, approach.objects(), probe);
         note_tick(figures, through, part);
         approach.note(figures, through);
         ThroughValues values;
         values.words.reserve(64);
         visit_through(values, probe.device, through);
-        if (const auto taken = take(tick, values.words); !taken) return std::unexpected(taken.error());
+        BURIN_TRY_DO(take(tick, values.words));
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "activities/world/world_recorder.hpp"
 #include "activities/world/world_touch.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "session/felt/felt_stroke.hpp"
@@ -92,8 +93,7 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     felt.workspace_device_m = devices::OmniModel{}.workspace_m;
     felt.object_from_device = session::fit_into_workspace(stroke, felt.workspace_device_m);
     felt.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kRests_s;
-    Result<devices::SimulatedHand> hand = hand_along(stroke, felt.object_from_device, options.grip);
-    if (!hand) return std::unexpected(hand.error());
+    BURIN_TRY(hand, hand_along(stroke, felt.object_from_device, options.grip));
 
     ExplorationSettings settings;
     settings.tool_radius_m = options.tool_radius_m;
@@ -103,10 +103,9 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     WorldTouch touch(part, materials, settings);
     haptics::HapticChannels& channels = touch.channels();
     SimulatedClock clock;
-    devices::SimulatedOmni omni(std::move(*hand), {}, &clock);
+    devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    Result<std::unique_ptr<WorldRecorder>> recorder = recorder_of(part, ids, omni.description(), settings, options);
-    if (!recorder) return std::unexpected(recorder.error());
+    BURIN_TRY(recorder, recorder_of(part, ids, omni.description(), settings, options));
     session::FigureKeeper keeper(felt, felt.duration_s, seconds(loop.period_ns()));
     Touches touches(part);
     scene::TouchedObjects touched{};  // in the last tick
@@ -115,28 +114,24 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     Nanoseconds next_update_ns = start_ns;
     while (clock.now_ns() < end_ns) {
         if (clock.now_ns() >= next_update_ns) {
-            const auto updated = touch.service().update(clock.now_ns());
-            if (!updated) return std::unexpected(updated.error());
+            BURIN_TRY_DO(touch.service().update(clock.now_ns()));
             next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
             const double time_s = seconds(clock.now_ns() - start_ns);
             WorldMoment moment{channels.tool.newest(), std::nullopt};
             moment.newly_touched = touches.add(time_s, moment.tool, touched[0]);
             keeper.take(channels);
-            if (*recorder) {
-                const auto kept = (*recorder)->update(clock.now_ns(), touch.service().seen().last_ticks[0]);
-                if (!kept) return std::unexpected(kept.error());
+            if (recorder) {
+                BURIN_TRY_DO(recorder->update(clock.now_ns(), touch.service().seen().last_ticks[0]));
             }
-            if (on_update)
-                if (const auto done = on_update(time_s, moment); !done) return std::unexpected(done.error());
+            if (on_update) BURIN_TRY_DO(on_update(time_s, moment));
         }
         clock.sleep_until(clock.now_ns() + loop.period_ns());
         const haptics::TickRecord tick = loop.step();
         touched = scene::touched_in(tick, touched);
         touches.add(tick);
-        if (*recorder) (*recorder)->add(tick, std::array{tick.contact.points[0].object});
+        if (recorder) recorder->add(tick, std::array{tick.contact.points[0].object});
     }
-    if (*recorder)
-        if (const auto kept = (*recorder)->finish(); !kept) return std::unexpected(kept.error());
+    if (recorder) BURIN_TRY_DO(recorder->finish());
     keeper.take(channels);
     keeper.finish(channels);
     felt.surfaces_published = touch.service().published(0);

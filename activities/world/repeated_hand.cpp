@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 
@@ -12,10 +13,9 @@ namespace burin::activities {
 namespace {
 
 Result<std::unique_ptr<devices::HapticDevice>> still_device(const RecordedDevice& device) {
-    Result<devices::SimulatedHand> hand = devices::SimulatedHand::create({devices::HandPose{}});
-    if (!hand) return std::unexpected(hand.error());
-    if (device.wand) return std::make_unique<devices::SimulatedWand>(std::move(*hand), *device.wand);
-    return std::make_unique<devices::SimulatedOmni>(std::move(*hand));
+    BURIN_TRY(hand, devices::SimulatedHand::create({devices::HandPose{}}));
+    if (device.wand) return std::make_unique<devices::SimulatedWand>(std::move(hand), *device.wand);
+    return std::make_unique<devices::SimulatedOmni>(std::move(hand));
 }
 
 }  // namespace
@@ -33,9 +33,8 @@ Result<void> check_hand(const record::RecordReader& reader, const RecordedDevice
     if (reader.hands().size() != 1)
         return fail(reader.path(), "has " + std::to_string(reader.hands().size()) + " hands",
                     "replay a recording of one hand");
-    const Result<std::unique_ptr<devices::HapticDevice>> still = still_device(device);
-    if (!still) return std::unexpected(still.error());
-    const std::string known = (*still)->description().name;
+    BURIN_TRY(still, still_device(device));
+    const std::string known = still->description().name;
     if (reader.hands()[0].name == known) return {};
     return fail(reader.path(), "was recorded with " + reader.hands()[0].name + ", whose figures are not in it",
                 "replay a recording of a " + known);
@@ -55,9 +54,8 @@ Result<void> check_tick(const record::RecordReader& reader, const record::Record
 
 Result<std::unique_ptr<RepeatedHand>> RepeatedHand::create(const RecordedDevice& device,
                                                            haptics::HapticChannels& channels) {
-    Result<std::unique_ptr<devices::HapticDevice>> still = still_device(device);
-    if (!still) return std::unexpected(still.error());
-    return std::unique_ptr<RepeatedHand>(new RepeatedHand(std::move(*still), channels));
+    BURIN_TRY(still, still_device(device));
+    return std::unique_ptr<RepeatedHand>(new RepeatedHand(std::move(still), channels));
 }
 
 haptics::TickRecord RepeatedHand::repeated(const record::RecordedTick& tick) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/try.hpp"
 #include "record/touched_columns.hpp"
 
 namespace burin::activities {
@@ -22,9 +23,8 @@ Result<std::unique_ptr<WorldRecorder>> WorldRecorder::create(
     options.objects = std::move(objects);
     std::vector<record::RecordedHand> hands;
     hands.push_back(std::move(hand));
-    auto made = record::RecordWriter::create(path, std::move(hands), std::move(options));
-    if (!made) return std::unexpected(made.error());
-    recorder->writer_ = std::move(*made);
+    BURIN_TRY(made, record::RecordWriter::create(path, std::move(hands), std::move(options)));
+    recorder->writer_ = std::move(made);
     return recorder;
 }
 

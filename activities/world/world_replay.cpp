@@ -46,9 +46,8 @@ Result<std::vector<RecordedUpdate>> updates_in(record::RecordReader& reader) {
 class RecordedUpdates {
 public:
     static Result<RecordedUpdates> of(record::RecordReader& reader) {
-        Result<std::vector<RecordedUpdate>> updates = updates_in(reader);
-        if (!updates) return std::unexpected(updates.error());
-        return RecordedUpdates(std::move(*updates), reader.path());
+        BURIN_TRY(updates, updates_in(reader));
+        return RecordedUpdates(std::move(updates), reader.path());
     }
     Result<void> bring_to(std::uint64_t surface, scene::SceneService& service) {
         while (service.published(0) < surface) {
@@ -57,7 +56,7 @@ public:
                             "replay with --to a tick before, or a recording that was closed");
             const RecordedUpdate& update = updates_[next_++];
             const scene::SceneUpdate seen{update.time_ns, 0, {update.last_tick}, {}};
-            if (const auto done = service.repeat(seen); !done) return done;
+            BURIN_TRY_DO(service.repeat(seen));
         }
         return {};
     }
@@ -84,39 +83,33 @@ Result<ExplorationSettings> recorded_settings(const record::RecordReader& reader
 Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::MeshPart& part,
                                         const scene::MaterialTable& materials, const record::TickRange& range) {
     const RecordedDevice omni;
-    if (const auto ok = check_hand(reader, omni); !ok) return std::unexpected(ok.error());
-    const Result<ExplorationSettings> settings = recorded_settings(reader);
-    if (!settings) return std::unexpected(settings.error());
-    WorldTouch touch(part, materials, *settings);
-    const Result<std::unique_ptr<RepeatedHand>> hand = RepeatedHand::create(omni, touch.channels());
-    if (!hand) return std::unexpected(hand.error());
+    BURIN_TRY_DO(check_hand(reader, omni));
+    BURIN_TRY(settings, recorded_settings(reader));
+    WorldTouch touch(part, materials, settings);
+    BURIN_TRY(hand, RepeatedHand::create(omni, touch.channels()));
     const std::vector<record::Column>& columns = reader.hands()[0].columns;
     constexpr record::RowShape kOneBall{0, 1};
     if (!record::can_be_replayed(columns, kOneBall))
         return fail(reader.path(), "has other columns than this program records of a world",
                     "replay it with the program that recorded it; its data can be read and converted");
-    Result<RecordedUpdates> updates = RecordedUpdates::of(reader);
-    if (!updates) return std::unexpected(updates.error());
-    const Result<record::MotionColumns> motion = record::MotionColumns::find(reader, 0);
-    if (!motion) return std::unexpected(motion.error());
+    BURIN_TRY(updates, RecordedUpdates::of(reader));
+    BURIN_TRY(motion, record::MotionColumns::find(reader, 0));
 
     record::Comparison result{0, columns.size(), {}};
     record::RowWalk walk(reader, 0);
     for (std::int64_t expected = 1;; ++expected) {
-        const Result<bool> more = walk.next();
-        if (!more) return std::unexpected(more.error());
-        if (!*more) return result;
-        const record::RecordedTick tick = motion->at(walk.block(), walk.row());
+        BURIN_TRY(more, walk.next());
+        if (!more) return result;
+        const record::RecordedTick tick = motion.at(walk.block(), walk.row());
         if (tick.tick > range.to) return result;
-        if (const auto ok = check_tick(reader, tick); !ok) return std::unexpected(ok.error());
+        BURIN_TRY_DO(check_tick(reader, tick));
         if (tick.tick != expected)
             return fail(reader.path(),
                         "tick " + std::to_string(tick.tick) + " follows tick " + std::to_string(expected - 1) +
                             ": others were lost, and each depends on them",
                         "replay with --to " + std::to_string(expected - 1) + " what is before");
-        if (const auto ready = updates->bring_to(tick.surface_sequence, touch.service()); !ready)
-            return std::unexpected(ready.error());
-        const haptics::TickRecord again = (*hand)->repeated(tick);
+        BURIN_TRY_DO(updates.bring_to(tick.surface_sequence, touch.service()));
+        const haptics::TickRecord again = hand->repeated(tick);
         if (tick.tick < range.from) continue;
         std::vector<record::Word> row = record::row_of(again, kOneBall);
         record::append_touched(again, kOneBall, row);

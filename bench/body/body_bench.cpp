@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "bodies/solver/plates.hpp"
 
 namespace burin::bench {
@@ -61,21 +62,18 @@ Json json_of(const PressedBall& ball) {
 }  // namespace
 
 Result<BodyBenchFigures> measure_body(const BodyBenchTask& task) {
-    Result<bodies::Tetrahedra> rest =
-        bodies::ellipsoid(Vec3(task.radius_m), task.radius_m / task.elements_along_radius);
-    if (!rest) return std::unexpected(rest.error());
+    BURIN_TRY(rest, bodies::ellipsoid(Vec3(task.radius_m), task.radius_m / task.elements_along_radius));
     bodies::SoftMaterial material;
     material.young_Pa = task.young_Pa;
     material.poisson = task.poisson;
-    const Result<bodies::SoftBody> body = bodies::SoftBody::create(std::move(*rest), material);
-    if (!body) return std::unexpected(body.error());
+    BURIN_TRY(body, bodies::SoftBody::create(std::move(rest), material));
     constexpr unsigned kLevel = 4;
-    const bodies::EmbeddedSurface surface = bodies::ellipsoid_surface(body->rest(), Vec3(task.radius_m), kLevel);
-    BodyBenchFigures figures{task, body->rest().cells.size(), body->corners(), {}, {}, {}, {}, {}, {}, {}, {}};
-    for (const double closed : kSqueezes) figures.squeezes.push_back(pressed(task, *body, surface, closed, 4, 0.004));
+    const bodies::EmbeddedSurface surface = bodies::ellipsoid_surface(body.rest(), Vec3(task.radius_m), kLevel);
+    BodyBenchFigures figures{task, body.rest().cells.size(), body.corners(), {}, {}, {}, {}, {}, {}, {}, {}};
+    for (const double closed : kSqueezes) figures.squeezes.push_back(pressed(task, body, surface, closed, 4, 0.004));
     if (task.quick) return figures;
     for (const auto& [sweeps, dt_s] : kSweepsAndSteps)
-        figures.settings.push_back(pressed(task, *body, surface, 0.1, sweeps, dt_s));
+        figures.settings.push_back(pressed(task, body, surface, 0.1, sweeps, dt_s));
     figures.still = hold_putty(task.still_s);
     figures.kneaded = knead_putty(task.kneads);
     figures.grasps = grasp_at_random(task.grasps);

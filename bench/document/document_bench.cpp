@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "bench/measure/scenes.hpp"
 #include "bench/measure/timing.hpp"
 #include "document/document_reader.hpp"
@@ -50,16 +51,13 @@ private:
 
 Result<CarveScene> carved_scene(const DocumentTask& task) {
     if (task.mesh.empty()) return stroke_1000_scene();
-    Result<sculpt::ClosedMesh> closed =
-        sculpt::load_closed_mesh({.source = task.mesh, .close_holes = true, .units = LengthUnit::m});
-    if (!closed) return std::unexpected(closed.error());
-    return stroke_on_mesh_scene(fs::path(task.mesh).stem().string(), std::move(closed->mesh), false);
+    BURIN_TRY(closed, sculpt::load_closed_mesh({.source = task.mesh, .close_holes = true, .units = LengthUnit::m}));
+    return stroke_on_mesh_scene(fs::path(task.mesh).stem().string(), std::move(closed.mesh), false);
 }
 
 Result<std::unique_ptr<sculpt::Sculpture>> uncut(const CarveScene& scene, int resolution, WorkerPool& pool) {
-    Result<compute::Solid> solid = uncut_solid(scene, resolution, pool);
-    if (!solid) return std::unexpected(solid.error());
-    auto sculpture = std::make_unique<sculpt::Sculpture>(compute::make_cpu_engine(std::move(*solid), pool), pool);
+    BURIN_TRY(solid, uncut_solid(scene, resolution, pool));
+    auto sculpture = std::make_unique<sculpt::Sculpture>(compute::make_cpu_engine(std::move(solid), pool), pool);
     sculpture->keep_history(kHistoryBytes);
     sculpture->note_changes();
     return sculpture;
@@ -104,10 +102,9 @@ std::optional<Error> refused_journal(document::DocumentWriter& writer) {
 
 Result<void> measure_journal(const DocumentTask& task, const CarveScene& scene, const OwnFolder& folder,
                              WorkerPool& pool, DocumentFigures::Journal& figures) {
-    const auto sculpture = uncut(scene, task.journal_resolution, pool);
-    if (!sculpture) return std::unexpected(sculpture.error());
+    BURIN_TRY(sculpture, uncut(scene, task.journal_resolution, pool));
     document::DocumentWriter writer;
-    writer.keep_journal(folder.file("journal.burin"), all_of(**sculpture));
+    writer.keep_journal(folder.file("journal.burin"), all_of(*sculpture));
     writer.finish();
     if (const auto refused = refused_journal(writer)) return std::unexpected(*refused);
     MonotonicClock clock;
@@ -121,19 +118,19 @@ Result<void> measure_journal(const DocumentTask& task, const CarveScene& scene, 
     };
     for (unsigned update = 0; update < task.updates; ++update) {
         look_until(due_ns += kUpdate_ns);
-        const std::uint64_t before = (*sculpture)->figures().rays_changed;
-        if (const auto done = cut(**sculpture, scene, update); !done) return done;
+        const std::uint64_t before = sculpture->figures().rays_changed;
+        BURIN_TRY_DO(cut(*sculpture, scene, update));
         const bool ends = (update + 1) % kUpdatesOfAStroke == 0 || update + 1 == task.updates;
-        if (ends) (*sculpture)->end_stroke();
+        if (ends) sculpture->end_stroke();
         const Nanoseconds now_ns = clock.now_ns();
-        if ((*sculpture)->figures().rays_changed > before) {
+        if (sculpture->figures().rays_changed > before) {
             ++figures.updates;
             unsafe.push_back({now_ns, 0});
         }
         if (!ends && now_ns - told_ns < sculpt::CarvedPart::kJournal_ns) continue;
         told_ns = now_ns;
         std::vector<document::Change> changes;
-        for (document::Change change; (*sculpture)->take_change(change.pages); change = {})
+        for (document::Change change; sculpture->take_change(change.pages); change = {})
             changes.push_back(std::move(change));
         figures.taken_ms.push_back(1e3 * seconds(clock.now_ns() - now_ns));
         for (document::Change& change : changes) writer.note(std::move(change));
@@ -171,13 +168,13 @@ Result<void> measure_save(const DocumentTask& task, const CarveScene& scene, scu
                           const std::string& path, DocumentFigures::Save& figures) {
     document::DocumentWriter writer;
     document::SaveRequest first{.path = path, .name = path, .content = {}, .refused = {}};
-    if (const auto all = sculpture.save(first.content.parts.emplace_back()); !all) return all;
-    if (const auto saved = save(writer, std::move(first)); !saved) return std::unexpected(saved.error());
+    BURIN_TRY_DO(sculpture.save(first.content.parts.emplace_back()));
+    BURIN_TRY_DO(save(writer, std::move(first)));
 
     const std::uint64_t before = sculpture.figures().rays_changed;
     for (unsigned stroke = 0; stroke < task.strokes; ++stroke) {
         // Spread over the whole way.
-        if (const auto done = cut(sculpture, scene, stroke * scene.sweeps.size() / task.strokes); !done) return done;
+        BURIN_TRY_DO(cut(sculpture, scene, stroke * scene.sweeps.size() / task.strokes));
         sculpture.end_stroke();
     }
     figures.strokes = task.strokes;
@@ -185,9 +182,8 @@ Result<void> measure_save(const DocumentTask& task, const CarveScene& scene, scu
     for (scene::Pages changed; sculpture.take_change(changed); changed = {}) {
         for (const auto& [name, bytes] : changed.pages) {
             figures.changed_bytes += bytes.size();
-            const auto packed = record::compressed(bytes);
-            if (!packed) return std::unexpected(packed.error());
-            figures.changed_packed_bytes += packed->size();
+            BURIN_TRY(packed, record::compressed(bytes));
+            figures.changed_packed_bytes += packed.size();
         }
     }
     if (figures.changed_bytes == 0) return fail(task.mesh, "is cut by no stroke", "name another mesh");
@@ -195,15 +191,14 @@ Result<void> measure_save(const DocumentTask& task, const CarveScene& scene, scu
     Stopwatch watch;
     scene::Pages& pages = second.content.parts.emplace_back();
     pages.whole = false;
-    if (const auto taken = sculpture.save(pages); !taken) return taken;
+    BURIN_TRY_DO(sculpture.save(pages));
     figures.taken_ms = watch.lap_ms();
     const std::uint64_t written_before = bytes_written_by_process();
-    const auto saved = save(writer, std::move(second));
-    if (!saved) return std::unexpected(saved.error());
+    BURIN_TRY(saved, save(writer, std::move(second)));
     figures.written_ms = watch.lap_ms();
     figures.written_bytes = bytes_written_by_process() - written_before;
-    figures.pages = saved->pages;
-    figures.page_bytes = saved->page_bytes;
+    figures.pages = saved.pages;
+    figures.page_bytes = saved.page_bytes;
     return {};
 }
 
@@ -219,21 +214,19 @@ void forget(const std::string& path) {
 }
 
 Result<scene::Pages> read(const std::string& path) {
-    auto reader = document::DocumentReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    return reader->pages_of(sculpt::kSolidPart);
+    BURIN_TRY(reader, document::DocumentReader::open(path));
+    return reader.pages_of(sculpt::kSolidPart);
 }
 
 Result<void> measure_open(const std::string& path, bool is_cold, DocumentFigures::Open& figures) {
     if (is_cold) forget(path);
     Stopwatch watch;
-    if (const auto pages = read(path); !pages) return std::unexpected(pages.error());
+    BURIN_TRY_DO(read(path));
     figures.read_ms.push_back(watch.lap_ms());
     if (is_cold) forget(path);
     static_cast<void>(watch.lap_ms());
-    const auto pages = read(path);
-    if (!pages) return std::unexpected(pages.error());
-    const auto loaded = sculpt::load_solid(*pages, path);
+    BURIN_TRY(pages, read(path));
+    const auto loaded = sculpt::load_solid(pages, path);
     figures.open_ms.push_back(watch.lap_ms());
     if (!loaded) return std::unexpected(loaded.error());
     if (!loaded->lost.empty()) return fail(path, "is damaged: " + loaded->lost, "check the disk");
@@ -243,8 +236,7 @@ Result<void> measure_open(const std::string& path, bool is_cold, DocumentFigures
 Result<void> measure_size(const sculpt::Sculpture& sculpture, const OwnFolder& folder, const std::string& path,
                           DocumentFigures::Size& figures) {
     const std::string stl = folder.file("work.stl");
-    if (const auto written = geometry::export_mesh(sculpture.surface().welded(LengthUnit::mm), stl); !written)
-        return written;
+    BURIN_TRY_DO(geometry::export_mesh(sculpture.surface().welded(LengthUnit::mm), stl));
     std::error_code error;
     figures.document_bytes = fs::file_size(path, error);
     if (!error) figures.stl_bytes = fs::file_size(stl, error);
@@ -255,9 +247,8 @@ Result<void> measure_size(const sculpt::Sculpture& sculpture, const OwnFolder& f
 }  // namespace
 
 Result<DocumentFigures> measure_documents(const DocumentTask& task) {
-    const Result<CarveScene> scene = carved_scene(task);
-    if (!scene) return std::unexpected(scene.error());
-    DocumentFigures figures{.work = scene->name,
+    BURIN_TRY(scene, carved_scene(task));
+    DocumentFigures figures{.work = scene.name,
                             .journal_resolution = task.journal_resolution,
                             .resolution = task.resolution,
                             .journal = {},
@@ -268,19 +259,14 @@ Result<DocumentFigures> measure_documents(const DocumentTask& task) {
     WorkerPool pool;
     const OwnFolder folder(task.folder);
     const std::string path = folder.file("work.burin");
-    if (const auto done = measure_journal(task, *scene, folder, pool, figures.journal); !done)
-        return std::unexpected(done.error());
-    const auto sculpture = uncut(*scene, task.resolution, pool);
-    if (!sculpture) return std::unexpected(sculpture.error());
-    if (const auto done = measure_save(task, *scene, **sculpture, path, figures.save); !done)
-        return std::unexpected(done.error());
+    BURIN_TRY_DO(measure_journal(task, scene, folder, pool, figures.journal));
+    BURIN_TRY(sculpture, uncut(scene, task.resolution, pool));
+    BURIN_TRY_DO(measure_save(task, scene, *sculpture, path, figures.save));
     for (unsigned run = 0; run < task.runs; ++run) {
         for (const bool is_cold : {true, false})
-            if (const auto done = measure_open(path, is_cold, is_cold ? figures.cold : figures.warm); !done)
-                return std::unexpected(done.error());
+            BURIN_TRY_DO(measure_open(path, is_cold, is_cold ? figures.cold : figures.warm));
     }
-    if (const auto done = measure_size(**sculpture, folder, path, figures.size); !done)
-        return std::unexpected(done.error());
+    BURIN_TRY_DO(measure_size(*sculpture, folder, path, figures.size));
     return figures;
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/statistics.hpp"
+#include "base/try.hpp"
 #include "bench/frame/frame_display.hpp"
 #include "bench/frame/frame_peers.hpp"
 #include "bench/measure/flip.hpp"
@@ -34,9 +35,8 @@ void add(FrameCounters& sums, const FrameCounters& counts) {
 
 Result<void> settle(FrameSubject& subject, LevelsMade& made) {
     const double before_ms = process_cpu_ms();
-    const auto patches = subject.settle();
-    if (!patches) return std::unexpected(patches.error());
-    made.patches += *patches;
+    BURIN_TRY(patches, subject.settle());
+    made.patches += patches;
     made.cpu_ms += process_cpu_ms() - before_ms;
     return {};
 }
@@ -61,10 +61,10 @@ public:
     }
 
     Result<FrameReport> all() {
-        if (const auto done = open(); !done) return std::unexpected(done.error());
-        if (const auto done = measure_own(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(open());
+        BURIN_TRY_DO(measure_own());
         own_.subject.reset();
-        if (const auto done = measure_own_ways(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(measure_own_ways());
         measure_peers();
         compare_pictures();
         return std::move(report_);
@@ -100,11 +100,10 @@ Result<void> Run::open() {
     report_.triangles = scene_.triangles();
     report_.patches = scene_.patches.size();
 
-    auto own = open_own(scene_, options());
-    if (!own) return std::unexpected(own.error());
-    own_ = std::move(*own);
+    BURIN_TRY(own, open_own(scene_, options()));
+    own_ = std::move(own);
     report_.device = own_.device_name;
-    if (const auto done = own_.subject->draw({still_viewer(scene_), {}}); !done) return done;
+    BURIN_TRY_DO(own_.subject->draw({still_viewer(scene_), {}}));
     if (options().first) report_.first = {wall_since_start_ms() - making_wall_ms, process_cpu_ms() - making_cpu_ms};
     return {};
 }
@@ -112,15 +111,13 @@ Result<void> Run::open() {
 Result<void> Run::measure_own() {
     for (const FrameMotion motion : options().motions) {
         tell_(std::string(kOwn) + ", " + name_of(motion));
-        auto times = time_frames(*own_.subject, scene_, motion, options());
-        if (!times) return std::unexpected(times.error());
-        report_.times.push_back(std::move(*times));
+        BURIN_TRY(times, time_frames(*own_.subject, scene_, motion, options()));
+        report_.times.push_back(std::move(times));
     }
     if (!options().idle) return {};
     tell_(std::string(kOwn) + ", idle");
-    const auto idle = time_idle(*own_.subject, options().idle_s);
-    if (!idle) return std::unexpected(idle.error());
-    report_.idle = *idle;
+    BURIN_TRY(idle, time_idle(*own_.subject, options().idle_s));
+    report_.idle = idle;
     return {};
 }
 
@@ -132,11 +129,9 @@ Result<void> Run::measure_own_ways() {
         if (std::ranges::find(done, compared.own) != done.end()) continue;
         done.push_back(compared.own);
         tell_(std::string(kOwn) + ", " + name_of(compared.own));
-        auto own = open_own(scene_, options(), compared.own);
-        if (!own) return std::unexpected(own.error());
-        auto times = time_frames(*own->subject, scene_, FrameMotion::moving, options());
-        if (!times) return std::unexpected(times.error());
-        report_.times.push_back(std::move(*times));
+        BURIN_TRY(own, open_own(scene_, options(), compared.own));
+        BURIN_TRY(times, time_frames(*own.subject, scene_, FrameMotion::moving, options()));
+        report_.times.push_back(std::move(times));
     }
     return {};
 }
@@ -225,10 +220,10 @@ Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, F
             motion == FrameMotion::carving ? wandering_dent(scene, frame) : std::vector<PatchChange>{};
         Stopwatch watch;
         const double before_ms = process_cpu_ms();
-        if (const auto drawn = subject.draw({viewer, changes}); !drawn) return std::unexpected(drawn.error());
+        BURIN_TRY_DO(subject.draw({viewer, changes}));
         const double cpu_ms = process_cpu_ms() - before_ms, wall_ms = watch.lap_ms();
         if (frame < options.warm_up) {
-            if (const auto done = settle(subject, times.levels); !done) return std::unexpected(done.error());
+            BURIN_TRY_DO(settle(subject, times.levels));
             continue;
         }
         times.cpu_ms.push_back(cpu_ms);
@@ -236,13 +231,12 @@ Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, F
         add(times.counters, subject.counters());
     }
     for (auto& [name, value] : times.counters) value /= static_cast<double>(times.cpu_ms.size());
-    auto pictures = subject.picture();
-    if (!pictures) return std::unexpected(pictures.error());
-    times.pictures = std::move(*pictures);
-    if (const auto done = settle(subject, times.levels_after); !done) return std::unexpected(done.error());
+    BURIN_TRY(pictures, subject.picture());
+    times.pictures = std::move(pictures);
+    BURIN_TRY_DO(settle(subject, times.levels_after));
     times.coverage = coverage(scene.look, times.pictures.left);
     times.expected_coverage = expected_coverage(scene, wall::eyes_of(viewer).left_world);
-    if (const auto ok = check_coverage(times); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_coverage(times));
     return times;
 }
 
@@ -251,7 +245,7 @@ Result<IdleCost> time_idle(FrameSubject& subject, double seconds) {
     const double before_ms = process_cpu_ms();
     double passed_s = 0.0;
     while (passed_s < seconds) {
-        if (const auto done = subject.wait(seconds - passed_s); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(subject.wait(seconds - passed_s));
         passed_s += 1e-3 * watch.lap_ms();
     }
     return IdleCost{passed_s, 1e-3 * (process_cpu_ms() - before_ms) / passed_s};

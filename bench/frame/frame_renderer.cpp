@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws Burin's own frames as a session does: the surface's patches are given to the renderer as carving gives its
 // tiles, frames follow one another, and nothing is read back.
+#include "base/try.hpp"
 #include "bench/frame/frame.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "gpu/device.hpp"
@@ -38,14 +39,12 @@ public:
     Result<void> draw(const FrameStep& step) override {
         for (const PatchChange& change : step.changes) set(change.patch, change.vertices);
         drawn_.viewer = step.viewer;
-        auto commands = gpu::Commands::begin(device_);
-        if (!commands) return std::unexpected(commands.error());
-        if (const auto recorded = renderer_.record(*commands, drawn_); !recorded) {
+        BURIN_TRY(commands, gpu::Commands::begin(device_));
+        if (const auto recorded = renderer_.record(commands, drawn_); !recorded) {
             return std::unexpected(recorded.error());
         }
-        auto submission = std::move(*commands).submit();
-        if (!submission) return std::unexpected(submission.error());
-        return submission->wait();
+        BURIN_TRY(submission, std::move(commands).submit());
+        return submission.wait();
     }
 
     // Does what a session's thread for levels of detail does beside the frames.
@@ -96,12 +95,11 @@ Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options
     renderer::Savings savings;
     savings.vertex_rate = way.lit_at == LitAt::vertices;
     savings.coarser_levels = way.levels;
-    auto device = gpu::Device::create({.index = options.device});
-    if (!device) return std::unexpected(device.error());
-    auto renderer = renderer::Renderer::create(*device, scene.size, {.samples = options.samples, .savings = savings});
-    if (!renderer) return std::unexpected(renderer.error());
-    std::string name = device->info().line();
-    return OwnSubject{std::make_unique<RendererSubject>(scene, std::move(*device), std::move(*renderer), way),
+    BURIN_TRY(device, gpu::Device::create({.index = options.device}));
+    BURIN_TRY(renderer,
+              renderer::Renderer::create(device, scene.size, {.samples = options.samples, .savings = savings}));
+    std::string name = device.info().line();
+    return OwnSubject{std::make_unique<RendererSubject>(scene, std::move(device), std::move(renderer), way),
                       std::move(name)};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/glove/fingertip_press.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -96,20 +98,19 @@ double force_of(const Patch& patch, const Patch& pad, const Quat& turn, PressedO
 }
 
 Result<PressFigures> press_fingertip(const geometry::HandModel& hand, geometry::Finger finger, const PressTask& task) {
-    const auto pad = pad_of(hand, finger, task);
-    if (!pad) return std::unexpected(pad.error());
+    BURIN_TRY(pad, pad_of(hand, finger, task));
     PressFigures figures;
-    figures.pad_m = pad->first;
+    figures.pad_m = pad.first;
     for (std::size_t i = 0; i < task.angles; ++i) {
         const double part = 2.0 * static_cast<double>(i) / static_cast<double>(task.angles - 1) - 1.0;
         figures.angles_rad.push_back(part * task.most_rad);
     }
     const Quat flat(1.0, 0.0, 0.0, 0.0);
-    const double pad_flat = force_of(pad->second, pad->second, flat, PressedOn::plate, task);
+    const double pad_flat = force_of(pad.second, pad.second, flat, PressedOn::plate, task);
     std::vector<double> of_pad[2][2];
     for (std::size_t s = 0; s < 2; ++s)
         for (std::size_t t = 0; t < 2; ++t)
-            of_pad[s][t] = forces_over(pad->second, pad->second, figures.angles_rad, kTurns[t], kSurfaces[s], task);
+            of_pad[s][t] = forces_over(pad.second, pad.second, figures.angles_rad, kTurns[t], kSurfaces[s], task);
     for (std::size_t t = 0; t < 2; ++t) figures.pad_force[t] = of_pad[0][t];
     for (const double extent_m : task.extents_m) {
         const auto dense = geometry::fingertip_patch(hand, finger, {task.reference_points, extent_m});
@@ -117,20 +118,19 @@ Result<PressFigures> press_fingertip(const geometry::HandModel& hand, geometry::
         std::vector<double> of_dense[2][2];
         for (std::size_t s = 0; s < 2; ++s)
             for (std::size_t t = 0; t < 2; ++t)
-                of_dense[s][t] = forces_over(*dense, pad->second, figures.angles_rad, kTurns[t], kSurfaces[s], task);
+                of_dense[s][t] = forces_over(*dense, pad.second, figures.angles_rad, kTurns[t], kSurfaces[s], task);
         for (const std::size_t points : task.points) {
             if (points == 1 && extent_m != task.extents_m.front()) continue;  // one point has no extent
-            const auto patch = geometry::fingertip_patch(hand, finger, {points, extent_m});
-            if (!patch) return std::unexpected(patch.error());
+            BURIN_TRY(patch, geometry::fingertip_patch(hand, finger, {points, extent_m}));
             PatchFigures f{points,
                            points == 1 ? 0.0 : extent_m,
-                           force_of(*patch, pad->second, flat, PressedOn::plate, task) / pad_flat,
+                           force_of(patch, pad.second, flat, PressedOn::plate, task) / pad_flat,
                            {},
                            {}};
             for (std::size_t s = 0; s < 2; ++s)
                 for (std::size_t t = 0; t < 2; ++t) {
                     const auto forces =
-                        forces_over(*patch, pad->second, figures.angles_rad, kTurns[t], kSurfaces[s], task);
+                        forces_over(patch, pad.second, figures.angles_rad, kTurns[t], kSurfaces[s], task);
                     f.departures[s][t] = departure_of(forces, of_pad[s][t], figures.angles_rad, ShareOf::force);
                     f.of_own_extent[s][t] =
                         departure_of(forces, of_dense[s][t], figures.angles_rad, ShareOf::flat_force);

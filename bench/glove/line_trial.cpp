@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/try.hpp"
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/gloves/glove_link.hpp"
 
@@ -79,15 +80,14 @@ double error_of(const std::vector<TrialMoment>& moments, double stiffness_N_per_
 }  // namespace
 
 Result<std::vector<TrialMoment>> close_on_ball(MadeAt at, double stiffness_N_per_m) {
-    auto port = devices::GlovePort::create();
-    if (!port) return std::unexpected(port.error());
+    BURIN_TRY(port, devices::GlovePort::create());
     std::vector<TrialMoment> moments;  // the glove's thread's, until it has ended
     std::atomic<bool> ends = false;
     devices::EmulatedGlove begins;
     begins.scripted_s = kCloses_s;
     begins.grip.closed.fill(kFrom);
     std::thread glove([&] {
-        port->run(
+        port.run(
             begins, [&] { return ends.load(); },
             [&](const devices::EmulatedGlove& now) {
                 if (now.commanded) moments.push_back({now.time_s, now.pistons_m[kIndex], now.given_N[kIndex]});
@@ -95,7 +95,7 @@ Result<std::vector<TrialMoment>> close_on_ball(MadeAt at, double stiffness_N_per
     });
     MonotonicClock clock;
     Result<void> done;
-    if (auto link = devices::GloveLink::open(port->name(), clock))
+    if (auto link = devices::GloveLink::open(port.name(), clock))
         render(**link, at, stiffness_N_per_m);
     else
         done = std::unexpected(link.error());
@@ -120,15 +120,13 @@ Result<TrialFigures> try_line(MadeAt at) {
     constexpr double kFrom_N_per_m = 60.0, kMost_N_per_m = 6000.0, kFactor = 1.4;
     TrialFigures figures{.at = at};
     for (double k = kFrom_N_per_m; k < kMost_N_per_m; k *= kFactor) {
-        const auto moments = close_on_ball(at, k);
-        if (!moments) return std::unexpected(moments.error());
-        if (!rests_at_end(*moments)) break;
+        BURIN_TRY(moments, close_on_ball(at, k));
+        if (!rests_at_end(moments)) break;
         figures.stiffest_N_per_m = k;
     }
-    const auto soft = close_on_ball(at, kSoft_N_per_m);
-    if (!soft) return std::unexpected(soft.error());
-    figures.lag_s = lag_of(*soft, kSoft_N_per_m);
-    figures.force_error = error_of(*soft, kSoft_N_per_m);
+    BURIN_TRY(soft, close_on_ball(at, kSoft_N_per_m));
+    figures.lag_s = lag_of(soft, kSoft_N_per_m);
+    figures.force_error = error_of(soft, kSoft_N_per_m);
     return figures;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/csv.hpp"
 #include "base/plot/figures.hpp"
+#include "base/try.hpp"
 #include "bench/haptics/carving_scenes.hpp"
 
 namespace burin::bench {
@@ -96,10 +97,9 @@ Result<std::vector<GroovePoint>> groove_points(std::string_view csv, const std::
     for (std::size_t line = 1; !csv.empty(); ++line) {
         const CsvRecord record = take_record(csv, ',');
         if (line == 1 && record.text == kHeader) continue;
-        auto point = groove_point_of(record.text, name + ", line " + std::to_string(line));
-        if (!point) return std::unexpected(point.error());
-        if (point->what == kNow) point->what = version;
-        points.push_back(std::move(*point));
+        BURIN_TRY(point, groove_point_of(record.text, name + ", line " + std::to_string(line)));
+        if (point.what == kNow) point.what = version;
+        points.push_back(std::move(point));
     }
     if (points.empty()) return fail(name, "has no points", "give a file that bench haptics --groove has written");
     return points;

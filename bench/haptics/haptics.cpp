@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/haptics/haptics.hpp"
 
+#include "base/try.hpp"
 #include "bench/haptics/haptics_rows.hpp"
 #include "bench/measure/timing.hpp"
 #include "haptics/realtime.hpp"
@@ -29,14 +30,13 @@ HapticsOptions quick_haptics() {
 
 Result<void> on_rough_scenes(const Haptics& all, const Tell& notify, const std::string& what,
                              const std::function<Result<void>(const TouchedScene&)>& measure) {
-    const Result<TouchScenes> scenes = touch_scenes(all.options.scenes);
-    if (!scenes) return std::unexpected(scenes.error());
-    for (const TouchScene& wanted : scenes->scenes) {
+    BURIN_TRY(scenes, touch_scenes(all.options.scenes));
+    for (const TouchScene& wanted : scenes.scenes) {
         if (wanted.smooth) continue;
         const auto scene = touched(wanted);
         if (!scene) continue;
         notify("measuring: " + what + " on " + wanted.name);
-        if (const auto done = measure(**scene); !done) return done;
+        BURIN_TRY_DO(measure(**scene));
     }
     return {};
 }
@@ -47,19 +47,19 @@ Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
     all.machine = machine();
     all.realtime = "not asked for";
     // Edits come first, and without real-time priority: they are the publisher's work.
-    if (auto done = measure_edits(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_accuracy(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_parts(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_shapes(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_carved(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_wand(all, notify); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(measure_edits(all, notify));
+    BURIN_TRY_DO(measure_accuracy(all, notify));
+    BURIN_TRY_DO(measure_parts(all, notify));
+    BURIN_TRY_DO(measure_shapes(all, notify));
+    BURIN_TRY_DO(measure_carved(all, notify));
+    BURIN_TRY_DO(measure_wand(all, notify));
     if (options.ask_for_realtime) {
         const haptics::RealtimeNotice notice = haptics::ask_for_realtime();
         all.realtime = notice.text.empty() ? "priority and locked memory" : notice.text;
     }
-    if (auto done = measure_ticks(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_carving_ticks(all, notify); !done) return std::unexpected(done.error());
-    if (auto done = measure_peer_ticks(all, notify); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(measure_ticks(all, notify));
+    BURIN_TRY_DO(measure_carving_ticks(all, notify));
+    BURIN_TRY_DO(measure_peer_ticks(all, notify));
     sort_worst_first(all.ticks);
     return all;
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/statistics.hpp"
+#include "base/try.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "devices/haptic/simulated_omni.hpp"
@@ -19,12 +20,11 @@ namespace {
 // Makes a surface from a mesh in a scene whose coordinates are `scale` times metres: 1 is metres, 1000 millimetres.
 Result<geometry::LocalSurface> surface_of(geometry::TriangleMesh mesh, double scale) {
     for (Vec3& p : mesh.positions_m) p *= scale;
-    auto touched = geometry::TouchMesh::create(mesh);
-    if (!touched) return std::unexpected(touched.error());
+    BURIN_TRY(touched, geometry::TouchMesh::create(mesh));
     geometry::LocalSurface surface;
     surface.sequence = 1;
     surface.radius_m = 1e6;
-    surface.meshes.push_back({touched->snapshot(), 0});
+    surface.meshes.push_back({touched.snapshot(), 0});
     return surface;
 }
 
@@ -171,11 +171,10 @@ void measure_contact_of_loop(Haptics& all, const BumpySphere& shape, const geome
 // itself comes from the facets.
 Result<void> measure_jumps(Haptics& all) {
     const BumpySphere sphere{.bumps = 0.0};
-    const auto surface = surface_of(mesh_of(sphere, squares_for(all.options.sizes.front())), 1.0);
-    if (!surface) return std::unexpected(surface.error());
+    BURIN_TRY(surface, surface_of(mesh_of(sphere, squares_for(all.options.sizes.front())), 1.0));
     for (const bool shading : {true, false}) {
         PressedPath path(sphere, {.mean_m = 0.001, .swing_m = 0.0});
-        Point point(*surface, 1.0, shading);
+        Point point(surface, 1.0, shading);
         std::vector<double> jumps;
         Vec3 before(0.0), outward_before(0.0);
         double turn = 0.0;
@@ -188,7 +187,7 @@ Result<void> measure_jumps(Haptics& all) {
             if (i > 10) turn = std::max(turn, 100.0 * glm::length(path.outward() - outward_before));
             before = spring, outward_before = path.outward();
         }
-        all.jumps.push_back({surface->triangles(), shading, quantile(jumps, 1.0), quantile(jumps, 0.99), turn});
+        all.jumps.push_back({surface.triangles(), shading, quantile(jumps, 1.0), quantile(jumps, 0.99), turn});
     }
     return {};
 }

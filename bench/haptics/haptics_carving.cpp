@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/try.hpp"
 #include "bench/haptics/touch_run.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
@@ -23,9 +24,8 @@ constexpr Nanoseconds kCarvingUpdate_ns = 10'000'000;
 class CarvedBall {
 public:
     static Result<std::unique_ptr<CarvedBall>> create(int resolution) {
-        Result<compute::Solid> solid = compute::make_ball(BumpySphere{}.radius_m, resolution, geometry::Material{});
-        if (!solid) return std::unexpected(solid.error());
-        return std::unique_ptr<CarvedBall>(new CarvedBall(std::move(*solid)));
+        BURIN_TRY(solid, compute::make_ball(BumpySphere{}.radius_m, resolution, geometry::Material{}));
+        return std::unique_ptr<CarvedBall>(new CarvedBall(std::move(solid)));
     }
     [[nodiscard]] sculpt::Sculpture& sculpture() { return sculpture_; }
     [[nodiscard]] double cell_m() const { return sculpture_.surface().lattice().spacing_m; }
@@ -100,17 +100,16 @@ std::uint64_t ticks_of(const Haptics& all, Pacing pacing) {
 
 // The tool cuts while the hand moves.
 Result<void> touch_while_carving(Haptics& all, const Carving& of) {
-    const Result<PressedWalk> path = path_over_ball(of.tool_m, 0.0015);
-    if (!path) return std::unexpected(path.error());
+    BURIN_TRY(path, path_over_ball(of.tool_m, 0.0015));
     MonotonicClock clock;
     TickCosts& costs = costs_of(all, "carving", of);
     haptics::TickParameters parameters = session_parameters(haptics::ball_probe(of.tool_m), true);
     parameters.tool = sculpt::felt_tool(compute::BallTool{of.tool_m}).surface;
-    TouchRun run(costs, clock, parameters, *path, true);
+    TouchRun run(costs, clock, parameters, path, true);
     const double reach_m = 0.012 + 2.0 * of.ball.cell_m();  // as a session: 1 m/s for 12 ms
     sculpt::CarvedScene service(of.ball.sculpture(), run.channels(), ball_tool(of.tool_m),
                                 parameters.materials[0].hardness_Ns_per_m3, reach_m, {});
-    service.start_at(path->hip_m());
+    service.start_at(path.hip_m());
     Result<void> done = service.update(clock.now_ns());
     if (of.pacing != Pacing::back_to_back) {
         CarvingThread thread(service);
@@ -127,31 +126,29 @@ constexpr double kGroove_m = 0.0015, kDeeper_m = 0.001;
 
 // Carves along the path that is to be touched.
 Result<void> carve_groove(const Haptics& all, CarvedBall& ball, double tool_m) {
-    Result<PressedWalk> path = path_over_ball(tool_m, kGroove_m);
-    if (!path) return std::unexpected(path.error());
+    BURIN_TRY(path, path_over_ball(tool_m, kGroove_m));
     const std::uint64_t ticks = std::max(all.options.paced_ticks, all.options.back_to_back_ticks);
     std::vector<Pose> poses;
     for (std::uint64_t pressed = 0; pressed < ticks || !poses.empty();) {
-        path->step();
-        if (path->lifted() && poses.size() > 1) {
+        path.step();
+        if (path.lifted() && poses.size() > 1) {
             const auto sweeps = sculpt::sweeps_along(poses, ball_tool(tool_m), 0.05 * ball.cell_m());
-            if (const auto done = ball.sculpture().update(sweeps); !done) return done;
+            BURIN_TRY_DO(ball.sculpture().update(sweeps));
             poses.clear();
             if (pressed >= ticks) break;
         }
-        if (path->pressed()) ++pressed;
-        if (!path->lifted()) poses.push_back({path->hip_m()});
+        if (path.pressed()) ++pressed;
+        if (!path.lifted()) poses.push_back({path.hip_m()});
     }
     return {};
 }
 
 // The hand presses a millimetre deeper along the groove that the same tool has cut, and does not cut.
 Result<void> touch_groove(Haptics& all, const Carving& of) {
-    const Result<PressedWalk> path = path_over_ball(of.tool_m, kGroove_m + kDeeper_m);
-    if (!path) return std::unexpected(path.error());
+    BURIN_TRY(path, path_over_ball(of.tool_m, kGroove_m + kDeeper_m));
     MonotonicClock clock;
     TickCosts& costs = costs_of(all, "groove", of);
-    TouchRun run(costs, clock, session_parameters(haptics::ball_probe(of.tool_m), true), *path, false);
+    TouchRun run(costs, clock, session_parameters(haptics::ball_probe(of.tool_m), true), path, false);
     std::uint64_t sequence = 0;
     run.take(ticks_of(all, of.pacing), of.pacing, [&](Nanoseconds now_ns) {
         geometry::LocalSurface& draft = run.channels().surface.draft();
@@ -170,14 +167,13 @@ Result<void> measure_with(Haptics& all, int resolution, double tool_m, const Tel
         const auto ball = CarvedBall::create(resolution);  // every pacing carves a fresh one
         if (!ball) return std::unexpected(ball.error());
         notify("ticks under carving, " + what + ", " + name_of(pacing));
-        if (auto done = touch_while_carving(all, {**ball, resolution, tool_m, pacing}); !done) return done;
+        BURIN_TRY_DO(touch_while_carving(all, {**ball, resolution, tool_m, pacing}));
     }
-    const auto ball = CarvedBall::create(resolution);
-    if (!ball) return std::unexpected(ball.error());
+    BURIN_TRY(ball, CarvedBall::create(resolution));
     notify("ticks in a groove, " + what);
-    if (auto done = carve_groove(all, **ball, tool_m); !done) return done;
+    BURIN_TRY_DO(carve_groove(all, *ball, tool_m));
     for (const Pacing pacing : {Pacing::cold, Pacing::rehearsed, Pacing::back_to_back})
-        if (auto done = touch_groove(all, {**ball, resolution, tool_m, pacing}); !done) return done;
+        BURIN_TRY_DO(touch_groove(all, {*ball, resolution, tool_m, pacing}));
     return {};
 }
 
@@ -185,8 +181,7 @@ Result<void> measure_with(Haptics& all, int resolution, double tool_m, const Tel
 
 Result<void> measure_carving_ticks(Haptics& all, const Tell& notify) {
     for (const int resolution : all.options.solid_resolutions)
-        for (const double tool_m : kTools_m)
-            if (auto done = measure_with(all, resolution, tool_m, notify); !done) return done;
+        for (const double tool_m : kTools_m) BURIN_TRY_DO(measure_with(all, resolution, tool_m, notify));
     return {};
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <random>
 
+#include "base/try.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/measure/bumpy_sphere.hpp"
@@ -118,15 +119,14 @@ Result<void> measure_large(Haptics& all) {
 
 Result<void> measure_deforming(Haptics& all) {
     geometry::TriangleMesh source = mesh_of({}, squares_for(all.options.sizes.front()));
-    auto mesh = geometry::TouchMesh::create(source);
-    if (!mesh) return std::unexpected(mesh.error());
-    all.edits.deformed_triangles = mesh->triangles();
-    std::shared_ptr<const geometry::TouchSnapshot> newest = mesh->snapshot();
+    BURIN_TRY(mesh, geometry::TouchMesh::create(source));
+    all.edits.deformed_triangles = mesh.triangles();
+    std::shared_ptr<const geometry::TouchSnapshot> newest = mesh.snapshot();
     for (std::uint64_t i = 0; i < all.options.edits; ++i) {
         for (Vec3& p : source.positions_m) p *= i % 2 == 0 ? 1.001 : 1.0 / 1.001;
         Stopwatch watch;
-        if (auto moved = mesh->move_all(source.positions_m); !moved) return moved;
-        newest = mesh->snapshot();
+        BURIN_TRY_DO(mesh.move_all(source.positions_m));
+        newest = mesh.snapshot();
         all.edits.deform_ms.push_back(watch.lap_ms());
     }
     return {};
@@ -136,7 +136,7 @@ Result<void> measure_deforming(Haptics& all) {
 
 Result<void> measure_edits(Haptics& all, const Tell& log_progress) {
     log_progress("edits of 1 cm");
-    if (auto done = measure_large(all); !done) return done;
+    BURIN_TRY_DO(measure_large(all));
     log_progress("a body that deforms");
     return measure_deforming(all);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/statistics.hpp"
+#include "base/try.hpp"
 #include "bench/haptics/touch_run.hpp"
 #include "bench/peers/proxy_peer.hpp"
 #include "haptics/channels.hpp"
@@ -117,10 +118,9 @@ Result<std::vector<NamedSubject>> subjects_of(const Compared& of) {
     settings.shading = false;
     subjects.push_back({"burin_unshaded", std::make_unique<ContactAlone>(of.scene, settings)});
     for (const bool dynamic : {false, true}) {
-        auto peer = open_chai3d(
-            of.scene.mesh, {settings.contact_radius_m, settings.static_friction, settings.dynamic_friction, dynamic});
-        if (!peer) return std::unexpected(peer.error());
-        subjects.push_back({dynamic ? "chai3d_dynamic" : "chai3d_static", std::make_unique<Peer>(std::move(*peer))});
+        BURIN_TRY(peer, open_chai3d(of.scene.mesh, {settings.contact_radius_m, settings.static_friction,
+                                                    settings.dynamic_friction, dynamic}));
+        subjects.push_back({dynamic ? "chai3d_dynamic" : "chai3d_static", std::make_unique<Peer>(std::move(peer))});
     }
     return subjects;
 }
@@ -186,17 +186,16 @@ void take_back_to_back(Subject& subject, PeerTicks& ticks, const Compared& of, s
 }
 
 Result<void> compare(Haptics& all, const Compared& of) {
-    auto subjects = subjects_of(of);
-    if (!subjects) return std::unexpected(subjects.error());
-    std::vector<PeerTicks> ticks(subjects->size());
+    BURIN_TRY(subjects, subjects_of(of));
+    std::vector<PeerTicks> ticks(subjects.size());
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         ticks[i].scene = of.scene.name, ticks[i].triangles = of.scene.mesh.triangles.size();
         ticks[i].probe = of.probe.name, ticks[i].radius_m = of.probe.radius_m, ticks[i].friction = of.friction;
-        ticks[i].who = (*subjects)[i].name;
+        ticks[i].who = subjects[i].name;
     }
-    take_cold(*subjects, ticks, of, all.options.peer_ticks);
+    take_cold(subjects, ticks, of, all.options.peer_ticks);
     for (std::size_t i = 0; i < ticks.size(); ++i)
-        take_back_to_back(*(*subjects)[i].subject, ticks[i], of, 2 * all.options.peer_ticks);
+        take_back_to_back(*subjects[i].subject, ticks[i], of, 2 * all.options.peer_ticks);
     std::ranges::move(ticks, std::back_inserter(all.peers));
     return {};
 }
@@ -208,16 +207,14 @@ Result<void> measure_peer_ticks(Haptics& all, const Tell& notify) {
         all.notes.push_back(open_chai3d({}, {}).error().line());
         return {};
     }
-    const Result<TouchScenes> scenes = touch_scenes(all.options.scenes);
-    if (!scenes) return std::unexpected(scenes.error());
-    for (const TouchScene& wanted : scenes->scenes) {
+    BURIN_TRY(scenes, touch_scenes(all.options.scenes));
+    for (const TouchScene& wanted : scenes.scenes) {
         const auto scene = touched(wanted);
         if (!scene) continue;  // measure_ticks has said why
         for (const NamedProbe& probe : probes_on(0.0)) {
             if (probe.name != "point" && probe.name != "ball_2_mm" && probe.name != "ball_5_mm") continue;
             notify("ours and CHAI3D's in turn on " + wanted.name + ", " + probe.name);
-            for (const bool friction : {true, false})
-                if (const auto done = compare(all, {**scene, probe, friction}); !done) return done;
+            for (const bool friction : {true, false}) BURIN_TRY_DO(compare(all, {**scene, probe, friction}));
         }
     }
     return {};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "base/try.hpp"
 #include "bench/haptics/carving_hand.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
@@ -57,7 +58,7 @@ public:
             channels_->parameters.publish();
             if (turn % TouchRun::kTicksAnUpdate == 0) {
                 geometry::LocalSurface& draft = channels_->surface.draft();
-                if (const auto done = publish(draft, path_.hip_m()); !done) return done;
+                BURIN_TRY_DO(publish(draft, path_.hip_m()));
                 draft.sequence = turn + 1, draft.made_ns = clock_.now_ns();
                 channels_->surface.publish();
             }
@@ -122,7 +123,7 @@ Result<void> carve_with(const Haptics& all, sculpt::Sculpture& sculpture, const 
         path.step();
         if (path.lifted() && poses.size() > 1) {
             const auto sweeps = sculpt::sweeps_along(poses, cuts, tolerance_m);
-            if (const auto done = sculpture.update(sweeps); !done) return done;
+            BURIN_TRY_DO(sculpture.update(sweeps));
             poses.clear();
             if (pressed >= all.options.shape_ticks) return {};
         }
@@ -133,17 +134,16 @@ Result<void> carve_with(const Haptics& all, sculpt::Sculpture& sculpture, const 
 
 Result<void> touch_groove_with(Haptics& all, int resolution, const ShapeTool& tool) {
     const BumpySphere ball{.bumps = 0.0};
-    Result<compute::Solid> solid = compute::make_ball(ball.radius_m, resolution, geometry::Material{});
-    if (!solid) return std::unexpected(solid.error());
+    BURIN_TRY(solid, compute::make_ball(ball.radius_m, resolution, geometry::Material{}));
     WorkerPool pool(1);
-    sculpt::Sculpture sculpture(compute::make_cpu_engine(std::move(*solid), pool), pool);
+    sculpt::Sculpture sculpture(compute::make_cpu_engine(std::move(solid), pool), pool);
     const auto way = [&](double depth_m) {
         return PressedWalk::create(mesh_of(ball, 40), {.depth_m = depth_m, .above_m = kAboveShape_m});
     };
     const Result<PressedWalk> carved = way(kShapeGroove_m), pressed = way(kShapeGroove_m + kPressedDeeper_m);
     if (!carved) return std::unexpected(carved.error());
     if (!pressed) return std::unexpected(pressed.error());
-    if (const auto done = carve_with(all, sculpture, tool, *carved); !done) return done;
+    BURIN_TRY_DO(carve_with(all, sculpture, tool, *carved));
     ShapeTicks& figures =
         shape_ticks(all, "groove_" + std::to_string(resolution), tool, sculpture.surface().triangles());
     ShapeRun run(tool, *pressed, figures);
@@ -158,15 +158,14 @@ Result<void> touch_groove_with(Haptics& all, int resolution, const ShapeTool& to
 
 Result<void> measure_shapes(Haptics& all, const Tell& notify) {
     const auto on_meshes = on_rough_scenes(all, notify, "shapes", [&](const TouchedScene& scene) -> Result<void> {
-        for (const ShapeTool& tool : shape_tools())
-            if (const auto done = touch_mesh_with(all, scene, tool); !done) return done;
+        for (const ShapeTool& tool : shape_tools()) BURIN_TRY_DO(touch_mesh_with(all, scene, tool));
         return {};
     });
     if (!on_meshes) return on_meshes;
     for (const int resolution : all.options.solid_resolutions)
         for (const ShapeTool& tool : shape_tools()) {
             notify("shapes in a groove, " + std::to_string(resolution) + " cells, " + tool.name);
-            if (const auto done = touch_groove_with(all, resolution, tool); !done) return done;
+            BURIN_TRY_DO(touch_groove_with(all, resolution, tool));
         }
     return {};
 }

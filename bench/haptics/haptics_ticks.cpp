@@ -2,6 +2,7 @@
 // Times the ticks of the haptic loop on meshes.
 #include "bench/haptics/touch_run.hpp"
 
+#include "base/try.hpp"
 #include "haptics/channels.hpp"
 
 namespace burin::bench {
@@ -42,10 +43,9 @@ void touch_with(Haptics& all, const TouchedScene& scene, const NamedProbe& probe
 }  // namespace
 
 Result<void> measure_ticks(Haptics& all, const Tell& log_progress) {
-    const Result<TouchScenes> scenes = touch_scenes(all.options.scenes);
-    if (!scenes) return std::unexpected(scenes.error());
-    all.notes.insert(all.notes.end(), scenes->notes.begin(), scenes->notes.end());
-    for (const TouchScene& wanted : scenes->scenes) {
+    BURIN_TRY(scenes, touch_scenes(all.options.scenes));
+    all.notes.insert(all.notes.end(), scenes.notes.begin(), scenes.notes.end());
+    for (const TouchScene& wanted : scenes.scenes) {
         const auto scene = touched(wanted);
         if (!scene) {
             all.notes.push_back("not touched: " + scene.error().line());

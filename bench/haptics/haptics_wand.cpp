@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/assets.hpp"
+#include "base/try.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/haptics/touch_run.hpp"
@@ -109,17 +110,14 @@ Result<void> measure_wand(Haptics& all, const Tell& notify) {
         return {};
     }
     notify("a wand in the tube");
-    Result<geometry::TriangleMesh> mesh = tube_wall();
-    if (!mesh) return std::unexpected(mesh.error());
-    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(stroke_through_tube());
-    if (!stroke) return std::unexpected(stroke.error());
-    auto wall = geometry::TouchMesh::create(*mesh);
-    if (!wall) return std::unexpected(wall.error());
+    BURIN_TRY(mesh, tube_wall());
+    BURIN_TRY(stroke, sculpt::read_stroke(stroke_through_tube()));
+    BURIN_TRY(wall, geometry::TouchMesh::create(mesh));
     for (const auto& [name, top, bottom] :
          {std::tuple{"both", true, true}, std::tuple{"top", true, false}, std::tuple{"bottom", false, true}}) {
         WandWork& work = all.wand.emplace_back();
         work.points = name;
-        WandRun(wall->snapshot(), ends(top, bottom), work).take(*stroke, all.options.wand_ticks);
+        WandRun(wall.snapshot(), ends(top, bottom), work).take(stroke, all.options.wand_ticks);
     }
     return {};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/try.hpp"
 #include "geometry/mesh/edge_table.hpp"
 #include "geometry/mesh/triangle.hpp"
 
@@ -157,9 +158,8 @@ void SurfaceWalk::advance(double length_m) {
 // ---- The hand
 
 Result<PressedWalk> PressedWalk::create(const geometry::TriangleMesh& mesh, const HandPress& press) {
-    Result<SurfaceWalk> walk = SurfaceWalk::create(mesh, press.seed);
-    if (!walk) return std::unexpected(walk.error());
-    return PressedWalk(std::move(*walk), press);
+    BURIN_TRY(walk, SurfaceWalk::create(mesh, press.seed));
+    return PressedWalk(std::move(walk), press);
 }
 
 void PressedWalk::begin_stroke() {

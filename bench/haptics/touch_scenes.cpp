@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/try.hpp"
 #include "bench/measure/bumpy_sphere.hpp"
 #include "bench/measure/rough_surfaces.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -122,23 +123,20 @@ Result<TouchScenes> touch_scenes(const TouchSceneOptions& options) {
         all.notes.emplace_back("no scanned or machined models were touched: name a folder of them with --models");
         return all;
     }
-    if (const auto added = add_models(all, options.models); !added) return std::unexpected(added.error());
+    BURIN_TRY_DO(add_models(all, options.models));
     return all;
 }
 
 Result<std::unique_ptr<const TouchedScene>> touched(const TouchScene& scene) {
-    Result<geometry::TriangleMesh> mesh = scene.make();
-    if (!mesh) return std::unexpected(mesh.error());
-    auto touch = geometry::TouchMesh::create(*mesh);
-    if (!touch) return std::unexpected(touch.error());
-    Result<SurfaceWalk> walk = SurfaceWalk::create(*mesh, 1);
-    if (!walk) return std::unexpected(walk.error());
-    const geometry::MeshHealth health = geometry::examine(*mesh);
-    geometry::TriangleMesh kept = std::move(*mesh);
+    BURIN_TRY(mesh, scene.make());
+    BURIN_TRY(touch, geometry::TouchMesh::create(mesh));
+    BURIN_TRY(walk, SurfaceWalk::create(mesh, 1));
+    const geometry::MeshHealth health = geometry::examine(mesh);
+    geometry::TriangleMesh kept = std::move(mesh);
     // The tree refers to arrays that moving the mesh leaves in place.
     geometry::TriangleTree tree(kept.positions_m, kept.triangles);
     return std::make_unique<const TouchedScene>(TouchedScene{scene.name, scene.smooth, std::move(kept),
-                                                             touch->snapshot(), std::move(*walk), std::move(tree),
+                                                             touch.snapshot(), std::move(walk), std::move(tree),
                                                              !health.closed || !health.consistently_oriented});
 }
 

@@ -2,6 +2,8 @@
 // Section and equation numbers refer to the paper named in flip.hpp.
 #include "bench/measure/flip.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -242,7 +244,7 @@ Vec3 lab_of_linear(const Vec3& rgb) {
 }
 
 Result<FlipMap> flip(const Image& reference, const Image& test, double pixels_per_degree) {
-    if (const auto ok = check(reference, test, pixels_per_degree); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check(reference, test, pixels_per_degree));
     const ImageSize size = reference.size;
     const Planes a = opponent_planes(reference), b = opponent_planes(test);
     const std::vector<Vec3f> colour_a = seen_colours(a, size, pixels_per_degree),

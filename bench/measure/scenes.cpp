@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/try.hpp"
 #include "bench/measure/exact_rays.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "geometry/mesh/mesh_placing.hpp"
@@ -81,9 +82,8 @@ Result<compute::Solid> uncut_solid(const CarveScene& scene, int resolution, Work
     const Vec3 size = geometry::bounds_of(mesh).extent();
     const double longest_m = std::max({size.x, size.y, size.z});
     const int cells = static_cast<int>(std::lround(longest_m * resolution));
-    Result<compute::ScanConversion> converted = compute::scan_convert(mesh, cells, pool);
-    if (!converted) return std::unexpected(converted.error());
-    return std::move(converted->solid);
+    BURIN_TRY(converted, compute::scan_convert(mesh, cells, pool));
+    return std::move(converted.solid);
 }
 
 CarveScene ball_scene() {

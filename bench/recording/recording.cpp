@@ -9,6 +9,7 @@
 
 #include "base/statistics.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "bench/measure/timing.hpp"
 #include "record/record_writer.hpp"
 
@@ -18,25 +19,23 @@ namespace {
 constexpr double kTicksPerSecond = 1000.0;
 
 Result<void> measure_blocks(const std::string& path, RecordFigures& figures) {
-    Result<record::RecordReader> reader = record::RecordReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    const record::HandRecord& hand = reader->hands().front();
+    BURIN_TRY(reader, record::RecordReader::open(path));
+    const record::HandRecord& hand = reader.hands().front();
     figures.columns = hand.columns.size();
     for (const record::Column& column : hand.columns) figures.row_bytes += record::size_of(column.type);
     std::vector<double> pack_ms, unpack_ms;
     std::uint64_t bytes = 0;
     for (std::size_t number = 0; number < hand.blocks.size(); ++number) {
-        const Result<record::Block> block = reader->block(0, number);
-        if (!block) return std::unexpected(block.error());
+        BURIN_TRY(block, reader.block(0, number));
         Stopwatch watch;
-        const Result<record::PackedBlock> packed = record::pack(*block, hand.blocks[number].header);
+        const Result<record::PackedBlock> packed = record::pack(block, hand.blocks[number].header);
         pack_ms.push_back(watch.lap_ms());
         if (!packed) return std::unexpected(packed.error());
         const Result<record::Block> back = record::unpack(*packed, hand.types(), path);
         unpack_ms.push_back(watch.lap_ms());
         if (!back) return std::unexpected(back.error());
         bytes += packed->data.size();
-        figures.ticks += block->rows();
+        figures.ticks += block.rows();
     }
     if (figures.ticks == 0) return fail(path, "holds no ticks", "record some first: burin sculpt --help");
     figures.raw_bytes_per_s = kTicksPerSecond * static_cast<double>(figures.row_bytes);
@@ -73,8 +72,7 @@ Result<RecordFigures::Paced> push_at_pace(const RecordTask& task, std::size_t ri
     const std::string path =
         (fs::path(task.folder) / formatted("burin-bench-%d-%zu.session", ::getpid(), ring_ticks)).string();
     Ring<haptics::TickRecord> ring(ring_ticks);
-    auto writer = record::RecordWriter::create(path, {{"bench", {}, {}, &ring}}, {});
-    if (!writer) return std::unexpected(writer.error());
+    BURIN_TRY(writer, record::RecordWriter::create(path, {{"bench", {}, {}, &ring}}, {}));
     haptics::Histogram push;
     MonotonicClock clock;
     Nanoseconds due_ns = clock.now_ns();
@@ -86,8 +84,8 @@ Result<RecordFigures::Paced> push_at_pace(const RecordTask& task, std::size_t ri
         ring.push(record);
         push.add(clock.now_ns() - before_ns);
     }
-    const Result<void> closed = (*writer)->close();
-    const haptics::Histogram& took = (*writer)->transaction_duration();
+    const Result<void> closed = writer->close();
+    const haptics::Histogram& took = writer->transaction_duration();
     paced.lost = ring.refused();
     paced.push_us = 1e-3 * static_cast<double>(push.quantile_ns(0.5));
     paced.push_p99_us = 1e-3 * static_cast<double>(push.quantile_ns(0.99));
@@ -104,13 +102,11 @@ Result<RecordFigures::Paced> push_at_pace(const RecordTask& task, std::size_t ri
 
 Result<RecordFigures> measure_recording(const RecordTask& task) {
     RecordFigures figures;
-    if (!task.session.empty())
-        if (const auto done = measure_blocks(task.session, figures); !done) return std::unexpected(done.error());
+    if (!task.session.empty()) BURIN_TRY_DO(measure_blocks(task.session, figures));
     measure_rows(figures);
     for (const std::size_t ring_ticks : {std::size_t{1024}, record::kRingTicks}) {
-        const auto paced = push_at_pace(task, ring_ticks);
-        if (!paced) return std::unexpected(paced.error());
-        figures.paced.push_back(*paced);
+        BURIN_TRY(paced, push_at_pace(task, ring_ticks));
+        figures.paced.push_back(paced);
     }
     return figures;
 }

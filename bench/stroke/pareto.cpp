@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/try.hpp"
 #include "bench/measure/surface_errors.hpp"
 #include "bench/measure/timing.hpp"
 #include "bench/peers/peers.hpp"
@@ -28,7 +29,7 @@ public:
     Result<Pareto> all() {
         pareto_.machine = machine();
         for (int n = options_.smallest; n <= options_.largest; n *= 2) {
-            if (const auto done = burin({n, false, options_.threads}); !done) return std::unexpected(done.error());
+            BURIN_TRY_DO(burin({n, false, options_.threads}));
         }
         vulkan();
         if (has_peers()) {
@@ -45,12 +46,11 @@ public:
 
 private:
     Result<void> burin(const StrokeOptions& options) {
-        const Result<StrokeRun> run = run_stroke(scene_, options);
-        if (!run) return std::unexpected(run.error());
-        Json row = {{"series", series_of(*run)}};
+        BURIN_TRY(run, run_stroke(scene_, options));
+        Json row = {{"series", series_of(run)}};
         tell_(row["series"].get<std::string>() + ", " + std::to_string(options.resolution) + " cells a side");
-        row.update(describe(scene_, *run, measure(run->mesh, scene_, run->cell_m),
-                            count_self_intersections(run->mesh, options.threads)));
+        row.update(describe(scene_, run, measure(run.mesh, scene_, run.cell_m),
+                            count_self_intersections(run.mesh, options.threads)));
         pareto_.rows.push_back(std::move(row));
         return {};
     }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/try.hpp"
 #include "bench/measure/timing.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "picture/frame_setup.hpp"
@@ -48,7 +49,7 @@ Result<std::unique_ptr<sculpt::Sculpture>> start(const compute::Solid& uncut, co
     run.device = options.on_vulkan ? chosen.device : "native";
     run.software_device = chosen.software_device;
     auto sculpture = std::make_unique<sculpt::Sculpture>(std::move(chosen.engine), pool);
-    if (const auto same = check_engine(*sculpture, options); !same) return std::unexpected(same.error());
+    BURIN_TRY_DO(check_engine(*sculpture, options));
     return sculpture;
 }
 
@@ -122,19 +123,17 @@ void check(const sculpt::Sculpture& sculpture, const CarveScene& scene, const co
 
 Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std::span<const compute::ToolSweep> sweeps,
                        const StrokeOptions& options, WorkerPool& pool, StrokeRun& run) {
-    const auto sculpture = start(uncut, options, pool, run);
-    if (!sculpture) return std::unexpected(sculpture.error());
-    run.first_mesh_ms = (*sculpture)->first_mesh_ms();
-    const auto before = (*sculpture)->engine().traffic();
-    Result<Carved> carved = carve(**sculpture, sweeps);
-    if (!carved) return std::unexpected(carved.error());
-    if (const auto same = check_engine(**sculpture, options); !same) return same;
-    if (const auto after = (*sculpture)->engine().traffic(); before && after)
+    BURIN_TRY(sculpture, start(uncut, options, pool, run));
+    run.first_mesh_ms = sculpture->first_mesh_ms();
+    const auto before = sculpture->engine().traffic();
+    BURIN_TRY(carved, carve(*sculpture, sweeps));
+    BURIN_TRY_DO(check_engine(*sculpture, options));
+    if (const auto after = sculpture->engine().traffic(); before && after)
         run.traffic = {after->submissions - before->submissions, after->blocking_waits - before->blocking_waits,
                        after->bytes_to_device - before->bytes_to_device, after->bytes_to_host - before->bytes_to_host,
                        after->most_memory_bytes};
-    take_figures(**sculpture, std::move(*carved), run);
-    check(**sculpture, scene, uncut, pool, run);
+    take_figures(*sculpture, std::move(carved), run);
+    check(*sculpture, scene, uncut, pool, run);
     return {};
 }
 
@@ -142,44 +141,37 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
 
 Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& options) {
     WorkerPool pool(options.threads);
-    const Result<compute::Solid> uncut = uncut_solid(scene, options.resolution, pool);
-    if (!uncut) return std::unexpected(uncut.error());
+    BURIN_TRY(uncut, uncut_solid(scene, options.resolution, pool));
     StrokeRun run;
     run.threads = pool.threads();
     run.resolution = options.resolution;
-    run.cell_m = uncut->lattice.spacing_m;
+    run.cell_m = uncut.lattice.spacing_m;
     const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene);
-    if (const auto done = run_plain(scene, *uncut, sweeps, options, pool, run); !done) {
+    if (const auto done = run_plain(scene, uncut, sweeps, options, pool, run); !done) {
         return std::unexpected(done.error());
     }
     if (options.on_vulkan) {
-        const auto sculpture = start(*uncut, options, pool, run);
-        if (!sculpture) return std::unexpected(sculpture.error());
-        (*sculpture)->mesh_on_device();
-        Result<Carved> carved = carve(**sculpture, sweeps);
-        if (!carved) return std::unexpected(carved.error());
-        (*sculpture)->read_back();
-        if (const auto same = check_engine(**sculpture, options); !same) return std::unexpected(same.error());
-        run.with_device_mesh = std::move(carved->times);
+        BURIN_TRY(sculpture, start(uncut, options, pool, run));
+        sculpture->mesh_on_device();
+        BURIN_TRY(carved, carve(*sculpture, sweeps));
+        sculpture->read_back();
+        BURIN_TRY_DO(check_engine(*sculpture, options));
+        run.with_device_mesh = std::move(carved.times);
     }
     if (options.with_undo) {
-        const auto sculpture = start(*uncut, options, pool, run);
-        if (!sculpture) return std::unexpected(sculpture.error());
-        (*sculpture)->keep_history(compute::History::kDefaultBudget_bytes);
-        Result<Carved> carved = carve(**sculpture, sweeps);
-        if (!carved) return std::unexpected(carved.error());
-        run.with_undo = std::move(carved->times);
-        run.strokes_kept = (*sculpture)->history()->undoable();
+        BURIN_TRY(sculpture, start(uncut, options, pool, run));
+        sculpture->keep_history(compute::History::kDefaultBudget_bytes);
+        BURIN_TRY(carved, carve(*sculpture, sweeps));
+        run.with_undo = std::move(carved.times);
+        run.strokes_kept = sculpture->history()->undoable();
     }
     if (options.with_light) {
-        const auto sculpture = start(*uncut, options, pool, run);
-        if (!sculpture) return std::unexpected(sculpture.error());
+        BURIN_TRY(sculpture, start(uncut, options, pool, run));
         const compute::Lamp lamp{picture::direction_to_light(), picture::kLightHalfAngleTangent};
-        if (const auto kept = (*sculpture)->keep_light(lamp); !kept) return std::unexpected(kept.error());
-        Result<Carved> carved = carve(**sculpture, sweeps);
-        if (!carved) return std::unexpected(carved.error());
-        run.with_light = std::move(carved->times);
-        run.tiles_lit = carved->tiles_lit;
+        BURIN_TRY_DO(sculpture->keep_light(lamp));
+        BURIN_TRY(carved, carve(*sculpture, sweeps));
+        run.with_light = std::move(carved.times);
+        run.tiles_lit = carved.tiles_lit;
     }
     return run;
 }

@@ -14,6 +14,7 @@
 #include "base/file_io.hpp"
 #include "base/statistics.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
 
 namespace burin::bench {
@@ -148,11 +149,10 @@ Result<WorldBenchFigures> measure_world(const WorldBenchTask& task) {
         text = made_world(task.objects, task.triangles_each);
         path = (fs::path(task.folder) / "burin-bench-world.wrl").string();
         const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-        if (const auto written = write_file_atomically(path, bytes); !written) return std::unexpected(written.error());
+        BURIN_TRY_DO(write_file_atomically(path, bytes));
     } else {
-        Result<std::string> read = read_text_file(path, geometry::kMostVrmlBytes);
-        if (!read) return std::unexpected(read.error());
-        text = std::move(*read);
+        BURIN_TRY(read, read_text_file(path, geometry::kMostVrmlBytes));
+        text = std::move(read);
     }
     const PassingFile passing(is_made ? fs::path(path) : fs::path());
     figures.world = is_made ? formatted("made: %u objects of %u triangles", task.objects, task.triangles_each) : path;
@@ -160,7 +160,7 @@ Result<WorldBenchFigures> measure_world(const WorldBenchTask& task) {
     if (task.coin.empty())
         figures.without_coin = "Coin is not installed (libcoin-dev), or was not when burin was built";
     for (unsigned run = 0; run < task.runs; ++run) {
-        if (const auto done = measure_ours(figures, text, path); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(measure_ours(figures, text, path));
         if (task.coin.empty() || !figures.without_coin.empty()) continue;
         const Result<CoinRun> coin = run_coin(task.coin, path);
         if (!coin) {

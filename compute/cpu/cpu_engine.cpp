@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/try.hpp"
 #include "compute/cpu/ball_spans.hpp"
 #include "compute/rays/engine.hpp"
 #include "compute/tools/sweep_units.hpp"
@@ -110,10 +111,9 @@ public:
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override {
-        const auto capsules = capsules_in_units(solid_, sweeps);
-        if (!capsules) return std::unexpected(capsules.error());
-        deal_out(*capsules);
-        pool_.run(band_count_, [&](std::size_t i) { carve_band(bands_[i], *capsules); });
+        BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
+        deal_out(capsules);
+        pool_.run(band_count_, [&](std::size_t i) { carve_band(bands_[i], capsules); });
         return collect();
     }
 

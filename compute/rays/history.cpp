@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compute/rays/history.hpp"
 
+#include "base/try.hpp"
+
 #include <utility>
 
 namespace burin::compute {
@@ -98,8 +100,7 @@ Result<bool> History::exchange(std::deque<RayBatch>& from, std::deque<RayBatch>&
         const RayPlace place = place_of(ray.code);
         replaced.add(ray.code, engine.solid().sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v));
     }
-    const Result<CarveStats> assigned = engine.assign(stroke);
-    if (!assigned) return std::unexpected(assigned.error());
+    BURIN_TRY_DO(engine.assign(stroke));
     bytes_ -= size_of(stroke);
     from.pop_back();
     bytes_ += size_of(replaced);

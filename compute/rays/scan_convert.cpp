@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/try.hpp"
 #include "compute/rays/memory_need.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "compute/rays/ray_crossings.hpp"
@@ -127,17 +128,16 @@ const char* const kHoles = "has holes, so inside and outside are not defined";
 }  // namespace
 
 Result<ScanConversion> scan_convert(const geometry::TriangleMesh& mesh, int resolution, WorkerPool& pool) {
-    if (const auto good = check_lists(mesh); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_lists(mesh));
     const Orientation orientation = orientation_of(mesh);
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
-    const Result<Lattice> lattice = lattice_around(geometry::bounds_of(mesh), resolution);
-    if (!lattice) return std::unexpected(lattice.error());
-    if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
-    return convert(mesh, orientation, *lattice, pool);
+    BURIN_TRY(lattice, lattice_around(geometry::bounds_of(mesh), resolution));
+    BURIN_TRY_DO(check_memory(lattice, memory_available()));
+    return convert(mesh, orientation, lattice, pool);
 }
 
 Result<ScanConversion> scan_convert_onto(const geometry::TriangleMesh& mesh, const Lattice& lattice, WorkerPool& pool) {
-    if (const auto good = check_lists(mesh); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_lists(mesh));
     const Orientation orientation = orientation_of(mesh);
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
     const Box bounds = geometry::bounds_of(mesh);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/try.hpp"
 #include "compute/rays/memory_need.hpp"
 #include "shaders/shared/capsule.h"
 
@@ -67,10 +68,9 @@ Result<Solid> make_block(const Vec3& size_m, int resolution, geometry::Material 
     if (!(size_m.x > 0 && size_m.y > 0 && size_m.z > 0)) {
         return fail("workpiece block", "needs three sizes above zero", "write block:X,Y,Z in metres");
     }
-    Result<Lattice> lattice = lattice_around(Box{Vec3(0.0), size_m}, resolution);
-    if (!lattice) return std::unexpected(lattice.error());
-    if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
-    Solid solid{*lattice, {}, {std::move(material)}};
+    BURIN_TRY(lattice, lattice_around(Box{Vec3(0.0), size_m}, resolution));
+    BURIN_TRY_DO(check_memory(lattice, memory_available()));
+    Solid solid{lattice, {}, {std::move(material)}};
     const auto lo = whole_units(solid.lattice.units_from_object(Vec3(0.0)));
     const auto hi = whole_units(solid.lattice.units_from_object(size_m));
     for (std::size_t a = 0; a < 3; ++a) {
@@ -92,10 +92,9 @@ Result<Solid> make_block(const Vec3& size_m, int resolution, geometry::Material 
 
 Result<Solid> make_ball(double radius_m, int resolution, geometry::Material material) {
     if (!(radius_m > 0)) return fail("workpiece ball", "needs a radius above zero", "write ball:R in metres");
-    Result<Lattice> lattice = lattice_around(Box{Vec3(-radius_m), Vec3(radius_m)}, resolution);
-    if (!lattice) return std::unexpected(lattice.error());
-    if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
-    Solid solid{*lattice, {}, {std::move(material)}};
+    BURIN_TRY(lattice, lattice_around(Box{Vec3(-radius_m), Vec3(radius_m)}, resolution));
+    BURIN_TRY_DO(check_memory(lattice, memory_available()));
+    Solid solid{lattice, {}, {std::move(material)}};
     const auto center = whole_units(solid.lattice.units_from_object(Vec3(0.0)));
     const double radius = radius_m / solid.lattice.unit_m();
     shared::Capsule ball{};

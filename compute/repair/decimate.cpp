@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/try.hpp"
 #include "compute/repair/self_intersections.hpp"
 
 namespace burin::compute {
@@ -50,17 +51,16 @@ Result<ThinnedOut> decimate(const geometry::TriangleMesh& mesh, double bound_m, 
         options.show = [&](double share) {
             if (show) show(1.0 - (1.0 - share) / (attempt + 1));
         };
-        Result<geometry::Simplified> simplified = geometry::simplify(mesh, options);
-        if (!simplified) return std::unexpected(simplified.error());
-        const std::vector<TrianglePair> pairs = self_intersections(simplified->mesh, pool);
+        BURIN_TRY(simplified, geometry::simplify(mesh, options));
+        const std::vector<TrianglePair> pairs = self_intersections(simplified.mesh, pool);
         if (pairs.size() <= result.self_intersections_before) {
-            result.mesh = std::move(simplified->mesh);
-            result.error_m = simplified->error_m;
+            result.mesh = std::move(simplified.mesh);
+            result.error_m = simplified.error_m;
             result.self_intersections = pairs.size();
             return result;
         }
         // The margin doubles with each attempt, because what was moved away from one place may meet the next.
-        keep_around(mesh, simplified->mesh, pairs, 2.0 * bound_m * static_cast<double>(1 << attempt), options.keep);
+        keep_around(mesh, simplified.mesh, pairs, 2.0 * bound_m * static_cast<double>(1 << attempt), options.keep);
     }
     result.mesh = mesh;
     result.self_intersections = result.self_intersections_before;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/try.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "compute/tools/smooth.hpp"
 #include "compute/tools/smooth_cover.hpp"
@@ -111,10 +112,9 @@ Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep,
 
 Result<CarveStats> apply_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
     if (sweep.operation == Operation::smooth) return smooth_on_host(engine, sweep, pool);
-    const Result<RayBatch> covered = tool_spans(engine.solid(), sweep, pool);
-    if (!covered) return std::unexpected(covered.error());
-    Result<CarveStats> stats = engine.assign(changed_rays(engine.solid(), *covered, sweep.operation, pool));
-    if (stats) stats->rays_touched = covered->rays.size();
+    BURIN_TRY(covered, tool_spans(engine.solid(), sweep, pool));
+    Result<CarveStats> stats = engine.assign(changed_rays(engine.solid(), covered, sweep.operation, pool));
+    if (stats) stats->rays_touched = covered.rays.size();
     return stats;
 }
 
@@ -125,7 +125,7 @@ Result<void> check_tool(const Solid& solid, const ToolSweep& sweep) {
         if (!(sweep.smooth_strength >= 0.0 && sweep.smooth_strength <= 1.0)) {
             return fail("smooth strength", "is outside 0 to 1", "give a strength from 0 to 1");
         }
-        if (const auto good = check_sweep(solid, sweep); !good) return good;
+        BURIN_TRY_DO(check_sweep(solid, sweep));
         const double radius_m = smooth_cover(sweep.shape).radius_m;
         const Vec3 along = sweep.end.position_m - sweep.start.position_m;
         if (radius_m > kLargestSmoothCells * solid.lattice.spacing_m || glm::length(along) > 4096.0 * radius_m) {
@@ -139,7 +139,7 @@ Result<void> check_tool(const Solid& solid, const ToolSweep& sweep) {
 
 Result<CarveStats> apply(CarvingEngine& engine, std::span<const ToolSweep> sweeps, WorkerPool& pool) {
     for (const ToolSweep& sweep : sweeps) {
-        if (const auto good = check_tool(engine.solid(), sweep); !good) return std::unexpected(good.error());
+        BURIN_TRY_DO(check_tool(engine.solid(), sweep));
     }
     CarveStats stats;
     std::vector<BallSweep> balls;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/try.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "compute/rays/ray_crossings.hpp"
 #include "compute/rays/set_algebra.hpp"
@@ -266,7 +267,7 @@ Result<void> check_effort(const MeshTool& tool, std::span<const StraightMove> mo
 
 Result<RayBatch> mesh_spans(const Lattice& lattice, const MeshTool& tool, std::span<const StraightMove> moves,
                             std::uint8_t material, WorkerPool& pool, std::size_t triangles_at_once) {
-    if (const auto good = check_effort(tool, moves); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_effort(tool, moves));
     const std::size_t at_once = std::max<std::size_t>(1, triangles_at_once / tool.mesh->triangles.size());
     RayBatch all;
     for (std::size_t from = 0; from < moves.size(); from += at_once) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/try.hpp"
 #include "compute/tools/mesh_tool.hpp"
 #include "compute/tools/move_bounds.hpp"
 #include "compute/tools/ray_union.hpp"
@@ -132,21 +133,19 @@ Result<std::vector<shared::Capsule>> ball_capsules(const Solid& solid, const Bal
 
 template <typename Tool>
 Result<std::vector<StraightMove>> moves_of(const Lattice& lattice, const Tool& tool, ToolSweep sweep) {
-    const Result<Extent> extent = extent_of(tool, lattice.unit_m());
-    if (!extent) return std::unexpected(extent.error());
+    BURIN_TRY(extent, extent_of(tool, lattice.unit_m()));
     sweep.tolerance_cells *= turning_share<Tool>();
-    return straight_moves(lattice, sweep, *extent);
+    return straight_moves(lattice, sweep, extent);
 }
 
 template <typename Tool>
 Result<ConvexPieces> pieces_of_tool(const Lattice& lattice, const Tool& tool, const ToolSweep& sweep) {
-    const auto moves = moves_of(lattice, tool, sweep);
-    if (!moves) return std::unexpected(moves.error());
+    BURIN_TRY(moves, moves_of(lattice, tool, sweep));
     ConvexPieces all;
-    for (const StraightMove& move : *moves) {
+    for (const StraightMove& move : moves) {
         append_pieces(tool, move, lattice.unit_m(), sweep.tolerance_cells * kUnitsPerCell, all.pieces);
     }
-    if (!moves->empty()) all.a_move = all.pieces.size() / moves->size();
+    if (!moves.empty()) all.a_move = all.pieces.size() / moves.size();
     return all;
 }
 Result<ConvexPieces> pieces_of_tool(const Lattice& /*lattice*/, const BallTool& /*tool*/, const ToolSweep& /*sweep*/) {
@@ -158,26 +157,22 @@ Result<ConvexPieces> pieces_of_tool(const Lattice& /*lattice*/, const MeshTool& 
 
 template <typename Tool>
 Result<RayBatch> spans_of_tool(const Solid& solid, const Tool& tool, const ToolSweep& sweep, WorkerPool& pool) {
-    const Result<ConvexPieces> pieces = pieces_of_tool(solid.lattice, tool, sweep);
-    if (!pieces) return std::unexpected(pieces.error());
-    return convex_spans(solid.lattice, *pieces, sweep.material, pool).batch;
+    BURIN_TRY(pieces, pieces_of_tool(solid.lattice, tool, sweep));
+    return convex_spans(solid.lattice, pieces, sweep.material, pool).batch;
 }
 
 Result<RayBatch> spans_of_tool(const Solid& solid, const MeshTool& tool, const ToolSweep& sweep, WorkerPool& pool) {
-    const Result<MeshTool> prepared = tool.edges == nullptr ? prepare_mesh_tool(tool.mesh) : Result<MeshTool>(tool);
-    if (!prepared) return std::unexpected(prepared.error());
-    const auto moves = moves_of(solid.lattice, *prepared, sweep);
-    if (!moves) return std::unexpected(moves.error());
-    return mesh_spans(solid.lattice, *prepared, *moves, sweep.material, pool);
+    BURIN_TRY(prepared, tool.edges == nullptr ? prepare_mesh_tool(tool.mesh) : Result<MeshTool>(tool));
+    BURIN_TRY(moves, moves_of(solid.lattice, prepared, sweep));
+    return mesh_spans(solid.lattice, prepared, moves, sweep.material, pool);
 }
 
 // Evaluates the exact predicate of a ball ray by ray. The engines have faster methods.
 Result<RayBatch> spans_of_tool(const Solid& solid, const BallTool& tool, const ToolSweep& sweep, WorkerPool& pool) {
-    const auto capsules = ball_capsules(solid, tool, sweep);
-    if (!capsules) return std::unexpected(capsules.error());
+    BURIN_TRY(capsules, ball_capsules(solid, tool, sweep));
     RayBatch batch;
-    if (capsules->empty()) return batch;
-    const shared::Capsule& capsule = capsules->front();
+    if (capsules.empty()) return batch;
+    const shared::Capsule& capsule = capsules.front();
     std::vector<std::vector<Footprint>> footprints(3);
     for (int axis = 0; axis < 3; ++axis) {
         footprints[static_cast<std::size_t>(axis)].push_back(footprint(solid.lattice, capsule, axis));
@@ -206,11 +201,10 @@ Result<std::vector<StraightMove>> check_tool(const Solid& solid, const Tool& too
     return moves_of(solid.lattice, tool, sweep);
 }
 Result<std::vector<StraightMove>> check_tool(const Solid& solid, const MeshTool& tool, const ToolSweep& sweep) {
-    const Result<MeshTool> prepared = tool.edges == nullptr ? prepare_mesh_tool(tool.mesh) : Result<MeshTool>(tool);
-    if (!prepared) return std::unexpected(prepared.error());
-    auto moves = moves_of(solid.lattice, *prepared, sweep);
+    BURIN_TRY(prepared, tool.edges == nullptr ? prepare_mesh_tool(tool.mesh) : Result<MeshTool>(tool));
+    auto moves = moves_of(solid.lattice, prepared, sweep);
     if (!moves) return moves;
-    if (const auto good = check_effort(*prepared, *moves); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_effort(prepared, *moves));
     return moves;
 }
 Result<std::vector<shared::Capsule>> check_tool(const Solid& solid, const BallTool& tool, const ToolSweep& sweep) {
@@ -220,11 +214,10 @@ Result<std::vector<shared::Capsule>> check_tool(const Solid& solid, const BallTo
 }  // namespace
 
 Result<void> check_sweep(const Solid& solid, const ToolSweep& sweep) {
-    if (const auto good = check_material(solid, sweep); !good) return good;
+    BURIN_TRY_DO(check_material(solid, sweep));
     return std::visit(
         [&](const auto& tool) -> Result<void> {
-            const auto checked = check_tool(solid, tool, sweep);
-            if (!checked) return std::unexpected(checked.error());
+            BURIN_TRY_DO(check_tool(solid, tool, sweep));
             return {};
         },
         sweep.shape);
@@ -251,7 +244,7 @@ ConvexSpans convex_spans(const Lattice& lattice, const ConvexPieces& sweep, std:
 }
 
 Result<RayBatch> tool_spans(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool) {
-    if (const auto good = check_material(solid, sweep); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check_material(solid, sweep));
     return std::visit([&](const auto& tool) { return spans_of_tool(solid, tool, sweep, pool); }, sweep.shape);
 }
 

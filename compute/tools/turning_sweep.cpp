@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compute/tools/turning_sweep.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -109,7 +111,7 @@ Quat turned(const Quat& from, const Quat& to, double share) {
 }
 
 Result<std::vector<StraightMove>> straight_moves(const Lattice& lattice, const ToolSweep& sweep, const Extent& extent) {
-    if (const auto good = check(lattice, sweep); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(check(lattice, sweep));
     const Quat from = normalized(sweep.start.orientation);
     const Quat to = on_side_of(from, normalized(sweep.end.orientation));
     const Vec3 start = lattice.units_from_object(sweep.start.position_m),

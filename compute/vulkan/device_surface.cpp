@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/try.hpp"
 #include "compute/vulkan/device_surface_buffers.hpp"
 #include "shaders/gather_ball.comp.spv.hpp"
 #include "shaders/gather_corners.comp.spv.hpp"
@@ -68,13 +69,12 @@ Result<void> DeviceSurface::compile() {
                                                  {k_gather_ball_comp, 5, gather, "gather bound triangles", 1},
                                                  {k_gather_corners_comp, 5, gather, "gather corners"}}};
     for (std::size_t i = 0; i < programs.size(); ++i) {
-        auto made = gpu::ComputePipeline::create(engine_.device(), {.spirv = programs[i].spirv,
-                                                                    .storage_buffers = programs[i].buffers,
-                                                                    .push_constant_bytes = programs[i].push_bytes,
-                                                                    .constants = std::span(&programs[i].variant, 1),
-                                                                    .name = programs[i].name});
-        if (!made) return std::unexpected(made.error());
-        stages_[i] = std::move(*made);
+        BURIN_TRY(made, gpu::ComputePipeline::create(engine_.device(), {.spirv = programs[i].spirv,
+                                                                        .storage_buffers = programs[i].buffers,
+                                                                        .push_constant_bytes = programs[i].push_bytes,
+                                                                        .constants = std::span(&programs[i].variant, 1),
+                                                                        .name = programs[i].name}));
+        stages_[i] = std::move(made);
     }
     return {};
 }
@@ -82,8 +82,8 @@ Result<void> DeviceSurface::compile() {
 // ---- Frames
 
 Result<void> DeviceSurface::carve(std::span<const BallSweep> sweeps, const std::optional<Ball>& touched) {
-    if (const auto done = finish(); !done) return done;
-    if (const auto begun = engine_.defer(sweeps); !begun) return begun;
+    BURIN_TRY_DO(finish());
+    BURIN_TRY_DO(engine_.defer(sweeps));
     touched_ = touched;
     times_ = DeviceTimes{};
     if (!engine_.deferred_left() && !touched) return {};
@@ -91,16 +91,16 @@ Result<void> DeviceSurface::carve(std::span<const BallSweep> sweeps, const std::
 }
 
 Result<void> DeviceSurface::update(const Changes& changes) {
-    if (const auto done = finish(); !done) return done;
+    BURIN_TRY_DO(finish());
     touched_.reset();
     times_ = DeviceTimes{};
-    if (const auto sent = engine_.synchronize(); !sent) return sent;
+    BURIN_TRY_DO(engine_.synchronize());
     const std::size_t most =
         static_cast<std::size_t>(engine_.device().capabilities().max_storage_buffer_bytes) / sizeof(ChangedRay);
     for (std::size_t from = 0; from < changes.rays.size(); from += most) {
         const auto some = std::span(changes.rays).subspan(from, std::min(most, changes.rays.size() - from));
-        if (const auto sent = submit(some); !sent) return sent;
-        if (const auto done = finish(); !done) return done;
+        BURIN_TRY_DO(submit(some));
+        BURIN_TRY_DO(finish());
     }
     return {};
 }
@@ -141,34 +141,32 @@ Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
         counters.changed = static_cast<std::uint32_t>(host_changes.size());
         host_counters_.to_device<CutCounters>()[0] = counters;
     }
-    auto commands = gpu::Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    stamps_[0] = commands->stamp();
+    BURIN_TRY(commands, gpu::Commands::begin(device));
+    stamps_[0] = commands.stamp();
     cut_under_way_ = engine_.deferred_left();
-    if (cut_under_way_) engine_.record_pass(*commands);
-    stamps_[1] = commands->stamp();
-    send_counters(*commands);
+    if (cut_under_way_) engine_.record_pass(commands);
+    stamps_[1] = commands.stamp();
+    send_counters(commands);
     if (!host_changes.empty()) {
-        host_changes_.send(*commands, host_changes.size_bytes());
-        host_counters_.send(*commands, sizeof(CutCounters));
+        host_changes_.send(commands, host_changes.size_bytes());
+        host_counters_.send(commands, sizeof(CutCounters));
     }
-    commands->barrier();
+    commands.barrier();
     if (cut_under_way_) {
-        record_mesh(*commands, &engine_.counters(), &engine_.changed_rays(), engine_.passed_rays());
+        record_mesh(commands, &engine_.counters(), &engine_.changed_rays(), engine_.passed_rays());
     } else if (!host_changes.empty()) {
-        record_mesh(*commands, &host_counters_.buffer(), &host_changes_.buffer(),
+        record_mesh(commands, &host_counters_.buffer(), &host_changes_.buffer(),
                     static_cast<std::uint32_t>(host_changes.size()));
     } else if (sent_tiles_ > 0) {
-        record_mesh(*commands, nullptr, nullptr, 0);
+        record_mesh(commands, nullptr, nullptr, 0);
     }
-    stamps_[2] = commands->stamp();
-    if (touched_) record_gather(*commands, *touched_);
-    stamps_[3] = commands->stamp();
-    commands->barrier();
-    counters_.fetch(*commands, sizeof(MeshCounters));
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    under_way_.emplace(std::move(*submission));
+    stamps_[2] = commands.stamp();
+    if (touched_) record_gather(commands, *touched_);
+    stamps_[3] = commands.stamp();
+    commands.barrier();
+    counters_.fetch(commands, sizeof(MeshCounters));
+    BURIN_TRY(submission, std::move(commands).submit());
+    under_way_.emplace(std::move(submission));
     ++counts_.submissions;
     return {};
 }
@@ -246,7 +244,7 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
 
 // Waits for the submission, reads its counters and enlarges what was too small.
 Result<void> DeviceSurface::settle() {
-    if (const auto waited = under_way_->wait(); !waited) return waited;
+    BURIN_TRY_DO(under_way_->wait());
     const auto cut = under_way_->seconds_between(stamps_[0], stamps_[1]),
                mesh = under_way_->seconds_between(stamps_[1], stamps_[2]),
                gather = under_way_->seconds_between(stamps_[2], stamps_[3]);
@@ -254,7 +252,7 @@ Result<void> DeviceSurface::settle() {
     if (times_) times_ = DeviceTimes{times_->cut_s + *cut, times_->mesh_s + *mesh, times_->gather_s + *gather};
     under_way_.reset();
     if (cut_under_way_) {
-        if (const auto ended = engine_.end_pass(); !ended) return ended;
+        BURIN_TRY_DO(engine_.end_pass());
     }
     const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
     counts_.tiles += std::min(counters.tiles, options_.slots) - std::min(counters.waiting, counters.tiles);

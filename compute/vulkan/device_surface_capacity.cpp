@@ -2,6 +2,7 @@
 // Capacities of a DeviceSurface's buffers on the device: initial allocation and growth.
 #include <algorithm>
 
+#include "base/try.hpp"
 #include "compute/mesher/cell_table.hpp"
 #include "compute/vulkan/device_surface.hpp"
 #include "compute/vulkan/device_surface_buffers.hpp"
@@ -142,14 +143,12 @@ Result<void> DeviceSurface::grow_pool(gpu::Buffer& pool, std::size_t element_byt
     if (const auto made = create_into(larger, device, gpu::BufferUse::addressed, more * element_bytes, name); !made) {
         return made;
     }
-    auto commands = gpu::Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
+    BURIN_TRY(commands, gpu::Commands::begin(device));
     const std::uint64_t bytes = held * element_bytes;
-    commands->copy(pool, 0, larger, 0, bytes);
-    commands->fill(larger, bytes, larger.size_bytes() - bytes, 0);
-    commands->keep_alive(std::exchange(pool, std::move(larger)));
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
+    commands.copy(pool, 0, larger, 0, bytes);
+    commands.fill(larger, bytes, larger.size_bytes() - bytes, 0);
+    commands.keep_alive(std::exchange(pool, std::move(larger)));
+    BURIN_TRY(submission, std::move(commands).submit());
     ++counts_.growths;
     held = more;
     return {};

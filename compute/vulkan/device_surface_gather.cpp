@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/try.hpp"
 #include "compute/vulkan/device_surface.hpp"
 #include "compute/vulkan/device_surface_buffers.hpp"
 
@@ -53,21 +54,20 @@ void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
 
 Result<void> DeviceSurface::gather_alone(const Ball& ball) {
     touched_ = ball;
-    if (const auto sent = submit({}); !sent) return sent;
+    BURIN_TRY_DO(submit({}));
     return finish();
 }
 
 Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) {
-    if (const auto done = finish(); !done) return done;
+    BURIN_TRY_DO(finish());
     for (double radius = radius_m;;) {
         if (!touched_ || touched_->center_object != center_object || touched_->radius_m != radius) {
-            if (const auto done = gather_alone({center_object, radius}); !done) return done;
+            BURIN_TRY_DO(gather_alone({center_object, radius}));
         }
         const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
         if (!holds_ball(counters)) {
-            const auto grown = grow_ball(counters);
-            if (!grown) return std::unexpected(grown.error());
-            if (!*grown) radius *= 0.7;
+            BURIN_TRY(grown, grow_ball(counters));
+            if (!grown) radius *= 0.7;
             touched_.reset();  // what was gathered of it is no whole
             continue;
         }
@@ -91,19 +91,16 @@ Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radi
 }
 
 Result<std::vector<TileMesh>> DeviceSurface::download() {
-    if (const auto done = finish(); !done) return std::unexpected(done.error());
-    const auto ranges = read_buffer<TileRange>(engine_.device(), ranges_, grid_.count());
-    if (!ranges) return std::unexpected(ranges.error());
-    const auto vertices = read_buffer<SurfaceVertex>(engine_.device(), vertices_, vertices_used_);
-    if (!vertices) return std::unexpected(vertices.error());
-    const auto indices = read_buffer<std::uint32_t>(engine_.device(), indices_, indices_used_);
-    if (!indices) return std::unexpected(indices.error());
+    BURIN_TRY_DO(finish());
+    BURIN_TRY(ranges, read_buffer<TileRange>(engine_.device(), ranges_, grid_.count()));
+    BURIN_TRY(vertices, read_buffer<SurfaceVertex>(engine_.device(), vertices_, vertices_used_));
+    BURIN_TRY(indices, read_buffer<std::uint32_t>(engine_.device(), indices_, indices_used_));
     std::vector<TileMesh> tiles(grid_.count());
     for (std::size_t t = 0; t < tiles.size(); ++t) {
-        const TileRange& range = (*ranges)[t];
+        const TileRange& range = ranges[t];
         if (range.index_count == 0) continue;
-        const auto of_tile = std::span(*vertices).subspan(static_cast<std::size_t>(range.first_vertex), range.vertices);
-        const auto corners = std::span(*indices).subspan(range.first_index, range.index_count);
+        const auto of_tile = std::span(vertices).subspan(static_cast<std::size_t>(range.first_vertex), range.vertices);
+        const auto corners = std::span(indices).subspan(range.first_index, range.index_count);
         tiles[t].vertices.assign(of_tile.begin(), of_tile.end());
         tiles[t].indices.assign(corners.begin(), corners.end());
         tiles[t].disagreeing_edges = range.disagreeing;

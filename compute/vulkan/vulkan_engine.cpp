@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/try.hpp"
 #include "shaders/cut_rays.comp.spv.hpp"
 #include "shaders/export_rays.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
@@ -78,11 +79,11 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
     std::unique_ptr<VulkanEngine> engine(new VulkanEngine(std::move(solid), device, options));
     const auto compile = [&](gpu::ComputePipeline& to, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
                              const char* name) -> Result<void> {
-        auto made = gpu::ComputePipeline::create(
-            engine->device_,
-            {.spirv = spirv, .storage_buffers = buffers, .push_constant_bytes = sizeof(CutParameters), .name = name});
-        if (!made) return std::unexpected(made.error());
-        to = std::move(*made);
+        BURIN_TRY(made, gpu::ComputePipeline::create(engine->device_, {.spirv = spirv,
+                                                                       .storage_buffers = buffers,
+                                                                       .push_constant_bytes = sizeof(CutParameters),
+                                                                       .name = name}));
+        to = std::move(made);
         return {};
     };
     auto made = compile(engine->cut_rays_, k_cut_rays_comp, 10, "cut");
@@ -153,34 +154,31 @@ Result<void> VulkanEngine::patch(const RayBatch& rays) {
         copy_to<PatchRay>(patches_, patches);
         copy_to<DexelEnd>(patch_ends_, ends);
         for (bool done = false; !done;) {  // repeated when the store had to grow
-            auto commands = gpu::Commands::begin(device_);
-            if (!commands) return std::unexpected(commands.error());
+            BURIN_TRY(commands, gpu::Commands::begin(device_));
             CutParameters parameters = this->parameters();
             parameters.pending = static_cast<std::uint32_t>(patches.size());
-            patches_.send(*commands, patches.size() * sizeof(PatchRay));
-            patch_ends_.send(*commands, ends.size() * sizeof(DexelEnd));
-            send_counters(*commands);
-            commands->dispatch(patch_rays_,
-                               {device_solid_.rays(), patches_.buffer(), patch_ends_.buffer(), counters_.buffer()},
-                               gpu::bytes_of(parameters), {groups_of(parameters.pending), 1, 1});
-            const auto counters = counted(std::move(*commands));
-            if (!counters) return std::unexpected(counters.error());
-            longest_ = std::max(longest_, counters->longest);
-            done = counters->room_wanted == 0;
-            if (const auto made = make_room_for(*counters); !made) return made;
+            patches_.send(commands, patches.size() * sizeof(PatchRay));
+            patch_ends_.send(commands, ends.size() * sizeof(DexelEnd));
+            send_counters(commands);
+            commands.dispatch(patch_rays_,
+                              {device_solid_.rays(), patches_.buffer(), patch_ends_.buffer(), counters_.buffer()},
+                              gpu::bytes_of(parameters), {groups_of(parameters.pending), 1, 1});
+            BURIN_TRY(counters, counted(std::move(commands)));
+            longest_ = std::max(longest_, counters.longest);
+            done = counters.room_wanted == 0;
+            BURIN_TRY_DO(make_room_for(counters));
         }
     }
     return {};
 }
 
 Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
-    const auto capsules = capsules_in_units(solid_, sweeps);
-    if (!capsules) return std::unexpected(capsules.error());
-    const CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
+    BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
+    const CutTasks tasks = cut_tasks(solid_.lattice, capsules);
     if (tasks.tasks.empty()) return CarveStats{};
     if (const auto done = read_back(); !done) return std::unexpected(with_the_other_engine(done.error()));
     if (const auto sent = synchronize(); !sent) return std::unexpected(with_the_other_engine(sent.error()));
-    const auto stats = cut_on_device(*capsules, tasks);
+    const auto stats = cut_on_device(capsules, tasks);
     if (!stats) {
         synchronized_ = false;
         return std::unexpected(with_the_other_engine(stats.error()));
@@ -194,10 +192,10 @@ Result<void> VulkanEngine::synchronize() {
     if (synchronized_) return send_assigned();
     assigned_.clear();
     const std::size_t rays = solid_.rays_held();
-    if (const auto kept = stale_.reserve(device_, rays * sizeof(std::uint32_t)); !kept) return kept;
+    BURIN_TRY_DO(stale_.reserve(device_, rays * sizeof(std::uint32_t)));
     // The first cuts of a fine solid need more free ends than those of a coarse one: one for every eighth ray.
     const std::size_t spare = options_.spare_ends > 0 ? std::max(options_.spare_ends, rays / 8) : 0;
-    if (const auto sent = device_solid_.upload(device_, solid_, {0, spare}); !sent) return sent;
+    BURIN_TRY_DO(device_solid_.upload(device_, solid_, {0, spare}));
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();
     synchronized_ = true;
@@ -207,19 +205,18 @@ Result<void> VulkanEngine::synchronize() {
 Result<CarveStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules, const CutTasks& tasks) {
     changed_rays_.clear();
     new_ends_.clear();
-    if (const auto reserved = reserve(capsules, tasks); !reserved) return std::unexpected(reserved.error());
+    BURIN_TRY_DO(reserve(capsules, tasks));
     CarveStats stats;
     for (std::size_t next = 0; next < tasks.tasks.size();) {
         const std::uint32_t some = send_tasks(std::span(tasks.tasks).subspan(next));
         next += some;
         std::uint32_t pending = 0;
         do {
-            const auto counters = pass(some, pending);
-            if (!counters) return std::unexpected(counters.error());
-            stats.rays_touched += counters->touched;
-            collect(*counters);
-            if (const auto made = make_room_for(*counters); !made) return std::unexpected(made.error());
-            pending = counters->pending;
+            BURIN_TRY(counters, pass(some, pending));
+            stats.rays_touched += counters.touched;
+            collect(counters);
+            BURIN_TRY_DO(make_room_for(counters));
+            pending = counters.pending;
         } while (pending > 0);
     }
     stats.rays_changed = changed_rays_.size();
@@ -249,7 +246,7 @@ Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutT
         {&continued_, rays * sizeof(PendingRay)},
     };
     for (const auto& [buffer, size] : sizes) {
-        if (const auto reserved = buffer->reserve(device_, size); !reserved) return reserved;
+        BURIN_TRY_DO(buffer->reserve(device_, size));
     }
     copy_to(capsules_, capsules);
     copy_to<std::uint32_t>(order_, tasks.order);
@@ -289,10 +286,9 @@ void VulkanEngine::send_counters(gpu::Commands& commands) {
 Result<CutCounters> VulkanEngine::counted(gpu::Commands commands) {
     commands.barrier();
     counters_.fetch(commands, sizeof(CutCounters));
-    auto submission = std::move(commands).submit();
-    if (!submission) return std::unexpected(submission.error());
+    BURIN_TRY(submission, std::move(commands).submit());
     ++counts_.submissions;
-    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(submission.wait());
     return counters_.from_device<CutCounters>()[0];
 }
 
@@ -312,9 +308,8 @@ void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters,
 
 // Runs one pass in one submission: over the rays of the tasks, or over those that an earlier pass left pending.
 Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t pending) {
-    if (const auto fits = check_longest(); !fits) return std::unexpected(fits.error());
-    auto commands = gpu::Commands::begin(device_);
-    if (!commands) return std::unexpected(commands.error());
+    BURIN_TRY_DO(check_longest());
+    BURIN_TRY(commands, gpu::Commands::begin(device_));
     CutParameters parameters = this->parameters();
     const std::uint32_t rays = pending > 0 ? pending : task_count * shared::kCutGroup;
     // The buffer may be larger from an earlier cut, but all that a shader may use has to be read back.
@@ -322,11 +317,11 @@ Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t p
     const std::uint64_t expected = std::max<std::uint64_t>(std::uint64_t{rays} * options_.export_per_ray, 1);
     parameters.export_size = static_cast<std::uint32_t>(pending > 0 ? space : std::min(space, expected));
     parameters.pending = pending;
-    record_cut(*commands, parameters, task_count);
-    commands->barrier();
-    changed_.fetch(*commands, rays * sizeof(ChangedRay));
-    exported_.fetch(*commands, parameters.export_size * sizeof(DexelEnd));
-    return counted(std::move(*commands));
+    record_cut(commands, parameters, task_count);
+    commands.barrier();
+    changed_.fetch(commands, rays * sizeof(ChangedRay));
+    exported_.fetch(commands, parameters.export_size * sizeof(DexelEnd));
+    return counted(std::move(commands));
 }
 
 // ---- Deferred cuts
@@ -336,13 +331,12 @@ Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
     next_task_ = 0;
     pending_ = 0;
     deferred_stats_ = {};
-    const auto capsules = capsules_in_units(solid_, sweeps);
-    if (!capsules) return std::unexpected(capsules.error());
-    CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
+    BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
+    CutTasks tasks = cut_tasks(solid_.lattice, capsules);
     if (tasks.tasks.empty()) return {};
-    if (const auto sent = synchronize(); !sent) return sent;
-    if (const auto fits = check_longest(); !fits) return fits;
-    if (const auto reserved = reserve(*capsules, tasks); !reserved) return reserved;
+    BURIN_TRY_DO(synchronize());
+    BURIN_TRY_DO(check_longest());
+    BURIN_TRY_DO(reserve(capsules, tasks));
     deferred_tasks_ = std::move(tasks.tasks);
     ++counts_.cuts;
     return {};
@@ -414,21 +408,20 @@ Result<CutCounters> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32_t
         if (kept) kept = exported_.reserve(device_, ends * sizeof(DexelEnd));
         if (kept) kept = counters_.reserve(device_, sizeof(CutCounters));
         if (!kept) return std::unexpected(kept.error());
-        auto commands = gpu::Commands::begin(device_);
-        if (!commands) return std::unexpected(commands.error());
+        BURIN_TRY(commands, gpu::Commands::begin(device_));
         CutParameters parameters = this->parameters();
         parameters.pending = rays;
         parameters.first_stale = first;
         parameters.export_size = static_cast<std::uint32_t>(ends);
-        send_counters(*commands);
-        commands->dispatch(
+        send_counters(commands);
+        commands.dispatch(
             export_rays_,
             {device_solid_.rays(), stale_.buffer(), counters_.buffer(), changed_.buffer(), exported_.buffer()},
             gpu::bytes_of(parameters), {groups_of(rays), 1, 1});
-        commands->barrier();
-        changed_.fetch(*commands, rays * sizeof(ChangedRay));
-        exported_.fetch(*commands, ends * sizeof(DexelEnd));
-        auto counters = counted(std::move(*commands));
+        commands.barrier();
+        changed_.fetch(commands, rays * sizeof(ChangedRay));
+        exported_.fetch(commands, ends * sizeof(DexelEnd));
+        auto counters = counted(std::move(commands));
         if (!counters) return std::unexpected(counters.error());
         counters->changed = rays;
         if (counters->exported <= ends) return counters;
@@ -462,7 +455,7 @@ Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
     // in each pass.
     const std::size_t asked = counters.room_wanted;
     const DeviceSolid::Spare spare{asked, std::max<std::size_t>(used_ / 4, 2 * asked + 4096)};
-    if (const auto made = device_solid_.make_space(device_, spare); !made) return made;
+    BURIN_TRY_DO(device_solid_.make_space(device_, spare));
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();
     return {};

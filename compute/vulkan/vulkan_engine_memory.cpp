@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/try.hpp"
 #include "gpu/core.hpp"
 
 namespace burin::compute {
@@ -26,9 +27,8 @@ template <typename T>
 Result<std::vector<T>> fetch_all(gpu::Device& device, const gpu::Buffer& buffer) {
     std::vector<T> values(buffer.size_bytes() / sizeof(T));
     if (buffer.mapped().empty()) {
-        const auto bytes = gpu::read(device, buffer, 0, values.size() * sizeof(T));
-        if (!bytes) return std::unexpected(bytes.error());
-        std::memcpy(values.data(), bytes->data(), bytes->size());
+        BURIN_TRY(bytes, gpu::read(device, buffer, 0, values.size() * sizeof(T)));
+        std::memcpy(values.data(), bytes.data(), bytes.size());
     } else {
         std::memcpy(values.data(), buffer.mapped().data(), values.size() * sizeof(T));
     }
@@ -61,22 +61,19 @@ Result<void> SharedBuffer::reserve(gpu::Device& device, std::uint64_t size_bytes
     if (size_bytes <= device_side_.size_bytes()) return {};
     const std::uint64_t limit = device.capabilities().max_storage_buffer_bytes;
     const std::uint64_t grown = std::max(size_bytes, std::min(size_bytes + size_bytes / 2, limit));
-    auto made = gpu::Buffer::create(device, gpu::BufferUse::device_storage, grown, name_);
-    if (!made) return std::unexpected(made.error());
+    BURIN_TRY(made, gpu::Buffer::create(device, gpu::BufferUse::device_storage, grown, name_));
     gpu::Buffer upload, readback;
-    if (made->mapped().empty()) {
+    if (made.mapped().empty()) {
         if (traffic_ == Traffic::to_device || traffic_ == Traffic::both) {
-            auto host = gpu::Buffer::create(device, gpu::BufferUse::upload, grown, name_);
-            if (!host) return std::unexpected(host.error());
-            upload = std::move(*host);
+            BURIN_TRY(host, gpu::Buffer::create(device, gpu::BufferUse::upload, grown, name_));
+            upload = std::move(host);
         }
         if (traffic_ == Traffic::from_device || traffic_ == Traffic::both) {
-            auto host = gpu::Buffer::create(device, gpu::BufferUse::readback, grown, name_);
-            if (!host) return std::unexpected(host.error());
-            readback = std::move(*host);
+            BURIN_TRY(host, gpu::Buffer::create(device, gpu::BufferUse::readback, grown, name_));
+            readback = std::move(host);
         }
     }
-    device_side_ = std::move(*made);
+    device_side_ = std::move(made);
     upload_ = std::move(upload);
     readback_ = std::move(readback);
     return {};
@@ -103,14 +100,12 @@ Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, Spare 
 }
 
 Result<void> DeviceSolid::make_space(gpu::Device& device, Spare spare) {
-    const auto rays = fetch_all<RayRef>(device, rays_);
-    if (!rays) return std::unexpected(rays.error());
-    const auto store = fetch_all<DexelEnd>(device, store_);
-    if (!store) return std::unexpected(store.error());
+    BURIN_TRY(rays, fetch_all<RayRef>(device, rays_));
+    BURIN_TRY(store, fetch_all<DexelEnd>(device, store_));
     const auto ends_of = [&](std::size_t ray) {
-        return std::span<const DexelEnd>(*store).subspan((*rays)[ray].first, shared::count_of((*rays)[ray]));
+        return std::span<const DexelEnd>(store).subspan(rays[ray].first, shared::count_of(rays[ray]));
     };
-    return pack(device, rays->size(), ends_of, spare);
+    return pack(device, rays.size(), ends_of, spare);
 }
 
 template <typename EndsOf>
@@ -140,14 +135,14 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::size_t ray_count, EndsO
         }
         rays.push_back(to);
     }
-    auto new_rays = gpu::Buffer::create(device, gpu::BufferUse::device_storage, ray_count * sizeof(RayRef), "rays");
-    if (!new_rays) return std::unexpected(new_rays.error());
-    auto new_store = gpu::Buffer::create(device, gpu::BufferUse::addressed, size * sizeof(DexelEnd), "interval ends");
-    if (!new_store) return std::unexpected(new_store.error());
-    if (const auto sent = send_all(device, *new_rays, std::as_bytes(std::span(rays))); !sent) return sent;
-    if (const auto sent = send_all(device, *new_store, std::as_bytes(std::span(store))); !sent) return sent;
-    rays_ = std::move(*new_rays);
-    store_ = std::move(*new_store);
+    BURIN_TRY(new_rays,
+              gpu::Buffer::create(device, gpu::BufferUse::device_storage, ray_count * sizeof(RayRef), "rays"));
+    BURIN_TRY(new_store,
+              gpu::Buffer::create(device, gpu::BufferUse::addressed, size * sizeof(DexelEnd), "interval ends"));
+    BURIN_TRY_DO(send_all(device, new_rays, std::as_bytes(std::span(rays))));
+    BURIN_TRY_DO(send_all(device, new_store, std::as_bytes(std::span(store))));
+    rays_ = std::move(new_rays);
+    store_ = std::move(new_store);
     store_size_ = static_cast<std::uint32_t>(size);
     packed_size_ = static_cast<std::uint32_t>(place);
     longest_ = static_cast<std::uint32_t>(longest);

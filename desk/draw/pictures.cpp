@@ -2,6 +2,7 @@
 #include "desk/draw/pictures.hpp"
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "picture/frame_setup.hpp"
 
 #include <algorithm>
@@ -51,9 +52,9 @@ Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::R
 }
 
 Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
-    if (const auto made = make_picture_folder(folder, "--pictures"); !made) return std::unexpected(made.error());
+    BURIN_TRY_DO(make_picture_folder(folder, "--pictures"));
     for (const char* name : {kBefore, kAfter, kLeft, kRight, kStereo}) {
-        if (const auto ok = check_writable(folder / name); !ok) return std::unexpected(ok.error());
+        BURIN_TRY_DO(check_writable(folder / name));
     }
     Result<gpu::Device> device = gpu::Device::create();
     if (!device) {
@@ -61,15 +62,14 @@ Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box
         e.what += ", and --pictures needs one";
         return std::unexpected(e);
     }
-    Result<renderer::Renderer> renderer = renderer::Renderer::create(*device, kEyeSize);
-    if (!renderer) return std::unexpected(renderer.error());
-    return Pictures(folder, std::move(*device), std::move(*renderer), bounds_object);
+    BURIN_TRY(renderer, renderer::Renderer::create(*device, kEyeSize));
+    return Pictures(folder, std::move(*device), std::move(renderer), bounds_object);
 }
 
 // Updates the renderer's surface. Pictures are not urgent: all light is computed before one is taken.
 Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
     const Vec3 to_light_object = inverse(world_from_object_.orientation) * picture::direction_to_light();
-    if (const auto kept = carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}); !kept) return kept;
+    BURIN_TRY_DO(carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}));
     while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
     }
     for (const std::uint32_t tile : carving.take_changed_tiles()) {
@@ -113,37 +113,33 @@ picture::Picture Pictures::close_scene(const sculpt::Sculpture& carving) const {
 }
 
 Result<void> Pictures::take_before(sculpt::Sculpture& carving) {
-    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
-    const auto image = renderer_.render(close_scene(carving));
-    if (!image) return std::unexpected(image.error());
+    BURIN_TRY_DO(bring_up_to_date(carving));
+    BURIN_TRY(image, renderer_.render(close_scene(carving)));
     carving.drop_light();  // not needed until the next picture
-    return picture::write_png(folder_ / kBefore, image->left);
+    return picture::write_png(folder_ / kBefore, image.left);
 }
 
 Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& staging) {
-    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
-    const auto close = renderer_.render(close_scene(carving));
-    if (!close) return std::unexpected(close.error());
-    if (const auto done = picture::write_png(folder_ / kAfter, close->left); !done) return done;
+    BURIN_TRY_DO(bring_up_to_date(carving));
+    BURIN_TRY(close, renderer_.render(close_scene(carving)));
+    BURIN_TRY_DO(picture::write_png(folder_ / kAfter, close.left));
 
     picture::Picture scene = wall_scene(carving);
     stage(scene, staging, world_from_object_);
 
-    const auto stereo = renderer_.render(scene);
-    if (!stereo) return std::unexpected(stereo.error());
-    if (const auto done = picture::write_png(folder_ / kLeft, stereo->left); !done) return done;
-    if (const auto done = picture::write_png(folder_ / kRight, stereo->right); !done) return done;
-    return picture::write_png(folder_ / kStereo, side_by_side(*stereo));
+    BURIN_TRY(stereo, renderer_.render(scene));
+    BURIN_TRY_DO(picture::write_png(folder_ / kLeft, stereo.left));
+    BURIN_TRY_DO(picture::write_png(folder_ / kRight, stereo.right));
+    return picture::write_png(folder_ / kStereo, side_by_side(stereo));
 }
 
 Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& staging) {
-    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
+    BURIN_TRY_DO(bring_up_to_date(carving));
     picture::Picture scene = wall_scene(carving);
     scene.viewer.interpupillary_m = 0.0;
     stage(scene, staging, world_from_object_);
-    auto views = renderer_.render(scene);
-    if (!views) return std::unexpected(views.error());
-    return std::move(views->left);
+    BURIN_TRY(views, renderer_.render(scene));
+    return std::move(views.left);
 }
 
 }  // namespace burin::session

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/try.hpp"
 #include "renderer/frame/redraw.hpp"
 #include "renderer/output/canvas.hpp"
 #include "renderer/output/compose.hpp"
@@ -44,10 +45,9 @@ Result<void> SessionPicture::fit_eye(ImageSize eye, Views views) {
         views_ = views;
         return {};
     }
-    auto made = renderer::Renderer::create(device_, eye,
-                                           {.samples = samples_, .savings = {}, .views = views, .surface = surface_});
-    if (!made) return std::unexpected(made.error());
-    renderer_ = std::move(*made);
+    BURIN_TRY(made, renderer::Renderer::create(
+                        device_, eye, {.samples = samples_, .savings = {}, .views = views, .surface = surface_}));
+    renderer_ = std::move(made);
     renderer_in_full_ = false;
     eye_ = eye;
     views_ = views;
@@ -56,7 +56,7 @@ Result<void> SessionPicture::fit_eye(ImageSize eye, Views views) {
 
 Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<picture::Picture> scene, ImageSize output,
                                   const wall::OutputSettings& settings, std::uint32_t pixel) {
-    if (const auto fits = fit(output, settings); !fits) return fits;
+    BURIN_TRY_DO(fit(output, settings));
     const bool was_dark = std::exchange(dark_, !scene.has_value());
     if (dark_) {
         stats_ = {};
@@ -68,9 +68,8 @@ Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<picture
     if (std::exchange(renderer_in_full_, full_) != full_) renderer_->set_savings({.coarser_levels = !full_});
     renderer_->show_panel(standing_ ? painter_->view() : VK_NULL_HANDLE);
     scene->panel = standing_;
-    const auto recorded = renderer_->record(commands, *scene, pixel);
-    if (!recorded) return std::unexpected(recorded.error());
-    stats_ = *recorded;
+    BURIN_TRY(recorded, renderer_->record(commands, *scene, pixel));
+    stats_ = recorded;
     scene_ = std::move(scene);
     return {};
 }
@@ -94,15 +93,13 @@ Result<void> SessionPicture::paint(gpu::Commands& commands, const std::optional<
     if (!panel) return {};
     if (!painter_ || atlases_ != panel->atlases) {
         atlases_ = panel->atlases;
-        auto made = renderer::PanelPainter::create(device_, panel->size, panel->atlas);
-        if (!made) return std::unexpected(made.error());
-        painter_ = std::move(*made);
+        BURIN_TRY(made, renderer::PanelPainter::create(device_, panel->size, panel->atlas));
+        painter_ = std::move(made);
     }
-    if (const auto fits = painter_->resize(panel->size); !fits) return std::unexpected(fits.error());
-    const Result<bool> painted = painter_->record(commands, panel->mesh);
-    if (!painted) return std::unexpected(painted.error());
-    panel_changed_ = panel_changed_ || *painted;
-    if (*painted) ++paintings_;
+    BURIN_TRY_DO(painter_->resize(panel->size));
+    BURIN_TRY(painted, painter_->record(commands, panel->mesh));
+    panel_changed_ = panel_changed_ || painted;
+    if (painted) ++paintings_;
     if (panel->stand) standing_ = picture::PicturePanel{*panel->stand, paintings_};
     return {};
 }
@@ -155,9 +152,8 @@ renderer::EyesView SessionPicture::eyes_to_show(const wall::OutputSettings& sett
 Result<void> SessionPicture::show(gpu::Commands& commands, const renderer::OutputTarget& target, VkFormat format,
                                   const wall::OutputSettings& settings, const PresentedParts::Parts& parts) {
     if (!window_stage_ || window_stage_->format() != format) {
-        auto made = renderer::OutputStage::create(device_, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-        if (!made) return std::unexpected(made.error());
-        window_stage_ = std::move(*made);
+        BURIN_TRY(made, renderer::OutputStage::create(device_, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR));
+        window_stage_ = std::move(made);
     }
     Result<void> done;
     const renderer::EyesView eyes = eyes_to_show(settings, done);
@@ -168,28 +164,24 @@ Result<void> SessionPicture::show(gpu::Commands& commands, const renderer::Outpu
 
 Result<Image> SessionPicture::photograph(const wall::OutputPlace& place, const wall::OutputSettings& settings) {
     if (!photo_stage_) {
-        auto made = renderer::OutputStage::create(device_, kPhotoFormat, kPhotoLayout);
-        if (!made) return std::unexpected(made.error());
-        photo_stage_ = std::move(*made);
+        BURIN_TRY(made, renderer::OutputStage::create(device_, kPhotoFormat, kPhotoLayout));
+        photo_stage_ = std::move(made);
     }
-    auto image =
-        gpu::Image::create(device_, {.width = place.size.width,
-                                     .height = place.size.height,
-                                     .format = kPhotoFormat,
-                                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                     .name = "photograph"});
-    if (!image) return std::unexpected(image.error());
+    BURIN_TRY(image, gpu::Image::create(device_,
+                                        {.width = place.size.width,
+                                         .height = place.size.height,
+                                         .format = kPhotoFormat,
+                                         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                         .name = "photograph"}));
     Result<void> done;
     const renderer::EyesView eyes = eyes_to_show(settings, done);
     if (!done) return std::unexpected(done.error());
-    auto commands = gpu::Commands::begin(device_);
-    if (!commands) return std::unexpected(commands.error());
-    done = photo_stage_->record(*commands, eyes, {.view = image->view(), .place = place}, settings, overlay());
+    BURIN_TRY(commands, gpu::Commands::begin(device_));
+    done = photo_stage_->record(commands, eyes, {.view = image.view(), .place = place}, settings, overlay());
     if (!done) return std::unexpected(done.error());
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    if (const auto waited = submission->wait(); !waited) return std::unexpected(waited.error());
-    return renderer::read_back(device_, image->raw(), place.size, kPhotoFormat, kPhotoLayout);
+    BURIN_TRY(submission, std::move(commands).submit());
+    BURIN_TRY_DO(submission.wait());
+    return renderer::read_back(device_, image.raw(), place.size, kPhotoFormat, kPhotoLayout);
 }
 
 }  // namespace burin::session

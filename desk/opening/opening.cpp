@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/try.hpp"
 #include "desk/opening/opening_picture.hpp"
 
 namespace burin::session {
@@ -49,9 +50,8 @@ bool ends_opening(const Input& input) {
 
 Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& presenter, const SculptOptions& options,
                                                               const SessionWall& wall, OpeningWork::Make make) {
-    Result<OpeningPicture> picture = OpeningPicture::create(options, wall);
-    if (!picture) return std::unexpected(picture.error());
-    OpeningFrames frames(presenter, std::move(*picture));
+    BURIN_TRY(picture, OpeningPicture::create(options, wall));
+    OpeningFrames frames(presenter, std::move(picture));
     OpeningWork work(std::move(make), [&presenter] { presenter.wake(); });
     while (!work.sight().is_finished()) {
         if (frames.show(work.sight())) work.sight().shown();
@@ -62,9 +62,8 @@ Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& present
             return std::nullopt;
         }
     }
-    auto made = work.take();
-    if (!made) return std::unexpected(made.error());
-    return std::optional(std::move(*made));
+    BURIN_TRY(made, work.take());
+    return std::optional(std::move(made));
 }
 
 }  // namespace burin::session

@@ -67,9 +67,8 @@ Result<StillPicture> OpeningPicture::lay_out(const WorkWatch::Seen& seen, Nanose
     StillPicture picture{scene(), output_, std::nullopt};
     const auto width = static_cast<std::uint32_t>(std::lround(kPanelWidth_px * desk_.panel_scale));
     if (!panel_) {
-        auto made = Panel::create({.size = {width, eye.height}, .scale = desk_.panel_scale});
-        if (!made) return std::unexpected(made.error());
-        panel_.emplace(std::move(*made));
+        BURIN_TRY(made, Panel::create({.size = {width, eye.height}, .scale = desk_.panel_scale}));
+        panel_.emplace(std::move(made));
     }
     panel_->resize({width, eye.height});
     panel_->lie_over(eye);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/try.hpp"
 #include "desk/viewer/viewed_picture.hpp"
 
 namespace burin::session {
@@ -229,9 +230,8 @@ double beside_panel(const DeskRoom& room, ImageSize eye, ImageSize window) {
 
 Result<void> LivePanel::open(std::optional<Panel>& panel, ImageSize size, double scale) {
     if (!panel) {
-        auto made = Panel::create({.size = size, .scale = scale});
-        if (!made) return std::unexpected(made.error());
-        panel.emplace(std::move(*made));
+        BURIN_TRY(made, Panel::create({.size = size, .scale = scale}));
+        panel.emplace(std::move(made));
     }
     panel->resize(size);
     return panel->rescale(scale);
@@ -260,7 +260,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
                                : stands  ? kStanding_px
                                          : ImageSize{width, eye.height};
         const double scale = in_window || stands ? 1.0 : panel_scale_in(context.seen.desk, context.output.size);
-        if (const auto opened = open(panel_, size, scale); !opened) return std::unexpected(opened.error());
+        BURIN_TRY_DO(open(panel_, size, scale));
         panel_->lie_over(in_window || stands ? ImageSize{} : eye);
         left = in_window ? feed_in_window(input, context.panel_output) : feed_over_picture(input, context, size);
         PanelModel model = model_of(context, log);
@@ -280,7 +280,7 @@ Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& 
         pointer_ = {.mouse_px = on.pointer.mouse_px};
     }
     if (!in_window) return left;
-    if (const auto page = lay_out_page(context, input.time_ns); !page) return std::unexpected(page.error());
+    BURIN_TRY_DO(lay_out_page(context, input.time_ns));
     return left;
 }
 
@@ -329,15 +329,14 @@ Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds ti
     // A task lies over the picture, and is read from farther away: its letters grow with the picture.
     if (has_task && context.seen.desk.wall.desk && !is_empty(eye)) {
         model.visible = false;
-        if (const auto opened = open(page_, eye, std::clamp(eye.width / kTaskWidth_px, 0.5, 4.0)); !opened)
-            return opened;
+        BURIN_TRY_DO(open(page_, eye, std::clamp(eye.width / kTaskWidth_px, 0.5, 4.0)));
         page_->lie_over(eye);
         page_layout_ = &page_->show(model, time_ns);
         return {};
     }
     const auto width = static_cast<std::uint32_t>(has_task ? kTaskWidth_px : kPanelWidth_px);
     const ImageSize size = page_ ? page_->size() : ImageSize{width, width};
-    if (const auto opened = open(page_, size, 1.0); !opened) return opened;
+    BURIN_TRY_DO(open(page_, size, 1.0));
     page_layout_ = &page_->show(model, time_ns);
     if (page_->page_height() == page_->size().height) return {};
     page_->resize({width, page_->page_height()});

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/try.hpp"
 #include "desk/panel/panel_input.hpp"
 #include "desk/panel/panel_sections.hpp"
 
@@ -87,9 +88,9 @@ public:
     Result<void> load_letters(const std::string& file) {
         const Current current(context_);
         type_file_ = file;
-        auto type = panel::load_type(file, kit_.scale, std::vector<std::uint32_t>(letters_.begin(), letters_.end()));
-        if (!type) return std::unexpected(type.error());
-        kit_.type = std::move(*type);
+        BURIN_TRY(type,
+                  panel::load_type(file, kit_.scale, std::vector<std::uint32_t>(letters_.begin(), letters_.end())));
+        kit_.type = std::move(type);
         atlas_ = panel::atlas_of_context();
         ++atlases_;
         return {};
@@ -425,7 +426,7 @@ Panel::~Panel() = default;
 Result<Panel> Panel::create(const PanelOptions& options) {
     BURIN_CHECK(options.size.width > 0 && options.size.height > 0 && options.scale > 0.0);
     auto made = std::make_unique<Implementation>(options.size, static_cast<float>(options.scale));
-    if (const auto done = made->load_letters(options.type_file); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(made->load_letters(options.type_file));
     return Panel(std::move(made));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/direct_output.hpp"
 
+#include "base/try.hpp"
+
 #include <utility>
 
 namespace burin::session {
@@ -27,11 +29,10 @@ Result<gpu::SurfaceHandle> DirectOutput::make_surface(gpu::Device& device, std::
     static_cast<void>(device.wait_idle());
     gpu::DisplayChoice wanted = choice_;
     if (layers == 1) wanted.stereo = DisplayStereo::none;
-    auto opened = driver_.open(device, wanted);
-    if (!opened) return std::unexpected(opened.error());
-    name_ = opened->display;
-    mode_ = opened->mode;
-    return std::move(opened->surface);
+    BURIN_TRY(opened, driver_.open(device, wanted));
+    name_ = opened.display;
+    mode_ = opened.mode;
+    return std::move(opened.surface);
 }
 
 void DirectOutput::exchange_full_screen() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/offscreen_output.hpp"
 
+#include "base/try.hpp"
+
 #include <utility>
 
 namespace burin::session {
@@ -18,9 +20,8 @@ void OffscreenOutput::put(std::size_t screen, const wall::OutputPlace& place) {
 Result<bool> OffscreenOutput::draw(Desk& desk, Nanoseconds frame_ns) {
     if (!presenter_ && !desk.session().files().wants_pictures()) return false;
     if (!presenter_) {
-        auto opened = Presenter::open(options_, *wall_);
-        if (!opened) return std::unexpected(opened.error());
-        presenter_.emplace(std::move(*opened));
+        BURIN_TRY(opened, Presenter::open(options_, *wall_));
+        presenter_.emplace(std::move(opened));
         for (std::size_t screen = 0; screen < places_.size(); ++screen) presenter_->put(screen, places_[screen]);
     }
     return presenter_->draw(desk, frame_ns);
@@ -37,9 +38,8 @@ Result<void> OffscreenOutput::fit_modes(Desk& desk) {
 Result<std::unique_ptr<FrameOutput>> open_output(const LiveOptions& options, const SessionWall& wall,
                                                  bool asks_for_pictures) {
     if (options.offscreen && !asks_for_pictures) return std::make_unique<OffscreenOutput>(options, wall);
-    auto opened = Presenter::open(options, wall);
-    if (!opened) return std::unexpected(opened.error());
-    return std::make_unique<Presenter>(std::move(*opened));
+    BURIN_TRY(opened, Presenter::open(options, wall));
+    return std::make_unique<Presenter>(std::move(opened));
 }
 
 }  // namespace burin::session

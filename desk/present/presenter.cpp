@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/try.hpp"
 #include "desk/present/window_rows.hpp"
 #include "gpu/driver_threads.hpp"
 #include "session/options/option_bounds.hpp"
@@ -85,9 +86,9 @@ Result<Presenter> Presenter::open(const LiveOptions& options, const SessionWall&
     Presenter stage(options, wall, std::move(driver));
     for (const SessionScreen& screen : wall.screens) stage.screens_.emplace_back().place.size = screen.size;
     if (!options.offscreen) {
-        if (const auto opened = stage.open_outputs(); !opened) return std::unexpected(opened.error());
+        BURIN_TRY_DO(stage.open_outputs());
     }
-    if (const auto opened = stage.open_device(); !opened) return std::unexpected(opened.error());
+    BURIN_TRY_DO(stage.open_device());
     return stage;
 }
 
@@ -123,9 +124,8 @@ Result<void> Presenter::open_outputs() {
 Result<gpu::Device> Presenter::create_device() const {
     gpu::DeviceOptions options;
     if (has_windows()) {
-        auto extensions = window::required_extensions();
-        if (!extensions) return std::unexpected(extensions.error());
-        options.instance_extensions = std::move(*extensions);
+        BURIN_TRY(extensions, window::required_extensions());
+        options.instance_extensions = std::move(extensions);
     }
     const auto is_direct = [](const SessionScreen& screen) { return screen.direct.has_value(); };
     if (std::ranges::any_of(wall_->screens, is_direct)) options.optional_instance_extensions = driver_.extensions;
@@ -133,9 +133,8 @@ Result<gpu::Device> Presenter::create_device() const {
 }
 
 Result<void> Presenter::open_device() {
-    auto device = create_device();
-    if (!device) return std::unexpected(device.error());
-    device_ = std::move(*device);
+    BURIN_TRY(device, create_device());
+    device_ = std::move(device);
     surface_.open(*device_);
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         ScreenStage& screen = screens_[i];
@@ -147,9 +146,8 @@ Result<void> Presenter::open_device() {
                 losses_ > 0 ? output->reopen_images(*device_, layers) : output->open_images(*device_, layers);
             if (!images) return std::unexpected(with_reason(images.error(), wall_->screens[i]));
         }
-        auto picture = SessionPicture::create(*device_, samples_for(*device_, options_.samples), surface_.store());
-        if (!picture) return std::unexpected(picture.error());
-        screen.picture = std::move(*picture);
+        BURIN_TRY(picture, SessionPicture::create(*device_, samples_for(*device_, options_.samples), surface_.store()));
+        screen.picture = std::move(picture);
         screen.shown.mode = mode;  // as the outputs' images are now
         screen.parts.change_all();
         screen.right_parts.change_all();

@@ -4,6 +4,8 @@
 
 #include "desk/present/presenter.hpp"
 
+#include "base/try.hpp"
+
 namespace burin::session {
 namespace {
 
@@ -31,13 +33,13 @@ bool Presenter::takes_turns(const Desk& desk) const {
 Result<bool> Presenter::draw(Desk& desk, Nanoseconds frame_ns) {
     const Nanoseconds began_ns = clock_.now_ns();
     surface_.take(desk.take_surface_updates(), desk.lattice_origin_object());
-    if (const auto fitted = fit_modes(desk); !fitted) return std::unexpected(fitted.error());
+    BURIN_TRY_DO(fit_modes(desk));
     const Result<bool> drawn = draw_screens(desk);
     if (!drawn) return drawn;
     drawn_ = true;
-    if (const auto shown = show_screens(frame_ns); !shown) return std::unexpected(shown.error());
+    BURIN_TRY_DO(show_screens(frame_ns));
     desk.times().reached(FrameStage::show);
-    if (const auto done = wait_for_device(); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(wait_for_device());
     desk.times().reached(FrameStage::draw);
     if (*drawn && screens_[wall_->main].picture->stats().whole)
         last_whole_ = WholePicture{detail_.pixel, clock_.now_ns() - began_ns};
@@ -63,10 +65,9 @@ Result<void> Presenter::fit_mode(std::size_t i, const wall::OutputSettings& want
     ScreenStage& screen = screens_[i];
     const wall::StereoMode before = screen.shown.mode;
     if (wanted.mode == before) return {};
-    if (const auto fits = fit_outputs(i, wanted.mode); !fits) return fits;
+    BURIN_TRY_DO(fit_outputs(i, wanted.mode));
     const auto fits = screen.picture->fit(screen.place.size, wanted);
-    if (!fits && !device_->lost())
-        if (const auto back = fit_outputs(i, before); !back) return back;
+    if (!fits && !device_->lost()) BURIN_TRY_DO(fit_outputs(i, before));
     return fits;
 }
 
@@ -83,15 +84,14 @@ Result<void> Presenter::fit_outputs(std::size_t i, wall::StereoMode mode) {
     if (layers_before != layers) {
         const auto images = screen.output->open_images(*device_, layers);
         if (!images) {
-            if (const auto back = screen.output->open_images(*device_, layers_before); !back) return back;
+            BURIN_TRY_DO(screen.output->open_images(*device_, layers_before));
             return images;
         }
     }
     if (!needs.two_windows) screen.right_window.reset();
     if (!needs.two_windows || screen.right_window) return {};
-    auto right = SessionWindow::open("Burin, right eye", {}, screen.place.size);
-    if (!right) return std::unexpected(right.error());
-    screen.right_window = std::move(*right);
+    BURIN_TRY(right, SessionWindow::open("Burin, right eye", {}, screen.place.size));
+    screen.right_window = std::move(right);
     const auto images = screen.right_window->open_images(*device_, 1);
     if (!images) screen.right_window.reset();
     return images;
@@ -100,10 +100,8 @@ Result<void> Presenter::fit_outputs(std::size_t i, wall::StereoMode mode) {
 // Records what is new of the surface, the panel and the scene on every screen, and submits it all at once; returns
 // whether any output has to show something.
 Result<bool> Presenter::draw_screens(Desk& desk) {
-    auto commands = gpu::Commands::begin(*device_);
-    if (!commands) return std::unexpected(commands.error());
-    const auto uploaded = surface_.upload(*commands);
-    if (!uploaded) return std::unexpected(uploaded.error());
+    BURIN_TRY(commands, gpu::Commands::begin(*device_));
+    BURIN_TRY(uploaded, surface_.upload(commands));
     std::vector<std::optional<picture::Picture>> scenes(screens_.size());
     for (std::size_t i = 0; i < screens_.size(); ++i)
         if (!is_empty(screens_[i].place.size)) scenes[i] = desk.scene_on(i);
@@ -112,15 +110,13 @@ Result<bool> Presenter::draw_screens(Desk& desk) {
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         screens_[i].anew = false;
         if (is_empty(screens_[i].place.size)) continue;  // minimised
-        const auto drawn = draw_screen(*commands, i, desk, std::move(scenes[i]));
-        if (!drawn) return std::unexpected(drawn.error());
+        BURIN_TRY_DO(draw_screen(commands, i, desk, std::move(scenes[i])));
         any = any || screens_[i].anew;
     }
     desk.times().reached(FrameStage::record);
-    if (!any && *uploaded == 0) return false;
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    submitted_ = std::move(*submission);
+    if (!any && uploaded == 0) return false;
+    BURIN_TRY(submission, std::move(commands).submit());
+    submitted_ = std::move(submission);
     return any;
 }
 
@@ -144,7 +140,7 @@ Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, Desk
                                     std::optional<picture::Picture> scene) {
     ScreenStage& screen = screens_[i];
     SessionPicture& picture = *screen.picture;
-    if (const auto painted = picture.paint(commands, desk.panel_on(i)); !painted) return painted;
+    BURIN_TRY_DO(picture.paint(commands, desk.panel_on(i)));
     picture.draw_in_full(desk.session().files().wants_pictures());
     const auto drawn = picture.draw(commands, std::move(scene), screen.place.size, screen.settings, detail_.pixel);
     if (!drawn) return drawn;
@@ -176,7 +172,7 @@ Result<void> Presenter::show_screens(Nanoseconds frame_ns) {
         if (!screen.output || is_empty(screen.place.size)) continue;
         const bool turns = screen.settings.mode == wall::StereoMode::frame_sequential;
         if (!screen.anew && !turns) continue;
-        if (const auto shown = show(screen, frame_ns); !shown) return shown;
+        BURIN_TRY_DO(show(screen, frame_ns));
     }
     return {};
 }
@@ -216,25 +212,24 @@ Result<void> Presenter::show_in(ScreenStage& screen, const Outlet& outlet) {
     const gpu::SwapchainFrame frame = outlet.output->acquire();
     gpu::FrameAnswer answer = frame.answer;
     if (answer == gpu::FrameAnswer::presented) {
-        auto commands = gpu::Commands::begin(*device_);
-        if (!commands) return std::unexpected(commands.error());
+        BURIN_TRY(commands, gpu::Commands::begin(*device_));
         wall::OutputPlace place = screen.shown_place;
         place.size = {frame.width, frame.height};
         place.eye = outlet.eye;
         PresentedParts::Parts parts = outlet.parts->since(frame.age);
         if (place.size != screen.shown_place.size) parts = {};  // the output has just been resized
-        Result<void> recorded = screen.picture->show(*commands, {.view = frame.views[0], .place = place},
+        Result<void> recorded = screen.picture->show(commands, {.view = frame.views[0], .place = place},
                                                      outlet.output->format(), screen.settings, parts);
         if (recorded && frame.views[1] != VK_NULL_HANDLE) {
             place.eye = wall::Eye::right;
-            recorded = screen.picture->show(*commands, {.view = frame.views[1], .place = place},
-                                            outlet.output->format(), screen.settings, parts);
+            recorded = screen.picture->show(commands, {.view = frame.views[1], .place = place}, outlet.output->format(),
+                                            screen.settings, parts);
         }
         if (!recorded) {
             outlet.output->abandon(frame);
             return recorded;
         }
-        auto submission = std::move(*commands).submit(frame.sync);
+        auto submission = std::move(commands).submit(frame.sync);
         answer = submission ? outlet.output->present(frame) : outlet.output->abandon(frame);
         if (submission) submitted_ = std::move(*submission);
         if (submission && answer == gpu::FrameAnswer::presented) outlet.parts->presented();

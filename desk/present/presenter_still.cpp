@@ -2,6 +2,8 @@
 // Draws pictures before there is a session, into the main screen's window alone.
 #include "desk/present/presenter.hpp"
 
+#include "base/try.hpp"
+
 namespace burin::session {
 
 Result<bool> Presenter::draw_still(const StillPicture& still) {
@@ -12,25 +14,20 @@ Result<bool> Presenter::draw_still(const StillPicture& still) {
     if (!fit_mode(wall_->main, still.output)) screen.settings.mode = screen.shown.mode;
     const Result<bool> anew = paint_still(screen, still);
     if (!anew) return anew;
-    if (*anew)
-        if (const auto shown = show(screen, clock_.now_ns()); !shown) return std::unexpected(shown.error());
-    if (const auto done = wait_for_device(); !done) return std::unexpected(done.error());
+    if (*anew) BURIN_TRY_DO(show(screen, clock_.now_ns()));
+    BURIN_TRY_DO(wait_for_device());
     return presented() > before;
 }
 
 // Records and submits what is new; returns whether the window has to show something.
 Result<bool> Presenter::paint_still(ScreenStage& screen, const StillPicture& still) {
-    auto commands = gpu::Commands::begin(*device_);
-    if (!commands) return std::unexpected(commands.error());
-    if (const auto uploaded = surface_.upload(*commands); !uploaded) return std::unexpected(uploaded.error());
-    if (const auto painted = screen.picture->paint(*commands, still.panel); !painted)
-        return std::unexpected(painted.error());
-    const auto drawn = screen.picture->draw(*commands, still.scene, screen.place.size, screen.settings);
-    if (!drawn) return std::unexpected(drawn.error());
+    BURIN_TRY(commands, gpu::Commands::begin(*device_));
+    BURIN_TRY_DO(surface_.upload(commands));
+    BURIN_TRY_DO(screen.picture->paint(commands, still.panel));
+    BURIN_TRY_DO(screen.picture->draw(commands, still.scene, screen.place.size, screen.settings));
     if (!note_changes(screen)) return false;
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    submitted_ = std::move(*submission);
+    BURIN_TRY(submission, std::move(commands).submit());
+    submitted_ = std::move(submission);
     return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/session_output.hpp"
 
+#include "base/try.hpp"
+
 namespace burin::session {
 namespace {
 
@@ -11,14 +13,12 @@ constexpr Nanoseconds kBlocks_ns = 1'000'000;
 
 Result<void> SessionOutput::open_images(gpu::Device& device, std::uint32_t layers) {
     images_.reset();
-    auto surface = make_surface(device, layers);
-    if (!surface) return std::unexpected(surface.error());
+    BURIN_TRY(surface, make_surface(device, layers));
     const ImageSize now = size();
-    auto images =
-        gpu::Swapchain::create(device, std::move(*surface),
-                               {.width = now.width, .height = now.height, .layers = layers, .count_vblanks = true});
-    if (!images) return std::unexpected(images.error());
-    images_ = std::move(*images);
+    BURIN_TRY(images, gpu::Swapchain::create(
+                          device, std::move(surface),
+                          {.width = now.width, .height = now.height, .layers = layers, .count_vblanks = true}));
+    images_ = std::move(images);
     // A software device copies on its own, whatever the display does.
     display_blocks_ = !device.info().is_software();
     exposed_ = true;

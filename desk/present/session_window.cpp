@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/session_window.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -23,9 +25,8 @@ Result<std::unique_ptr<SessionWindow>> SessionWindow::open(const std::string& ti
         wanted.x = place->x;
         wanted.y = place->y;
     }
-    auto opened = window::Window::create(wanted);
-    if (!opened) return std::unexpected(opened.error());
-    return std::unique_ptr<SessionWindow>(new SessionWindow(std::move(*opened)));
+    BURIN_TRY(opened, window::Window::create(wanted));
+    return std::unique_ptr<SessionWindow>(new SessionWindow(std::move(opened)));
 }
 
 Result<gpu::SurfaceHandle> SessionWindow::make_surface(gpu::Device& device, std::uint32_t) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/try.hpp"
 #include "desk/opening/first_time.hpp"
 #include "desk/opening/opening.hpp"
 #include "desk/present/offscreen_output.hpp"
@@ -50,10 +51,9 @@ Result<void> begin_recording(InputSource& input, const SculptOptions& options, c
         if (streams != nullptr) streams->read_rings();
         return {};
     }
-    Result<InputLogWriter> writer =
-        create_recording(options, facts, session, streams != nullptr ? streams->taker() : record::OnRecord());
-    if (!writer) return std::unexpected(writer.error());
-    input.record_to(std::move(*writer));
+    BURIN_TRY(writer,
+              create_recording(options, facts, session, streams != nullptr ? streams->taker() : record::OnRecord()));
+    input.record_to(std::move(writer));
     return {};
 }
 
@@ -103,24 +103,18 @@ Result<RealTimeSession> open_in_real_time(const SculptOptions& options, const Se
                                           InputSource input, const RealTimeRun& run, const Wake& wake,
                                           std::optional<sculpt::MadeWorkpiece> made = {}) {
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
-    auto opened = Desk::create(options, wall, clock, machine_pace, std::move(made));
-    if (!opened) return std::unexpected(opened.error());
+    BURIN_TRY(opened, Desk::create(options, wall, clock, machine_pace, std::move(made)));
     RealTimeSession whole{
-        .desk = std::move(*opened), .streams = {}, .input = std::move(input), .tracker = {}, .tracker_name = {}};
-    auto streams = SessionStreams::open(options.live, whole.desk->session(), clock);
-    if (!streams) return std::unexpected(streams.error());
-    whole.streams = std::move(*streams);
-    if (const auto begun = begin_recording(whole.input, options, run.facts, whole.desk->session(), whole.streams.get());
-        !begun)
-        return std::unexpected(begun.error());
+        .desk = std::move(opened), .streams = {}, .input = std::move(input), .tracker = {}, .tracker_name = {}};
+    BURIN_TRY(streams, SessionStreams::open(options.live, whole.desk->session(), clock));
+    whole.streams = std::move(streams);
+    BURIN_TRY_DO(begin_recording(whole.input, options, run.facts, whole.desk->session(), whole.streams.get()));
     if (run.keep_frames) whole.desk->times().keep_frames();
-    const Result<SessionTracker> heard = session_tracker(options.live, wall.setup);
-    if (!heard) return std::unexpected(heard.error());
-    whole.tracker_name = heard->where;
-    if (heard->where.empty()) return whole;
-    auto port = open_tracker(*heard, wall.setup, {clock, wake, parse_tracker_line});
-    if (!port) return std::unexpected(port.error());
-    whole.tracker = std::move(*port);
+    BURIN_TRY(heard, session_tracker(options.live, wall.setup));
+    whole.tracker_name = heard.where;
+    if (heard.where.empty()) return whole;
+    BURIN_TRY(port, open_tracker(heard, wall.setup, {clock, wake, parse_tracker_line}));
+    whole.tracker = std::move(port);
     return whole;
 }
 
@@ -157,7 +151,7 @@ Result<SessionRecord> run_to_its_end(RealTimeSession& whole, RealTimeFrames& fra
         session.notify_of_event(std::to_string(record.lost_targets) +
                                 " places of the hand were lost: its ticks stood still for too long");
     }
-    if (const auto whole_files = session.files().outcome(); !whole_files) return std::unexpected(whole_files.error());
+    BURIN_TRY_DO(session.files().outcome());
     return record;
 }
 
@@ -167,13 +161,11 @@ Result<SessionRecord> run_unseen(const SculptOptions& options, const SessionWall
     MonotonicClock clock;
     OffscreenOutput output(options.live, wall);
     const Wake wake = [] {};  // its frames come by themselves
-    auto whole = open_in_real_time(options, wall, clock, std::move(input), run, wake);
-    if (!whole) return std::unexpected(whole.error());
-    if (!run.needs.panel) whole->desk->leave_panel_out();
-    const std::shared_ptr<SessionRecording> recording = whole->input.recording();
-    UnseenFrames frames(*whole->desk, output, std::move(whole->input), clock, whole->tracker.get(),
-                        whole->tracker_name);
-    return run_to_its_end(*whole, frames, output, clock, options.live.lsl, run.pace, wake, recording);
+    BURIN_TRY(whole, open_in_real_time(options, wall, clock, std::move(input), run, wake));
+    if (!run.needs.panel) whole.desk->leave_panel_out();
+    const std::shared_ptr<SessionRecording> recording = whole.input.recording();
+    UnseenFrames frames(*whole.desk, output, std::move(whole.input), clock, whole.tracker.get(), whole.tracker_name);
+    return run_to_its_end(whole, frames, output, clock, options.live.lsl, run.pace, wake, recording);
 }
 
 }  // namespace
@@ -188,29 +180,25 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     if (given.live.offscreen && !run.keep_frames && !run.needs.pictures)
         return run_unseen(given, wall, std::move(input), run);
     MonotonicClock clock;
-    Result<Presenter> presenter = Presenter::open(given.live, wall, std::move(run.driver));
-    if (!presenter) return std::unexpected(presenter.error());
-    const SculptOptions options = as_displayed(given, wall, *presenter);
-    const Wake wake = [&to = *presenter] { to.wake(); };
+    BURIN_TRY(presenter, Presenter::open(given.live, wall, std::move(run.driver)));
+    const SculptOptions options = as_displayed(given, wall, presenter);
+    const Wake wake = [&to = presenter] { to.wake(); };
     std::optional<sculpt::MadeWorkpiece> made;
     // A document is there at once: nothing has to be read, checked and converted.
     const bool takes_long = has_workpiece(options) && !is_document(options.workpiece);
-    if (run.opens_before_eyes && wall.desk && presenter->has_windows() && takes_long) {
-        auto opening = open_workpiece(*presenter, options, wall);
-        if (!opening) return std::unexpected(opening.error());
-        if (!*opening) return SessionRecord{};
-        made = std::move(*opening);
+    if (run.opens_before_eyes && wall.desk && presenter.has_windows() && takes_long) {
+        BURIN_TRY(opening, open_workpiece(presenter, options, wall));
+        if (!opening) return SessionRecord{};
+        made = std::move(opening);
     }
-    auto whole = open_in_real_time(options, wall, clock, std::move(input), run, wake, std::move(made));
-    if (!whole) return std::unexpected(whole.error());
-    presenter->name_windows(whole->desk->session().found().name);
+    BURIN_TRY(whole, open_in_real_time(options, wall, clock, std::move(input), run, wake, std::move(made)));
+    presenter.name_windows(whole.desk->session().found().name);
     if (options.live.first_steps) remember_first_time();
-    const std::shared_ptr<SessionRecording> recording = whole->input.recording();
-    if (options.live.detail == DetailChoice::automatic) presenter->draw_less_in_motion();
-    LiveFrames frames(*whole->desk, *presenter, std::move(whole->input), clock, whole->tracker.get(),
-                      whole->tracker_name);
-    auto record = run_to_its_end(*whole, frames, *presenter, clock, options.live.lsl, run.pace, wake, recording);
-    if (record) record->device = presenter->device_name();
+    const std::shared_ptr<SessionRecording> recording = whole.input.recording();
+    if (options.live.detail == DetailChoice::automatic) presenter.draw_less_in_motion();
+    LiveFrames frames(*whole.desk, presenter, std::move(whole.input), clock, whole.tracker.get(), whole.tracker_name);
+    auto record = run_to_its_end(whole, frames, presenter, clock, options.live.lsl, run.pace, wake, recording);
+    if (record) record->device = presenter.device_name();
     return record;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "desk/present/offscreen_output.hpp"
 #include "desk/run/session.hpp"
 #include "desk/run/session_frames.hpp"
@@ -30,8 +31,8 @@ public:
 
     // Replays what the threads did after the last frame, and checks the surface.
     [[nodiscard]] Result<void> finish_as_recorded() {
-        if (const auto run = replay_.run_to_end(); !run) return run;
-        if (const auto done = finish(replay_); !done) return done;
+        BURIN_TRY_DO(replay_.run_to_end());
+        BURIN_TRY_DO(finish(replay_));
         if (manner_.notes != nullptr) *manner_.notes = {recorder_.take_trials(), recorder_.take_events()};
         if (log_.end_check && *log_.end_check != check_of(session_) && !departed_)
             departed_ = Error{"the replay leaves another scene than the recording did", name_, kRemedy};
@@ -135,21 +136,18 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
     SimulatedClock clock;
-    auto opened = Desk::create_as_recorded(options, wall, threads, name, clock);
-    if (!opened) return std::unexpected(opened.error());
-    Desk& desk = **opened;
+    BURIN_TRY(opened, Desk::create_as_recorded(options, wall, threads, name, clock));
+    Desk& desk = *opened;
     Session& session = desk.session();
     const bool asks_for_pictures = manner.draws && (needs.pictures || manner.picture_every_ns > 0);
     if (options.live.offscreen && !needs.panel && !asks_for_pictures) desk.leave_panel_out();
-    const auto output = open_output(options.live, wall, asks_for_pictures);
-    if (!output) return std::unexpected(output.error());
-    if (const auto fits = check_screens(**output, threads, name); !fits) return fits;
+    BURIN_TRY(output, open_output(options.live, wall, asks_for_pictures));
+    BURIN_TRY_DO(check_screens(*output, threads, name));
 
-    auto ticks = ticks_for(session, threads, name, manner);
-    if (!ticks) return std::unexpected(ticks.error());
-    ThreadReplay replay(session, threads, std::move(*ticks), name);
+    BURIN_TRY(ticks, ticks_for(session, threads, name, manner));
+    ThreadReplay replay(session, threads, std::move(ticks), name);
     replay.judge_ticks(manner.witness);
-    RecordedFrames frames(desk, **output, std::move(input), threads, name, replay, manner);
+    RecordedFrames frames(desk, *output, std::move(input), threads, name, replay, manner);
     Result<void> done = drive(replay, frames);
     if (done && !frames.cut_short()) done = frames.finish_as_recorded();
     if (!done && !replay.log_ends()) return done;

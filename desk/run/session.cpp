@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
 #include "desk/opening/first_time.hpp"
 #include "desk/view/session_tracker.hpp"
@@ -25,9 +26,8 @@ namespace burin::session {
 namespace {
 
 Result<InputLog> log_of_session(const std::string& path) {
-    Result<record::RecordReader> reader = record::RecordReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    return read_session_log(*reader);
+    BURIN_TRY(reader, record::RecordReader::open(path));
+    return read_session_log(reader);
 }
 
 // Reads a log, all of whose commands make sense.
@@ -39,7 +39,7 @@ Result<InputLog> open_log(const std::string& path, const Activity* activity = nu
         if (!log->threads) return fail(path, "the last line has no end", "end it with a line feed, or take it away");
         std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
     }
-    if (const auto sound = check_commands(*log, path, activity); !sound) return std::unexpected(sound.error());
+    BURIN_TRY_DO(check_commands(*log, path, activity));
     return log;
 }
 
@@ -67,9 +67,9 @@ Result<void> check_for_a_session(const SculptOptions& options) {
 
 // Reports errors in the options before a window opens, also those in the file of a mesh tool.
 Result<void> check(const SculptOptions& options) {
-    if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
-    if (const auto ok = sculpt::check_crumbs(options.crumbs_m); !ok) return ok;
-    if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
+    BURIN_TRY_DO(sculpt::parse_tool(options.tool));
+    BURIN_TRY_DO(sculpt::check_crumbs(options.crumbs_m));
+    BURIN_TRY_DO(sculpt::parse_feel(options.feel));
     if (options.no_workpiece && options.world.empty() && !options.scene)
         return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");
     if (options.mirror.any() && !has_workpiece(options))
@@ -109,21 +109,19 @@ void tell_of_unheard_tracker(const LiveOptions& live) {
 
 // Does a session file again, and compares every tick on the way.
 Result<void> run_compared(const SculptOptions& options, InputLog log) {
-    Result<record::RecordReader> reader = record::RecordReader::open(options.live.input);
-    if (!reader) return std::unexpected(reader.error());
-    Result<TickComparison> judge = TickComparison::create(*reader, {}, TickComparison::AtDifference::goes_on);
-    if (!judge) return std::unexpected(judge.error());
+    BURIN_TRY(reader, record::RecordReader::open(options.live.input));
+    BURIN_TRY(judge, TickComparison::create(reader, {}, TickComparison::AtDifference::goes_on));
     SessionNotes notes;
-    const ReplayManner manner{.witness = &*judge, .ticks = &*reader, .notes = &notes};
-    if (const auto done = run_as_recorded(options, std::move(log), manner); !done) return done;
-    const record::Comparison& found = judge->found();
+    const ReplayManner manner{.witness = &judge, .ticks = &reader, .notes = &notes};
+    BURIN_TRY_DO(run_as_recorded(options, std::move(log), manner));
+    const record::Comparison& found = judge.found();
     if (found.difference) return fail(options.live.input, "differs: " + found.difference->line());
     if (found.ticks == 0)
         return fail(options.live.input, "none of its ticks was compared: its log ends before them, or they are missing",
                     "burin session check names what is missing");
-    if (const auto same = compare_trials(*reader, notes.trials, reader->is_closed()); !same) return same;
-    if (const auto same = compare_events(*reader, notes.events, reader->is_closed()); !same) return same;
-    if (const auto untouched = check_unchanged(*reader); !untouched) return untouched;
+    BURIN_TRY_DO(compare_trials(reader, notes.trials, reader.is_closed()));
+    BURIN_TRY_DO(compare_events(reader, notes.events, reader.is_closed()));
+    BURIN_TRY_DO(check_unchanged(reader));
     std::printf("%s: %s ticks, %zu columns: equal to the bit\n", options.live.input.c_str(),
                 std::to_string(found.ticks).c_str(), found.columns);
     return {};
@@ -140,21 +138,19 @@ bool wants_session(const SculptOptions& options) {
 }
 
 Result<void> run_as_recorded(const SculptOptions& given, InputLog log, const ReplayManner& manner) {
-    Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
-    if (!recorded) return std::unexpected(recorded.error());
-    if (!log.device.empty()) recorded->options.live.device = log.device;
-    recorded->options.live.tools_of_input = tools_in(log);
-    for (const std::string& message : recorded->overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
-    if (const auto ok = check(recorded->options); !ok) return ok;
-    const Result<SessionWall> wall = session_wall(recorded->options.live);
-    if (!wall) return std::unexpected(wall.error());
-    return replay_as_recorded(recorded->options, *wall, std::move(log), manner);
+    BURIN_TRY(recorded, options_as_recorded(log.settings, given));
+    if (!log.device.empty()) recorded.options.live.device = log.device;
+    recorded.options.live.tools_of_input = tools_in(log);
+    for (const std::string& message : recorded.overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
+    BURIN_TRY_DO(check(recorded.options));
+    BURIN_TRY(wall, session_wall(recorded.options.live));
+    return replay_as_recorded(recorded.options, wall, std::move(log), manner);
 }
 
 Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) {
     SculptOptions options = given;
-    if (const auto ok = check_for_a_session(options); !ok) return ok;
-    if (const auto ok = check_streams(options.live); !ok) return ok;
+    BURIN_TRY_DO(check_for_a_session(options));
+    BURIN_TRY_DO(check_streams(options.live));
     // What is recorded or streamed is played in real time.
     const bool in_real_time = !options.live.record.empty() || wants_streams(options.live);
     if (options.live.offscreen && options.live.input.empty()) {
@@ -166,39 +162,37 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
                     "leave it out: keys and panel name a file's place, --screenshots that of pictures");
     }
     if (!options.live.screenshots.empty()) {
-        if (const auto made = make_picture_folder(options.live.screenshots, "--screenshots"); !made) return made;
+        BURIN_TRY_DO(make_picture_folder(options.live.screenshots, "--screenshots"));
     }
     std::optional<InputLog> log;
     if (!options.live.input.empty()) {
-        Result<InputLog> read = open_log(options.live.input, options.activity.get());
-        if (!read) return std::unexpected(read.error());
+        BURIN_TRY(read, open_log(options.live.input, options.activity.get()));
         const SessionOutputs outputs(options.live, inputs_of(options).list());
-        if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
+        BURIN_TRY_DO(outputs.prepare(read, options.live.input));
         if (!in_real_time) tell_of_unheard_tracker(options.live);
-        if (read->threads && !in_real_time) {
-            return is_database(options.live.input) ? run_compared(options, std::move(*read))
-                                                   : run_as_recorded(options, std::move(*read), {});
+        if (read.threads && !in_real_time) {
+            return is_database(options.live.input) ? run_compared(options, std::move(read))
+                                                   : run_as_recorded(options, std::move(read), {});
         }
-        options.live.tools_of_input = tools_in(*read);
-        log = std::move(*read);
+        options.live.tools_of_input = tools_in(read);
+        log = std::move(read);
     }
     if (!log && options.live.journal.empty()) options.live.journal = usual_journal_folder();
     if (options.live.journal == kNoJournal) options.live.journal.clear();
-    if (const auto settled = settle_document(options); !settled) return settled;
-    if (const auto taken = take_settings_of_document(options); !taken) return taken;
-    if (const auto settled = settle_mouse(options); !settled) return settled;
+    BURIN_TRY_DO(settle_document(options));
+    BURIN_TRY_DO(take_settings_of_document(options));
+    BURIN_TRY_DO(settle_mouse(options));
     settle_view(options);
     if (!log) options.workpiece.close_small_holes = true;
     settle_room(options, true);
     options.usual_crumbs = !log;
-    if (const auto ok = check(options); !ok) return ok;
-    const Result<SessionWall> wall = session_wall(options.live);
-    if (!wall) return std::unexpected(wall.error());
-    if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
-    options.live.first_steps = !log && wall->desk && options.live.mouse == MouseMode::surface && is_first_time();
-    if (log && !in_real_time) return run_in_simulated_time(options, *wall, std::move(*log));
+    BURIN_TRY_DO(check(options));
+    BURIN_TRY(wall, session_wall(options.live));
+    BURIN_TRY_DO(check_somebody_leads(options.live, wall));
+    options.live.first_steps = !log && wall.desk && options.live.mouse == MouseMode::surface && is_first_time();
+    if (log && !in_real_time) return run_in_simulated_time(options, wall, std::move(*log));
     const LogNeeds needs = log ? needs_of(log->events) : LogNeeds{.pictures = true, .panel = true};
-    const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
+    const auto run = run_in_real_time(options, wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
                                       {.facts = facts, .needs = needs, .opens_before_eyes = !log});
     return run ? Result<void>{} : std::unexpected(run.error());
 }
@@ -206,16 +200,14 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
 Result<SessionRecord> time_session(SculptOptions options, bool for_a_device) {
     options.live.writes_nothing = true;
     options.workpiece.close_small_holes = true;
-    if (const auto settled = settle_mouse(options); !settled) return std::unexpected(settled.error());
-    if (const auto ok = check(options); !ok) return std::unexpected(ok.error());
-    const Result<SessionWall> wall = session_wall(options.live);
-    if (!wall) return std::unexpected(wall.error());
-    Result<InputLog> log = open_log(options.live.input);
-    if (!log) return std::unexpected(log.error());
-    options.live.tools_of_input = tools_in(*log);
+    BURIN_TRY_DO(settle_mouse(options));
+    BURIN_TRY_DO(check(options));
+    BURIN_TRY(wall, session_wall(options.live));
+    BURIN_TRY(log, open_log(options.live.input));
+    options.live.tools_of_input = tools_in(log);
     RealTimeRun run{.keep_frames = true};
     if (for_a_device) run.pace = {.lead_ns = haptics::HapticLoop::kLead_ns};
-    return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), std::move(run));
+    return run_in_real_time(options, wall, InputSource::play(std::move(log)), std::move(run));
 }
 
 }  // namespace burin::session

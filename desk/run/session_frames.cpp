@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/try.hpp"
 #include "desk/present/offscreen_output.hpp"
 #include "desk/run/session.hpp"
 #include "session/record/log_outputs.hpp"
@@ -16,10 +17,9 @@ Result<void> step_frame(Desk& desk, Executor& executor, ThreadRecorder& recorder
     desk.step(
         input, places[wall.main], tools, [&](Executor::Order order) { executor.order(std::move(order)); },
         wall.has_panel_window() ? places.back().size : ImageSize{});
-    const Result<Executor::Taken> taken = executor.take_updates();
-    if (!taken) return std::unexpected(taken.error());
-    desk.take_news(taken->collected);
-    recorder.frame(tools, taken->updates, {places, desk.measured(), desk.words()});
+    BURIN_TRY(taken, executor.take_updates());
+    desk.take_news(taken.collected);
+    recorder.frame(tools, taken.updates, {places, desk.measured(), desk.words()});
     return {};
 }
 
@@ -37,11 +37,10 @@ std::optional<Nanoseconds> SessionFrames::next() {
 }
 
 Result<void> SessionFrames::make(Executor& executor) {
-    if (const auto done = step_frame(desk_, executor, recorder_, frame_, shown_on_.places()); !done) return done;
+    BURIN_TRY_DO(step_frame(desk_, executor, recorder_, frame_, shown_on_.places()));
     stepped();
-    const Result<bool> anew = draw();
-    if (!anew) return std::unexpected(anew.error());
-    finished(frame_, *anew);
+    BURIN_TRY(anew, draw());
+    finished(frame_, anew);
     return {};
 }
 
@@ -51,17 +50,15 @@ Result<bool> SessionFrames::draw() {
         Result<bool> anew = shown_on_.draw(desk_, frame_.display_ns);
         if (anew) return anew;
         if (shown_on_.has_lost_display()) return false;  // the next turn ends the session
-        if (const auto recovered = shown_on_.recover(desk_, anew.error()); !recovered)
-            return std::unexpected(recovered.error());
+        BURIN_TRY_DO(shown_on_.recover(desk_, anew.error()));
     }
     return false;
 }
 
 Result<void> SessionFrames::finish(Executor& executor) {
-    const Result<Executor::Taken> last = executor.take_updates();
-    if (!last) return std::unexpected(last.error());
+    BURIN_TRY(last, executor.take_updates());
     session_.finish_scene();
-    recorder_.finish(last->updates);
+    recorder_.finish(last.updates);
     return {};
 }
 
@@ -90,18 +87,16 @@ void ScriptedFrames::stepped() {
 
 Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log) {
     SimulatedClock clock;
-    auto opened = Desk::create(options, wall, clock);
-    if (!opened) return std::unexpected(opened.error());
-    Desk& desk = **opened;
+    BURIN_TRY(opened, Desk::create(options, wall, clock));
+    Desk& desk = *opened;
     Session& session = desk.session();
     const LogNeeds needs = needs_of(log.events);
     if (options.live.offscreen && !needs.panel) desk.leave_panel_out();
-    const auto output = open_output(options.live, wall, needs.pictures);
-    if (!output) return std::unexpected(output.error());
-    ScriptedFrames frames(desk, **output, InputSource::replay(std::move(log)));
+    BURIN_TRY(output, open_output(options.live, wall, needs.pictures));
+    ScriptedFrames frames(desk, *output, InputSource::replay(std::move(log)));
     SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
-    if (const auto driven = drive(executor, frames); !driven) return driven;
+    BURIN_TRY_DO(drive(executor, frames));
     session.finish_scene();
     return session.files().outcome();
 }

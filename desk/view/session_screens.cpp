@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/try.hpp"
 #include "wall/output_settings.hpp"
 #include "wall/wall.hpp"
 #include "wall/wall_file.hpp"
@@ -72,11 +73,10 @@ Result<SessionScreen> screen_shown(const wall::WallScreen& screen, const wall::D
     shown.shown.swap_eyes = screen.swap_eyes;
     shown.shown.blend = fade_of(screen.blend);
     if (screen.homography) {
-        const auto homography = wall::homography_from_rows(*screen.homography);
-        if (!homography) return std::unexpected(homography.error());
-        shown.shown.homography = *homography;
+        BURIN_TRY(homography, wall::homography_from_rows(*screen.homography));
+        shown.shown.homography = homography;
     }
-    if (const auto sound = wall::check_output(shown.shown); !sound) return std::unexpected(sound.error());
+    BURIN_TRY_DO(wall::check_output(shown.shown));
     shown.size = {static_cast<std::uint32_t>(screen.pixels[0]), static_cast<std::uint32_t>(screen.pixels[1])};
     if (options.windowed || options.offscreen) {
         shown.size = fitted(shown.size, asked_size(options));
@@ -110,19 +110,17 @@ std::size_t faced_screen(const wall::WallSetup& setup) {
 Result<SessionWall> wall_of_file(const LiveOptions& options) {
     SessionWall wall;
     wall.desk = false;
-    auto setup = wall::read_wall(options.wall);
-    if (!setup) return std::unexpected(setup.error());
-    std::vector<wall::WallProblem> problems = wall::check(*setup);
-    for (wall::WallProblem& problem : wall::check_modes(*setup)) problems.push_back(std::move(problem));
+    BURIN_TRY(setup, wall::read_wall(options.wall));
+    std::vector<wall::WallProblem> problems = wall::check(setup);
+    for (wall::WallProblem& problem : wall::check_modes(setup)) problems.push_back(std::move(problem));
     for (const wall::WallProblem& problem : problems) {
         if (problem.error) return fail(options.wall + ", " + problem.where, problem.what, problem.remedy);
         std::fprintf(stderr, "burin: %s: %s\n", options.wall.c_str(), line_of(problem).c_str());
     }
-    wall.setup = std::move(*setup);
+    wall.setup = std::move(setup);
     for (const wall::WallScreen& screen : wall.setup.screens) {
-        auto shown = screen_shown(screen, wall.setup.timing, options);
-        if (!shown) return std::unexpected(shown.error());
-        wall.screens.push_back(std::move(*shown));
+        BURIN_TRY(shown, screen_shown(screen, wall.setup.timing, options));
+        wall.screens.push_back(std::move(shown));
     }
     wall.main = faced_screen(wall.setup);
     return wall;

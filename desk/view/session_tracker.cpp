@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::session {
 namespace {
@@ -31,20 +32,18 @@ Result<SessionTracker> session_tracker(const LiveOptions& options, const wall::W
     if (given == kNoTracker || !hears) return SessionTracker{};
     SessionTracker tracker;
     if (given.ends_with(".toml")) {
-        auto read = devices::read_tracker(given);
-        if (!read) return std::unexpected(read.error());
-        tracker.described = std::move(*read);
+        BURIN_TRY(read, devices::read_tracker(given));
+        tracker.described = std::move(read);
     } else if (!options.wall.empty() && !setup.tracker_toml.empty()) {
-        auto read = devices::tracker_of_wall(options.wall);
-        if (!read) return std::unexpected(read.error());
-        tracker.described = std::move(*read);
+        BURIN_TRY(read, devices::tracker_of_wall(options.wall));
+        tracker.described = std::move(read);
         const bool is_of_its_kind = tracker.described && devices::tracker_kind_of(given) ==
                                                              devices::tracker_kind_of(tracker.described->address);
         if (!given.empty() && !is_of_its_kind) tracker.described.reset();
     }
     tracker.where =
         tracker.described && (given.empty() || given == tracker.described->file) ? tracker.described->address : given;
-    if (const auto ok = check_eyes(options, tracker, setup); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_eyes(options, tracker, setup));
     return tracker;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/drivers/arm_models.hpp"
 #include "devices/drivers/dhd_line.hpp"
 #include "devices/drivers/library_beside.hpp"
@@ -52,19 +53,16 @@ Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand
         return fail("haptic device " + name, "no emulator runs by this name",
                     "start it in another terminal: burin devices emulate dhd" +
                         (first == "emulated" ? std::string() : " --at " + first));
-    const auto library = library_chosen("haptic device " + name, at != std::string::npos,
-                                        at != std::string::npos ? choice_at_library.substr(at + 1) : std::string(),
-                                        first, kEmulatedDhdLibrary, {});
-    if (!library) return std::unexpected(library.error());
-    auto api = library->empty() ? load_usual_dhd_api() : load_dhd_api(*library);
-    if (!api) return std::unexpected(api.error());
+    BURIN_TRY(library, library_chosen("haptic device " + name, at != std::string::npos,
+                                      at != std::string::npos ? choice_at_library.substr(at + 1) : std::string(), first,
+                                      kEmulatedDhdLibrary, {}));
+    BURIN_TRY(api, library.empty() ? load_usual_dhd_api() : load_dhd_api(library));
     if (!named_model.empty()) choice->most_N = dhd_model_called(named_model).figures.max_force_N;
-    auto line = std::make_unique<DhdLine>(name, *api, *choice);
+    auto line = std::make_unique<DhdLine>(name, api, *choice);
     const DhdLine* const opened_line = line.get();  // the servo's, and so the device's, from now on
-    auto servo = LineServo::open(std::move(line));
-    if (!servo) return std::unexpected(servo.error());
+    BURIN_TRY(servo, LineServo::open(std::move(line)));
     const ArmModel& model = named_model.empty() ? dhd_model(opened_line->type()) : dhd_model_called(named_model);
-    OpenedDevice opened = served_arm(std::move(*servo), dhd_description(model), std::move(hand), clock);
+    OpenedDevice opened = served_arm(std::move(servo), dhd_description(model), std::move(hand), clock);
     if (&model != &dhd_model_called("omega"))
         opened.settled = std::string(kDhd) + ":" + with_model(choice_at_library, model.key);
     return opened;

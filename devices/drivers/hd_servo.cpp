@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -103,9 +104,8 @@ Result<std::shared_ptr<HdServo>> HdServo::of_library(const std::string& library)
     static std::map<std::string, std::weak_ptr<HdServo>> servos;
     const std::lock_guard lock(mutex);
     if (auto known = servos[library].lock()) return known;
-    auto api = load_hd_api(library);
-    if (!api) return std::unexpected(api.error());
-    std::shared_ptr<HdServo> servo = of_api(*api, library, std::make_unique<MonotonicClock>());
+    BURIN_TRY(api, load_hd_api(library));
+    std::shared_ptr<HdServo> servo = of_api(api, library, std::make_unique<MonotonicClock>());
     servos[library] = servo;
     return servo;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/drivers/wand_hardware.hpp"
 
 namespace burin::devices {
@@ -44,9 +45,8 @@ HilWand::HilWand(const HilApi& api, std::string card, const WandDescription& wan
 
 Result<std::unique_ptr<HilWand>> HilWand::open(const std::string& library, const std::string& card,
                                                const WandDescription& wand) {
-    const auto api = load_hil_api(library);
-    if (!api) return std::unexpected(api.error());
-    return serve_card(*api, card, wand, std::make_unique<MonotonicClock>());
+    BURIN_TRY(api, load_hil_api(library));
+    return serve_card(api, card, wand, std::make_unique<MonotonicClock>());
 }
 
 Result<std::unique_ptr<HilWand>> HilWand::serve_card(const HilApi& api, const std::string& card,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/drivers/arm_models.hpp"
 #include "devices/drivers/hd_servo.hpp"
 #include "devices/drivers/library_beside.hpp"
@@ -46,13 +47,11 @@ Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand,
                     "write one of " + hd_model_keys());
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
-    const auto library = library_chosen("haptic device omni " + name, at != std::string::npos,
-                                        at != std::string::npos ? name_at_library.substr(at + 1) : std::string(), name,
-                                        kEmulatedHdLibrary, kHdLibrary);
-    if (!library) return std::unexpected(library.error());
-    auto servo = HdServo::of_library(*library);
-    if (!servo) return std::unexpected(servo.error());
-    auto device = (*servo)->open(name);
+    BURIN_TRY(library, library_chosen("haptic device omni " + name, at != std::string::npos,
+                                      at != std::string::npos ? name_at_library.substr(at + 1) : std::string(), name,
+                                      kEmulatedHdLibrary, kHdLibrary));
+    BURIN_TRY(servo, HdServo::of_library(library));
+    auto device = servo->open(name);
     if (!device) {
         const bool runs = !name.starts_with("emulated") || std::ranges::count(emulated_omnis(), name) > 0;
         if (runs) return std::unexpected(device.error());

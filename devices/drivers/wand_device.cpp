@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/drivers/hil_wand.hpp"
 #include "devices/drivers/library_beside.hpp"
 #include "devices/drivers/wand_hardware.hpp"
@@ -62,22 +63,19 @@ Result<OpenedDevice> open_wand(const std::string& text, AnyHand hand, Clock& clo
     const WandAddress address = wand_address(text);
     auto wand = wand_at(text);
     if (!wand) return std::unexpected(wand.error());
-    const auto library = library_chosen("haptic device wand:" + text, address.names_library, address.library,
-                                        address.card, kEmulatedHilLibrary, kHilLibrary);
-    if (!library) return std::unexpected(library.error());
-    auto served = HilWand::open(*library, address.card, *wand);
-    if (!served) return std::unexpected(served.error());
-    Amplifiers* const amplifiers = served->get();
-    const DeviceDescription description = (*served)->description();
-    OpenedDevice opened = served_arm(std::move(*served), description, std::move(hand), clock);
+    BURIN_TRY(library, library_chosen("haptic device wand:" + text, address.names_library, address.library,
+                                      address.card, kEmulatedHilLibrary, kHilLibrary));
+    BURIN_TRY(served, HilWand::open(library, address.card, *wand));
+    Amplifiers* const amplifiers = served.get();
+    const DeviceDescription description = served->description();
+    OpenedDevice opened = served_arm(std::move(served), description, std::move(hand), clock);
     opened.amplifiers = amplifiers;
     return opened;
 }
 
 Result<OpenedDevice> wand_that_rests(const std::string& text, Clock& clock) {
-    auto wand = wand_at(text);
-    if (!wand) return std::unexpected(wand.error());
-    auto device = std::make_unique<RestingWand>(std::move(*wand), clock);
+    BURIN_TRY(wand, wand_at(text));
+    auto device = std::make_unique<RestingWand>(std::move(wand), clock);
     Amplifiers* const amplifiers = device.get();
     return of_one_part(std::move(device), amplifiers);
 }

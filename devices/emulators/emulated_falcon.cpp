@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/try.hpp"
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/falcon/falcon_device.hpp"
 #include "devices/falcon/falcon_line.hpp"
@@ -221,10 +222,9 @@ private:
 };
 
 Result<EmulatedFalcon> EmulatedFalcon::create(const std::string& name, EmulatedFalconOptions options) {
-    auto listener = listen_as_emulator("falcon", name);
-    if (!listener) return std::unexpected(listener.error());
+    BURIN_TRY(listener, listen_as_emulator("falcon", name));
     if (options.script.empty()) options.script = circling_hand();
-    EmulatedFalcon falcon(std::move(*listener), std::move(options));
+    EmulatedFalcon falcon(std::move(listener), std::move(options));
     falcon.drill_->is_homed = falcon.options_.is_homed;
     return falcon;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "base/try.hpp"
 #include "devices/presence/emulator_socket.hpp"
 #include "devices/served/served_arm.hpp"
 #include "devices/spacemouse/spacemouse_port.hpp"
@@ -50,9 +51,8 @@ CapStand circling_cap(double time_s) {
 }
 
 Result<EmulatedSpaceMouse> EmulatedSpaceMouse::create(const std::string& name, EmulatedSpaceMouseOptions options) {
-    auto listener = listen_as_emulator(kSpaceMouse, name);
-    if (!listener) return std::unexpected(listener.error());
-    return EmulatedSpaceMouse(std::move(*listener), std::move(options));
+    BURIN_TRY(listener, listen_as_emulator(kSpaceMouse, name));
+    return EmulatedSpaceMouse(std::move(listener), std::move(options));
 }
 
 std::vector<HidBytes> cap_reports(const CapStand& before, const CapStand& now, bool joined) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/emulators/emulated_dhd.hpp"
 #include "devices/emulators/emulated_dtrack.hpp"
 #include "devices/emulators/emulated_falcon.hpp"
@@ -23,20 +24,18 @@ namespace {
 Result<void> run_glove(const EmulatorOptions& options) {
     if (!options.at.empty())
         return fail("emulated glove", "takes no address: " + options.at, "it says on which port it is");
-    auto port = GlovePort::create();
-    if (!port) return std::unexpected(port.error());
-    options.is_there("--device glove:" + port->name());
-    port->run({.silent_from_s = options.silence.from_s, .silent_for_s = options.silence.for_s}, options.ends);
+    BURIN_TRY(port, GlovePort::create());
+    options.is_there("--device glove:" + port.name());
+    port.run({.silent_from_s = options.silence.from_s, .silent_for_s = options.silence.for_s}, options.ends);
     return {};
 }
 
 Result<void> run_vrpn(const EmulatorOptions& options) {
     const auto at = network_address(options.at, {"127.0.0.1", kVrpnPort});
     if (!at) return fail("emulated VRPN server", "has no address " + options.at, "write HOST, PORT or HOST:PORT");
-    auto server = EmulatedVrpn::create(*at);
-    if (!server) return std::unexpected(server.error());
-    options.is_there("--tracker vrpn:" + server->address().text());
-    server->run({.silence = options.silence}, options.ends);
+    BURIN_TRY(server, EmulatedVrpn::create(*at));
+    options.is_there("--tracker vrpn:" + server.address().text());
+    server.run({.silence = options.silence}, options.ends);
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/falcon/falcon_line.hpp"
 #include "devices/falcon/falcon_port.hpp"
 #include "devices/served/line_servo.hpp"
@@ -68,17 +69,15 @@ Result<OpenedDevice> open_falcon(const std::string& place_at_firmware, AnyHand h
     const FalconChoice choice = chosen_falcon(place_at_firmware);
     std::vector<std::byte> firmware;
     if (!choice.firmware.empty()) {
-        auto read = read_falcon_firmware(choice.firmware);
-        if (!read) return std::unexpected(read.error());
-        firmware = std::move(*read);
+        BURIN_TRY(read, read_falcon_firmware(choice.firmware));
+        firmware = std::move(read);
     }
     const std::string name = kFalcon + (choice.place.empty() ? std::string() : ":" + choice.place);
     FalconLine::OpenPort open_port = [place = choice.place] {
         return place.starts_with("emulated") ? open_emulated_falcon(place) : open_usb_falcon(place);
     };
-    auto servo = LineServo::open(std::make_unique<FalconLine>(name, std::move(open_port), std::move(firmware)));
-    if (!servo) return std::unexpected(servo.error());
-    return served_arm(std::move(*servo), falcon_description(), std::move(hand), clock);
+    BURIN_TRY(servo, LineServo::open(std::make_unique<FalconLine>(name, std::move(open_port), std::move(firmware))));
+    return served_arm(std::move(servo), falcon_description(), std::move(hand), clock);
 }
 
 OpenedDevice falcon_that_rests(Clock& clock) { return arm_that_rests(falcon_description(), clock); }

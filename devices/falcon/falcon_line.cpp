@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/falcon/falcon_line.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -44,9 +46,8 @@ Result<std::vector<std::byte>> read_falcon_firmware(const std::string& file) {
 
 Result<void> FalconLine::open() {
     const std::string where = "haptic device " + name_;
-    auto port = open_port_();
-    if (!port) return std::unexpected(port.error());
-    port_ = std::move(*port);
+    BURIN_TRY(port, open_port_());
+    port_ = std::move(port);
     if (settings_for_run() == Cable::pulled) {
         close();
         return fail(where, "does not take its settings", "plug it in again");
@@ -252,7 +253,7 @@ Result<void> FalconLine::give_firmware() {
 
 Result<void> FalconLine::load_firmware() {
     const std::string where = "haptic device " + name_, remedy = "switch it off and on, and try again";
-    if (auto greeted = greet_boot_loader(); !greeted) return greeted;
+    BURIN_TRY_DO(greet_boot_loader());
     std::vector<std::byte> heard;
     std::span<const std::byte> left(firmware_);
     constexpr std::size_t kPiece = kFtdiPiece - kFtdiOwn;

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/falcon/falcon_port.hpp"
 #include "devices/presence/emulator_socket.hpp"
 
@@ -65,9 +66,8 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<FalconPort>> open_emulated_falcon(const std::string& name) {
-    auto connection = connect_to_emulator("haptic device falcon " + name, "falcon", name);
-    if (!connection) return std::unexpected(connection.error());
-    return std::make_unique<EmulatedFalconPort>(std::move(connection->socket));
+    BURIN_TRY(connection, connect_to_emulator("haptic device falcon " + name, "falcon", name));
+    return std::make_unique<EmulatedFalconPort>(std::move(connection.socket));
 }
 
 std::vector<std::string> emulated_falcons() { return running_emulators("falcon"); }

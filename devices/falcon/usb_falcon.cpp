@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/falcon/falcon_port.hpp"
 #include "devices/presence/udev_rules.hpp"
 
@@ -126,9 +127,8 @@ private:
 
 Result<std::unique_ptr<FalconPort>> open_usb_falcon(const std::string& place) {
     const std::string where = "haptic device falcon" + (place.empty() ? std::string() : " " + place);
-    auto usb = Usb::open();
-    if (!usb) return std::unexpected(usb.error());
-    UsbList list((*usb)->context());
+    BURIN_TRY(usb, Usb::open());
+    UsbList list(usb->context());
     libusb_device* found = nullptr;
     for (libusb_device* const device : list.falcons())
         if (found == nullptr && (place.empty() || place_of(device) == place)) found = device;
@@ -151,7 +151,7 @@ Result<std::unique_ptr<FalconPort>> open_usb_falcon(const std::string& place) {
                                                  : std::string("cannot be claimed: ") + ::libusb_strerror(claimed),
                     "end the other program, or plug the device in again");
     }
-    return std::make_unique<UsbFalconPort>(std::move(*usb), device);
+    return std::make_unique<UsbFalconPort>(std::move(usb), device);
 }
 
 std::vector<DevicePresence> look_for_usb_falcons() {

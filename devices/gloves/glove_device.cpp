@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/gloves/glove_link.hpp"
 
 namespace burin::devices {
@@ -284,9 +285,8 @@ OpenedDevice simulated_glove(FingerCourse course, AnyHand hand, Clock& clock) {
 Result<OpenedDevice> open_glove(const std::string& port, AnyHand hand, Clock& clock) {
     std::unique_ptr<GloveLink> link;
     if (!port.empty()) {
-        auto opened = GloveLink::open(port, clock);
-        if (!opened) return std::unexpected(opened.error());
-        link = std::move(*opened);
+        BURIN_TRY(opened, GloveLink::open(port, clock));
+        link = std::move(opened);
     }
     const auto all = std::make_shared<GloveParts>(std::move(link), std::nullopt, std::move(hand), clock);
     return of_parts(all, glove_description(true), kPistonNames);

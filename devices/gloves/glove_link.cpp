@@ -15,6 +15,7 @@
 #include <cstring>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/served/served_arm.hpp"
 
 namespace burin::devices {
@@ -79,9 +80,8 @@ Result<std::unique_ptr<GloveLink>> GloveLink::open(const std::string& port, Cloc
     // TIOCEXCL keeps others out, but not root; so two programs also agree by a lock.
     if (::flock(file, LOCK_EX | LOCK_NB) != 0)
         return fail("glove " + port, "is in use by another program", "end that program, or name another port");
-    const auto before = set_up_line(file, port);
-    if (!before) return std::unexpected(before.error());
-    link->before_ = std::make_unique<const termios>(*before);
+    BURIN_TRY(before, set_up_line(file, port));
+    link->before_ = std::make_unique<const termios>(before);
     if (::ioctl(file, TIOCEXCL) != 0) return no_port(port, errno);
     link->waits_less_ = ask_to_wait_less(file, true);
     MonotonicClock watch;  // the session's own clock may stand still until the session begins

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/space.hpp"
+#include "base/try.hpp"
 #include "devices/hand/quaternion_path.hpp"
 
 namespace burin::devices {
@@ -51,7 +52,7 @@ Result<void> check(const std::vector<HandPose>& script) {
 }  // namespace
 
 Result<SimulatedHand> SimulatedHand::create(std::vector<HandPose> script, HandPath path, HandGrip grip) {
-    if (auto ok = check(script); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check(script));
     if (!is_sensible(grip))
         return fail("hand grip", "mass, stiffness and damping must be finite and not negative", "correct them");
     for (HandPose& pose : script)

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/haply/inverse3_line.hpp"
 #include "devices/presence/emulator_socket.hpp"
 #include "devices/served/line_servo.hpp"
@@ -42,11 +43,10 @@ std::optional<Inverse3Choice> chosen_inverse3(const std::string& text) {
 
 // The emulator says its service's port to whoever asks for it by its name.
 Result<NetworkAddress> emulated_service(const std::string& where, const std::string& emulator) {
-    const auto told = connect_to_emulator(where, kInverse3, emulator);
-    if (!told) return std::unexpected(told.error());
+    BURIN_TRY(told, connect_to_emulator(where, kInverse3, emulator));
     NetworkAddress service = inverse3_service();
-    const char* const end = told->greeting.data() + told->greeting.size();
-    if (std::from_chars(told->greeting.data(), end, service.port).ec != std::errc{})
+    const char* const end = told.greeting.data() + told.greeting.size();
+    if (std::from_chars(told.greeting.data(), end, service.port).ec != std::errc{})
         return fail(where, "the emulator says no port", "start it again: burin devices emulate inverse3");
     return service;
 }
@@ -79,9 +79,8 @@ Result<OpenedDevice> open_inverse3(const std::string& choice_text, AnyHand hand,
                                             : emulated_service(where, choice->emulator);
         },
         choice->id);
-    auto servo = LineServo::open(std::move(line));
-    if (!servo) return std::unexpected(servo.error());
-    return served_arm(std::move(*servo), inverse3_description(), std::move(hand), clock);
+    BURIN_TRY(servo, LineServo::open(std::move(line)));
+    return served_arm(std::move(servo), inverse3_description(), std::move(hand), clock);
 }
 
 OpenedDevice inverse3_that_rests(Clock& clock) { return arm_that_rests(inverse3_description(), clock); }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -51,21 +52,20 @@ Result<void> Inverse3Line::open() {
     const std::string where = "haptic device " + name_;
     const auto service = find_();
     if (!service) return std::unexpected(service.error());
-    auto greeting = greet_inverse3(where, *service, kInverse3Greets_ns);
-    if (!greeting) return std::unexpected(greeting.error());
-    const auto& devices = greeting->words.devices;
+    BURIN_TRY(greeting, greet_inverse3(where, *service, kInverse3Greets_ns));
+    const auto& devices = greeting.words.devices;
     if (devices.empty())
         return fail(where, "the service sees no Inverse3", "plug one in and switch it on: its power and its USB cable");
-    const std::vector<std::string_view> ids(inverse3_ids(greeting->words));
+    const std::vector<std::string_view> ids(inverse3_ids(greeting.words));
     const std::string wanted(wanted_.empty() ? ids.front() : wanted_);
-    const Inverse3State* const device = inverse3_of(greeting->words, wanted);
+    const Inverse3State* const device = inverse3_of(greeting.words, wanted);
     if (device == nullptr)
         return fail(where, "the service sees no Inverse3 of this number",
                     "write one of those that there are: " + joined(ids));
     id_ = wanted;
     trouble_ = device->trouble.value_or(Inverse3Trouble::none);
-    takes_vector_ = greeting->words.takes_vector;
-    socket_ = std::move(greeting->socket);
+    takes_vector_ = greeting.words.takes_vector;
+    socket_ = std::move(greeting.socket);
     sent_ns_ = clock_.now_ns();
     owed_ = answers_ = 0;
     if (std::exchange(is_gone_, false)) tell(kInverse3Back);

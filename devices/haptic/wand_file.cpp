@@ -9,6 +9,7 @@
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "base/toml_table.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -316,9 +317,8 @@ WandOrProblems parse_wand(std::string_view text, const std::string& name, const 
 }
 
 Result<WandDescription> read_wand(const std::filesystem::path& path, const WandDescription& otherwise) {
-    const Result<std::string> text = read_text_file(path, kMostFileBytes);
-    if (!text) return std::unexpected(text.error());
-    WandOrProblems wand = parse_wand(*text, path.string(), otherwise);
+    BURIN_TRY(text, read_text_file(path, kMostFileBytes));
+    WandOrProblems wand = parse_wand(text, path.string(), otherwise);
     if (wand) return std::move(*wand);
     const std::vector<Error>& problems = wand.error();
     if (problems.size() == 1) return std::unexpected(problems.front());

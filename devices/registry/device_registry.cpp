@@ -9,6 +9,7 @@
 
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/drivers/dhd_device.hpp"
 #include "devices/drivers/omni_device.hpp"
 #include "devices/drivers/wand_device.hpp"
@@ -41,7 +42,7 @@ Result<OpenedDevice> open_mouse_arm(HapticHost host, const std::string& file) {
     if (!file.empty())
         return fail("haptic device " + std::string(kMouseArm), "takes no description: " + file, "write the name alone");
     if (auto* const steered = std::get_if<SteeredHand>(&host.hand)) {
-        if (const auto held = steered->hold_by(mouse_grip()); !held) return std::unexpected(held.error());
+        BURIN_TRY_DO(steered->hold_by(mouse_grip()));
         steered->press_within(kMousePressesWithin_m);
     }
     return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), mouse_arm(), &host.clock));
@@ -52,9 +53,8 @@ Result<WandDescription> wand_described(const std::string& file) {
 }
 
 Result<OpenedDevice> open_simulated_wand(HapticHost host, const std::string& file) {
-    Result<WandDescription> wand = wand_described(file);
-    if (!wand) return std::unexpected(wand.error());
-    auto opened = std::make_unique<SimulatedWand>(std::move(host.hand), std::move(*wand), &host.clock);
+    BURIN_TRY(wand, wand_described(file));
+    auto opened = std::make_unique<SimulatedWand>(std::move(host.hand), std::move(wand), &host.clock);
     Amplifiers* const amplifiers = opened.get();
     return of_one_part(std::move(opened), amplifiers);
 }
@@ -76,11 +76,9 @@ Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& sh
     const auto grip = shape.empty() ? GripShape::whole : grip_named(shape);
     if (!grip && shape.ends_with(kFingerCourseFiles)) {
         if (host.stands_in) return simulated_glove(GripShape::whole, std::move(host.hand), host.clock);
-        const Result<std::string> text = read_text_file(shape, kMostFingerCourseBytes);
-        if (!text) return std::unexpected(text.error());
-        Result<FingerCourse> course = parse_finger_course(*text, shape);
-        if (!course) return std::unexpected(course.error());
-        return simulated_glove(std::move(*course), std::move(host.hand), host.clock);
+        BURIN_TRY(text, read_text_file(shape, kMostFingerCourseBytes));
+        BURIN_TRY(course, parse_finger_course(text, shape));
+        return simulated_glove(std::move(course), std::move(host.hand), host.clock);
     }
     if (!grip)
         return fail(
@@ -100,23 +98,21 @@ Result<OpenedDevice> at_rest(const std::string& text, AnyHand /*hand*/, Clock& c
 
 // Opens what was recorded, to stand in for it, and has its samples played.
 Result<OpenedDevice> open_recorded(HapticHost host, const std::string& text) {
-    const Result<RecordedChoice> choice = recorded_choice(text);
-    if (!choice) return std::unexpected(choice.error());
+    BURIN_TRY(choice, recorded_choice(text));
     if (host.recordings == nullptr)
         return fail("haptic device " + std::string(kRecordedDevice) + ":" + text, "cannot be played here",
                     "play it in a session: burin sculpt --device");
     Clock& clock = host.clock;
-    Result<RecordedHand> hand = host.recordings->hand_of(choice->file, choice->hand);
-    if (!hand) return std::unexpected(hand.error());
+    BURIN_TRY(hand, host.recordings->hand_of(choice.file, choice.hand));
     host.stands_in = true;
-    auto like = open_haptic_device(hand->device, std::move(host));
+    auto like = open_haptic_device(hand.device, std::move(host));
     if (!like) return like;
-    if (like->parts.size() != hand->parts.size())
-        return fail(choice->file,
-                    "has " + std::to_string(hand->parts.size()) + " parts of " + hand->device + ", which has " +
+    if (like->parts.size() != hand.parts.size())
+        return fail(choice.file,
+                    "has " + std::to_string(hand.parts.size()) + " parts of " + hand.device + ", which has " +
                         std::to_string(like->parts.size()),
                     "play it with the program that recorded it");
-    return recorded_device(std::move(*hand), *choice, std::move(*like), clock);
+    return recorded_device(std::move(hand), choice, std::move(*like), clock);
 }
 
 std::vector<DevicePresence> look_for_recordings() {
@@ -338,9 +334,8 @@ Result<std::string> played_by(std::string_view name, const Recordings* recording
     for (std::size_t depth = 0; depth < kMostDepth; ++depth) {
         const Result<ChosenKind> wanted = chosen(of);
         if (!wanted || wanted->kind->name != kRecordedDevice || recordings == nullptr) return of;
-        const Result<RecordedChoice> choice = recorded_choice(wanted->file);
-        if (!choice) return std::unexpected(choice.error());
-        Result<std::string> inner = recordings->device_of(choice->file, choice->hand);
+        BURIN_TRY(choice, recorded_choice(wanted->file));
+        Result<std::string> inner = recordings->device_of(choice.file, choice.hand);
         if (!inner) return inner;
         of = std::move(*inner);
     }
@@ -385,33 +380,28 @@ Result<OpenedDevice> Opening::operator()(std::string_view name, HapticHost host,
 std::span<const HapticKind> haptic_kinds() { return kHapticKinds; }
 
 Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
-    const Result<ChosenKind> wanted = chosen(name);
-    if (!wanted) return std::unexpected(wanted.error());
-    return wanted->kind->open(wanted->kind->name, std::move(host), wanted->file);
+    BURIN_TRY(wanted, chosen(name));
+    return wanted.kind->open(wanted.kind->name, std::move(host), wanted.file);
 }
 
 Result<DeviceNature> nature_of_name(std::string_view name) {
-    const Result<ChosenKind> wanted = chosen(name);
-    if (!wanted) return std::unexpected(wanted.error());
-    return nature_of(*wanted);
+    BURIN_TRY(wanted, chosen(name));
+    return nature_of(wanted);
 }
 
 Result<DeviceNature> nature_of_device(std::string_view name, const Recordings* recordings) {
-    const Result<std::string> of = played_by(name, recordings);
-    if (!of) return std::unexpected(of.error());
-    const Result<ChosenKind> wanted = chosen(*of);
-    if (!wanted) return std::unexpected(wanted.error());
-    const HapticKind& kind = *wanted->kind;
-    DeviceNature nature = nature_of(*wanted);
+    BURIN_TRY(of, played_by(name, recordings));
+    BURIN_TRY(wanted, chosen(of));
+    const HapticKind& kind = *wanted.kind;
+    DeviceNature nature = nature_of(wanted);
     nature.is_played = nature.is_played || name.starts_with(std::string(kRecordedDevice) + ":");
     if (nature.is_played) {
         nature.felt_by_person = nature.is_emulated = nature.has_amplifiers = nature.has_force = false;
         nature.leads_itself = true;
     }
     if (kind.handle == nullptr) return nature;
-    Result<WandDescription> handle = kind.handle(wanted->file);
-    if (!handle) return std::unexpected(handle.error());
-    nature.handle = std::move(*handle);
+    BURIN_TRY(handle, kind.handle(wanted.file));
+    nature.handle = std::move(handle);
     return nature;
 }
 

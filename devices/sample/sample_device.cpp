@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/sample/sample_device.hpp"
 
+#include "base/try.hpp"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -92,9 +94,8 @@ std::optional<SampleReport> sample_report(std::span<const std::byte> packet) noe
 Result<std::unique_ptr<SampleCable>> open_sample_cable() { return std::make_unique<SwingingArm>(); }
 
 Result<void> SampleLine::open() {
-    Result<std::unique_ptr<SampleCable>> cable = open_cable_();
-    if (!cable) return std::unexpected(cable.error());
-    cable_ = std::move(*cable);
+    BURIN_TRY(cable, open_cable_());
+    cable_ = std::move(cable);
     silent_ = 0;
     if (std::exchange(is_gone_, false)) notice_ = {kSampleBack, 0};
     return {};
@@ -128,9 +129,8 @@ std::string SampleLine::words_for(const LineNotice& notice) const {
 Result<OpenedDevice> open_sample(const std::string& text, AnyHand hand, Clock& clock) {
     if (!text.empty())
         return fail("haptic device " + std::string(kSample), "takes no description: " + text, "write the name alone");
-    auto servo = LineServo::open(std::make_unique<SampleLine>(open_sample_cable));
-    if (!servo) return std::unexpected(servo.error());
-    return served_arm(std::move(*servo), sample_description(), std::move(hand), clock);
+    BURIN_TRY(servo, LineServo::open(std::make_unique<SampleLine>(open_sample_cable)));
+    return served_arm(std::move(servo), sample_description(), std::move(hand), clock);
 }
 
 OpenedDevice sample_that_rests(Clock& clock) { return arm_that_rests(sample_description(), clock); }

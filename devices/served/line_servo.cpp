@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "devices/served/line_servo.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 
 namespace burin::devices {
 
 Result<std::unique_ptr<LineServo>> LineServo::open(std::unique_ptr<DeviceLine> line, std::unique_ptr<Clock> clock) {
-    if (const auto opened = line->open(); !opened) return std::unexpected(opened.error());
+    BURIN_TRY_DO(line->open());
     std::unique_ptr<LineServo> servo(new LineServo(std::move(line), std::move(clock)));
     servo->thread_ = std::thread([s = servo.get()] { s->run(); });
     return servo;

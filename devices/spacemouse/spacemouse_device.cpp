@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "devices/spacemouse/spacemouse_line.hpp"
@@ -155,11 +156,9 @@ struct OpenedLine {
 };
 Result<OpenedLine> open_line(const std::string& name, const std::string& text) {
     const std::string where = where_of(name, text);
-    auto settings = spacemouse_settings(where, text);
-    if (!settings) return std::unexpected(settings.error());
-    auto line = SpaceMouseLine::open(where, settings->place);
-    if (!line) return std::unexpected(line.error());
-    return OpenedLine{std::move(*settings), std::move(*line)};
+    BURIN_TRY(settings, spacemouse_settings(where, text));
+    BURIN_TRY(line, SpaceMouseLine::open(where, settings.place));
+    return OpenedLine{std::move(settings), std::move(line)};
 }
 
 template <typename Arm>
@@ -176,20 +175,17 @@ Result<OpenedDevice> open_spacemouse(const std::string& text, AnyHand hand, Cloc
     if (const std::string file = spacemouse_file_of(text); !file.empty())
         return fail(where_of(kSpaceMouse, text), "takes no description: " + file,
                     "write " + std::string(kSpaceMouseWand) + ":" + file + " for the wand that it describes");
-    auto open = open_line(kSpaceMouse, text);
-    if (!open) return std::unexpected(open.error());
-    return opened(std::make_unique<LedBySpaceMouse<SimulatedOmni>>(std::move(open->line), open->settings,
+    BURIN_TRY(open, open_line(kSpaceMouse, text));
+    return opened(std::make_unique<LedBySpaceMouse<SimulatedOmni>>(std::move(open.line), open.settings,
                                                                    beginning_of(hand), clock, OmniModel{}),
                   nullptr);
 }
 
 Result<OpenedDevice> open_spacemouse_wand(const std::string& text, AnyHand hand, Clock& clock) {
-    auto wand = spacemouse_wand_described(text);
-    if (!wand) return std::unexpected(wand.error());
-    auto open = open_line(kSpaceMouseWand, text);
-    if (!open) return std::unexpected(open.error());
-    auto led = std::make_unique<LedBySpaceMouse<SimulatedWand>>(std::move(open->line), open->settings,
-                                                                beginning_of(hand), clock, std::move(*wand));
+    BURIN_TRY(wand, spacemouse_wand_described(text));
+    BURIN_TRY(open, open_line(kSpaceMouseWand, text));
+    auto led = std::make_unique<LedBySpaceMouse<SimulatedWand>>(std::move(open.line), open.settings, beginning_of(hand),
+                                                                clock, std::move(wand));
     Amplifiers* const amplifiers = &led->arm();
     return opened(std::move(led), amplifiers);
 }
@@ -201,18 +197,16 @@ OpenedDevice spacemouse_that_rests(Clock& clock) {
 }
 
 Result<OpenedDevice> spacemouse_wand_that_rests(const std::string& text, Clock& clock) {
-    auto wand = spacemouse_wand_described(text);
-    if (!wand) return std::unexpected(wand.error());
+    BURIN_TRY(wand, spacemouse_wand_described(text));
     auto led = std::make_unique<LedBySpaceMouse<SimulatedWand>>(nullptr, SpaceMouseSettings{}, HandTarget{}, clock,
-                                                                std::move(*wand));
+                                                                std::move(wand));
     Amplifiers* const amplifiers = &led->arm();
     return opened(std::move(led), amplifiers);
 }
 
 Result<WandDescription> spacemouse_wand_described(const std::string& text) {
-    auto settings = spacemouse_settings(where_of(kSpaceMouseWand, text), text);
-    if (!settings) return std::unexpected(settings.error());
-    return settings->file.empty() ? WandDescription{} : read_wand(settings->file);
+    BURIN_TRY(settings, spacemouse_settings(where_of(kSpaceMouseWand, text), text));
+    return settings.file.empty() ? WandDescription{} : read_wand(settings.file);
 }
 
 std::vector<DevicePresence> look_for_spacemouse_wands() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/spacemouse/spacemouse_line.hpp"
 
+#include "base/try.hpp"
+
 #include <unistd.h>
 
 #include <array>
@@ -17,10 +19,9 @@ constexpr std::size_t kMostKept = 64;  // messages and presses that nobody has t
 
 Result<std::unique_ptr<SpaceMouseLine>> SpaceMouseLine::open(const std::string& where, const std::string& place,
                                                              OnState on_state, const HidrawPlaces& places) {
-    auto port = open_spacemouse_port(where, place, places);
-    if (!port) return std::unexpected(port.error());
+    BURIN_TRY(port, open_spacemouse_port(where, place, places));
     std::unique_ptr<SpaceMouseLine> line(
-        new SpaceMouseLine(where, place, std::move(on_state), places, std::move(*port)));
+        new SpaceMouseLine(where, place, std::move(on_state), places, std::move(port)));
     line->thread_ = std::thread([l = line.get()] { l->run(); });
     return line;
 }

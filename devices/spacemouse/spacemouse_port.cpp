@@ -13,6 +13,7 @@
 #include <iterator>
 #include <optional>
 
+#include "base/try.hpp"
 #include "devices/presence/emulator_socket.hpp"
 #include "devices/presence/udev_rules.hpp"
 
@@ -76,16 +77,15 @@ constexpr const char* kPlugIn =
     "emulate spacemouse";
 
 Result<SpaceMousePort> open_emulated(const std::string& where, const std::string& name) {
-    auto connection = connect_to_emulator(where, kSpaceMouse, name);
-    if (!connection) return std::unexpected(connection.error());
-    const std::string& said = connection->greeting;
+    BURIN_TRY(connection, connect_to_emulator(where, kSpaceMouse, name));
+    const std::string& said = connection.greeting;
     const auto number = [&](std::size_t at) {
         return static_cast<std::uint16_t>(static_cast<unsigned char>(said[at]) |
                                           static_cast<unsigned char>(said[at + 1]) << 8);
     };
     const auto product = said.size() == 4 ? spacemouse_product(number(0), number(2)) : std::nullopt;
     if (!product) return fail(where, "the emulator of this name is of another version", "start this version's");
-    return SpaceMousePort{std::move(connection->socket), *product};
+    return SpaceMousePort{std::move(connection.socket), *product};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -55,7 +56,7 @@ Result<SpaceMouseSettings> spacemouse_settings(const std::string& where, const s
     std::istringstream items(text);
     for (std::string item; std::getline(items, item, ',');) {
         if (item.contains('=')) {
-            if (auto done = set(settings, where, item); !done) return std::unexpected(done.error());
+            BURIN_TRY_DO(set(settings, where, item));
             continue;
         }
         std::string& named = item.ends_with(".toml") ? settings.file : settings.place;

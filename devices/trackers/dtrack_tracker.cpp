@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -50,8 +51,7 @@ Result<std::unique_ptr<DTrackTracker>> DTrackTracker::open(const std::string& wh
     const auto at = network_address(items.empty() ? "" : items.front(), {"127.0.0.1", kDTrackPort});
     if (!at) return fail("tracker " + where, "has no such port or address", kDTrackRemedy);
     if (!items.empty()) items.erase(items.begin());
-    auto bodies = tracker_bodies(where, items, usual_dtrack_bodies(), host);
-    if (!bodies) return std::unexpected(bodies.error());
+    BURIN_TRY(bodies, tracker_bodies(where, items, usual_dtrack_bodies(), host));
     auto bound = receive_at(*at);
     if (!bound && bound.error().starts_with(kNoSuchMachine))  // a word where the port belongs is taken for a machine
         return fail("tracker " + where, "has no such port or address: " + at->host + " is neither", kDTrackRemedy);
@@ -59,7 +59,7 @@ Result<std::unique_ptr<DTrackTracker>> DTrackTracker::open(const std::string& wh
         return fail("tracker " + where, "cannot be listened to: " + bound.error(),
                     "another program may have the port; choose another one, or an address of this machine");
     std::unique_ptr<DTrackTracker> tracker(
-        new DTrackTracker(where, std::move(*bound), with_their_buttons(std::move(*bodies)), std::move(host)));
+        new DTrackTracker(where, std::move(*bound), with_their_buttons(std::move(bodies)), std::move(host)));
     tracker->thread_ = std::thread([t = tracker.get()] { t->run(); });
     return tracker;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/trackers/network.hpp"
 
+#include "base/try.hpp"
+
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <net/if.h>
@@ -82,17 +84,16 @@ bool joins(int socket, const in_addr& group) {
 }
 
 std::expected<BoundSocket, std::string> bound_at(const NetworkAddress& at, int kind) {
-    const auto address = resolved(at);
-    if (!address) return std::unexpected(address.error());
+    BURIN_TRY(address, resolved(at));
     BoundSocket made;
     made.bound = at;
     made.socket = OwnedFile(::socket(AF_INET, kind | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const int yes = 1;
-    if (kind == SOCK_STREAM || is_multicast(*address))
+    if (kind == SOCK_STREAM || is_multicast(address))
         ::setsockopt(made.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-    if (!made.socket || ::bind(made.socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) != 0)
+    if (!made.socket || ::bind(made.socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
         return because(errno);
-    if (kind == SOCK_DGRAM && is_multicast(*address) && !joins(made.socket.get(), address->sin_addr))
+    if (kind == SOCK_DGRAM && is_multicast(address) && !joins(made.socket.get(), address.sin_addr))
         return std::unexpected("no network of this machine takes part in the multicast group: " +
                                std::string(std::strerror(errno)));
     sockaddr_in bound{};
@@ -126,13 +127,12 @@ std::expected<OwnedFile, std::string> connect_to(const NetworkAddress& to, Nanos
                                                  const StopSign* stop) {
     MonotonicClock clock;
     const Nanoseconds until_ns = clock.now_ns() + within_ns;
-    const auto address = resolved_within(to, within_ns, stop);
-    if (!address) return std::unexpected(address.error());
+    BURIN_TRY(address, resolved_within(to, within_ns, stop));
     OwnedFile socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     if (!socket) return because(errno);
     const int yes = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof(yes));
-    if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) == 0) return socket;
+    if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) return socket;
     if (errno != EINPROGRESS) return because(errno);
     std::array<pollfd, 2> ready{
         {{socket.get(), POLLOUT, 0}, {stop != nullptr ? stop->file() : -1, POLLIN, 0}}};  // poll skips a negative file
@@ -156,10 +156,9 @@ std::expected<BoundSocket, std::string> listen_at(const NetworkAddress& at) {
 std::expected<BoundSocket, std::string> receive_at(const NetworkAddress& at) { return bound_at(at, SOCK_DGRAM); }
 
 std::expected<OwnedFile, std::string> sender_to(const NetworkAddress& to) {
-    const auto address = resolved(to);
-    if (!address) return std::unexpected(address.error());
+    BURIN_TRY(address, resolved(to));
     OwnedFile socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof(*address)) != 0)
+    if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
         return because(errno);
     return socket;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/trackers/spacemouse_tracker.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -20,14 +22,13 @@ Result<std::unique_ptr<SpaceMouseTracker>> SpaceMouseTracker::open(const std::st
     const std::string text = where.substr(std::min(where.size(), std::string_view(kSpaceMouse).size() + 1));
     SpaceMouseSettings usual;
     usual.speed_m_per_s = kSceneSpeed_m_per_s;
-    auto settings = spacemouse_settings("tracker " + where, text, usual);
-    if (!settings) return std::unexpected(settings.error());
-    if (!settings->file.empty())
-        return fail("tracker " + where, "takes no description: " + settings->file, "leave it out");
+    BURIN_TRY(settings, spacemouse_settings("tracker " + where, text, usual));
+    if (!settings.file.empty())
+        return fail("tracker " + where, "takes no description: " + settings.file, "leave it out");
     if (host.described != nullptr)
         return fail("tracker " + where, "moves the scene, and has no bodies that a description could name",
                     "give it without one: --tracker " + where);
-    std::unique_ptr<SpaceMouseTracker> tracker(new SpaceMouseTracker(std::move(*settings), std::move(host)));
+    std::unique_ptr<SpaceMouseTracker> tracker(new SpaceMouseTracker(std::move(settings), std::move(host)));
     tracker->wand_world_.position_m = kSceneMiddle_world;
     auto line = SpaceMouseLine::open("tracker " + where, tracker->settings_.place,
                                      [t = tracker.get()](const SpaceMouseState& cap) { t->move_on(cap); });

@@ -11,6 +11,7 @@
 #include "base/length_unit.hpp"
 #include "base/text.hpp"
 #include "base/toml_table.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -312,43 +313,38 @@ std::string frame_text(const TrackerFrame& frame) {
 }  // namespace
 
 Result<TrackerDescription> parse_tracker(std::string_view text, const std::string& name) {
-    const Result<toml::table> root = parse_toml(text, name);
-    if (!root) return std::unexpected(root.error());
+    BURIN_TRY(root, parse_toml(text, name));
     TableReading reading{name};
-    TrackerDescription tracker = TrackerReader(reading, *root, "the file").read(nullptr);
-    if (const auto read = reading.outcome(); !read) return std::unexpected(read.error());
+    TrackerDescription tracker = TrackerReader(reading, root, "the file").read(nullptr);
+    BURIN_TRY_DO(reading.outcome());
     return tracker;
 }
 
 Result<TrackerDescription> read_tracker(const std::filesystem::path& path) {
-    const auto text = read_text_file(path, kMostTrackerFileBytes);
-    if (!text) return std::unexpected(text.error());
-    return parse_tracker(*text, path.string());
+    BURIN_TRY(text, read_text_file(path, kMostTrackerFileBytes));
+    return parse_tracker(text, path.string());
 }
 
 Result<std::optional<TrackerDescription>> tracker_of_wall(const std::filesystem::path& wall) {
-    const auto text = read_text_file(wall, kMostTrackerFileBytes);
-    if (!text) return std::unexpected(text.error());
-    const Result<toml::table> root = parse_toml(*text, wall.string());
-    if (!root) return std::unexpected(root.error());
+    BURIN_TRY(text, read_text_file(wall, kMostTrackerFileBytes));
+    BURIN_TRY(root, parse_toml(text, wall.string()));
     TableReading reading{wall.string()};
-    TableReader file(reading, &*root, "the file");
+    TableReader file(reading, &root, "the file");
     const toml::table* const table = file.table("tracker");
     if (table == nullptr) return std::optional<TrackerDescription>{};
     std::string other;
     TrackerDescription tracker = TrackerReader(reading, *table, "[tracker]").read(&other);
-    if (const auto read = reading.outcome(); !read) return std::unexpected(read.error());
+    BURIN_TRY_DO(reading.outcome());
     if (other.empty()) return tracker;
-    auto described = read_tracker(wall.parent_path() / other);
-    if (!described) return std::unexpected(described.error());
-    if (tracker.address.empty()) return std::move(*described);
-    if (tracker_kind_of(tracker.address) != tracker_kind_of(described->address))
+    BURIN_TRY(described, read_tracker(wall.parent_path() / other));
+    if (tracker.address.empty()) return std::move(described);
+    if (tracker_kind_of(tracker.address) != tracker_kind_of(described.address))
         return fail(wall.string(),
-                    "has the address " + tracker.address + " for a tracker of another kind, " + described->address +
-                        " in " + described->file,
+                    "has the address " + tracker.address + " for a tracker of another kind, " + described.address +
+                        " in " + described.file,
                     "give both the same kind");
-    described->address = tracker.address;
-    return std::move(*described);
+    described.address = tracker.address;
+    return std::move(described);
 }
 
 std::string tracker_text(const TrackerDescription& tracker, const std::string& under) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/trackers/udp_tracker.hpp"
 
+#include "base/try.hpp"
+
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -44,11 +46,10 @@ Result<sockaddr_in> address_of(const std::string& where) {
 Result<std::unique_ptr<UdpTracker>> UdpTracker::open(const std::string& where, TrackerHost host) {
     auto tracker = std::unique_ptr<UdpTracker>(new UdpTracker(host));
     if (host.described != nullptr) {
-        auto bodies = tracker_bodies(where, {}, {}, host);
-        if (!bodies) return std::unexpected(bodies.error());
-        tracker->translator_.emplace(where, std::move(*bodies), tracker->inbox_);
+        BURIN_TRY(bodies, tracker_bodies(where, {}, {}, host));
+        tracker->translator_.emplace(where, std::move(bodies), tracker->inbox_);
     }
-    if (const auto bound = tracker->bind_to(where); !bound) return std::unexpected(bound.error());
+    BURIN_TRY_DO(tracker->bind_to(where));
     tracker->thread_ = std::thread([t = tracker.get()] { t->listen(); });
     return tracker;
 }

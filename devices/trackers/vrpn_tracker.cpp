@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 namespace {
@@ -145,9 +146,8 @@ Result<std::unique_ptr<Tracker>> VrpnTracker::open(const std::string& where, Tra
     const auto server = network_address(items.empty() ? "" : items.front(), {"127.0.0.1", kVrpnPort});
     if (!server) return fail("tracker " + where, "names no server", kVrpnRemedy);
     if (!items.empty()) items.erase(items.begin());
-    auto bodies = tracker_bodies(where, items, usual_bodies(), host);
-    if (!bodies) return std::unexpected(bodies.error());
-    std::unique_ptr<VrpnTracker> tracker(new VrpnTracker(where, *server, std::move(*bodies), std::move(host)));
+    BURIN_TRY(bodies, tracker_bodies(where, items, usual_bodies(), host));
+    std::unique_ptr<VrpnTracker> tracker(new VrpnTracker(where, *server, std::move(bodies), std::move(host)));
     auto connection = connect_to_vrpn(*server, tracker->stop_);
     if (!connection)
         return fail("tracker " + where, connection.error(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/websocket/websocket_client.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -57,11 +59,10 @@ WebSocketClient& WebSocketClient::operator=(WebSocketClient&& other) noexcept = 
 
 std::expected<WebSocketClient, std::string> WebSocketClient::connect(const NetworkAddress& to, Nanoseconds within_ns) {
     const auto begun = std::chrono::steady_clock::now();
-    auto socket = connect_to(to, within_ns);
-    if (!socket) return std::unexpected(socket.error());
+    BURIN_TRY(socket, connect_to(to, within_ns));
     auto wire = std::make_unique<Wire>();
     beast::error_code error;
-    wire->stream.next_layer().assign(asio::ip::tcp::v4(), socket->release(), error);
+    wire->stream.next_layer().assign(asio::ip::tcp::v4(), socket.release(), error);
     if (error) return std::unexpected(error.message());
     wire->stream.read_message_max(kMostWebSocketMessage);
     wire->stream.text(true);

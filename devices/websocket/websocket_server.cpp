@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/websocket/websocket_server.hpp"
 
+#include "base/try.hpp"
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -88,13 +90,12 @@ WebSocketServer::WebSocketServer(WebSocketServer&& other) noexcept = default;
 WebSocketServer& WebSocketServer::operator=(WebSocketServer&& other) noexcept = default;
 
 std::expected<WebSocketServer, std::string> WebSocketServer::listen(const NetworkAddress& at) {
-    auto listening = listen_at(at);
-    if (!listening) return std::unexpected(listening.error());
+    BURIN_TRY(listening, listen_at(at));
     auto hall = std::make_unique<Hall>();
     beast::error_code error;
-    hall->door.assign(asio::ip::tcp::v4(), listening->socket.release(), error);
+    hall->door.assign(asio::ip::tcp::v4(), listening.socket.release(), error);
     if (error) return std::unexpected(error.message());
-    hall->bound = listening->bound;
+    hall->bound = listening.bound;
     hall->take_next();
     return WebSocketServer(std::move(hall));
 }

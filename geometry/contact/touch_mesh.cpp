@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/try.hpp"
 #include "geometry/contact/touch_layout.hpp"
 #include "geometry/contact/touch_patch_maker.hpp"
 #include "geometry/contact/touch_surface.hpp"
@@ -80,8 +81,8 @@ Result<TouchMesh> TouchMesh::create(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return fail(kWhere, "there is no triangle", "give a mesh with triangles");
     if (mesh.triangles.size() >= TouchSurface::kNone / 4)
         return fail(kWhere, std::to_string(mesh.triangles.size()) + " triangles are too many", "part the mesh");
-    if (auto ok = check_triangles(mesh.triangles, mesh.positions_m.size()); !ok) return std::unexpected(ok.error());
-    if (auto ok = check_positions(mesh.positions_m, Vec3(0.0)); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_triangles(mesh.triangles, mesh.positions_m.size()));
+    BURIN_TRY_DO(check_positions(mesh.positions_m, Vec3(0.0)));
     const Vec3 origin = box_of(mesh.positions_m).center();
     std::vector<Vec3f> positions_m;
     positions_m.reserve(mesh.positions_m.size());
@@ -119,7 +120,7 @@ Result<void> TouchMesh::move_vertices(std::span<const std::uint32_t> vertices,
             return fail(kWhere,
                         "there is no vertex " + std::to_string(v) + " of " + std::to_string(parts_->own_of.size()),
                         "number vertices from 0");
-    if (auto ok = check_positions(positions_object_m, parts_->origin_object); !ok) return ok;
+    BURIN_TRY_DO(check_positions(positions_object_m, parts_->origin_object));
     for (std::size_t i = 0; i < vertices.size(); ++i) parts_->place(vertices[i], positions_object_m[i]);
     parts_->newest.reset();
     return {};
@@ -131,7 +132,7 @@ Result<void> TouchMesh::move_all(std::span<const Vec3> positions_object_m) {
             kWhere,
             std::to_string(positions_object_m.size()) + " positions for " + std::to_string(vertices()) + " vertices",
             "give a position for each vertex");
-    if (auto ok = check_positions(positions_object_m, parts_->origin_object); !ok) return ok;
+    BURIN_TRY_DO(check_positions(positions_object_m, parts_->origin_object));
     for (std::uint32_t i = 0; i < positions_object_m.size(); ++i) parts_->place(i, positions_object_m[i]);
     parts_->newest.reset();
     return {};
@@ -185,9 +186,8 @@ Result<std::vector<std::uint32_t>> TouchMesh::replace(std::span<const std::uint3
     std::ranges::sort(removed);
     if (std::ranges::adjacent_find(removed) != removed.end())
         return fail(kWhere, "a triangle is to be removed twice", "remove each triangle once");
-    if (auto ok = check_triangles(added, vertices() + new_positions_object_m.size()); !ok)
-        return std::unexpected(ok.error());
-    if (auto ok = check_positions(new_positions_object_m, parts.origin_object); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_triangles(added, vertices() + new_positions_object_m.size()));
+    BURIN_TRY_DO(check_positions(new_positions_object_m, parts.origin_object));
 
     for (const Vec3& p : new_positions_object_m) {
         parts.own_of.push_back(parts.surface.vertices());

@@ -11,6 +11,7 @@
 #include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "geometry/files/mesh_import.hpp"
 
 namespace burin::geometry {
@@ -236,12 +237,11 @@ private:
     }
 
     [[nodiscard]] Result<void> read_positions() {
-        const auto view = accessors_.view(attribute("POSITION"), "the positions", "VEC3", 3, {kFloat});
-        if (!view) return std::unexpected(view.error());
-        mesh_.positions_m.reserve(view->count);
-        for (std::uint64_t i = 0; i < view->count; ++i) {
-            const Vec3 p{Accessors::float_in(*view, i, 0), Accessors::float_in(*view, i, 1),
-                         Accessors::float_in(*view, i, 2)};
+        BURIN_TRY(view, accessors_.view(attribute("POSITION"), "the positions", "VEC3", 3, {kFloat}));
+        mesh_.positions_m.reserve(view.count);
+        for (std::uint64_t i = 0; i < view.count; ++i) {
+            const Vec3 p{Accessors::float_in(view, i, 0), Accessors::float_in(view, i, 1),
+                         Accessors::float_in(view, i, 2)};
             for (int axis = 0; axis < 3; ++axis)
                 if (!(std::abs(p[axis]) <= kMaxCoordinate))
                     return accessors_.wrong("position " + std::to_string(i), "is not finite, or too far away");
@@ -261,8 +261,7 @@ private:
         if (joints->count != count || weights->count != count)
             return accessors_.wrong("the vertices' joints and weights", "are not as many as the positions");
         mesh_.bindings.resize(count);
-        for (std::size_t i = 0; i < count; ++i)
-            if (const auto read = read_binding(*joints, *weights, i); !read) return read;
+        for (std::size_t i = 0; i < count; ++i) BURIN_TRY_DO(read_binding(*joints, *weights, i));
         return {};
     }
 
@@ -291,13 +290,12 @@ private:
     [[nodiscard]] Result<void> read_triangles() {
         if (number_at(*worn_.primitive, "mode").value_or(kTriangles) != kTriangles)
             return accessors_.wrong("the faces", "are no triangles");
-        const auto view = accessors_.view(number_at(*worn_.primitive, "indices"), "the triangles' corners", "SCALAR", 1,
-                                          {kByte, kShort, kInt});
-        if (!view) return std::unexpected(view.error());
-        if (view->count % 3 != 0) return accessors_.wrong("the triangles' corners", "are no multiple of three");
-        mesh_.triangles.resize(view->count / 3);
-        for (std::uint64_t i = 0; i < view->count; ++i) {
-            const std::uint32_t vertex = Accessors::whole_in(*view, i, 0);
+        BURIN_TRY(view, accessors_.view(number_at(*worn_.primitive, "indices"), "the triangles' corners", "SCALAR", 1,
+                                        {kByte, kShort, kInt}));
+        if (view.count % 3 != 0) return accessors_.wrong("the triangles' corners", "are no multiple of three");
+        mesh_.triangles.resize(view.count / 3);
+        for (std::uint64_t i = 0; i < view.count; ++i) {
+            const std::uint32_t vertex = Accessors::whole_in(view, i, 0);
             if (vertex >= mesh_.positions_m.size())
                 return accessors_.wrong("triangle " + std::to_string(i / 3), "has a corner that there is not");
             mesh_.triangles[i / 3][i % 3] = vertex;
@@ -315,17 +313,14 @@ private:
 }  // namespace
 
 Result<SkinnedMesh> read_skinned_glb(std::span<const std::byte> bytes, const std::string& name) {
-    const Result<Chunks> chunks = chunks_of(bytes, name);
-    if (!chunks) return std::unexpected(chunks.error());
-    const Result<Worn> worn = worn_in(chunks->json, name);
-    if (!worn) return std::unexpected(worn.error());
-    return SkinReader(*chunks, *worn, name).read();
+    BURIN_TRY(chunks, chunks_of(bytes, name));
+    BURIN_TRY(worn, worn_in(chunks.json, name));
+    return SkinReader(chunks, worn, name).read();
 }
 
 Result<SkinnedMesh> read_skinned_glb(const std::filesystem::path& path) {
-    const auto bytes = read_file(path);
-    if (!bytes) return std::unexpected(bytes.error());
-    return read_skinned_glb(*bytes, path.string());
+    BURIN_TRY(bytes, read_file(path));
+    return read_skinned_glb(bytes, path.string());
 }
 
 }  // namespace burin::geometry

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "geometry/mesh/distinct_positions.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 
@@ -237,7 +238,7 @@ MeshFiles encode(const TriangleMesh& numbers, MeshFormat format, const std::file
 Result<void> write_files(const MeshFiles& files, const std::filesystem::path& path) {
     if (!files.materials.empty()) {
         const auto bytes = std::as_bytes(std::span(files.materials));
-        if (const auto written = write_file_atomically(material_file_of(path), bytes); !written) return written;
+        BURIN_TRY_DO(write_file_atomically(material_file_of(path), bytes));
     }
     return write_file_atomically(path, files.mesh);
 }
@@ -269,24 +270,21 @@ std::filesystem::path material_file_of(const std::filesystem::path& obj) {
 
 Result<MeshFiles> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name, LengthUnit unit,
                               std::span<const TriangleColours> corners) {
-    if (const auto sound = check(mesh, format, name, unit); !sound) return std::unexpected(sound.error());
+    BURIN_TRY_DO(check(mesh, format, name, unit));
     return encode(numbers_of_file(mesh, format, unit).mesh, format, name, unit, corners);
 }
 
 Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path, LengthUnit unit,
                             std::span<const TriangleColours> corners) {
-    const auto format = format_of(path);
-    if (!format) return std::unexpected(format.error());
-    if (const auto sound = check(numbers, *format, path.string(), LengthUnit::m); !sound) return sound;
-    return write_files(encode(numbers, *format, path, unit, corners), path);
+    BURIN_TRY(format, format_of(path));
+    BURIN_TRY_DO(check(numbers, format, path.string(), LengthUnit::m));
+    return write_files(encode(numbers, format, path, unit, corners), path);
 }
 
 Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, LengthUnit unit) {
-    const auto format = format_of(path);
-    if (!format) return std::unexpected(format.error());
-    const auto files = encode_mesh(mesh, *format, path.string(), unit);
-    if (!files) return std::unexpected(files.error());
-    return write_files(*files, path);
+    BURIN_TRY(format, format_of(path));
+    BURIN_TRY(files, encode_mesh(mesh, format, path.string(), unit));
+    return write_files(files, path);
 }
 
 }  // namespace burin::geometry

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/named_file.hpp"
@@ -18,9 +19,8 @@ Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const
                       const MaterialFileReader& material_files, const MaterialFileReader& pictures) {
     if (format == MeshFormat::stl) return read_stl(bytes, name);            // tells itself whether it is text
     if (format == MeshFormat::ply) return read_ply(bytes, name, pictures);  // begins with text
-    const Result<std::string_view> text = utf8_text(text_of(bytes), name);
-    if (!text) return std::unexpected(text.error());
-    return format == MeshFormat::obj ? read_obj(*text, name, material_files, pictures) : read_off(*text, name);
+    BURIN_TRY(text, utf8_text(text_of(bytes), name));
+    return format == MeshFormat::obj ? read_obj(text, name, material_files, pictures) : read_off(text, name);
 }
 
 // Holds the format that a file's content looks like, whatever its name says.
@@ -96,9 +96,8 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optiona
         if (!std::filesystem::exists(path, ignored)) return fail(name, "does not exist", "check the path");
         return fail(name, "has an extension that is not a mesh format", "convert it to .stl, .obj, .ply or .off");
     }
-    const auto bytes = read_file(path);
-    if (!bytes) return std::unexpected(bytes.error());
-    return import_mesh(*bytes, *format, name, files_beside(path), given_unit, pictures_below(path), origin);
+    BURIN_TRY(bytes, read_file(path));
+    return import_mesh(bytes, *format, name, files_beside(path), given_unit, pictures_below(path), origin);
 }
 
 Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "base/try.hpp"
 #include "geometry/files/material_file.hpp"
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_pictures.hpp"
@@ -37,10 +38,10 @@ public:
         soup_.report.format = "OBJ";
         soup_.stated_unit = unit_in_comments(text_);
         for (; !scan_.at_end(); scan_.next_line()) {
-            if (auto done = statement(); !done) return std::unexpected(done.error());
+            BURIN_TRY_DO(statement());
         }
-        if (auto done = resolve_corners(); !done) return std::unexpected(done.error());
-        if (auto done = resolve_colours(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(resolve_corners());
+        BURIN_TRY_DO(resolve_colours());
         wear_materials();
         if (undefined_ > 0) {
             soup_.report.remarks.push_back(std::to_string(undefined_) +
@@ -122,7 +123,7 @@ private:
     Done face() {
         std::uint32_t corners = 0;
         for (std::string_view w = word(); !w.empty(); w = word(), ++corners) {
-            if (auto done = corner(w.substr(0, w.find('/'))); !done) return done;
+            BURIN_TRY_DO(corner(w.substr(0, w.find('/'))));
             texture_corner(w);
         }
         if (corners < 3) return wrong("a face has fewer than 3 corners", kTruncatedRemedy);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/try.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/files/unit_statement.hpp"
@@ -49,15 +50,14 @@ public:
     Result<MeshSoup> read() {
         soup_.report.format = "OFF";
         soup_.stated_unit = unit_in_comments(text_);
-        if (auto done = header(); !done) return std::unexpected(done.error());
-        if (auto done = layout_.keeps_to_lines ? vertices_in_lines() : vertices_anyhow(); !done)
-            return std::unexpected(done.error());
+        BURIN_TRY_DO(header());
+        BURIN_TRY_DO(layout_.keeps_to_lines ? vertices_in_lines() : vertices_anyhow());
         while (soup_.corner_counts.size() < faces_) {
-            if (auto done = face(); !done) return std::unexpected(done.error());
+            BURIN_TRY_DO(face());
         }
         if (has_texture_)
             soup_.report.remarks.emplace_back("its texture coordinates were ignored: an OFF names no picture");
-        if (auto done = end(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(end());
         if (uncoloured_ > 0) {
             soup_.report.remarks.push_back("the colour map indices of " + std::to_string(uncoloured_) +
                                            " faces were ignored");
@@ -190,7 +190,7 @@ private:
     Done vertices_in_lines() {
         scan_.next_line();
         while (soup_.positions.size() < vertices_) {
-            if (auto done = vertex_of_a_line(); !done) return done;
+            BURIN_TRY_DO(vertex_of_a_line());
         }
         return {};
     }
@@ -217,7 +217,7 @@ private:
                 words_.push_back(next_word());
                 if (words_.back().empty()) return wrong("ends in the middle of its vertices");
             }
-            if (auto done = vertex(before, colour_numbers); !done) return done;
+            BURIN_TRY_DO(vertex(before, colour_numbers));
         }
         return {};
     }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/try.hpp"
 #include "geometry/files/mesh_pictures.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/ply_header.hpp"
@@ -43,10 +44,10 @@ public:
                                                                                : "PLY, binary big endian";
         if (rows_ == PlyRows::anyhow && has_a_line_for_each_row()) return wrong("a line is no row");
         for (const PlyElement& element : header_.elements) {
-            if (auto done = read_element(element); !done) return std::unexpected(done.error());
+            BURIN_TRY_DO(read_element(element));
         }
         if (rows_ == PlyRows::anyhow && !values_.only_blanks_left()) return wrong("data stand behind the last element");
-        if (auto done = check_corners(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(check_corners());
         resolve_colours();
         wear_textures();
         if (ignored_ > 0) {
@@ -113,7 +114,7 @@ private:
         for (std::uint64_t row = 0; row < element.count; ++row) {
             values_.begin_row();
             for (const PlyProperty& property : element.properties) {
-                if (auto done = skip(property); !done) return done;
+                BURIN_TRY_DO(skip(property));
             }
             end_row();
         }
@@ -152,12 +153,11 @@ private:
     Done skip(const PlyProperty& property) {
         std::uint64_t count = 1;
         if (property.is_list) {
-            const auto length = list_length(property);
-            if (!length) return std::unexpected(length.error());
-            count = *length;
+            BURIN_TRY(length, list_length(property));
+            count = length;
         }
         for (; count > 0; --count) {
-            if (const auto read = any_value(property.type); !read) return std::unexpected(read.error());
+            BURIN_TRY_DO(any_value(property.type));
         }
         return {};
     }
@@ -165,12 +165,11 @@ private:
     // Whole numbers run to 255, or to 65535 where they have 16 bits. Of floats only the whole file tells the range.
     // "nan" in a text is no colour, whatever the type.
     Done colour_channel(const PlyProperty& property, PlyColour& colour) {
-        const auto read = whole_where_due(any_value(property.type), property.type, true);
-        if (!read) return std::unexpected(read.error());
+        BURIN_TRY(read, whole_where_due(any_value(property.type), property.type, true));
         colour.place = values_.place();
         colour.has_floats = colour.has_floats || property.type == PlyType::f32 || property.type == PlyType::f64;
         colour.numbers[static_cast<int>(property.channel())] =
-            property.type == PlyType::u16 ? std::round(*read / 257.0) : *read;
+            property.type == PlyType::u16 ? std::round(read / 257.0) : read;
         return {};
     }
 
@@ -215,15 +214,13 @@ private:
             PlyColour colour;
             for (const PlyProperty& property : element.properties) {
                 if (property.role == PlyRole::x || property.role == PlyRole::y || property.role == PlyRole::z) {
-                    const auto read = value(property.type);
-                    if (!read) return std::unexpected(read.error());
-                    p[static_cast<int>(property.role) - static_cast<int>(PlyRole::x)] = *read;
-                    if (coordinate_fault(*read) == nullptr) see_precision(*read);
-                    if (where == 0 || coordinate_fault(*read) != nullptr) where = values_.place();
+                    BURIN_TRY(read, value(property.type));
+                    p[static_cast<int>(property.role) - static_cast<int>(PlyRole::x)] = read;
+                    if (coordinate_fault(read) == nullptr) see_precision(read);
+                    if (where == 0 || coordinate_fault(read) != nullptr) where = values_.place();
                 } else if (placed && property.is_place()) {
-                    const auto read = any_value(property.type);
-                    if (!read) return std::unexpected(read.error());
-                    place[property.role == PlyRole::s ? 0 : 1] = *read;
+                    BURIN_TRY(read, any_value(property.type));
+                    place[property.role == PlyRole::s ? 0 : 1] = read;
                 } else if (auto done =
                                coloured && property.is_colour() ? colour_channel(property, colour) : skip(property);
                            !done) {
@@ -266,21 +263,19 @@ private:
     }
 
     Done corners(const PlyProperty& property) {
-        const auto length = list_length(property);
-        if (!length) return std::unexpected(length.error());
-        for (std::uint64_t i = 0; i < *length; ++i) {
-            const auto read = value(property.type);
-            if (!read) return std::unexpected(read.error());
-            if (!(*read >= 0.0) || *read > 4294967295.0 || *read != std::floor(*read))
+        BURIN_TRY(length, list_length(property));
+        for (std::uint64_t i = 0; i < length; ++i) {
+            BURIN_TRY(read, value(property.type));
+            if (!(read >= 0.0) || read > 4294967295.0 || read != std::floor(read))
                 return wrong("a face has an impossible index");
-            const auto corner = static_cast<std::uint32_t>(*read);
+            const auto corner = static_cast<std::uint32_t>(read);
             if (corner > farthest_corner_ || farthest_where_ == 0) {
                 farthest_corner_ = corner;
                 farthest_where_ = values_.place();
             }
             soup_.corners.push_back(corner);
         }
-        soup_.corner_counts.push_back(static_cast<std::uint32_t>(*length));
+        soup_.corner_counts.push_back(static_cast<std::uint32_t>(length));
         return {};
     }
 
@@ -288,20 +283,17 @@ private:
     // What is wrong with texture coordinates is no error: the surface does not depend on them.
 
     Done number(const PlyProperty& property, double& value) {
-        const auto read = any_value(property.type);
-        if (!read) return std::unexpected(read.error());
-        value = *read;
+        BURIN_TRY(read, any_value(property.type));
+        value = read;
         return {};
     }
 
     Done list(const PlyProperty& property, std::vector<double>& values) {
         values.clear();
-        const auto length = list_length(property);
-        if (!length) return std::unexpected(length.error());
-        for (std::uint64_t i = 0; i < *length; ++i) {
-            const auto read = any_value(property.type);
-            if (!read) return std::unexpected(read.error());
-            values.push_back(*read);
+        BURIN_TRY(length, list_length(property));
+        for (std::uint64_t i = 0; i < length; ++i) {
+            BURIN_TRY(read, any_value(property.type));
+            values.push_back(read);
         }
         return {};
     }
@@ -368,12 +360,11 @@ private:
 
 Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name,
                           const MaterialFileReader& pictures) {
-    Result<PlyHeader> header = read_ply_header(text_of(bytes), name);
-    if (!header) return std::unexpected(header.error());
-    PlyReader reader(bytes, name, *header, PlyRows::in_lines, pictures);
+    BURIN_TRY(header, read_ply_header(text_of(bytes), name));
+    PlyReader reader(bytes, name, header, PlyRows::in_lines, pictures);
     Result<MeshSoup> in_lines = reader.read();
-    if (in_lines || header->encoding != PlyEncoding::ascii || reader.keeps_to_lines()) return in_lines;
-    Result<MeshSoup> anyhow = PlyReader(bytes, name, std::move(*header), PlyRows::anyhow, pictures).read();
+    if (in_lines || header.encoding != PlyEncoding::ascii || reader.keeps_to_lines()) return in_lines;
+    Result<MeshSoup> anyhow = PlyReader(bytes, name, std::move(header), PlyRows::anyhow, pictures).read();
     return anyhow ? std::move(anyhow) : std::move(in_lines);
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/files/unit_statement.hpp"
@@ -203,7 +204,7 @@ private:
         if (word = scan_.token(); !equals_ignoring_case(word, "loop")) return wrong(word, "loop");
         std::uint32_t corners = 0;
         for (word = scan_.token(); equals_ignoring_case(word, "vertex"); word = scan_.token(), ++corners) {
-            if (const auto done = vertex(); !done) return done;
+            BURIN_TRY_DO(vertex());
         }
         if (!ends(word, "loop")) return wrong(word, "vertex or endloop");
         if (word = scan_.token(); !ends(word, "facet")) return wrong(word, "endfacet");

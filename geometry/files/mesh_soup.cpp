@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "base/try.hpp"
 #include "geometry/mesh/mesh_placing.hpp"
 #include "geometry/mesh/polygon.hpp"
 
@@ -305,7 +306,7 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::opt
                               MeshOrigin origin) {
     judge_distant(soup, name, origin);
     const std::size_t faulty = soup.faulty.size();
-    if (const auto ok = leave_out_faulty(soup, name); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(leave_out_faulty(soup, name));
     if (!soup.far.empty() && origin == MeshOrigin::of_file)
         return fail(soup.far, "a coordinate lies beyond 1e9", kFarRemedy);
     choose_colours(soup);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/unit_statement.hpp"
 
@@ -201,10 +202,9 @@ std::uint64_t PlyElement::least_row_bytes(PlyEncoding encoding) const {
 }
 
 Result<PlyHeader> read_ply_header(std::string_view file, const std::string& name) {
-    const Result<std::string_view> text = utf8_text(file, name);
-    if (!text) return std::unexpected(text.error());
-    Result<PlyHeader> header = HeaderReader(*text, name).read();
-    if (header) header->data_begin += file.size() - text->size();
+    BURIN_TRY(text, utf8_text(file, name));
+    Result<PlyHeader> header = HeaderReader(text, name).read();
+    if (header) header->data_begin += file.size() - text.size();
     return header;
 }
 

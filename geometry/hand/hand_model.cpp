@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/try.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 
 namespace burin::geometry {
@@ -103,10 +104,9 @@ void take_skin(HandModel& hand, const SkinnedMesh& mesh, const std::array<std::u
 }  // namespace
 
 Result<HandModel> hand_model_of(const SkinnedMesh& mesh, const std::string& name) {
-    const auto numbers = joints_by_name(mesh, name);
-    if (!numbers) return std::unexpected(numbers.error());
+    BURIN_TRY(numbers, joints_by_name(mesh, name));
     HandModel hand;
-    for (std::size_t i = 0; i < kHandJoints; ++i) hand.rest[i] = mesh.joints[(*numbers)[i]].mesh_from_joint;
+    for (std::size_t i = 0; i < kHandJoints; ++i) hand.rest[i] = mesh.joints[numbers[i]].mesh_from_joint;
     for (std::size_t i = 1; i < kHandJoints; ++i)
         if (!(glm::length(hand.rest[i].position_m - hand.rest[parent_of(i)].position_m) > 1e-4))
             return fail(name, "its joint " + std::string(kHandJointNames[i]) + " lies where its parent does",
@@ -116,14 +116,13 @@ Result<HandModel> hand_model_of(const SkinnedMesh& mesh, const std::string& name
     for (const Finger finger : kAllFingers)
         hand.fingers[static_cast<std::size_t>(finger)] = bones_of(finger, hand.rest);
     hand.is_left = hand.rest[first_joint(Finger::thumb)].position_m.x > 0.0;
-    take_skin(hand, mesh, *numbers, hand_from_file);
+    take_skin(hand, mesh, numbers, hand_from_file);
     return hand;
 }
 
 Result<HandModel> read_hand_model(const std::filesystem::path& path) {
-    const auto mesh = read_skinned_glb(path);
-    if (!mesh) return std::unexpected(mesh.error());
-    return hand_model_of(*mesh, path.string());
+    BURIN_TRY(mesh, read_skinned_glb(path));
+    return hand_model_of(mesh, path.string());
 }
 
 const HandModel& known_hand_model(bool is_left) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "geometry/files/named_file.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/vrml/vrml_inlines.hpp"
@@ -61,9 +62,8 @@ Result<std::string_view> checked_header(std::string_view bytes, const std::strin
 }
 
 Result<std::string> read_vrml_bytes(const fs::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMostVrmlBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    BURIN_TRY(bytes, read_file(path, kMostVrmlBytes));
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 // Parses a file and all that it inlines, each only once.
@@ -76,18 +76,16 @@ public:
     Result<std::uint32_t> read(std::string bytes, const std::string& name) {
         const std::string shown = (root_ / name).string();
         if (is_gzip(bytes)) {
-            Result<std::string> unpacked = gunzipped(bytes, kMostVrmlBytes, shown + ":1:1");
-            if (!unpacked) return std::unexpected(unpacked.error());
-            bytes = std::move(*unpacked);
+            BURIN_TRY(unpacked, gunzipped(bytes, kMostVrmlBytes, shown + ":1:1"));
+            bytes = std::move(unpacked);
         }
         bytes_ += bytes.size();
         if (bytes_ > kMostVrmlBytes) {
             return fail(shown + ":1:1", "the world has more than " + std::to_string(kMostVrmlBytes) + " bytes",
                         "reduce or split it");
         }
-        const auto text = checked_header(bytes, shown);
-        if (!text) return std::unexpected(text.error());
-        bytes.erase(0, static_cast<std::size_t>(text->data() - bytes.data()));  // the byte-order mark
+        BURIN_TRY(text, checked_header(bytes, shown));
+        bytes.erase(0, static_cast<std::size_t>(text.data() - bytes.data()));  // the byte-order mark
         const auto source = static_cast<std::uint32_t>(file_.sources.size());
         if (!is_utf8(bytes)) {
             bytes = utf8_of_latin1(bytes);
@@ -191,22 +189,20 @@ private:
     }
 
     Result<std::uint32_t> opened(const std::string& who, std::string_view url, const std::string& from) {
-        const Result<std::string> name = named_vrml_file(who, url, fs::path(from).parent_path());
-        if (!name) return std::unexpected(name.error());
-        if (std::ranges::find(around_, *name) != around_.end()) {
-            return fail("", who + " leads back to " + in_quotes(*name) + ", in which it stands",
+        BURIN_TRY(name, named_vrml_file(who, url, fs::path(from).parent_path()));
+        if (std::ranges::find(around_, name) != around_.end()) {
+            return fail("", who + " leads back to " + in_quotes(name) + ", in which it stands",
                         "the world would have no end: remove it");
         }
-        if (const auto known = sources_.find(*name); known != sources_.end()) return known->second;
-        if (!opener_) return fail("", "there is no folder to open " + in_quotes(*name) + " from", "save it as a file");
+        if (const auto known = sources_.find(name); known != sources_.end()) return known->second;
+        if (!opener_) return fail("", "there is no folder to open " + in_quotes(name) + " from", "save it as a file");
         if (around_.size() == kDeepestVrmlNode || sources_.size() > kMostVrmlInlines) {
             return fail("", "too many files are inlined",
                         "at most " + std::to_string(kMostVrmlInlines) + " files, and " +
                             std::to_string(kDeepestVrmlNode) + " within each other, are read");
         }
-        Result<std::string> bytes = opener_(*name);
-        if (!bytes) return std::unexpected(bytes.error());
-        return read(std::move(*bytes), *name);
+        BURIN_TRY(bytes, opener_(name));
+        return read(std::move(bytes), name);
     }
 
     VrmlFile& file_;
@@ -268,23 +264,21 @@ Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const Vrm
     file.root = root.empty() ? path.parent_path() : root;
     InlineReader reader(file, file.root, opener);
     const fs::path below = root.empty() ? path.filename() : path.lexically_relative(root);
-    const auto source = reader.read(std::move(bytes), below.generic_string());
-    if (!source) return std::unexpected(source.error());
+    BURIN_TRY(source, reader.read(std::move(bytes), below.generic_string()));
     std::ranges::sort(file.bound_inlines, {}, &VrmlBoundInline::field);
     return file;
 }
 
 Result<VrmlFile> read_vrml_file(const fs::path& path, const fs::path& root) {
-    Result<std::string> bytes = read_vrml_bytes(path);
-    if (!bytes) return std::unexpected(bytes.error());
-    if (root.empty()) return read_vrml(std::move(*bytes), path.string(), vrml_files_beside(path));
+    BURIN_TRY(bytes, read_vrml_bytes(path));
+    if (root.empty()) return read_vrml(std::move(bytes), path.string(), vrml_files_beside(path));
     const fs::path top = root.lexically_normal() / "", at = path.lexically_normal();
     std::error_code code;
     const fs::path below = fs::relative(fs::canonical(at, code), fs::canonical(top, code), code);
     if (code || below.empty() || *below.begin() == "..")
         return fail("--root " + root.string(), "is no folder in which " + path.string() + " lies",
                     "name a folder around the world's file and those that it inlines");
-    return read_vrml(std::move(*bytes), (top / below).string(), vrml_files_below(top), top);
+    return read_vrml(std::move(bytes), (top / below).string(), vrml_files_below(top), top);
 }
 
 std::string unescaped_vrml(std::string_view raw) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/try.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/vrml/vrml_inlines.hpp"
 
@@ -117,21 +118,18 @@ std::shared_ptr<const Picture> VrmlTextures::file_of(const VrmlPlaced& node) {
 Result<std::shared_ptr<const Picture>> VrmlTextures::opened(std::string_view url, std::uint32_t in_file) {
     const VrmlFile& file = fields_.file();
     const std::filesystem::path folder = std::filesystem::path(file.sources[in_file].below).parent_path();
-    const Result<std::string> name = named_vrml_file("a texture", url, folder);
-    if (!name) return std::unexpected(name.error());
-    if (const auto known = known_.find(*name); known != known_.end()) return known->second;
+    BURIN_TRY(name, named_vrml_file("a texture", url, folder));
+    if (const auto known = known_.find(name); known != known_.end()) return known->second;
     const auto read_it = [&]() -> Result<std::shared_ptr<const Picture>> {
-        if (!file.opener) return fail(*name, "cannot be opened: there is no folder", "save the world as a file");
+        if (!file.opener) return fail(name, "cannot be opened: there is no folder", "save the world as a file");
         if (known_.size() >= kMostVrmlPictures || bytes_ > kMostVrmlPictureBytes)
-            return fail(*name, "is one picture too many", "a world shows 1000 pictures, 1 GiB together");
-        const Result<std::string> bytes = file.opener(*name);
-        if (!bytes) return std::unexpected(bytes.error());
-        bytes_ += bytes->size();
-        Result<Picture> picture = Picture::decode(std::as_bytes(std::span(*bytes)), *name);
-        if (!picture) return std::unexpected(picture.error());
-        return std::make_shared<const Picture>(std::move(*picture));
+            return fail(name, "is one picture too many", "a world shows 1000 pictures, 1 GiB together");
+        BURIN_TRY(bytes, file.opener(name));
+        bytes_ += bytes.size();
+        BURIN_TRY(picture, Picture::decode(std::as_bytes(std::span(bytes)), name));
+        return std::make_shared<const Picture>(std::move(picture));
     };
-    return known_.emplace(*name, read_it()).first->second;
+    return known_.emplace(name, read_it()).first->second;
 }
 
 // The image is a width, a height, a number of components, and a number for each pixel, from the lower left on.

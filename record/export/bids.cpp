@@ -17,6 +17,7 @@
 
 #include "base/json.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 
@@ -32,7 +33,7 @@ public:
         NewFolder folder;
         folder.path_ = path;
         while (folder.path_.size() > 1 && folder.path_.ends_with('/')) folder.path_.pop_back();
-        if (const auto ok = check_no_file(folder.path_); !ok) return std::unexpected(ok.error());
+        BURIN_TRY_DO(check_no_file(folder.path_));
         const std::string temporary = folder.path_ + "." + std::to_string(::getpid()) + ".part";
         if (::mkdir(temporary.c_str(), 0777) != 0)
             return fail(path, "cannot be made: " + std::generic_category().message(errno),
@@ -50,13 +51,12 @@ public:
 
     [[nodiscard]] fs::path operator/(const std::string& name) const { return fs::path(temporary_) / name; }
     [[nodiscard]] Result<void> write(const fs::path& place, std::string_view text) const {
-        Result<NewFile> file = NewFile::create(place.string());
-        if (!file) return std::unexpected(file.error());
-        if (const auto written = file->write(text); !written) return written;
-        return file->finish();
+        BURIN_TRY(file, NewFile::create(place.string()));
+        BURIN_TRY_DO(file.write(text));
+        return file.finish();
     }
     [[nodiscard]] Result<void> finish() {
-        if (const auto ok = check_no_file(path_); !ok) return ok;
+        BURIN_TRY_DO(check_no_file(path_));
         if (::rename(temporary_.c_str(), path_.c_str()) != 0)
             return fail(path_, "cannot be made: " + std::generic_category().message(errno), "choose another name");
         temporary_.clear();
@@ -179,8 +179,7 @@ struct BidsSpan {
 
 Result<void> write_motion(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
                           const std::string& path, const TickTimes& times, BidsSpan& span, ExportReport& report) {
-    Result<NewFile> file = NewFile::create(path);
-    if (!file) return std::unexpected(file.error());
+    BURIN_TRY(file, NewFile::create(path));
     std::string line;
     const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
         for (std::uint32_t row = 0; row < block.rows(); ++row) {
@@ -189,12 +188,12 @@ Result<void> write_motion(RecordReader& reader, std::size_t table, const std::ve
             if (__builtin_sub_overflow(span.last_ns, span.first_ns, &since_ns)) since_ns = 0;
             line = bids_seconds(since_ns);
             for (const std::size_t c : columns) line += "\t" + bids_value(block.at(c, row), block.type(c));
-            if (const auto written = file->write(line + "\n"); !written) return written;
+            BURIN_TRY_DO(file.write(line + "\n"));
         }
         return {};
     });
     if (!done) return done;
-    return file->finish();
+    return file.finish();
 }
 
 Json motion_json(const std::vector<BidsChannel>& channels, const BidsSpan& span, const RecordReader& reader,
@@ -248,12 +247,10 @@ std::string bids_cell(std::string text) {
 
 // Trials and events in the order of time; empty where there are none. What happens at an instant has no duration.
 Result<std::string> events_table(RecordReader& reader, std::int64_t first_ns) {
-    const auto trials = reader.trials();
-    if (!trials) return std::unexpected(trials.error());
-    const auto events = reader.events();
-    if (!events) return std::unexpected(events.error());
+    BURIN_TRY(trials, reader.trials());
+    BURIN_TRY(events, reader.events());
     std::vector<BidsEvent> rows;
-    for (const TrialRecord& trial : *trials) {
+    for (const TrialRecord& trial : trials) {
         std::int64_t onset_ns = 0, length_ns = 0;
         if (__builtin_sub_overflow(trial.begun_ns, first_ns, &onset_ns) ||
             __builtin_sub_overflow(trial.ended_ns, trial.begun_ns, &length_ns))
@@ -261,7 +258,7 @@ Result<std::string> events_table(RecordReader& reader, std::int64_t first_ns) {
         rows.push_back({onset_ns, trial.state == "open" ? "n/a" : bids_seconds(length_ns), bids_cell(trial.name), "n/a",
                         bids_cell(trial.state)});
     }
-    for (const EventRecord& event : *events) {
+    for (const EventRecord& event : events) {
         std::int64_t onset_ns = 0;
         if (__builtin_sub_overflow(event.time_ns, first_ns, &onset_ns)) continue;
         rows.push_back({onset_ns, "0", bids_cell(event.name), bids_cell(event.value), "n/a"});
@@ -313,7 +310,7 @@ Result<void> check_labels(const BidsLabels& labels) {
 
 Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
                                  const std::string& path, const BidsLabels& labels, const TickTimes& times) {
-    if (const auto ok = check_labels(labels); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_labels(labels));
     if (path == "-") return fail("bids", "cannot go to standard output: it is a folder", "name a folder");
     Result<NewFolder> folder = NewFolder::create(path);
     if (!folder) return std::unexpected(folder.error());
@@ -329,8 +326,7 @@ Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const 
 
     BidsSpan span(of);
     ExportReport report{0, columns.size(), {}};
-    const auto moved = write_motion(reader, table, columns, begin + "motion.tsv", times, span, report);
-    if (!moved) return std::unexpected(moved.error());
+    BURIN_TRY_DO(write_motion(reader, table, columns, begin + "motion.tsv", times, span, report));
     const Result<std::string> events = events_table(reader, span.first_ns);
     if (!events) return std::unexpected(events.error());
     const BidsPeople people = people_of(reader, subject);
@@ -354,9 +350,8 @@ Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const 
         texts.emplace_back(begin + "events.tsv", *events);
         texts.emplace_back(begin + "events.json", json_text(events_json()));
     }
-    for (const auto& [place, text] : texts)
-        if (const auto written = folder->write(place, text); !written) return std::unexpected(written.error());
-    if (const auto ended = folder->finish(); !ended) return std::unexpected(ended.error());
+    for (const auto& [place, text] : texts) BURIN_TRY_DO(folder->write(place, text));
+    BURIN_TRY_DO(folder->finish());
     return report;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 
@@ -172,7 +173,7 @@ Result<ExportReport> export_hdf5(RecordReader& reader, std::size_t table, const 
     closed = ticks.close() && closed;
     closed = h5.close() && closed;
     if (!closed) return failed();
-    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    BURIN_TRY_DO(file->finish());
     return report;
 }
 

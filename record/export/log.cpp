@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 
@@ -42,17 +43,16 @@ std::string log_head(const RecordReader& reader) {
 
 // Writes an input log as it was: its first line, and then its lines as they are.
 Result<ExportReport> export_input_log(RecordReader& reader, const std::string& header, const std::string& path) {
-    Result<NewFile> file = NewFile::create(path);
-    if (!file) return std::unexpected(file.error());
-    Result<void> written = file->write(in_a_line(header) + "\n");
+    BURIN_TRY(file, NewFile::create(path));
+    Result<void> written = file.write(in_a_line(header) + "\n");
     ExportReport report{.rows = 1, .columns = 0, .damaged = {}};
     const auto read = reader.each_line([&](std::int64_t, const std::string& text) {
-        if (written) written = file->write(in_a_line(text) + "\n");
+        if (written) written = file.write(in_a_line(text) + "\n");
         ++report.rows;
     });
     if (!read) return std::unexpected(read.error());
     if (!written) return std::unexpected(written.error());
-    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    BURIN_TRY_DO(file.finish());
     return report;
 }
 
@@ -66,26 +66,24 @@ std::string in_a_line(std::string text) {
 Result<ExportReport> export_log(RecordReader& reader, const std::string& path) {
     if (const auto header = reader.facts().find(kLogHeaderFact); header != reader.facts().end())
         return export_input_log(reader, header->second, path);
-    const Result<std::vector<LogEntry>> others = events_and_trials(reader);
-    if (!others) return std::unexpected(others.error());
-    Result<NewFile> file = NewFile::create(path);
-    if (!file) return std::unexpected(file.error());
-    Result<void> written = file->write(log_head(reader));
+    BURIN_TRY(others, events_and_trials(reader));
+    BURIN_TRY(file, NewFile::create(path));
+    Result<void> written = file.write(log_head(reader));
     ExportReport report;
     const auto put = [&](std::int64_t time_ns, const std::string& text) {
         if (!written) return;
-        written = file->write(std::to_string(time_ns) + " " + in_a_line(text) + "\n");
+        written = file.write(std::to_string(time_ns) + " " + in_a_line(text) + "\n");
         ++report.rows;
     };
-    auto next = others->begin();
+    auto next = others.begin();
     const auto read = reader.each_line([&](std::int64_t time_ns, const std::string& text) {
-        for (; next != others->end() && next->time_ns <= time_ns; ++next) put(next->time_ns, next->text);
+        for (; next != others.end() && next->time_ns <= time_ns; ++next) put(next->time_ns, next->text);
         put(time_ns, "line " + text);
     });
     if (!read) return std::unexpected(read.error());
-    for (; next != others->end(); ++next) put(next->time_ns, next->text);
+    for (; next != others.end(); ++next) put(next->time_ns, next->text);
     if (!written) return std::unexpected(written.error());
-    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    BURIN_TRY_DO(file.finish());
     return report;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 
@@ -154,32 +155,31 @@ Result<ExportReport> export_mat(RecordReader& reader, std::size_t table, const s
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     if (file->is_standard_output()) return fail("mat", "cannot go to standard output", "name a file");
-    const Result<std::uint64_t> rows = readable_rows(reader, table, times);
-    if (!rows) return std::unexpected(rows.error());
-    if (*rows > kMostMatBytes / 8)
-        return fail(path, std::to_string(*rows) + " ticks make variables above 2 GiB, which MATLAB does not read",
+    BURIN_TRY(rows, readable_rows(reader, table, times));
+    if (rows > kMostMatBytes / 8)
+        return fail(path, std::to_string(rows) + " ticks make variables above 2 GiB, which MATLAB does not read",
                     "use --to hdf5");
     std::string text = mat_header() + mat_texts(reader, table, columns);
     std::uint64_t at = text.size();
-    if (const auto done = file->write(text); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(file->write(text));
     std::vector<MatVariable> variables;
     std::set<std::string> names;
     for (const std::size_t c : columns) {
         const Column& column = reader.table(table).columns[c];
-        const MatArray array = array_of(mat_name(column.name), column.type, *rows);
+        const MatArray array = array_of(mat_name(column.name), column.type, rows);
         if (!names.insert(array.name).second)
             return fail(path, "two columns would be called " + array.name, "leave one out by --columns");
         const std::string head = array.head();
-        if (const auto done = file->write_at(at, head); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(file->write_at(at, head));
         variables.push_back({c, at + head.size(), 0});
         const std::uint64_t data = array.data_bytes(), end = at + head.size() + filled_up(data);
         const std::string rest(end - (at + head.size() + data), '\0');
-        if (const auto done = file->write_at(end - rest.size(), rest); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO(file->write_at(end - rest.size(), rest));
         at = end;
     }
     ExportReport report{0, columns.size(), {}};
     const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
-        if (report.rows + block.rows() > *rows)
+        if (report.rows + block.rows() > rows)
             return fail(path, "the recording has grown meanwhile", "convert it again");
         for (MatVariable& variable : variables) {
             const auto bytes = block.bytes(variable.column);
@@ -191,8 +191,8 @@ Result<ExportReport> export_mat(RecordReader& reader, std::size_t table, const s
         return {};
     });
     if (!done) return std::unexpected(done.error());
-    if (report.rows != *rows) return fail(path, "the recording has changed meanwhile", "convert it again");
-    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    if (report.rows != rows) return fail(path, "the recording has changed meanwhile", "convert it again");
+    BURIN_TRY_DO(file->finish());
     return report;
 }
 

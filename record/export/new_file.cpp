@@ -11,6 +11,7 @@
 
 #include "base/file_io.hpp"
 #include "base/flush_folder.hpp"
+#include "base/try.hpp"
 
 namespace burin::record {
 namespace {
@@ -43,7 +44,7 @@ Result<NewFile> NewFile::create(const std::string& path) {
         file.fd_ = STDOUT_FILENO;
         return file;
     }
-    if (const auto ok = check_writable(path); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_writable(path));
     const std::string temporary = path + "." + std::to_string(::getpid()) + ".part";
     file.fd_ = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file.fd_ < 0) return file.failed(errno);
@@ -81,7 +82,7 @@ Result<void> NewFile::flush() {
 }
 
 Result<void> NewFile::write_at(std::size_t offset, std::string_view bytes) {
-    if (const auto done = flush(); !done) return done;
+    BURIN_TRY_DO(flush());
     while (!bytes.empty()) {
         const ssize_t written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (written < 0 && errno == EINTR) continue;
@@ -93,7 +94,7 @@ Result<void> NewFile::write_at(std::size_t offset, std::string_view bytes) {
 }
 
 Result<void> NewFile::finish() {
-    if (const auto done = flush(); !done) return done;
+    BURIN_TRY_DO(flush());
     if (is_standard_output()) return {};
     if (::fsync(fd_) != 0) return failed(errno);
     if (::close(std::exchange(fd_, -1)) != 0) return failed(errno);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstring>
 
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 
@@ -55,7 +56,7 @@ Result<ExportReport> export_npy(RecordReader& reader, std::size_t table, const s
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     if (file->is_standard_output()) return fail("npy", "cannot go to standard output", "name a file");
-    if (const auto done = file->write(numpy_header(of, columns, 0)); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(file->write(numpy_header(of, columns, 0)));
     ExportReport report{0, columns.size(), {}};
     std::string record;
     const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
@@ -65,14 +66,13 @@ Result<ExportReport> export_npy(RecordReader& reader, std::size_t table, const s
                 const Word word = block.at(column, row);
                 record.append(reinterpret_cast<const char*>(&word), size_of(block.type(column)));
             }
-            if (const auto written = file->write(record); !written) return written;
+            BURIN_TRY_DO(file->write(record));
         }
         return {};
     });
     if (!done) return std::unexpected(done.error());
-    const auto counted = file->write_at(0, numpy_header(of, columns, report.rows));
-    if (!counted) return std::unexpected(counted.error());
-    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    BURIN_TRY_DO(file->write_at(0, numpy_header(of, columns, report.rows)));
+    BURIN_TRY_DO(file->finish());
     return report;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/export/table_export.hpp"
 #include "record/row_walk.hpp"
 
@@ -77,7 +78,7 @@ Result<void> each_block(RecordReader& reader, std::size_t table, const TickTimes
         const std::optional<Block> held = chooses ? rows_within(*block, time_column, times) : std::nullopt;
         const Block& rows = held ? *held : *block;
         if (rows.rows() == 0) continue;
-        if (const auto taken = take(rows); !taken) return taken;
+        BURIN_TRY_DO(take(rows));
         report.rows += rows.rows();
     }
     return {};

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/try.hpp"
 #include "picture/frame_setup.hpp"
 
 namespace burin::renderer {
@@ -119,23 +120,19 @@ Result<gpu::Image> create_image(gpu::Device& device, const FrameTargets& t, std:
 Result<void> create_images(gpu::Device& device, FrameTargets& t) {
     constexpr VkImageUsageFlags kDrawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     const VkFormat format = t.encodes ? FrameTargets::kEncodedFormat : FrameTargets::kLinearFormat;
-    auto picture = create_image(
-        device, t, 1, format,
-        kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-        VK_IMAGE_ASPECT_COLOR_BIT, "picture");
-    if (!picture) return std::unexpected(picture.error());
-    auto depth = create_image(device, t, t.samples, FrameTargets::kDepthFormat,
-                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, "depth");
-    if (!depth) return std::unexpected(depth.error());
-    t.picture = std::move(*picture);
-    t.depth = std::move(*depth);
-    auto view = t.picture.view_as(device, FrameTargets::kLinearFormat);
-    if (!view) return std::unexpected(view.error());
-    t.both_eyes = std::move(*view);
+    BURIN_TRY(picture, create_image(device, t, 1, format,
+                                    kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                        VK_IMAGE_USAGE_SAMPLED_BIT,
+                                    VK_IMAGE_ASPECT_COLOR_BIT, "picture"));
+    BURIN_TRY(depth, create_image(device, t, t.samples, FrameTargets::kDepthFormat,
+                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, "depth"));
+    t.picture = std::move(picture);
+    t.depth = std::move(depth);
+    BURIN_TRY(view, t.picture.view_as(device, FrameTargets::kLinearFormat));
+    t.both_eyes = std::move(view);
     if (t.samples == 1) return {};
-    auto colour = create_image(device, t, t.samples, format, kDrawn, VK_IMAGE_ASPECT_COLOR_BIT, "samples");
-    if (!colour) return std::unexpected(colour.error());
-    t.colour = std::move(*colour);
+    BURIN_TRY(colour, create_image(device, t, t.samples, format, kDrawn, VK_IMAGE_ASPECT_COLOR_BIT, "samples"));
+    t.colour = std::move(colour);
     return {};
 }
 
@@ -175,27 +172,23 @@ Result<void> create_glass_pass(gpu::Device& device, FrameTargets& t) {
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &picture;
     subpass.pDepthStencilAttachment = &depth;
-    auto pass = create_pass(device, attachments, subpass, view_mask_of(t.views));
-    if (!pass) return std::unexpected(pass.error());
+    BURIN_TRY(pass, create_pass(device, attachments, subpass, view_mask_of(t.views)));
     const std::array<VkImageView, 2> views{t.both_eyes.raw(), t.depth.view()};
-    auto framebuffer = create_framebuffer(device, pass->raw(), views, t.size);
-    if (!framebuffer) return std::unexpected(framebuffer.error());
-    t.glass_pass = std::move(*pass);
-    t.glass_framebuffer = std::move(*framebuffer);
+    BURIN_TRY(framebuffer, create_framebuffer(device, pass.raw(), views, t.size));
+    t.glass_pass = std::move(pass);
+    t.glass_framebuffer = std::move(framebuffer);
     return {};
 }
 
 Result<void> create_passes(gpu::Device& device, FrameTargets& t) {
     for (const bool whole : {true, false}) {
-        auto pass = create_view_pass(device, t, whole);
-        if (!pass) return std::unexpected(pass.error());
-        (whole ? t.whole_pass : t.part_pass) = std::move(*pass);
+        BURIN_TRY(pass, create_view_pass(device, t, whole));
+        (whole ? t.whole_pass : t.part_pass) = std::move(pass);
     }
     std::vector<VkImageView> views{t.picture.view(), t.depth.view()};
     if (t.samples > 1) views.push_back(t.colour.view());
-    auto framebuffer = create_framebuffer(device, t.whole_pass.raw(), views, t.size);
-    if (!framebuffer) return std::unexpected(framebuffer.error());
-    t.framebuffer = std::move(*framebuffer);
+    BURIN_TRY(framebuffer, create_framebuffer(device, t.whole_pass.raw(), views, t.size));
+    t.framebuffer = std::move(framebuffer);
     return t.encodes ? create_glass_pass(device, t) : Result<void>{};
 }
 
@@ -204,14 +197,14 @@ std::uint64_t layer_bytes(ImageSize size) { return std::uint64_t{4} * size.width
 }  // namespace
 
 Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, std::uint32_t samples, Views views) {
-    if (const auto ok = check_size(size); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(check_size(size));
     FrameTargets targets;
     targets.size = size;
     targets.samples = samples;
     targets.views = views;
     targets.encodes = samples == 1;
-    if (const auto done = create_images(device, targets); !done) return std::unexpected(done.error());
-    if (const auto done = create_passes(device, targets); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(create_images(device, targets));
+    BURIN_TRY_DO(create_passes(device, targets));
     return targets;
 }
 
@@ -224,9 +217,8 @@ VkViewport viewport_of(ImageSize size) {
 
 Result<void> Readback::fit(gpu::Device& device, ImageSize size) {
     if (buffer_.size_bytes() > 0 && size == size_) return {};
-    auto buffer = gpu::Buffer::create(device, gpu::BufferUse::readback, 2 * layer_bytes(size), "pictures");
-    if (!buffer) return std::unexpected(buffer.error());
-    buffer_ = std::move(*buffer);
+    BURIN_TRY(buffer, gpu::Buffer::create(device, gpu::BufferUse::readback, 2 * layer_bytes(size), "pictures"));
+    buffer_ = std::move(buffer);
     size_ = size;
     return {};
 }

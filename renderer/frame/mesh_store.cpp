@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/try.hpp"
 #include "geometry/contact/surface_tile.hpp"
 
 namespace burin::renderer {
@@ -37,7 +38,7 @@ Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
     // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them. Decided
     // before anything is recorded: commands must not fill a buffer that is given up before they are submitted.
     if (!fit(meshes)) {
-        if (const auto done = begin_anew(device, meshes); !done) return done;
+        BURIN_TRY_DO(begin_anew(device, meshes));
         replaced.clear();
     }
     for (const Replaced& one : replaced) write(commands, *one.mesh, at(*one.mesh), one.with_indices);
@@ -56,15 +57,14 @@ Result<void> MeshStore::begin_anew(gpu::Device& device,
     // Twice what is needed, so that a scene that gains one mesh after another is seldom put anew.
     vertices = std::max(2 * vertices, kLeastVertices);
     indices = std::max(2 * indices, 3 * kLeastVertices);
-    auto made_vertices = gpu::Buffer::create(device, gpu::BufferUse::vertex, vertices * kVertexBytes, "meshes");
-    if (!made_vertices) return std::unexpected(made_vertices.error());
-    auto made_lights = gpu::Buffer::create(device, gpu::BufferUse::vertex, vertices * kLightBytes, "meshes' light");
-    if (!made_lights) return std::unexpected(made_lights.error());
-    auto made_indices = gpu::Buffer::create(device, gpu::BufferUse::index, indices * kIndexBytes, "meshes' indices");
-    if (!made_indices) return std::unexpected(made_indices.error());
-    vertices_ = std::move(*made_vertices);
-    lights_ = std::move(*made_lights);
-    indices_ = std::move(*made_indices);
+    BURIN_TRY(made_vertices, gpu::Buffer::create(device, gpu::BufferUse::vertex, vertices * kVertexBytes, "meshes"));
+    BURIN_TRY(made_lights,
+              gpu::Buffer::create(device, gpu::BufferUse::vertex, vertices * kLightBytes, "meshes' light"));
+    BURIN_TRY(made_indices,
+              gpu::Buffer::create(device, gpu::BufferUse::index, indices * kIndexBytes, "meshes' indices"));
+    vertices_ = std::move(made_vertices);
+    lights_ = std::move(made_lights);
+    indices_ = std::move(made_indices);
     used_vertices_ = used_indices_ = 0;
     stored_.clear();
     return {};

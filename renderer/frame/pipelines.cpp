@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "base/try.hpp"
 #include "gpu/pipelines.hpp"
 #include "renderer/surface/patch_detail.hpp"
 #include "shaders/backdrop.frag.spv.hpp"
@@ -86,15 +87,13 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
 
 Result<Pipelines> Pipelines::create(gpu::Device& device) {
     Pipelines p;
-    auto uniforms =
-        gpu::Buffer::create(device, gpu::BufferUse::uniform, sizeof(shared::FrameUniforms), "frame uniforms");
-    if (!uniforms) return std::unexpected(uniforms.error());
-    p.uniforms_ = std::move(*uniforms);
+    BURIN_TRY(uniforms,
+              gpu::Buffer::create(device, gpu::BufferUse::uniform, sizeof(shared::FrameUniforms), "frame uniforms"));
+    p.uniforms_ = std::move(uniforms);
     auto done = p.create_layouts(device);
     if (!done) return std::unexpected(done.error());
-    auto map = ShadowMap::create(device, p.layout_.raw());
-    if (!map) return std::unexpected(map.error());
-    p.shadow_map_ = std::move(*map);
+    BURIN_TRY(map, ShadowMap::create(device, p.layout_.raw()));
+    p.shadow_map_ = std::move(map);
     if (done) done = p.create_set(device);
     if (!done) return std::unexpected(done.error());
     return p;
@@ -195,9 +194,8 @@ Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, b
         spec.render_pass = in_glass_pass ? targets.glass_pass.raw() : targets.whole_pass.raw();
         spec.samples = targets.samples;
         spec.constants = constants;
-        auto created = gpu::create_graphics_pipeline(device, spec);
-        if (!created) return std::unexpected(created.error());
-        kept = std::move(*created);
+        BURIN_TRY(created, gpu::create_graphics_pipeline(device, spec));
+        kept = std::move(created);
         ++created_;
     }
     return kept.raw();

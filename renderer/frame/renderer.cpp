@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/try.hpp"
 #include "gpu/commands.hpp"
 #include "picture/frame_setup.hpp"
 #include "picture/lamp_view.hpp"
@@ -139,21 +140,18 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
     }
     auto made = std::unique_ptr<Implementation>(new Implementation(device, options.surface));
     made->savings = options.savings;
-    auto targets = FrameTargets::create(device, size, samples, options.views);
-    if (!targets) return std::unexpected(targets.error());
-    made->targets = std::move(*targets);
-    auto pipelines = Pipelines::create(device);
-    if (!pipelines) return std::unexpected(pipelines.error());
-    made->pipelines_ = std::move(*pipelines);
-    if (const auto done = made->upload_primitives(); !done) return std::unexpected(done.error());
+    BURIN_TRY(targets, FrameTargets::create(device, size, samples, options.views));
+    made->targets = std::move(targets);
+    BURIN_TRY(pipelines, Pipelines::create(device));
+    made->pipelines_ = std::move(pipelines);
+    BURIN_TRY_DO(made->upload_primitives());
     return made;
 }
 
 // Keeps the pipelines: they fit any targets of the same formats, views and number of samples.
 Result<void> Renderer::Implementation::resize(ImageSize size, Views views) {
-    auto other = FrameTargets::create(device_, size, targets.samples, views);
-    if (!other) return std::unexpected(other.error());
-    targets = std::move(*other);
+    BURIN_TRY(other, FrameTargets::create(device_, size, targets.samples, views));
+    targets = std::move(other);
     fewer_.reset();
     pixel_ = 1;
     shown.reset();
@@ -165,9 +163,8 @@ Result<void> Renderer::Implementation::draw_with(std::uint32_t pixel) {
     if (pixel == pixel_) return {};
     const ImageSize size = drawn_size(targets.size, pixel);
     if (pixel > 1 && !(fewer_ && fewer_->size == size)) {
-        auto made = FrameTargets::create(device_, size, targets.samples, targets.views);
-        if (!made) return std::unexpected(made.error());
-        fewer_ = std::move(*made);
+        BURIN_TRY(made, FrameTargets::create(device_, size, targets.samples, targets.views));
+        fewer_ = std::move(made);
     }
     pixel_ = pixel;
     shown.reset();
@@ -178,9 +175,8 @@ Result<void> Renderer::Implementation::upload_primitives() {
     primitives_ = picture::make_primitives();
     const std::vector<geometry::VertexLight> lights(primitives_.vertices.size());
     const auto put = [&](gpu::Buffer& buffer, gpu::BufferUse use, std::span<const std::byte> bytes) -> Result<void> {
-        auto made = gpu::Buffer::create(device_, use, bytes.size(), "shapes");
-        if (!made) return std::unexpected(made.error());
-        buffer = std::move(*made);
+        BURIN_TRY(made, gpu::Buffer::create(device_, use, bytes.size(), "shapes"));
+        buffer = std::move(made);
         return gpu::write(device_, buffer, 0, bytes);
     };
     auto done = put(primitive_vertices_, gpu::BufferUse::vertex, std::as_bytes(std::span(primitives_.vertices)));
@@ -199,10 +195,9 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
         return fail("fade of parallax", "is not from 0 to 1, or its band is below 0",
                     "choose 0 to 1, and a band of 0.2");
     }
-    if (const auto ready = draw_with(std::max(pixel, 1u)); !ready) return std::unexpected(ready.error());
+    BURIN_TRY_DO(draw_with(std::max(pixel, 1u)));
     commands.barrier();  // waits until the previous frame has read what is now overwritten
-    const auto uploaded = owns_surface_ ? surface->flush(commands) : Result<std::uint64_t>(0);
-    if (!uploaded) return std::unexpected(uploaded.error());
+    BURIN_TRY(uploaded, owns_surface_ ? surface->flush(commands) : Result<std::uint64_t>(0));
     const PatchStore& patches = surface->patches();
     Shown wanted{picture, picture::place_workpiece(picture, patches.bounds(), patches.reach_m()), {}, panel_pictures_};
     wanted.depth = picture::depth_range(picture, wanted.workpiece);
@@ -215,21 +210,16 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .shapes_left_out = 0,
              .plain_room = 0,
              .draws = 0,
-             .uploaded_bytes = *uploaded,
+             .uploaded_bytes = uploaded,
              .pipelines = pipelines_created()};
     const std::optional<picture::LampView> lamp = picture::lamp_view(picture);
     if (!stats.parts.empty()) {
-        if (const auto put = meshes_.put(device_, commands, picture::meshes_of(picture)); !put)
-            return std::unexpected(put.error());
+        BURIN_TRY_DO(meshes_.put(device_, commands, picture::meshes_of(picture)));
         upload_uniforms(commands, wanted);
         commands.barrier();
-        if (lamp)
-            if (const auto drawn = pipelines_.shadow_map().record(device_, commands, *lamp, meshes_); !drawn)
-                return std::unexpected(drawn.error());
+        if (lamp) BURIN_TRY_DO(pipelines_.shadow_map().record(device_, commands, *lamp, meshes_));
     }
-    for (const PixelRect& part : stats.parts)
-        if (const auto done = draw_part(commands, wanted, part, lamp.has_value()); !done)
-            return std::unexpected(done.error());
+    for (const PixelRect& part : stats.parts) BURIN_TRY_DO(draw_part(commands, wanted, part, lamp.has_value()));
     stats.pipelines = pipelines_created();
     stats.whole = !stats.parts.empty() && stats.parts.front() == all_of(drawn_into().size);
     if (pixel_ > 1 && !stats.parts.empty()) {
@@ -326,7 +316,7 @@ void Renderer::Implementation::begin_glass_pass(Recording& r) {
 Result<void> Renderer::Implementation::draw_shapes(Recording& r, PipelineKind kind,
                                                    std::span<const picture::Shape> shapes) {
     if (shapes.empty()) return {};
-    if (const auto done = use(r, kind); !done) return done;
+    BURIN_TRY_DO(use(r, kind));
     draw_primitives(r, shapes);
     draw_meshes(r, shapes);
     return {};
@@ -349,14 +339,14 @@ Result<void> Renderer::Implementation::draw_surface(Recording& r) {
     // Shadows of capsules and objects are finer than any vertices.
     const PipelineKind solid = solid_of(r.picture, r.shaded),
                        fine = solid == PipelineKind::solid ? PipelineKind::fine : solid;
-    if (const auto done = draw_surface(r, fine, r.surface.fine); !done) return done;
+    BURIN_TRY_DO(draw_surface(r, fine, r.surface.fine));
     return draw_surface(r, solid, r.surface.solid);
 }
 
 Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind kind,
                                                     std::span<const DrawRange> ranges) {
     if (ranges.empty()) return {};
-    if (const auto done = use(r, kind); !done) return done;
+    BURIN_TRY_DO(use(r, kind));
     const PatchStore& patches = surface->patches();
     r.calls.bind(patches.vertex_buffer(), patches.light_buffer(), patches.index_buffer());
     r.calls.push(picture::surface_constants(r.picture));
@@ -375,7 +365,7 @@ Result<void> Renderer::Implementation::draw_room(Recording& r) {
           std::pair(RoomLook::plain, PipelineKind::backdrop_plain)}) {
         for (const RoomPart& part : parts) {
             if (part.look != look) continue;
-            if (const auto done = use(r, kind); !done) return done;
+            BURIN_TRY_DO(use(r, kind));
             r.calls.clip(part.rect);
             draw(r, primitives_.screen_quad, picture::screen_constants(r.picture.screen));
             if (look != RoomLook::full) stats.plain_room += std::uint64_t{part.rect.width} * part.rect.height;
@@ -389,7 +379,7 @@ Result<void> Renderer::Implementation::draw_panel(Recording& r) {
     if (!r.picture.panel || panel_ == VK_NULL_HANDLE) return {};
     const bool fades = r.picture.edge_fade > 0.0;
     StandingPanel& panel = panels_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
-    if (const auto ready = make_ready(panel, fades); !ready) return ready;
+    BURIN_TRY_DO(make_ready(panel, fades));
     panel.quad->record(r.commands.raw(), r.picture.panel->stand, pipelines_.set());
     ++stats.draws;
     return {};
@@ -397,13 +387,12 @@ Result<void> Renderer::Implementation::draw_panel(Recording& r) {
 
 Result<void> Renderer::Implementation::make_ready(StandingPanel& panel, bool fades) {
     if (!panel.quad) {
-        auto made = PanelQuad::create(
-            device_, {targets.whole_pass.raw(), targets.samples, targets.encodes, fades, pipelines_.set_layout()});
-        if (!made) return std::unexpected(made.error());
-        panel.quad = std::move(*made);
+        BURIN_TRY(made, PanelQuad::create(device_, {targets.whole_pass.raw(), targets.samples, targets.encodes, fades,
+                                                    pipelines_.set_layout()}));
+        panel.quad = std::move(made);
     }
     if (panel.shows == panel_pictures_) return {};
-    if (const auto done = panel.quad->show(panel_); !done) return done;
+    BURIN_TRY_DO(panel.quad->show(panel_));
     panel.shows = panel_pictures_;
     return {};
 }
@@ -415,10 +404,10 @@ Result<void> Renderer::Implementation::draw_glass(Recording& r) {
         begin_glass_pass(r);
     }
     // The objects stand within the boxes.
-    if (const auto done = use(r, PipelineKind::glass_back); !done) return done;
+    BURIN_TRY_DO(use(r, PipelineKind::glass_back));
     draw_primitives(r, r.shapes.glass);
-    if (const auto done = draw_clear_objects(r); !done) return done;
-    if (const auto done = use(r, PipelineKind::glass_front); !done) return done;
+    BURIN_TRY_DO(draw_clear_objects(r));
+    BURIN_TRY_DO(use(r, PipelineKind::glass_front));
     draw_primitives(r, r.shapes.glass);
     return {};
 }
@@ -428,7 +417,7 @@ Result<void> Renderer::Implementation::draw_clear_objects(Recording& r) {
     for (const picture::Shape& shape : r.shapes.glass) {
         if (!shape.mesh) continue;
         for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
-            if (const auto done = use(r, faces); !done) return done;
+            BURIN_TRY_DO(use(r, faces));
             r.calls.bind(meshes_);
             r.calls.draw(meshes_.at(*shape.mesh), shape.constants);
         }
@@ -437,9 +426,8 @@ Result<void> Renderer::Implementation::draw_clear_objects(Recording& r) {
 }
 
 Result<void> Renderer::Implementation::use(Recording& r, PipelineKind kind) {
-    const auto pipeline = pipelines_.pipeline(device_, kind, r.picture.edge_fade > 0.0, targets);
-    if (!pipeline) return std::unexpected(pipeline.error());
-    r.calls.use(*pipeline);
+    BURIN_TRY(pipeline, pipelines_.pipeline(device_, kind, r.picture.edge_fade > 0.0, targets));
+    r.calls.use(pipeline);
     return {};
 }
 
@@ -452,23 +440,20 @@ void Renderer::Implementation::draw(Recording& r, const picture::PrimitiveRange&
 // ---- Reading back
 
 Result<StereoImage> Renderer::Implementation::render(const picture::Picture& picture, std::uint32_t pixel) {
-    if (const auto ready = readback_.fit(device_, targets.size); !ready) return std::unexpected(ready.error());
-    auto commands = gpu::Commands::begin(device_);
-    if (!commands) return std::unexpected(commands.error());
-    if (const auto recorded = record(*commands, picture, pixel); !recorded) return std::unexpected(recorded.error());
-    readback_.copy(device_, *commands, targets.picture.raw());
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(readback_.fit(device_, targets.size));
+    BURIN_TRY(commands, gpu::Commands::begin(device_));
+    BURIN_TRY_DO(record(commands, picture, pixel));
+    readback_.copy(device_, commands, targets.picture.raw());
+    BURIN_TRY(submission, std::move(commands).submit());
+    BURIN_TRY_DO(submission.wait());
     return readback_.pictures();
 }
 
 // ---- Renderer
 
 Result<Renderer> Renderer::create(gpu::Device& device, ImageSize size, const RendererOptions& options) {
-    auto implementation = Implementation::create(device, size, options);
-    if (!implementation) return std::unexpected(implementation.error());
-    return Renderer(std::move(*implementation));
+    BURIN_TRY(implementation, Implementation::create(device, size, options));
+    return Renderer(std::move(implementation));
 }
 
 Renderer::Renderer(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}

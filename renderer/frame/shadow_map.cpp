@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/try.hpp"
 #include "gpu/pipelines.hpp"
 #include "renderer/frame/draw_calls.hpp"
 #include "shaders/shadow.vert.spv.hpp"
@@ -47,21 +48,19 @@ Result<gpu::SamplerHandle> create_depth_sampler(const gpu::Device& device, bool 
 Result<ShadowMap> ShadowMap::create(gpu::Device& device, VkPipelineLayout layout) {
     ShadowMap map;
     map.layout_ = layout;
-    auto depth =
-        gpu::Image::create(device, {.width = picture::kShadowMapSide,
-                                    .height = picture::kShadowMapSide,
-                                    .format = kMapFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                                    .name = kWhereShadowMap});
-    if (!depth) return std::unexpected(depth.error());
-    map.depth_ = std::move(*depth);
+    BURIN_TRY(depth, gpu::Image::create(
+                         device, {.width = picture::kShadowMapSide,
+                                  .height = picture::kShadowMapSide,
+                                  .format = kMapFormat,
+                                  .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                  .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
+                                  .name = kWhereShadowMap}));
+    map.depth_ = std::move(depth);
     for (const bool compares : {true, false}) {
-        auto sampler = create_depth_sampler(device, compares);
-        if (!sampler) return std::unexpected(sampler.error());
-        (compares ? map.compares_ : map.reads_) = std::move(*sampler);
+        BURIN_TRY(sampler, create_depth_sampler(device, compares));
+        (compares ? map.compares_ : map.reads_) = std::move(sampler);
     }
-    if (const auto done = map.create_pass(device); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(map.create_pass(device));
     return map;
 }
 
@@ -128,9 +127,8 @@ Result<void> ShadowMap::create_pipeline(gpu::Device& device) {
     spec.cull = VK_CULL_MODE_BACK_BIT;  // what faces away from the lamp lies behind what faces it
     spec.color_attachments = 0;
     spec.name = "shadow map pipeline";
-    auto made = gpu::create_graphics_pipeline(device, spec);
-    if (!made) return std::unexpected(made.error());
-    pipeline_ = std::move(*made);
+    BURIN_TRY(made, gpu::create_graphics_pipeline(device, spec));
+    pipeline_ = std::move(made);
     return {};
 }
 
@@ -139,7 +137,7 @@ Result<bool> ShadowMap::record(gpu::Device& device, gpu::Commands& commands, con
     std::vector<Shown> now;
     for (const picture::DrawnObject* object : view.casters) now.push_back({object->mesh, object->world_from_mesh});
     if (now == shown_) return false;
-    if (const auto ready = create_pipeline(device); !ready) return std::unexpected(ready.error());
+    BURIN_TRY_DO(create_pipeline(device));
     shown_ = std::move(now);
     const VolkDeviceTable& vk = device.core()->vk;
     VkClearValue clear{};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "base/try.hpp"
 #include "gpu/commands.hpp"
 
 namespace burin::renderer {
@@ -37,9 +38,8 @@ VkBufferImageCopy whole(ImageSize size, std::uint32_t layers) {
 }
 
 Result<void> finish(gpu::Commands commands) {
-    auto submission = std::move(commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    return submission->wait();
+    BURIN_TRY(submission, std::move(commands).submit());
+    return submission.wait();
 }
 
 Result<gpu::Image> upload(gpu::Device& device, std::span<const Image* const> layers, VkFormat format) {
@@ -52,24 +52,21 @@ Result<gpu::Image> upload(gpu::Device& device, std::span<const Image* const> lay
                                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                                              .name = "picture"});
     if (!image) return image;
-    auto staging = gpu::Buffer::create(device, gpu::BufferUse::upload, count * bytes_in(size), "picture");
-    if (!staging) return std::unexpected(staging.error());
-    std::byte* to = staging->mapped().data();
+    BURIN_TRY(staging, gpu::Buffer::create(device, gpu::BufferUse::upload, count * bytes_in(size), "picture"));
+    std::byte* to = staging.mapped().data();
     for (const Image* layer : layers) {
         BURIN_CHECK(layer->rgba.size() == bytes_in(size));
         std::memcpy(to, layer->rgba.data(), bytes_in(size));
         to += bytes_in(size);
     }
-    auto commands = gpu::Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    move_layout(device, *commands, image->raw(), count, VK_IMAGE_LAYOUT_UNDEFINED,
-                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    BURIN_TRY(commands, gpu::Commands::begin(device));
+    move_layout(device, commands, image->raw(), count, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkBufferImageCopy copy = whole(size, count);
-    device.core()->vk.vkCmdCopyBufferToImage(commands->raw(), staging->raw(), image->raw(),
+    device.core()->vk.vkCmdCopyBufferToImage(commands.raw(), staging.raw(), image->raw(),
                                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    move_layout(device, *commands, image->raw(), count, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+    move_layout(device, commands, image->raw(), count, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    if (const auto done = finish(std::move(*commands)); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(finish(std::move(commands)));
     return image;
 }
 
@@ -88,19 +85,17 @@ Result<gpu::Image> upload_image(gpu::Device& device, const Image& image, VkForma
 
 Result<Image> read_back(gpu::Device& device, VkImage image, ImageSize size, VkFormat format, VkImageLayout layout,
                         std::uint32_t layer) {
-    auto buffer = gpu::Buffer::create(device, gpu::BufferUse::readback, bytes_in(size), "picture");
-    if (!buffer) return std::unexpected(buffer.error());
-    auto commands = gpu::Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    move_layout(device, *commands, image, layer + 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    BURIN_TRY(buffer, gpu::Buffer::create(device, gpu::BufferUse::readback, bytes_in(size), "picture"));
+    BURIN_TRY(commands, gpu::Commands::begin(device));
+    move_layout(device, commands, image, layer + 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy copy = whole(size, 1);
     copy.imageSubresource.baseArrayLayer = layer;
-    device.core()->vk.vkCmdCopyImageToBuffer(commands->raw(), image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                             buffer->raw(), 1, &copy);
-    move_layout(device, *commands, image, layer + 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
-    if (const auto done = finish(std::move(*commands)); !done) return std::unexpected(done.error());
+    device.core()->vk.vkCmdCopyImageToBuffer(commands.raw(), image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.raw(),
+                                             1, &copy);
+    move_layout(device, commands, image, layer + 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+    BURIN_TRY_DO(finish(std::move(commands)));
     Image picture{size, std::vector<std::uint8_t>(bytes_in(size))};
-    std::memcpy(picture.rgba.data(), buffer->mapped().data(), picture.rgba.size());
+    std::memcpy(picture.rgba.data(), buffer.mapped().data(), picture.rgba.size());
     const bool blue_first = format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_B8G8R8A8_UNORM;
     for (std::size_t i = 0; blue_first && i < picture.rgba.size(); i += 4) {
         std::swap(picture.rgba[i], picture.rgba[i + 2]);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <vector>
 
+#include "base/try.hpp"
 #include "gpu/pipelines.hpp"
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
@@ -81,16 +82,13 @@ Result<OutputStage> OutputStage::create(gpu::Device& device, VkFormat target_for
     }
     OutputStage stage(device);
     stage.format_ = target_format;
-    auto whole = stage.create_pass(false, final_layout);
-    if (!whole) return std::unexpected(whole.error());
-    auto parts = stage.create_pass(true, final_layout);
-    if (!parts) return std::unexpected(parts.error());
-    stage.whole_pass_ = std::move(*whole);
-    stage.parts_pass_ = std::move(*parts);
-    if (const auto done = stage.create_layouts(); !done) return std::unexpected(done.error());
-    auto none = upload_image(device, {{1, 1}, {0, 0, 0, 0}}, VK_FORMAT_R8G8B8A8_SRGB);
-    if (!none) return std::unexpected(none.error());
-    stage.no_overlay_ = std::move(*none);
+    BURIN_TRY(whole, stage.create_pass(false, final_layout));
+    BURIN_TRY(parts, stage.create_pass(true, final_layout));
+    stage.whole_pass_ = std::move(whole);
+    stage.parts_pass_ = std::move(parts);
+    BURIN_TRY_DO(stage.create_layouts());
+    BURIN_TRY(none, upload_image(device, {{1, 1}, {0, 0, 0, 0}}, VK_FORMAT_R8G8B8A8_SRGB));
+    stage.no_overlay_ = std::move(none);
     return stage;
 }
 
@@ -106,9 +104,8 @@ Result<VkPipeline> OutputStage::pipeline(int mode, int built_in) {
     spec.layout = layout_.raw();
     spec.depth_test = spec.depth_write = false;
     spec.name = "output pipeline";
-    auto made = gpu::create_graphics_pipeline(device_, spec);
-    if (!made) return std::unexpected(made.error());
-    kept = std::move(*made);
+    BURIN_TRY(made, gpu::create_graphics_pipeline(device_, spec));
+    kept = std::move(made);
     return kept.raw();
 }
 
@@ -260,27 +257,24 @@ Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const
                                std::span<const PixelRect> parts, const std::optional<OverlayView>& overlay) {
     const ImageSize size = target.place.size;
     BURIN_CHECK(size.width > 0 && size.height > 0 && eyes.eye_size.width > 0 && eyes.eye_size.height > 0);
-    auto framebuffer = create_framebuffer(device_, pass, target);
-    if (!framebuffer) return std::unexpected(framebuffer.error());
-    const auto set = bind_images(commands, eyes.eyes, overlay ? overlay->view : no_overlay_.view());
-    if (!set) return std::unexpected(set.error());
+    BURIN_TRY(framebuffer, create_framebuffer(device_, pass, target));
+    BURIN_TRY(set, bind_images(commands, eyes.eyes, overlay ? overlay->view : no_overlay_.view()));
 
     const VolkDeviceTable& vk = device_.core()->vk;
     const VkCommandBuffer raw = commands.raw();
     auto begin = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     begin.renderPass = pass;
-    begin.framebuffer = framebuffer->raw();
+    begin.framebuffer = framebuffer.raw();
     begin.renderArea = {{0, 0}, {size.width, size.height}};
     vk.vkCmdBeginRenderPass(raw, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    vk.vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.raw(), 0, 1, &*set, 0, nullptr);
+    vk.vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.raw(), 0, 1, &set, 0, nullptr);
     const VkViewport viewport{0.0f, 0.0f, static_cast<float>(size.width), static_cast<float>(size.height), 0.0f, 1.0f};
     vk.vkCmdSetViewport(raw, 0, 1, &viewport);
     const auto fill = [&](const std::vector<PixelRect>& rects, const std::optional<OverlayView>& over) -> Result<void> {
         if (std::ranges::all_of(rects, [](const PixelRect& rect) { return rect.empty(); })) return {};
         const shared::OutputConstants c = constants(eyes, target.place, settings, over);
-        const auto pipeline_for_mode = pipeline(mode_number(settings.mode), c.flags & shared::kOutputBuiltIn);
-        if (!pipeline_for_mode) return std::unexpected(pipeline_for_mode.error());
-        vk.vkCmdBindPipeline(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline_for_mode);
+        BURIN_TRY(pipeline_for_mode, pipeline(mode_number(settings.mode), c.flags & shared::kOutputBuiltIn));
+        vk.vkCmdBindPipeline(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_for_mode);
         vk.vkCmdPushConstants(raw, layout_.raw(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(c), &c);
         for (const PixelRect& rect : rects) {
             if (rect.empty()) continue;
@@ -302,7 +296,7 @@ Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const
     Result<void> done = fill(under, overlay);
     if (done) done = fill(clear, std::nullopt);
     vk.vkCmdEndRenderPass(raw);
-    commands.keep_alive(std::move(*framebuffer));
+    commands.keep_alive(std::move(framebuffer));
     return done;
 }
 

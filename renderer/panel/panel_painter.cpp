@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/try.hpp"
 #include "gpu/pipelines.hpp"
 #include "renderer/panel/panel_vulkan.hpp"
 #include "shaders/panel.frag.spv.hpp"
@@ -39,11 +40,10 @@ bool is_whole(const PanelMesh& mesh) {
 Result<void> make_room(gpu::Device& device, gpu::Commands& commands, gpu::Buffer& buffer, gpu::BufferUse use,
                        std::uint64_t size_bytes) {
     if (buffer.size_bytes() >= size_bytes) return {};
-    auto larger =
-        gpu::Buffer::create(device, use, std::max<std::uint64_t>(4096, size_bytes + size_bytes / 2), kPanelPainter);
-    if (!larger) return std::unexpected(larger.error());
+    BURIN_TRY(larger, gpu::Buffer::create(device, use, std::max<std::uint64_t>(4096, size_bytes + size_bytes / 2),
+                                          kPanelPainter));
     commands.keep_alive(std::move(buffer));
-    buffer = std::move(*larger);
+    buffer = std::move(larger);
     return {};
 }
 
@@ -52,14 +52,13 @@ Result<void> make_room(gpu::Device& device, gpu::Commands& commands, gpu::Buffer
 Result<PanelPainter> PanelPainter::create(gpu::Device& device, ImageSize size, const PanelAtlas& atlas) {
     BURIN_CHECK(atlas.cover.size() == std::size_t{atlas.size.width} * atlas.size.height);
     PanelPainter painter(device);
-    auto letters = upload_cover(device, atlas);
-    if (!letters) return std::unexpected(letters.error());
-    painter.atlas_ = std::move(*letters);
+    BURIN_TRY(letters, upload_cover(device, atlas));
+    painter.atlas_ = std::move(letters);
     for (const auto step : {&PanelPainter::create_pass, &PanelPainter::create_sampler, &PanelPainter::create_layouts,
                             &PanelPainter::create_set, &PanelPainter::create_pipeline}) {
-        if (const auto done = (painter.*step)(); !done) return std::unexpected(done.error());
+        BURIN_TRY_DO((painter.*step)());
     }
-    if (const auto done = painter.resize(size); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(painter.resize(size));
     return painter;
 }
 
@@ -108,28 +107,24 @@ Result<void> PanelPainter::create_pass() {
 }
 
 Result<void> PanelPainter::create_sampler() {
-    auto sampler = create_linear_sampler(device_);
-    if (!sampler) return std::unexpected(sampler.error());
-    sampler_ = std::move(*sampler);
+    BURIN_TRY(sampler, create_linear_sampler(device_));
+    sampler_ = std::move(sampler);
     return {};
 }
 
 Result<void> PanelPainter::create_layouts() {
-    auto set_layout = create_picture_set_layout(device_);
-    if (!set_layout) return std::unexpected(set_layout.error());
-    set_layout_ = std::move(*set_layout);
-    auto layout =
-        create_push_layout(device_, std::span(set_layout_.pointer(), 1), VK_SHADER_STAGE_VERTEX_BIT, 2 * sizeof(float));
-    if (!layout) return std::unexpected(layout.error());
-    layout_ = std::move(*layout);
+    BURIN_TRY(set_layout, create_picture_set_layout(device_));
+    set_layout_ = std::move(set_layout);
+    BURIN_TRY(layout, create_push_layout(device_, std::span(set_layout_.pointer(), 1), VK_SHADER_STAGE_VERTEX_BIT,
+                                         2 * sizeof(float)));
+    layout_ = std::move(layout);
     return {};
 }
 
 Result<void> PanelPainter::create_set() {
-    auto made = create_picture_set(device_, set_layout_, sampler_, atlas_.view());
-    if (!made) return std::unexpected(made.error());
-    pool_ = std::move(made->pool);
-    set_ = made->set;
+    BURIN_TRY(made, create_picture_set(device_, set_layout_, sampler_, atlas_.view()));
+    pool_ = std::move(made.pool);
+    set_ = made.set;
     return {};
 }
 
@@ -144,23 +139,21 @@ Result<void> PanelPainter::create_pipeline() {
     spec.depth_test = spec.depth_write = false;
     spec.blend = true;
     spec.name = "panel pipeline";
-    auto pipeline = gpu::create_graphics_pipeline(device_, spec);
-    if (!pipeline) return std::unexpected(pipeline.error());
-    pipeline_ = std::move(*pipeline);
+    BURIN_TRY(pipeline, gpu::create_graphics_pipeline(device_, spec));
+    pipeline_ = std::move(pipeline);
     return {};
 }
 
 Result<void> PanelPainter::resize(ImageSize size) {
     BURIN_CHECK(size.width > 0 && size.height > 0);
     if (image_.view() != VK_NULL_HANDLE && size.width == size_.width && size.height == size_.height) return {};
-    auto image = gpu::Image::create(device_, {.width = size.width,
-                                              .height = size.height,
-                                              .format = kFormat,
-                                              .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                                                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                              .name = kPanelPainter});
-    if (!image) return std::unexpected(image.error());
-    const VkImageView view = image->view();
+    BURIN_TRY(image, gpu::Image::create(device_, {.width = size.width,
+                                                  .height = size.height,
+                                                  .format = kFormat,
+                                                  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                           VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                                  .name = kPanelPainter}));
+    const VkImageView view = image.view();
     auto info = structure<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
     info.renderPass = pass_.raw();
     info.attachmentCount = 1;
@@ -174,7 +167,7 @@ Result<void> PanelPainter::resize(ImageSize size) {
         return gpu::vulkan_failure(kPanelPainter, "no framebuffer", r);
     }
     framebuffer_ = gpu::FramebufferHandle(core, framebuffer);
-    image_ = std::move(*image);
+    image_ = std::move(image);
     size_ = size;
     forget();
     return {};
@@ -194,7 +187,7 @@ Result<bool> PanelPainter::record(gpu::Commands& commands, const PanelMesh& mesh
     const bool whole = is_whole(mesh);
     BURIN_CHECK(whole);
     if (!whole) return false;
-    if (const auto done = bring(commands, mesh); !done) return std::unexpected(done.error());
+    BURIN_TRY_DO(bring(commands, mesh));
     paint(commands, mesh);
     last_ = mesh;
     painted_before_ = true;

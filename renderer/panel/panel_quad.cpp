@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "base/try.hpp"
 #include "gpu/pipelines.hpp"
 #include "shaders/panel_quad.frag.spv.hpp"
 #include "shaders/panel_quad.vert.spv.hpp"
@@ -25,16 +26,13 @@ Mat4 world_from_local(const picture::PanelStand& stand) {
 
 Result<PanelQuad> PanelQuad::create(gpu::Device& device, const PanelQuadTarget& target) {
     PanelQuad quad(device);
-    auto sampler = create_linear_sampler(device);
-    if (!sampler) return std::unexpected(sampler.error());
-    quad.sampler_ = std::move(*sampler);
-    auto set_layout = create_picture_set_layout(device);
-    if (!set_layout) return std::unexpected(set_layout.error());
-    quad.set_layout_ = std::move(*set_layout);
+    BURIN_TRY(sampler, create_linear_sampler(device));
+    quad.sampler_ = std::move(sampler);
+    BURIN_TRY(set_layout, create_picture_set_layout(device));
+    quad.set_layout_ = std::move(set_layout);
     const std::array set_layouts{target.frame, quad.set_layout_.raw()};
-    auto layout = create_push_layout(device, set_layouts, kPushStages, sizeof(shared::DrawConstants));
-    if (!layout) return std::unexpected(layout.error());
-    quad.layout_ = std::move(*layout);
+    BURIN_TRY(layout, create_push_layout(device, set_layouts, kPushStages, sizeof(shared::DrawConstants)));
+    quad.layout_ = std::move(layout);
     const std::array<std::uint32_t, 2> constants{target.encodes ? 1u : 0u, target.fades ? 1u : 0u};
     quad.vertices_ = target.fades ? 6 * shared::kFadedPanelCells * shared::kFadedPanelCells : 6;
     gpu::GraphicsPipelineSpec spec;
@@ -46,16 +44,14 @@ Result<PanelQuad> PanelQuad::create(gpu::Device& device, const PanelQuadTarget& 
     spec.constants = constants;
     spec.blend = true;
     spec.name = "standing panel pipeline";
-    auto pipeline = gpu::create_graphics_pipeline(device, spec);
-    if (!pipeline) return std::unexpected(pipeline.error());
-    quad.pipeline_ = std::move(*pipeline);
+    BURIN_TRY(pipeline, gpu::create_graphics_pipeline(device, spec));
+    quad.pipeline_ = std::move(pipeline);
     return quad;
 }
 
 Result<void> PanelQuad::show(VkImageView panel) {
-    auto made = create_picture_set(device_, set_layout_, sampler_, panel);
-    if (!made) return std::unexpected(made.error());
-    picture_ = std::move(*made);
+    BURIN_TRY(made, create_picture_set(device_, set_layout_, sampler_, panel));
+    picture_ = std::move(made);
     return {};
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/try.hpp"
 #include "gpu/commands.hpp"
 
 namespace burin::renderer {
@@ -35,22 +36,19 @@ Result<gpu::Image> upload_cover(gpu::Device& device, const PanelAtlas& atlas) {
                                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                                              .name = "panel letters"});
     if (!image) return image;
-    auto staging = gpu::Buffer::create(device, gpu::BufferUse::upload, atlas.cover.size(), "panel letters");
-    if (!staging) return std::unexpected(staging.error());
-    std::ranges::copy(std::as_bytes(std::span(atlas.cover)), staging->mapped().begin());
-    auto commands = gpu::Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    move_layout(device, *commands, image->raw(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    BURIN_TRY(staging, gpu::Buffer::create(device, gpu::BufferUse::upload, atlas.cover.size(), "panel letters"));
+    std::ranges::copy(std::as_bytes(std::span(atlas.cover)), staging.mapped().begin());
+    BURIN_TRY(commands, gpu::Commands::begin(device));
+    move_layout(device, commands, image->raw(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkBufferImageCopy copy{};
     copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     copy.imageExtent = {atlas.size.width, atlas.size.height, 1};
-    device.core()->vk.vkCmdCopyBufferToImage(commands->raw(), staging->raw(), image->raw(),
+    device.core()->vk.vkCmdCopyBufferToImage(commands.raw(), staging.raw(), image->raw(),
                                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    move_layout(device, *commands, image->raw(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+    move_layout(device, commands, image->raw(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    BURIN_TRY(submission, std::move(commands).submit());
+    BURIN_TRY_DO(submission.wait());
     return image;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/try.hpp"
 #include "renderer/surface/drawn_patches.hpp"
 #include "renderer/surface/patch_change.hpp"
 
@@ -33,15 +34,14 @@ constexpr std::uint32_t kFirstVertices = 1 << 16, kFirstIndices = 3 << 17;
 // Replaces the buffer by a larger one with the same contents.
 Result<void> enlarge(gpu::Device& device, gpu::Commands& commands, gpu::Buffer& buffer, const ElementKind& kind,
                      std::uint64_t capacity) {
-    auto larger = gpu::Buffer::create(device, kind.use, capacity * kind.bytes, "surface");
-    if (!larger) return std::unexpected(larger.error());
+    BURIN_TRY(larger, gpu::Buffer::create(device, kind.use, capacity * kind.bytes, "surface"));
     if (buffer.size_bytes() > 0) {
         commands.barrier();
-        commands.copy(buffer, 0, *larger, 0, buffer.size_bytes());
+        commands.copy(buffer, 0, larger, 0, buffer.size_bytes());
         commands.barrier();
         commands.keep_alive(std::move(buffer));
     }
-    buffer = std::move(*larger);
+    buffer = std::move(larger);
     return {};
 }
 
@@ -207,14 +207,14 @@ Result<void> PatchStore::make_room(gpu::Device& device, gpu::Commands& commands)
     if (vertices > vertex_ranges_.free_elements()) {
         const std::uint64_t capacity = grown_capacity(device, vertex_ranges_, kFirstVertices,
                                                       vertices - vertex_ranges_.free_elements(), kVertexKind);
-        if (const auto done = enlarge(device, commands, vertices_, kVertexKind, capacity); !done) return done;
-        if (const auto done = enlarge(device, commands, lights_, kLightKind, capacity); !done) return done;
+        BURIN_TRY_DO(enlarge(device, commands, vertices_, kVertexKind, capacity));
+        BURIN_TRY_DO(enlarge(device, commands, lights_, kLightKind, capacity));
         vertex_ranges_.grow(static_cast<std::uint32_t>(capacity));
     }
     if (indices > index_ranges_.free_elements()) {
         const std::uint64_t capacity =
             grown_capacity(device, index_ranges_, kFirstIndices, indices - index_ranges_.free_elements(), kIndexKind);
-        if (const auto done = enlarge(device, commands, indices_, kIndexKind, capacity); !done) return done;
+        BURIN_TRY_DO(enlarge(device, commands, indices_, kIndexKind, capacity));
         index_ranges_.grow(static_cast<std::uint32_t>(capacity));
     }
     return {};
@@ -232,8 +232,8 @@ Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std
     if (!first) {  // the free ranges are too fragmented
         const std::uint64_t capacity =
             grown_capacity(device, vertex_ranges_, kFirstVertices, patch.vertex_count, kVertexKind);
-        if (const auto done = enlarge(device, commands, vertices_, kVertexKind, capacity); !done) return done;
-        if (const auto done = enlarge(device, commands, lights_, kLightKind, capacity); !done) return done;
+        BURIN_TRY_DO(enlarge(device, commands, vertices_, kVertexKind, capacity));
+        BURIN_TRY_DO(enlarge(device, commands, lights_, kLightKind, capacity));
         vertex_ranges_.grow(static_cast<std::uint32_t>(capacity));
         first = vertex_ranges_.allocate(patch.vertex_count).value();
     }
@@ -268,17 +268,15 @@ Result<std::optional<std::uint32_t>> PatchStore::room_for(gpu::Device& device, g
     if (const auto first = index_ranges_.allocate(indices)) return first;
     const std::uint64_t capacity = grown_capacity(device, index_ranges_, kFirstIndices, indices, kIndexKind);
     if (!needed && capacity * kIndexKind.bytes > device.capabilities().max_storage_buffer_bytes) return std::nullopt;
-    if (const auto done = enlarge(device, commands, indices_, kIndexKind, capacity); !done)
-        return std::unexpected(done.error());
+    BURIN_TRY_DO(enlarge(device, commands, indices_, kIndexKind, capacity));
     index_ranges_.grow(static_cast<std::uint32_t>(capacity));
     return index_ranges_.allocate(indices);
 }
 
 Result<void> PatchStore::place_finest(gpu::Device& device, gpu::Commands& commands, Patch& patch) {
     const std::uint32_t count = round_up(patch.surface->indices.size(), kIndexStep);
-    const auto first = room_for(device, commands, count, true);
-    if (!first) return std::unexpected(first.error());
-    patch.levels.push_back({.first_index = **first, .index_count = count});
+    BURIN_TRY(first, room_for(device, commands, count, true));
+    patch.levels.push_back({.first_index = *first, .index_count = count});
     upload_finest(commands, patch);
     return {};
 }
@@ -302,12 +300,11 @@ void PatchStore::upload_indices(gpu::Commands& commands, std::uint32_t first, st
 Result<void> PatchStore::place_ready(gpu::Device& device, gpu::Commands& commands, Patch& patch) {
     for (PatchLevel& level : std::exchange(patch.ready, {})) {
         const auto count = static_cast<std::uint32_t>(level.indices.size());
-        const auto first = room_for(device, commands, count, false);
-        if (!first) return std::unexpected(first.error());
-        if (!*first) return {};
-        patch.levels.push_back({**first, count, static_cast<std::uint32_t>(level.smooth), level.error_m});
+        BURIN_TRY(first, room_for(device, commands, count, false));
+        if (!first) return {};
+        patch.levels.push_back({*first, count, static_cast<std::uint32_t>(level.smooth), level.error_m});
         for (std::uint32_t& index : level.indices) index += patch.first_vertex;
-        upload_indices(commands, **first, level.indices);
+        upload_indices(commands, *first, level.indices);
     }
     return {};
 }
@@ -315,8 +312,7 @@ Result<void> PatchStore::place_ready(gpu::Device& device, gpu::Commands& command
 Result<void> PatchStore::place_ready_levels(gpu::Device& device, gpu::Commands& commands) {
     if (!levels_ready_) return {};
     levels_ready_ = false;
-    for (auto& [id, patch] : placed_)
-        if (const auto done = place_ready(device, commands, patch); !done) return done;
+    for (auto& [id, patch] : placed_) BURIN_TRY_DO(place_ready(device, commands, patch));
     return place_ready_groups(device, commands);
 }
 
@@ -397,11 +393,10 @@ Result<void> PatchStore::place_ready_groups(gpu::Device& device, gpu::Commands& 
     for (auto& [place, group] : groups_.all()) {
         for (const PatchLevel& level : std::exchange(group.ready, {})) {
             const auto count = static_cast<std::uint32_t>(level.indices.size());
-            const auto first = room_for(device, commands, count, false);
-            if (!first) return std::unexpected(first.error());
-            if (!*first) break;
-            group.levels.push_back({**first, count, level.error_m});
-            upload_indices(commands, **first, level.indices);
+            BURIN_TRY(first, room_for(device, commands, count, false));
+            if (!first) break;
+            group.levels.push_back({*first, count, level.error_m});
+            upload_indices(commands, *first, level.indices);
         }
     }
     return {};

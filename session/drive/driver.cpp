@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/drive/driver.hpp"
 
+#include "base/try.hpp"
 #include "haptics/channels.hpp"
 
 #include <utility>
@@ -42,7 +43,7 @@ Result<void> SteppedExecutor::advance_to(Nanoseconds until_ns) {
         clock_.sleep_until(clock_.now_ns() + loop_.period_ns());
         tick();
         if (clock_.now_ns() < next_update_ns_) continue;
-        if (const auto updated = service_.update(clock_.now_ns()); !updated) return updated;
+        BURIN_TRY_DO(service_.update(clock_.now_ns()));
         collect();
         next_update_ns_ += scene::SceneService::kHandsMove_ns;
     }

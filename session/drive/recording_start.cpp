@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/try.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/state/session_settings.hpp"
 
@@ -45,9 +46,8 @@ Result<InputLogWriter> create_recording(const SculptOptions& options, const Sess
     of.facts.emplace_back(kDeviceFact, settled.live.device);
     of.objects = touchable_in(session);
     of.also = std::move(also);
-    Result<std::shared_ptr<SessionRecording>> recording = SessionRecording::create(options.live.record, std::move(of));
-    if (!recording) return std::unexpected(recording.error());
-    return InputLogWriter::into(std::move(*recording));
+    BURIN_TRY(recording, SessionRecording::create(options.live.record, std::move(of)));
+    return InputLogWriter::into(std::move(recording));
 }
 
 }  // namespace burin::session

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "base/try.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/stream/stream_text.hpp"
 
@@ -40,28 +41,23 @@ Result<void> check_streams(const LiveOptions& live) {
     if (live.lsl_markers && live.record.empty())
         return fail("--lsl-markers", "hears markers for the events of a recording, and there is none",
                     "give --record FILE.session as well");
-    if (live.lsl_markers)
-        if (const auto predicate = marker_predicate(*live.lsl_markers); !predicate)
-            return std::unexpected(predicate.error());
+    if (live.lsl_markers) BURIN_TRY_DO(marker_predicate(*live.lsl_markers));
     const auto api = devices::load_lsl_api();
     return api ? Result<void>{} : std::unexpected(api.error());
 }
 
 Result<std::unique_ptr<SessionStreams>> SessionStreams::open(const LiveOptions& live, Session& session, Clock& clock) {
     if (!wants_streams(live)) return std::unique_ptr<SessionStreams>();
-    const auto api = devices::load_lsl_api();
-    if (!api) return std::unexpected(api.error());
+    BURIN_TRY(api, devices::load_lsl_api());
     StreamPlan plan;
     if (live.lsl) plan.parts = streamed_parts(session.hands());
     if (live.lsl_markers) {
-        auto predicate = marker_predicate(*live.lsl_markers);
-        if (!predicate) return std::unexpected(predicate.error());
-        plan.markers = std::move(*predicate);
+        BURIN_TRY(predicate, marker_predicate(*live.lsl_markers));
+        plan.markers = std::move(predicate);
     }
     plan.source = own_source(clock.now_ns());
-    auto lsl = LslStreams::open(*api, std::move(plan), clock);
-    if (!lsl) return std::unexpected(lsl.error());
-    return std::unique_ptr<SessionStreams>(new SessionStreams(session, std::move(*lsl), live.lsl));
+    BURIN_TRY(lsl, LslStreams::open(api, std::move(plan), clock));
+    return std::unique_ptr<SessionStreams>(new SessionStreams(session, std::move(lsl), live.lsl));
 }
 
 SessionStreams::~SessionStreams() { pump_.reset(); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/drive/thread_replay.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -43,7 +45,7 @@ ThreadReplay::ThreadReplay(Session& session, const ThreadLog& log, std::unique_p
 
 Result<void> ThreadReplay::advance_to(Nanoseconds) {
     keep_parameters();
-    if (const auto run = run_turns(std::ranges::max(frame_->ticks)); !run) return run;
+    BURIN_TRY_DO(run_turns(std::ranges::max(frame_->ticks)));
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         std::deque<haptics::ToolState>& tools = parts_[i].tools;
         while (tools.size() > 1 && tools[1].tick <= frame_->ticks[i]) tools.pop_front();
@@ -59,7 +61,7 @@ std::vector<haptics::ToolState> ThreadReplay::tools() {
 
 Result<Executor::Taken> ThreadReplay::take_updates() {
     keep_parameters();
-    if (const auto run = run_updates(frame_->updates); !run) return std::unexpected(run.error());
+    BURIN_TRY_DO(run_updates(frame_->updates));
     return Taken{{}, frame_->updates};
 }
 
@@ -72,12 +74,11 @@ bool ThreadReplay::is_as_recorded(const StateWords& words) {
 Result<void> ThreadReplay::run_to_end() {
     if (!log_.end_check) return {};
     keep_parameters();
-    if (const auto run = run_updates(log_.updates.count); !run) return run;
+    BURIN_TRY_DO(run_updates(log_.updates.count));
     for (;;) {
-        const Result<bool> there = read_turn();
-        if (!there) return std::unexpected(there.error());
-        if (!*there) return check_ends_together();
-        if (const auto run = run_turn(); !run) return run;
+        BURIN_TRY(there, read_turn());
+        if (!there) return check_ends_together();
+        BURIN_TRY_DO(run_turn());
     }
 }
 
@@ -85,10 +86,9 @@ Result<void> ThreadReplay::run_to_end() {
 
 Result<void> ThreadReplay::run_turns(std::uint64_t last) {
     while (ticks_ < last) {
-        const Result<bool> there = read_turn();
-        if (!there) return std::unexpected(there.error());
-        if (!*there) return ends("tick " + std::to_string(last));
-        if (const auto run = run_turn(); !run) return run;
+        BURIN_TRY(there, read_turn());
+        if (!there) return ends("tick " + std::to_string(last));
+        BURIN_TRY_DO(run_turn());
     }
     return {};
 }
@@ -98,9 +98,8 @@ Result<bool> ThreadReplay::read_turn() {
     bool all = true;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         if (parts_[i].next) continue;
-        Result<std::optional<TickSeen>> tick = ticks_source_->next(i);
-        if (!tick) return std::unexpected(tick.error());
-        parts_[i].next = std::move(*tick);
+        BURIN_TRY(tick, ticks_source_->next(i));
+        parts_[i].next = std::move(tick);
         all = all && parts_[i].next.has_value();
     }
     return all;
@@ -114,7 +113,7 @@ Result<haptics::PartInput> ThreadReplay::input_of(std::size_t i) {
         return contradiction(ticks_source_->place(i), what + "a surface for which its own sample was needed");
     // The first surface existed before the first update.
     if (!updating_ && tick.surface_sequence > 0) {
-        if (const auto run = run_updates(tick.surface_sequence - 1); !run) return std::unexpected(run.error());
+        BURIN_TRY_DO(run_updates(tick.surface_sequence - 1));
     }
     const geometry::LocalSurface* surface = seen(part.surfaces, tick.surface_sequence);
     if (surface == nullptr)
@@ -140,16 +139,15 @@ Result<void> ThreadReplay::run_turn() {
     }
     std::vector<haptics::PartInput> inputs;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        Result<haptics::PartInput> input = input_of(i);
-        if (!input) return std::unexpected(input.error());
-        inputs.push_back(*input);
+        BURIN_TRY(input, input_of(i));
+        inputs.push_back(input);
     }
     loop.repeat(inputs, first.time_ns, lateness_ns);
     ++ticks_;
     ticking_ = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         parts_[i].next.reset();
-        if (const auto judged = judge(i); !judged) return judged;
+        BURIN_TRY_DO(judge(i));
     }
     return {};
 }
@@ -177,7 +175,7 @@ void ThreadReplay::keep_parameters() {
 Result<void> ThreadReplay::run_updates(std::uint64_t last) {
     if (last > log_.updates.count) return ends("update " + std::to_string(last) + " of the scene");
     while (updates_ < last) {
-        if (const auto run = run_update(); !run) return run;
+        BURIN_TRY_DO(run_update());
     }
     return {};
 }
@@ -190,7 +188,7 @@ Result<void> ThreadReplay::run_update() {
     const std::uint64_t last_tick = update.last_ticks.empty() ? 0 : std::ranges::max(update.last_ticks);
     if (ticking_ > 0 && last_tick >= ticking_)
         return contradiction(where, what + "the sample of a tick that saw its surface");
-    if (const auto run = run_turns(last_tick); !run) return run;
+    BURIN_TRY_DO(run_turns(last_tick));
     if (update.orders > orders_.size())
         return contradiction(where, what + std::to_string(update.orders) + " orders of " +
                                         std::to_string(orders_.size()) + " that there were");
@@ -198,7 +196,7 @@ Result<void> ThreadReplay::run_update() {
         orders_.front()();
         orders_.pop_front();
     }
-    if (const auto updated = session_.scene().repeat(update); !updated) return updated;
+    BURIN_TRY_DO(session_.scene().repeat(update));
     ++updates_;
     session_.collect({});
     updating_ = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/try.hpp"
 #include "record/examination.hpp"
 #include "record/touched_columns.hpp"
 #include "session/record/session_recording.hpp"
@@ -28,10 +29,9 @@ std::uint32_t counted(const std::vector<record::Column>& columns, std::string_vi
 Result<TickComparison> TickComparison::create(record::RecordReader& reader, const record::TickRange& range,
                                               AtDifference then) {
     if (reader.hands().empty()) return fail(reader.path(), "holds no hand's ticks", "name a recorded session");
-    if (const auto some = record::check_ticks(reader); !some) return std::unexpected(some.error());
+    BURIN_TRY_DO(record::check_ticks(reader));
     TickComparison comparison(reader, range, then);
-    for (std::size_t table = 0; table < reader.hands().size(); ++table)
-        if (const auto added = comparison.add_part(table); !added) return std::unexpected(added.error());
+    for (std::size_t table = 0; table < reader.hands().size(); ++table) BURIN_TRY_DO(comparison.add_part(table));
     return comparison;
 }
 
@@ -42,9 +42,8 @@ Result<void> TickComparison::add_part(std::size_t table) {
     if (!record::can_be_replayed(columns, shape))
         return fail(reader_->path(), "has other columns than this program's recordings",
                     "replay it with the program that recorded it; its data can be read and converted");
-    Result<record::MotionColumns> motion = record::MotionColumns::find(*reader_, table);
-    if (!motion) return std::unexpected(motion.error());
-    parts_.push_back({shape, std::move(*motion), record::RowWalk(*reader_, table),
+    BURIN_TRY(motion, record::MotionColumns::find(*reader_, table));
+    parts_.push_back({shape, std::move(motion), record::RowWalk(*reader_, table),
                       record::find_column(reader_->table(table), "tick", record::ColumnType::i64)});
     found_.columns += columns.size();
     return {};
@@ -76,11 +75,10 @@ std::optional<TickWitness::Known> TickComparison::known(std::size_t part, std::u
 Result<void> TickComparison::take(std::size_t part, const haptics::TickRecord& again) {
     if (found_.difference) return {};
     Part& own = parts_[part];
-    const Result<bool> is_there = go_to(own, again.tick);
-    if (!is_there) return std::unexpected(is_there.error());
-    if (*is_there) ++repeated_;
+    BURIN_TRY(is_there, go_to(own, again.tick));
+    if (is_there) ++repeated_;
     if (!range_.holds(static_cast<std::int64_t>(again.tick))) return {};
-    if (!*is_there) {
+    if (!is_there) {
         ++unrecorded_;
         return {};
     }
@@ -165,10 +163,9 @@ Result<void> compare_events(record::RecordReader& reader, std::span<const EventM
 }
 
 Result<void> check_unchanged(record::RecordReader& reader) {
-    const Result<record::ChainExamination> chain = reader.examine_chain();
-    if (!chain) return std::unexpected(chain.error());
-    if (!chain->is_there || chain->faults.empty()) return {};
-    return fail(reader.path(), "its ticks are done again equal to the bit, but " + chain->faults.front(),
+    BURIN_TRY(chain, reader.examine_chain());
+    if (!chain.is_there || chain.faults.empty()) return {};
+    return fail(reader.path(), "its ticks are done again equal to the bit, but " + chain.faults.front(),
                 "burin session check names all that was changed since it was recorded");
 }
 

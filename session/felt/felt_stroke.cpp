@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
@@ -150,10 +151,10 @@ public:
         record::WriterOptions options;
         options.facts = wanted.facts;
         options.on_record = [this](std::size_t, const haptics::TickRecord& tick) { keeper_.add(tick); };
-        Result<std::unique_ptr<record::RecordWriter>> made = record::RecordWriter::create(
-            wanted.path, {{device.name, device, wanted.probe, &channels_.records}}, std::move(options));
-        if (!made) return std::unexpected(made.error());
-        recorder_ = std::move(*made);
+        BURIN_TRY(made,
+                  record::RecordWriter::create(wanted.path, {{device.name, device, wanted.probe, &channels_.records}},
+                                               std::move(options)));
+        recorder_ = std::move(made);
         engine_ = wanted.engine;
         return {};
     }
@@ -164,7 +165,7 @@ public:
         return std::min(due_ns_, end_ns_);
     }
     [[nodiscard]] Result<void> make(Executor&) override {
-        if (const auto taken = take(); !taken) return taken;
+        BURIN_TRY_DO(take());
         progress_.show(static_cast<double>(clock_.now_ns() - start_ns_) / static_cast<double>(end_ns_ - start_ns_));
         return {};
     }
@@ -210,7 +211,7 @@ Result<void> feel_in_simulated_time(devices::SimulatedHand hand, haptics::Haptic
     SimulatedClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    if (const auto published = carved.update(clock.now_ns()); !published) return published;
+    BURIN_TRY_DO(carved.update(clock.now_ns()));
     FeltFrames frames(clock, loop, channels, figures, "carving by feel");
     const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::simulated);
     if (!begun) return begun;
@@ -225,7 +226,7 @@ Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChann
     MonotonicClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    if (const auto published = carved.update(clock.now_ns()); !published) return published;
+    BURIN_TRY_DO(carved.update(clock.now_ns()));
     FeltFrames frames(clock, loop, channels, figures, "carving by feel, in real time");
     const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::real);
     if (!begun) return begun;
@@ -257,9 +258,7 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     figures.workspace_device_m = devices::OmniModel{}.workspace_m;
     figures.object_from_device = fit_into_workspace(stroke, figures.workspace_device_m);
     figures.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kHandRests_s;
-    Result<devices::SimulatedHand> hand =
-        pressing_hand(carving, stroke, tool, felt_tool.surface, options.feel, figures.object_from_device);
-    if (!hand) return std::unexpected(hand.error());
+    BURIN_TRY(hand, pressing_hand(carving, stroke, tool, felt_tool.surface, options.feel, figures.object_from_device));
 
     // A recorder may be busy with the disk for seconds.
     haptics::HapticChannels channels(haptics::HapticChannels::kTicks,
@@ -280,8 +279,7 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     carved.start_at(stroke.front().position_object_m);
     const auto feel = options.real_time ? feel_in_real_time : feel_in_simulated_time;
     const FeltRecording recording{options.record, options.facts, felt_tool.probe, &carving.engine()};
-    if (const auto felt = feel(std::move(*hand), channels, carved, recording, figures); !felt)
-        return std::unexpected(felt.error());
+    BURIN_TRY_DO(feel(std::move(hand), channels, carved, recording, figures));
     figures.surfaces_published = carved.published();
     figures.last_tool = channels.tool.newest();
     return figures;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/recordings.hpp"
 
@@ -16,8 +17,7 @@ Error of_hand(const std::string& name, Error error) {
 }
 
 Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock, bool stands_in) {
-    for (const HandToOpen& one : wanted)
-        if (const auto opened = open_one(one, clock, stands_in); !opened) return opened;
+    for (const HandToOpen& one : wanted) BURIN_TRY_DO(open_one(one, clock, stands_in));
     std::vector<haptics::LoopPart> parts;
     const double rate_Hz = device(0).rate_Hz;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -40,12 +40,11 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
     devices::HandTarget rest;
     rest.position_device_m = wanted.rest_device.position_m;
     rest.orientation_device = wanted.rest_device.orientation;
-    Result<devices::SteeredHand> steered = devices::SteeredHand::create(&hand->steering, rest);
-    if (!steered) return std::unexpected(steered.error());
+    BURIN_TRY(steered, devices::SteeredHand::create(&hand->steering, rest));
     hand->told.position_device_m = rest.position_device_m;
     hand->told.orientation_device = rest.orientation_device;
     auto opened =
-        devices::open_haptic_device(wanted.device, {clock, std::move(*steered), stands_in, &session_recordings()});
+        devices::open_haptic_device(wanted.device, {clock, std::move(steered), stands_in, &session_recordings()});
     if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
     hand->device = std::move(*opened);
     hand->given = wanted.device;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "session/held/held_tool.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 
 namespace burin::session {
 
 Result<void> ToolMeshes::read(const sculpt::ToolSpec& tool) {
     if (tool.kind != sculpt::ToolKind::mesh || shape_of(tool)) return {};
-    Result<compute::ToolShape> shape = sculpt::make_shape(tool);
-    if (!shape) return std::unexpected(shape.error());
-    read_.emplace_back(tool, std::move(*shape));
+    BURIN_TRY(shape, sculpt::make_shape(tool));
+    read_.emplace_back(tool, std::move(shape));
     return {};
 }
 
@@ -22,9 +23,8 @@ Result<compute::ToolShape> ToolMeshes::shape_of(const sculpt::ToolSpec& tool) co
 }
 
 Result<std::shared_ptr<const HeldTool>> take_up(const sculpt::ToolSpec& tool, const ToolMeshes& meshes) {
-    Result<compute::ToolShape> shape = meshes.shape_of(tool);
-    if (!shape) return std::unexpected(shape.error());
-    return take_up(tool, std::move(*shape));
+    BURIN_TRY(shape, meshes.shape_of(tool));
+    return take_up(tool, std::move(shape));
 }
 
 std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::ToolShape shape) {

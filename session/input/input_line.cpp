@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "session/input/input_keys.hpp"
 #include "session/input/input_words.hpp"
 
@@ -322,27 +323,23 @@ std::string line_of(const InputEvent& event) {
 Result<std::optional<InputEvent>> parse_line(std::string_view line, const std::string& where) {
     if (line.size() > kMostLineBytes)
         return fail(where, "the line is longer than any event", "split it, or is this an input log?");
-    const Result<std::vector<std::string>> words = words_of(line, where);
-    if (!words) return std::unexpected(words.error());
-    if (words->empty()) return std::nullopt;
-    const auto time_ns = time_of_text(words->front());
+    BURIN_TRY(words, words_of(line, where));
+    if (words.empty()) return std::nullopt;
+    const auto time_ns = time_of_text(words.front());
     if (!time_ns)
         return fail(
-            where, "'" + words->front().substr(0, 40) + "' is no time",
+            where, "'" + words.front().substr(0, 40) + "' is no time",
             "begin the line with seconds since the session's start, up to 1000000 and with at most nine decimals");
-    if (words->size() < 2) return fail(where, "nothing follows the time", "write: TIME_S KIND ARGUMENTS");
-    const Result<const Kind*> kind = kind_named((*words)[1], where);
-    if (!kind) return std::unexpected(kind.error());
-    Result<InputEvent> event = make_event(*time_ns, **kind, std::span(*words).subspan(2), where);
-    if (!event) return std::unexpected(event.error());
-    return std::optional(std::move(*event));
+    if (words.size() < 2) return fail(where, "nothing follows the time", "write: TIME_S KIND ARGUMENTS");
+    BURIN_TRY(kind, kind_named(words[1], where));
+    BURIN_TRY(event, make_event(*time_ns, *kind, std::span(words).subspan(2), where));
+    return std::optional(std::move(event));
 }
 
 Result<std::optional<devices::TrackerInput>> parse_tracker_line(std::string_view line) {
     if (line.empty()) return std::nullopt;
-    Result<std::optional<InputEvent>> event = parse_line("0 " + std::string(line), "tracker");
-    if (!event) return std::unexpected(event.error());
-    if (!*event) return std::nullopt;
+    BURIN_TRY(event, parse_line("0 " + std::string(line), "tracker"));
+    if (!event) return std::nullopt;
     return std::visit(
         [](auto&& input) -> Result<std::optional<devices::TrackerInput>> {
             using Kind = std::remove_cvref_t<decltype(input)>;
@@ -352,7 +349,7 @@ Result<std::optional<devices::TrackerInput>> parse_tracker_line(std::string_view
                 return fail("tracker", "only head, wand, wand-button and wand-stick come from there");
             }
         },
-        std::move((*event)->input));
+        std::move(event->input));
 }
 
 }  // namespace burin::session

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/activity_side.hpp"
 
+#include "base/try.hpp"
+
 #include <algorithm>
 #include <iterator>
 
@@ -36,9 +38,8 @@ private:
 Result<HoldOrder> order_of(const HoldObject& wanted, const WorldObjects* world, const SessionHands& hands) {
     if (world == nullptr)
         return fail("object " + wanted.object, "is none of this session", "open a world: burin world FILE");
-    const Result<scene::ObjectId> id = object_named(*world, wanted.object);
-    if (!id) return std::unexpected(id.error());
-    HoldOrder order{*id, {}, wanted.felt};
+    BURIN_TRY(id, object_named(*world, wanted.object));
+    HoldOrder order{id, {}, wanted.felt};
     for (const PartOfHand& of : wanted.by) {
         const auto number = hands.number_of(of);
         if (!number)

@@ -7,6 +7,7 @@
 #include "base/file_io.hpp"
 #include "base/places.hpp"
 #include "base/sha256.hpp"
+#include "base/try.hpp"
 #include "session/work/journal_folder.hpp"
 
 namespace burin::session {
@@ -95,8 +96,7 @@ Result<void> DocumentSide::keep_journal(const std::string& folder, const SculptO
                                         const OpenedWork& opened, document::Content beginning) {
     const std::string name = !opened.name.empty() ? opened.name : name_from(options);
     if (name_.empty()) name_ = opened.name;
-    Result<std::string> path = new_journal(folder, name);
-    if (!path) return std::unexpected(path.error());
+    BURIN_TRY(path, new_journal(folder, name));
     beginning.facts.insert(origin_.begin(), origin_.end());
     beginning.facts[document::kJournalNameFact] = name;
     if (!opened.recovered.empty()) beginning.facts[document::kUnsavedFact] = "1";
@@ -106,7 +106,7 @@ Result<void> DocumentSide::keep_journal(const std::string& folder, const SculptO
         beginning.facts[document::kBaseSavesFact] = std::to_string(opened.version->saves);
     }
     // A journal that could not be read to its end stays where it is.
-    writer().keep_journal(std::move(*path), std::move(beginning), opened.lost.empty() ? opened.journal : "");
+    writer().keep_journal(std::move(path), std::move(beginning), opened.lost.empty() ? opened.journal : "");
     return {};
 }
 

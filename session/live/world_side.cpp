@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/try.hpp"
 #include "scene/vrml_world.hpp"
 #include "session/work/opened_work.hpp"
 
@@ -11,11 +12,10 @@ namespace burin::session {
 
 Result<scene::World> read_sound_world(const std::string& path, const scene::WorldReading& reading) {
     if (document::is_document_name(path)) {
-        Result<OpenedWork> opened = open_document(path);
-        if (!opened) return std::unexpected(opened.error());
-        if (!opened->lost.empty()) std::fprintf(stderr, "burin: %s\n", opened->lost.c_str());
-        if (!opened->world) return fail(path, "holds no world", "open it as a workpiece: burin sculpt " + path);
-        return std::move(*opened->world);
+        BURIN_TRY(opened, open_document(path));
+        if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());
+        if (!opened.world) return fail(path, "holds no world", "open it as a workpiece: burin sculpt " + path);
+        return std::move(*opened.world);
     }
     scene::WorldOrProblems world = scene::read_any_world(path, reading);
     if (world) {
@@ -33,9 +33,8 @@ Result<std::unique_ptr<WorldSide>> WorldSide::create(scene::World world) {
     objects->name = std::move(world.name);
     for (const scene::SceneObject& object : world.objects)
         objects->objects.push_back(std::make_shared<const scene::SceneObject>(object));
-    Result<std::unique_ptr<scene::MeshPart>> part = scene::MeshPart::create(std::move(world.objects), side->materials_);
-    if (!part) return std::unexpected(part.error());
-    side->part_ = std::move(*part);
+    BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), side->materials_));
+    side->part_ = std::move(part);
     objects->materials = side->materials_;
     side->objects_ = std::move(objects);
     return side;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "scene/world_file.hpp"
 
 namespace burin::session {
@@ -33,31 +34,28 @@ Result<scene::ObjectId> object_named(const WorldObjects& world, const std::strin
 }
 
 Result<EditedWorld> edited(const WorldObjects& world, const EditObject& command) {
-    const Result<scene::ObjectId> id = object_named(world, command.object);
-    if (!id) return std::unexpected(id.error());
-    const scene::SceneObject& object = *world.find(*id);
+    BURIN_TRY(id, object_named(world, command.object));
+    const scene::SceneObject& object = *world.find(id);
     const scene::ObjectEdit edit = scene::edit_of(object, command.property, command.value);
-    Result<scene::SceneObject> changed = scene::edited(object, edit);
-    if (!changed) return std::unexpected(changed.error());
+    BURIN_TRY(changed, scene::edited(object, edit));
     auto next = std::make_shared<WorldObjects>(world);
-    next->objects[*id - 1] = std::make_shared<const scene::SceneObject>(std::move(*changed));
+    next->objects[id - 1] = std::make_shared<const scene::SceneObject>(std::move(changed));
     if (!materials_fit(*next))
         return fail(
             "object " + command.object,
             formatted("would feel like no other, and there is room for %zu materials", scene::kMaxWorldMaterials),
             "let it feel like another object");
-    return EditedWorld{std::move(next), {*id, edit}};
+    return EditedWorld{std::move(next), {id, edit}};
 }
 
 Result<EditedWorld> restored(const WorldObjects& world, std::shared_ptr<const scene::SceneObject> object) {
     const scene::ObjectId id = object->id;
     const scene::ObjectEdit edit = scene::Restore{object};
-    const auto changed = scene::edited(*world.find(id), edit);
-    if (!changed) return std::unexpected(changed.error());
+    BURIN_TRY(changed, scene::edited(*world.find(id), edit));
     const bool was_held = std::holds_alternative<scene::HeldMotion>(object->motion);
     auto next = std::make_shared<WorldObjects>(world);
     next->objects[id - 1] =
-        was_held ? std::make_shared<const scene::SceneObject>(std::move(*changed)) : std::move(object);
+        was_held ? std::make_shared<const scene::SceneObject>(std::move(changed)) : std::move(object);
     if (!materials_fit(*next))
         return fail("object " + next->objects[id - 1]->name, "cannot be made what it was: there are too many materials",
                     "let another object feel like one more");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "devices/haptic/mouse_arm.hpp"
 
 namespace burin::session {
@@ -98,11 +99,10 @@ Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& give
                     "a session has " + std::to_string(kMostHands) + " hands at most");
     std::vector<NamedDevice> hands;
     for (const std::string& text : given) {
-        Result<NamedDevice> named = parse_named_device(text);
-        if (!named) return std::unexpected(named.error());
-        if (std::ranges::find(hands, named->hand, &NamedDevice::hand) != hands.end())
+        BURIN_TRY(named, parse_named_device(text));
+        if (std::ranges::find(hands, named.hand, &NamedDevice::hand) != hands.end())
             return fail("--device " + text, "is a second device of one name", "give each hand a name of its own");
-        hands.push_back(std::move(*named));
+        hands.push_back(std::move(named));
     }
     live.device = hands.front().device;
     live.hands = std::move(hands);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/try.hpp"
 #include "session/input/input_line.hpp"
 #include "session/input/input_words.hpp"
 #include "session/record/session_recording.hpp"
@@ -71,12 +72,10 @@ std::string_view kind_on(std::string_view line) {
 Result<Nanoseconds> read_threads(ThreadLogReader& threads, std::string_view line, std::size_t number,
                                  const std::string& where) {
     if (line.size() > kMostLineBytes) return fail(where, "the line is longer than any", "take it out");
-    const Result<std::vector<std::string>> words = words_of(line, where);
-    if (!words) return std::unexpected(words.error());
-    const auto time_ns = words->size() < 2 ? std::nullopt : time_of_text(words->front());
+    BURIN_TRY(words, words_of(line, where));
+    const auto time_ns = words.size() < 2 ? std::nullopt : time_of_text(words.front());
     if (!time_ns) return fail(where, "it begins with no time", "begin it with seconds since the session's start");
-    if (const auto taken = threads.take({words->begin() + 1, words->end()}, number, where); !taken)
-        return std::unexpected(taken.error());
+    BURIN_TRY_DO(threads.take({words.begin() + 1, words.end()}, number, where));
     return *time_ns;
 }
 
@@ -110,17 +109,15 @@ Result<InputLog> parse_input_log(std::string_view text, const std::string& name)
         ++line_number;
         Nanoseconds time_ns = 0;
         if (header->version > 1 && ThreadLogReader::knows(kind_on(*line))) {
-            const auto taken = read_threads(threads, *line, line_number, where());
-            if (!taken) return std::unexpected(taken.error());
-            time_ns = *taken;
+            BURIN_TRY(taken, read_threads(threads, *line, line_number, where()));
+            time_ns = taken;
         } else {
-            auto event = parse_line(*line, where());
-            if (!event) return std::unexpected(event.error());
-            if (!*event) continue;
-            time_ns = (*event)->time_ns;
-            (*event)->line = line_number;
-            if (std::holds_alternative<FrameStart>((*event)->input)) threads.frame_begins();
-            log.events.push_back(std::move(**event));
+            BURIN_TRY(event, parse_line(*line, where()));
+            if (!event) continue;
+            time_ns = event->time_ns;
+            event->line = line_number;
+            if (std::holds_alternative<FrameStart>(event->input)) threads.frame_begins();
+            log.events.push_back(std::move(*event));
         }
         if (time_ns < last_ns)
             return fail(where(),
@@ -137,9 +134,8 @@ Result<InputLog> parse_input_log(std::string_view text, const std::string& name)
 }
 
 Result<InputLog> read_input_log(const std::filesystem::path& path) {
-    const auto text = read_text_file(path, kMostLogBytes);
-    if (!text) return std::unexpected(text.error());
-    return parse_input_log(*text, path.string());
+    BURIN_TRY(text, read_text_file(path, kMostLogBytes));
+    return parse_input_log(text, path.string());
 }
 
 Result<std::string> input_log_header(const std::string& settings, const std::string& name) {
@@ -151,8 +147,7 @@ Result<std::string> input_log_header(const std::string& settings, const std::str
 
 Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path, const std::string& settings) {
     const std::string name = path.string();
-    Result<std::string> header = input_log_header(settings, name);
-    if (!header) return std::unexpected(header.error());
+    BURIN_TRY(header, input_log_header(settings, name));
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0) {
         const std::string remedy =
@@ -162,7 +157,7 @@ Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path,
     InputLogWriter writer;
     writer.name_ = name;
     writer.file_ = file;
-    if (auto ok = writer.write_line(std::move(*header)); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(writer.write_line(std::move(header)));
     return writer;
 }
 
@@ -198,19 +193,19 @@ Result<void> InputLogWriter::append(const InputEvent& event) {
     if (!is_sensible(event.input) || event.time_ns > kLongestSession_ns)
         return fail(name_, "an event is out of range and is not recorded",
                     "look for a tracker or device that sends nonsense");
-    if (const auto come = come_to(event.time_ns); !come) return come;
+    BURIN_TRY_DO(come_to(event.time_ns));
     return write_line(line_of(event));
 }
 
 Result<void> InputLogWriter::append_threads(Nanoseconds time_ns, const std::string& text) {
     if (broken_) return fail(name_, "an earlier event could not be written", "free space on the disk and record anew");
-    if (const auto come = come_to(time_ns); !come) return come;
+    BURIN_TRY_DO(come_to(time_ns));
     return write_line(text_of_time(time_ns) + " " + text);
 }
 
 Result<void> InputLogWriter::append_frame(Nanoseconds time_ns, const FrameSeen& frame, const StateWords& state) {
     BURIN_CHECK(recording_ != nullptr);
-    if (const auto come = come_to(time_ns); !come) return come;
+    BURIN_TRY_DO(come_to(time_ns));
     return recording_->frame(time_ns, frame, state);
 }
 

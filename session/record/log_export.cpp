@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/try.hpp"
 #include "record/export/new_file.hpp"
 #include "session/record/session_log.hpp"
 #include "session/record/tick_source.hpp"
@@ -27,11 +28,10 @@ public:
             std::string line = time + " ticks " + std::to_string(ticks_ + 1) + " ";
             std::size_t of_line = 0;
             for (; of_line < kMostTicksALine && ticks_ < last; ++of_line, ++ticks_) {
-                Result<std::optional<TickSeen>> tick = source_->next(0);
-                if (!tick) return std::unexpected(tick.error());
-                if (!*tick) source_.reset();
-                if (!*tick) break;
-                text_.write(line, **tick);
+                BURIN_TRY(tick, source_->next(0));
+                if (!tick) source_.reset();
+                if (!tick) break;
+                text_.write(line, *tick);
             }
             if (of_line > 0) lines += line + "\n";
         }
@@ -64,18 +64,16 @@ Result<record::ExportReport> export_session_log(record::RecordReader& reader, co
                     "replay the session file itself; --to csv has its ticks");
     std::unique_ptr<TickSource> source;
     if (log->threads && log->threads->ticks.count == 0) {
-        auto columns = ticks_of_columns(reader);
-        if (!columns) return std::unexpected(columns.error());
-        source = std::move(*columns);
+        BURIN_TRY(columns, ticks_of_columns(reader));
+        source = std::move(columns);
     }
     TickLines ticks(std::move(source), log->threads ? log->threads->clock : ThreadClock{});
-    Result<record::NewFile> file = record::NewFile::create(path);
-    if (!file) return std::unexpected(file.error());
-    Result<void> written = file->write(reader.facts().at(record::kLogHeaderFact) + "\n");
+    BURIN_TRY(file, record::NewFile::create(path));
+    Result<void> written = file.write(reader.facts().at(record::kLogHeaderFact) + "\n");
     record::ExportReport report{.rows = 1, .columns = 0, .damaged = {}};
     const auto put = [&](const std::string& text) {
         report.rows += static_cast<std::uint64_t>(std::ranges::count(text, '\n'));
-        if (written) written = file->write(text);
+        if (written) written = file.write(text);
     };
     const auto read = reader.each_line([&](std::int64_t, const std::string& line) {
         if (const auto seen = written ? seen_by(line) : std::nullopt) {
@@ -87,7 +85,7 @@ Result<record::ExportReport> export_session_log(record::RecordReader& reader, co
     });
     if (!read) return std::unexpected(read.error());
     if (!written) return std::unexpected(written.error());
-    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    BURIN_TRY_DO(file.finish());
     return report;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/file_io.hpp"
 #include "base/places.hpp"
+#include "base/try.hpp"
 #include "document/document_file.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "session/input/input_words.hpp"
@@ -87,13 +88,11 @@ std::unexpected<Error> on_line(Error error, const std::string& log, std::size_t 
 // Returns the state of a session that was started without options: a command that cannot be carried out there cannot
 // be anywhere.
 Result<SessionState> plain_state() {
-    const auto tool = sculpt::parse_tool_settings({});
-    if (!tool) return std::unexpected(tool.error());
-    const auto feel = sculpt::parse_feel_settings({});
-    if (!feel) return std::unexpected(feel.error());
+    BURIN_TRY(tool, sculpt::parse_tool_settings({}));
+    BURIN_TRY(feel, sculpt::parse_feel_settings({}));
     SessionState state;
-    state.led().tool = *tool;
-    state.feel = *feel;
+    state.led().tool = tool;
+    state.feel = feel;
     return state;
 }
 
@@ -113,18 +112,17 @@ bool is_for_a_picture(const CommandInput& input) {
 }
 
 Result<void> check_command(const CommandInput& input, SessionState state, const Activity* activity) {
-    const Result<SessionCommand> command = parse_command(input);
-    if (!command) return std::unexpected(command.error());
-    if (const auto file = file_of(*command)) {
-        if (const auto ok = check_output_name(file->name, file->kind); !ok) return ok;
+    BURIN_TRY(command, parse_command(input));
+    if (const auto file = file_of(command)) {
+        BURIN_TRY_DO(check_output_name(file->name, file->kind));
     }
-    if (std::holds_alternative<EditObject>(*command) || std::holds_alternative<SelectObject>(*command) ||
-        std::holds_alternative<LeadHand>(*command) || std::holds_alternative<CalibrateHandle>(*command))
+    if (std::holds_alternative<EditObject>(command) || std::holds_alternative<SelectObject>(command) ||
+        std::holds_alternative<LeadHand>(command) || std::holds_alternative<CalibrateHandle>(command))
         return {};  // which objects there are is not known yet, nor which device
-    if (const auto* act = std::get_if<DoAct>(&*command)) return check_act(activity, act->words);
-    if (is_of_a_viewer(*command)) return {};
+    if (const auto* act = std::get_if<DoAct>(&command)) return check_act(activity, act->words);
+    if (is_of_a_viewer(command)) return {};
     SessionOrders ignored;
-    return run_command(state, ignored, *command);
+    return run_command(state, ignored, command);
 }
 
 }  // namespace
@@ -168,17 +166,15 @@ std::vector<sculpt::ToolSpec> tools_in(const InputLog& log) {
 }
 
 Result<void> check_commands(const InputLog& log, const std::string& name, const Activity* activity) {
-    Result<SessionState> state = plain_state();
-    if (!state) return std::unexpected(state.error());
+    BURIN_TRY(state, plain_state());
     auto meshes = std::make_shared<ToolMeshes>();
-    state->meshes = meshes;
+    state.meshes = meshes;
     for (const InputEvent& event : log.events) {
         const auto* command = std::get_if<CommandInput>(&event.input);
         if (command == nullptr) continue;
         if (const auto tool = tool_in(*command))
             if (const auto read = meshes->read(*tool); !read) return on_line(read.error(), name, event.line);
-        if (const auto ok = check_command(*command, *state, activity); !ok)
-            return on_line(ok.error(), name, event.line);
+        if (const auto ok = check_command(*command, state, activity); !ok) return on_line(ok.error(), name, event.line);
     }
     return {};
 }
@@ -205,7 +201,7 @@ Result<void> SessionOutputs::make(const Folder& folder) {
         return fail(folder.path.string(), "is a symbolic link, and nobody has named it as the folder of a log's files",
                     "remove the link, or give " + folder.option + " with a folder of your choice");
     }
-    if (const auto ok = check_working_folder(folder.path); !ok) return ok;
+    BURIN_TRY_DO(check_working_folder(folder.path));
     fs::create_directories(folder.path, failed);
     std::error_code ignored;
     if (!fs::is_directory(folder.path, ignored)) {
@@ -261,8 +257,8 @@ Result<fs::path> SessionOutputs::new_place_of(const std::string& name, OutputKin
 Result<fs::path> SessionOutputs::place_in_folder(const std::string& name, OutputKind kind) const {
     const Folder& folder = kind == OutputKind::picture ? pictures_ : meshes_;
     if (rule_ != Rule::in_folder) return folder.path / name;
-    if (const auto ok = check_output_name(name, kind); !ok) return std::unexpected(ok.error());
-    if (const auto made = make(folder); !made) return std::unexpected(made.error());
+    BURIN_TRY_DO(check_output_name(name, kind));
+    BURIN_TRY_DO(make(folder));
     std::error_code failed;
     const fs::path root = fs::canonical(folder.path, failed);
     if (failed) return fail(folder.path.string(), "cannot be found: " + failed.message(), "give another folder");

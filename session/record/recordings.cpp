@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/try.hpp"
 #include "devices/haptic/mouse_arm.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
@@ -64,8 +65,7 @@ Result<std::vector<devices::RecordedSample>> samples_of(record::RecordReader& re
                     "has " + std::to_string(of.rows()) + " ticks, and at most " +
                         std::to_string(devices::Recordings::kMostTicks) + " are played",
                     "record a shorter session");
-    const auto columns = record::MotionColumns::find(reader, table);
-    if (!columns) return std::unexpected(columns.error());
+    BURIN_TRY(columns, record::MotionColumns::find(reader, table));
     std::vector<devices::RecordedSample> samples;
     samples.reserve(of.rows());
     Nanoseconds first_ns = 0;
@@ -73,7 +73,7 @@ Result<std::vector<devices::RecordedSample>> samples_of(record::RecordReader& re
     for (Result<bool> more = walk.next();; more = walk.next()) {
         if (!more) return std::unexpected(more.error());
         if (!*more) break;
-        const record::RecordedTick tick = columns->at(walk.block(), walk.row());
+        const record::RecordedTick tick = columns.at(walk.block(), walk.row());
         const Nanoseconds due_ns = tick.time_ns - tick.lateness_ns;  // the deadline that it was for
         if (samples.empty()) first_ns = due_ns;
         if (!samples.empty() && due_ns - first_ns <= samples.back().due_ns)
@@ -88,28 +88,23 @@ Result<std::vector<devices::RecordedSample>> samples_of(record::RecordReader& re
 class SessionRecordings final : public devices::Recordings {
 public:
     Result<std::string> device_of(const std::string& file, const std::string& hand) const override {
-        const auto reader = record::RecordReader::open(file);
-        if (!reader) return std::unexpected(reader.error());
-        auto chosen = chosen_hand(*reader, hand);
-        if (!chosen) return std::unexpected(chosen.error());
-        return std::move(chosen->device);
+        BURIN_TRY(reader, record::RecordReader::open(file));
+        BURIN_TRY(chosen, chosen_hand(reader, hand));
+        return std::move(chosen.device);
     }
 
     Result<devices::RecordedHand> hand_of(const std::string& file, const std::string& hand) const override {
-        auto reader = record::RecordReader::open(file);
-        if (!reader) return std::unexpected(reader.error());
-        const auto chosen = chosen_hand(*reader, hand);
-        if (!chosen) return std::unexpected(chosen.error());
-        devices::RecordedHand played{chosen->device, {}};
-        for (const std::size_t table : tables_of(*reader, chosen->hand)) {
-            auto samples = samples_of(*reader, table);
-            if (!samples) return std::unexpected(samples.error());
-            const std::string& name = reader->hands()[table].name;
-            const std::size_t blank = chosen->hand.empty() ? std::string::npos : chosen->hand.size();
+        BURIN_TRY(reader, record::RecordReader::open(file));
+        BURIN_TRY(chosen, chosen_hand(reader, hand));
+        devices::RecordedHand played{chosen.device, {}};
+        for (const std::size_t table : tables_of(reader, chosen.hand)) {
+            BURIN_TRY(samples, samples_of(reader, table));
+            const std::string& name = reader.hands()[table].name;
+            const std::size_t blank = chosen.hand.empty() ? std::string::npos : chosen.hand.size();
             std::string own = blank == std::string::npos ? name : name.substr(std::min(name.size(), blank + 1));
-            played.parts.push_back({std::move(own), std::move(*samples)});
+            played.parts.push_back({std::move(own), std::move(samples)});
         }
-        if (played.parts.empty()) return fail(file, "has no ticks of hand " + chosen->hand, kSession);
+        if (played.parts.empty()) return fail(file, "has no ticks of hand " + chosen.hand, kSession);
         if (played.parts.size() == 1) played.parts.front().name.clear();
         return played;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/try.hpp"
 #include "record/export/table_export.hpp"
 #include "record/touched_columns.hpp"
 #include "session/input/input_line.hpp"
@@ -20,8 +21,7 @@ std::vector<record::Word> session_row(const haptics::TickRecord& tick, const rec
 }
 
 Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::string& path, RecordingOf session) {
-    const Result<std::string> header = input_log_header(session.settings, path);
-    if (!header) return std::unexpected(header.error());
+    BURIN_TRY(header, input_log_header(session.settings, path));
     std::shared_ptr<SessionRecording> made(new SessionRecording(path, std::move(session)));
     const RecordingOf& own = made->session_;
     std::vector<record::RecordedHand> hands;
@@ -38,14 +38,13 @@ Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::st
     options.facts = own.facts;
     options.facts.emplace_back(kActivityFact, kLiveActivity);
     options.facts.emplace_back(kEventsFact, "touches, devices, activity");
-    options.facts.emplace_back(record::kLogHeaderFact, *header);
+    options.facts.emplace_back(record::kLogHeaderFact, header);
     options.objects = own.objects;
     options.vfs = own.vfs;
     options.on_record = [r = made.get()](std::size_t part, const haptics::TickRecord& tick) { r->take(part, tick); };
     // The writer's thread calls take() as soon as there are ticks, and there are none before the haptic thread runs.
-    auto writer = record::RecordWriter::create(path, std::move(hands), std::move(options));
-    if (!writer) return std::unexpected(writer.error());
-    made->writer_ = std::move(*writer);
+    BURIN_TRY(writer, record::RecordWriter::create(path, std::move(hands), std::move(options)));
+    made->writer_ = std::move(writer);
     return made;
 }
 
@@ -98,7 +97,7 @@ Result<void> SessionRecording::close() {
         const std::lock_guard lock(mutex_);
         ended = log_ended_;
     }
-    if (const auto closed = writer_->close(); !closed) return closed;
+    BURIN_TRY_DO(writer_->close());
     if (ended) return std::unexpected(*ended);
     return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/record/tick_source.hpp"
 
+#include "base/try.hpp"
+
 #include <utility>
 
 namespace burin::session {
@@ -42,9 +44,8 @@ public:
     [[nodiscard]] Result<std::optional<TickSeen>> next(std::size_t part) override {
         Part& own = parts_[part];
         if (own.over) return std::nullopt;
-        const Result<bool> more = own.walk.next();
-        if (!more) return std::unexpected(more.error());
-        if (!*more) return end(own);
+        BURIN_TRY(more, own.walk.next());
+        if (!more) return end(own);
         const record::RecordedTick tick = own.columns.motion.at(own.walk.block(), own.walk.row());
         const auto flags = static_cast<std::uint32_t>(own.walk.at(own.columns.flags));
         if (tick.tick != own.tick + 1)
@@ -90,14 +91,13 @@ std::unique_ptr<TickSource> ticks_of_lines(const ThreadLog& log, std::string nam
 Result<std::unique_ptr<TickSource>> ticks_of_columns(record::RecordReader& reader) {
     std::vector<TickColumns> columns;
     for (std::size_t part = 0; part < reader.hands().size(); ++part) {
-        Result<record::MotionColumns> motion = record::MotionColumns::find(reader, part);
-        if (!motion) return std::unexpected(motion.error());
+        BURIN_TRY(motion, record::MotionColumns::find(reader, part));
         const record::HandRecord& table = reader.table(part);
         const std::size_t flags = record::find_column(table, "flags", record::ColumnType::u32);
         if (flags == table.columns.size())
             return fail(reader.path(), "has no column flags for " + table.name,
                         "replay a recording that has all columns");
-        columns.push_back({std::move(*motion), flags});
+        columns.push_back({std::move(motion), flags});
     }
     return std::make_unique<TicksOfColumns>(reader, std::move(columns));
 }

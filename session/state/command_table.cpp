@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "document/document_file.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/input_words.hpp"
@@ -45,16 +46,14 @@ template <typename Descriptor>
 Result<Descriptor> choice_of(std::string_view command, std::string_view word, std::span<const Descriptor> table) {
     std::vector<std::string_view> names;
     for (const Descriptor& descriptor : table) names.push_back(descriptor.name);
-    const auto at = choice(command, word, names);
-    if (!at) return std::unexpected(at.error());
-    return table[*at];
+    BURIN_TRY(at, choice(command, word, names));
+    return table[at];
 }
 
 Result<bool> parse_switch(std::string_view command, std::string_view word) {
     constexpr std::array<std::string_view, 4> kWords{"off", "on", "no", "yes"};
-    const auto at = choice(command, word, kWords);
-    if (!at) return std::unexpected(at.error());
-    return *at % 2 == 1;
+    BURIN_TRY(at, choice(command, word, kWords));
+    return at % 2 == 1;
 }
 
 Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) {
@@ -71,21 +70,18 @@ Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) 
 Parsed parse_tool(CommandWords words) {
     const std::string& text = words[0];
     // Looks the kind up first, because this error offers the nearest name.
-    const auto kind = choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds());
-    if (!kind) return std::unexpected(kind.error());
+    BURIN_TRY(kind, choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds()));
     const std::string where = "command tool " + text;
-    auto tool = sculpt::parse_tool_spec(text, where);
-    if (!tool) return std::unexpected(tool.error());
-    if (std::ranges::any_of(tool->sizes_m, [](double size_m) { return size_m > kMostLength_m; })) {
+    BURIN_TRY(tool, sculpt::parse_tool_spec(text, where));
+    if (std::ranges::any_of(tool.sizes_m, [](double size_m) { return size_m > kMostLength_m; })) {
         return fail(where, "is larger than 10 m", "give sizes in metres");
     }
-    return SetTool{std::move(*tool)};
+    return SetTool{std::move(tool)};
 }
 
 Parsed parse_operation(CommandWords words) {
-    const auto operation = choice_of("operation", words[0], sculpt::operations());
-    if (!operation) return std::unexpected(operation.error());
-    return SetOperation{operation->operation};
+    BURIN_TRY(operation, choice_of("operation", words[0], sculpt::operations()));
+    return SetOperation{operation.operation};
 }
 
 Parsed parse_colour(CommandWords words) {
@@ -100,15 +96,13 @@ Parsed parse_colour(CommandWords words) {
 }
 
 Parsed parse_material(CommandWords words) {
-    const auto preset = choice_of("material", words[0], sculpt::feel_presets());
-    if (!preset) return std::unexpected(preset.error());
-    return SetMaterial{preset->preset};
+    BURIN_TRY(preset, choice_of("material", words[0], sculpt::feel_presets()));
+    return SetMaterial{preset.preset};
 }
 
 Parsed parse_technique(CommandWords words) {
-    const auto technique = choice_of("technique", words[0], techniques());
-    if (!technique) return std::unexpected(technique.error());
-    return SetTechnique{technique->technique};
+    BURIN_TRY(technique, choice_of("technique", words[0], techniques()));
+    return SetTechnique{technique.technique};
 }
 
 // Makes the error of another parser name the command; these parsers do not know it.
@@ -119,53 +113,45 @@ Result<T> of_command(Result<T> result, const std::string& command) {
 }
 
 Parsed parse_mode(CommandWords words) {
-    const auto mode = of_command(wall::parse_stereo_mode(words[0]), "stereo-mode " + words[0]);
-    if (!mode) return std::unexpected(mode.error());
-    return SetStereoMode{*mode};
+    BURIN_TRY(mode, of_command(wall::parse_stereo_mode(words[0]), "stereo-mode " + words[0]));
+    return SetStereoMode{mode};
 }
 
 Parsed parse_pattern(CommandWords words) {
-    const auto pattern = of_command(wall::parse_test_pattern(words[0]), "test-pattern " + words[0]);
-    if (!pattern) return std::unexpected(pattern.error());
-    return SetTestPattern{*pattern};
+    BURIN_TRY(pattern, of_command(wall::parse_test_pattern(words[0]), "test-pattern " + words[0]));
+    return SetTestPattern{pattern};
 }
 
 Parsed parse_eye_swap(CommandWords words) {
     if (words.empty()) return RunAction{Action::swap_eyes};
-    const auto on = parse_switch("swap-eyes", words[0]);
-    if (!on) return std::unexpected(on.error());
-    return SetEyeSwap{*on};
+    BURIN_TRY(on, parse_switch("swap-eyes", words[0]));
+    return SetEyeSwap{on};
 }
 
 Parsed parse_edges(CommandWords words) {
-    const auto comfort =
-        of_command(parse_edge_comfort(words[0], "edge-comfort " + words[0]), "edge-comfort " + words[0]);
-    if (!comfort) return std::unexpected(comfort.error());
-    return SetEdgeComfort{*comfort};
+    BURIN_TRY(comfort,
+              of_command(parse_edge_comfort(words[0], "edge-comfort " + words[0]), "edge-comfort " + words[0]));
+    return SetEdgeComfort{comfort};
 }
 
 Parsed parse_force(CommandWords words) {
-    const auto on = parse_switch("force", words[0]);
-    if (!on) return std::unexpected(on.error());
-    return SetForce{*on};
+    BURIN_TRY(on, parse_switch("force", words[0]));
+    return SetForce{on};
 }
 
 Parsed parse_amplifiers(CommandWords words) {
-    const auto on = parse_switch("amplifiers", words[0]);
-    if (!on) return std::unexpected(on.error());
-    return SetAmplifiers{*on};
+    BURIN_TRY(on, parse_switch("amplifiers", words[0]));
+    return SetAmplifiers{on};
 }
 
 Parsed parse_force_shown(CommandWords words) {
-    const auto on = parse_switch("show-force", words[0]);
-    if (!on) return std::unexpected(on.error());
-    return SetForceShown{*on};
+    BURIN_TRY(on, parse_switch("show-force", words[0]));
+    return SetForceShown{on};
 }
 
 Parsed parse_catch_drill(CommandWords words) {
-    const auto on = parse_switch("catch-drill", words[0]);
-    if (!on) return std::unexpected(on.error());
-    return SetCatchDrill{*on};
+    BURIN_TRY(on, parse_switch("catch-drill", words[0]));
+    return SetCatchDrill{on};
 }
 
 Result<std::string> parse_path(std::string_view command, const std::string& path, const char* example) {
@@ -176,9 +162,8 @@ Result<std::string> parse_path(std::string_view command, const std::string& path
 }
 
 Parsed parse_export(CommandWords words) {
-    auto path = parse_path("export", words[0], "part.stl");
-    if (!path) return std::unexpected(path.error());
-    return ExportTo{std::move(*path)};
+    BURIN_TRY(path, parse_path("export", words[0], "part.stl"));
+    return ExportTo{std::move(path)};
 }
 
 Result<void> check_document_name(const std::string& command, const std::string& path) {
@@ -189,21 +174,18 @@ Result<void> check_document_name(const std::string& command, const std::string& 
 
 Parsed parse_save(CommandWords words) {
     if (words.empty()) return SaveTo{};
-    auto path = parse_path("save", words[0], "bust.burin");
-    if (!path) return std::unexpected(path.error());
-    if (const auto named = check_document_name("save", *path); !named) return std::unexpected(named.error());
-    return SaveTo{std::move(*path)};
+    BURIN_TRY(path, parse_path("save", words[0], "bust.burin"));
+    BURIN_TRY_DO(check_document_name("save", path));
+    return SaveTo{std::move(path)};
 }
 
 Parsed parse_save_as(CommandWords words) {
     if (words.empty()) return RunAction{Action::save_as};
-    auto path = parse_path("save-as", words[0], "bust.burin");
-    if (!path) return std::unexpected(path.error());
-    if (const auto named = check_document_name("save-as", *path); !named) return std::unexpected(named.error());
-    if (words.size() == 1) return SaveAs{std::move(*path)};
-    const auto is = choice("save-as " + words[0], words[1], name_states());
-    if (!is) return std::unexpected(is.error());
-    return SaveAs{std::move(*path), static_cast<NameIs>(*is)};
+    BURIN_TRY(path, parse_path("save-as", words[0], "bust.burin"));
+    BURIN_TRY_DO(check_document_name("save-as", path));
+    if (words.size() == 1) return SaveAs{std::move(path)};
+    BURIN_TRY(is, choice("save-as " + words[0], words[1], name_states()));
+    return SaveAs{std::move(path), static_cast<NameIs>(is)};
 }
 
 Result<std::size_t> parse_count(std::string_view word, const std::string& where) {
@@ -214,12 +196,10 @@ Result<std::size_t> parse_count(std::string_view word, const std::string& where)
 }
 
 Parsed parse_document(CommandWords words) {
-    const auto is = choice("document", words[0], document_states());
-    if (!is) return std::unexpected(is.error());
-    DocumentTold told{.is = static_cast<DocumentIs>(*is), .name = words[1]};
-    const auto place = choice("document", words[2], std::array<std::string_view, 2>{"new", "file"});
-    if (!place) return std::unexpected(place.error());
-    told.has_file = *place == 1;
+    BURIN_TRY(is, choice("document", words[0], document_states()));
+    DocumentTold told{.is = static_cast<DocumentIs>(is), .name = words[1]};
+    BURIN_TRY(place, choice("document", words[2], std::array<std::string_view, 2>{"new", "file"}));
+    told.has_file = place == 1;
     const std::string& kept = words[3];
     const std::size_t slash = kept.find('/');
     told.keeps = kept != "none";
@@ -245,18 +225,16 @@ Parsed parse_quit(CommandWords words) {
 }
 
 Parsed parse_screenshot(CommandWords words) {
-    auto path = parse_path("screenshot", words[0], "wall.png");
-    if (!path) return std::unexpected(path.error());
-    return ScreenshotTo{std::move(*path)};
+    BURIN_TRY(path, parse_path("screenshot", words[0], "wall.png"));
+    return ScreenshotTo{std::move(path)};
 }
 
 Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& property, const std::string& word,
                                          const std::string& where) {
     scene::PropertyValue value{};
     if (property.numbers == 0) {
-        const auto on = of_command(parse_switch("object", word), where.substr(8));
-        if (!on) return std::unexpected(on.error());
-        value[0] = *on ? 1.0 : 0.0;
+        BURIN_TRY(on, of_command(parse_switch("object", word), where.substr(8)));
+        value[0] = on ? 1.0 : 0.0;
         return value;
     }
     constexpr const char* kOpacityRemedy = "write a number from 0, clear as glass, to 1, which hides what is behind";
@@ -278,12 +256,10 @@ Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& proper
 }
 
 Parsed parse_object(CommandWords words) {
-    const auto property = choice_of("object " + words[0], words[1], scene::object_properties());
-    if (!property) return std::unexpected(property.error());
+    BURIN_TRY(property, choice_of("object " + words[0], words[1], scene::object_properties()));
     const std::string where = "command object " + words[0] + " " + words[1] + " " + words[2];
-    const auto value = parse_value(*property, words[2], where);
-    if (!value) return std::unexpected(value.error());
-    return EditObject{words[0], property->property, *value};
+    BURIN_TRY(value, parse_value(property, words[2], where));
+    return EditObject{words[0], property.property, value};
 }
 
 Parsed parse_act(CommandWords words) { return DoAct{{words.begin(), words.end()}}; }
@@ -299,15 +275,13 @@ Parsed parse_calibrate(CommandWords words) {
 }
 
 Parsed parse_mouse(CommandWords words) {
-    const auto at = choice("mouse", words[0], mouse_mode_names());
-    if (!at) return std::unexpected(at.error());
-    return SetMouse{static_cast<MouseMode>(*at)};
+    BURIN_TRY(at, choice("mouse", words[0], mouse_mode_names()));
+    return SetMouse{static_cast<MouseMode>(at)};
 }
 
 Parsed parse_mirror(CommandWords words) {
-    const auto mirror = sculpt::parse_mirror(words[0], "command mirror " + words[0]);
-    if (!mirror) return std::unexpected(mirror.error());
-    return SetMirror{*mirror};
+    BURIN_TRY(mirror, sculpt::parse_mirror(words[0], "command mirror " + words[0]));
+    return SetMirror{mirror};
 }
 
 template <Quantity quantity>
@@ -440,10 +414,9 @@ Result<SessionCommand> parse_command(const CommandInput& input) {
 }
 
 Result<SessionCommand> parse_command_line(std::string_view line) {
-    auto words = words_of(line, "command");
-    if (!words) return std::unexpected(words.error());
-    if (words->empty()) return fail("command", "the line is empty", "write a command; F1 lists them");
-    CommandInput input{words->front(), {words->begin() + 1, words->end()}};
+    BURIN_TRY(words, words_of(line, "command"));
+    if (words.empty()) return fail("command", "the line is empty", "write a command; F1 lists them");
+    CommandInput input{words.front(), {words.begin() + 1, words.end()}};
     return parse_command(input);
 }
 

@@ -6,6 +6,8 @@
 
 #include "session/state/session_state.hpp"
 
+#include "base/try.hpp"
+
 namespace burin::session {
 namespace {
 
@@ -50,7 +52,7 @@ public:
         return {};
     }
     Result<void> operator()(const SetMirror& set) {
-        if (const auto given = order(sculpt::MirrorStrokes{set.mirror}); !given) return given;
+        BURIN_TRY_DO(order(sculpt::MirrorStrokes{set.mirror}));
         state_.mirror = set.mirror;
         return {};
     }
@@ -67,7 +69,7 @@ public:
         return {};
     }
     Result<void> operator()(const QuitSave&) {
-        if (const auto may = may_save(); !may) return may;
+        BURIN_TRY_DO(may_save());
         save_and_quit(state_, orders_);
         return {};
     }
@@ -76,7 +78,7 @@ public:
         return {};
     }
     Result<void> operator()(const SaveTo& wanted) {
-        if (const auto may = may_save(); !may) return may;
+        BURIN_TRY_DO(may_save());
         if (wanted.path.empty())
             save_or_name(state_, orders_);
         else
@@ -84,7 +86,7 @@ public:
         return {};
     }
     Result<void> operator()(const SaveAs& wanted) {
-        if (const auto may = may_save(); !may) return may;
+        BURIN_TRY_DO(may_save());
         save_as(state_, orders_, wanted.path, wanted.is);
         return {};
     }
@@ -102,13 +104,12 @@ public:
     }
     Result<void> operator()(const EditObject& wanted) {
         const WorldObjects none;
-        Result<EditedWorld> edited = session::edited(state_.world ? *state_.world : none, wanted);
-        if (!edited) return std::unexpected(edited.error());
-        const scene::ObjectId id = edited->order.object;
+        BURIN_TRY(edited, session::edited(state_.world ? *state_.world : none, wanted));
+        const scene::ObjectId id = edited.order.object;
         const auto before = state_.world->objects[id - 1];
-        state_.world = std::move(edited->world);
+        state_.world = std::move(edited.world);
         if (state_.saves) state_.edits.note(before, state_.world->objects[id - 1], wanted.property, state_.strokes);
-        orders_.world.push_back(std::move(edited->order));
+        orders_.world.push_back(std::move(edited.order));
         return {};
     }
     Result<void> operator()(const DoAct& wanted) {
@@ -130,10 +131,9 @@ private:
     Result<void> change_tool(const std::function<void(SessionState&)>& change) {
         SessionState changed = state_;
         change(changed);
-        Result<sculpt::UseTool> use = tool_of(changed);
-        if (!use) return std::unexpected(use.error());
+        BURIN_TRY(use, tool_of(changed));
         state_ = std::move(changed);
-        orders_.carving.emplace_back(std::move(*use));
+        orders_.carving.emplace_back(std::move(use));
         return update_touch();
     }
     Result<void> use(compute::Operation operation, bool only_touch = false) {
@@ -161,7 +161,7 @@ private:
         const WorldStep* edit = state_.edits.back();
         if (state_.carves && (edit == nullptr || state_.strokes > edit->strokes)) return order(sculpt::UndoStroke{});
         if (edit == nullptr) return fail("undo", "there is nothing to take back", "");
-        if (const auto done = restore(edit->before); !done) return done;
+        BURIN_TRY_DO(restore(edit->before));
         state_.edits.went_back();
         return {};
     }
@@ -169,15 +169,14 @@ private:
         const WorldStep* edit = state_.edits.forward();
         if (state_.carves && (edit == nullptr || state_.strokes < edit->strokes)) return order(sculpt::RedoStroke{});
         if (edit == nullptr) return fail("redo", "there is nothing to repeat", "");
-        if (const auto done = restore(edit->after); !done) return done;
+        BURIN_TRY_DO(restore(edit->after));
         state_.edits.went_forward();
         return {};
     }
     Result<void> restore(std::shared_ptr<const scene::SceneObject> object) {
-        Result<EditedWorld> changed = restored(*state_.world, std::move(object));
-        if (!changed) return std::unexpected(changed.error());
-        state_.world = std::move(changed->world);
-        orders_.world.push_back(std::move(changed->order));
+        BURIN_TRY(changed, restored(*state_.world, std::move(object)));
+        state_.world = std::move(changed.world);
+        orders_.world.push_back(std::move(changed.order));
         return {};
     }
     Result<void> export_to(const std::string& path) {
@@ -195,12 +194,10 @@ haptics::WorkspaceTechnique next_technique(haptics::WorkspaceTechnique technique
 Result<void> Runner::operator()(const CalibrateHandle& wanted) {
     if (!state_.led().handle)
         return fail("calibrate", "there is no wand", "open the session with --device simulated-wand and --points");
-    Result<HandleCalibrated> done =
-        wanted.reset ? HandleCalibrated{}
-                     : calibrated(state_.led().handle->description, state_.led().handle_reads_device);
-    if (!done) return std::unexpected(done.error());
-    state_.led().device_from_read = done->device_from_read;
-    if (!done->message.empty()) orders_.messages.push_back({done->message, 0});
+    BURIN_TRY(done, wanted.reset ? HandleCalibrated{}
+                                 : calibrated(state_.led().handle->description, state_.led().handle_reads_device));
+    state_.led().device_from_read = done.device_from_read;
+    if (!done.message.empty()) orders_.messages.push_back({done.message, 0});
     return update_touch();
 }
 
@@ -233,7 +230,7 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::export_mesh: return export_to(state_.export_path);
         case Action::save_session: return (*this)(SaveTo{});
         case Action::save_as:
-            if (const auto may = may_save(); !may) return may;
+            BURIN_TRY_DO(may_save());
             if (!state_.asked.told) return fail("save-as", "has nobody to ask for a name", "write save-as FILE.burin");
             open_or_close_naming(state_);
             return {};
@@ -250,9 +247,8 @@ Result<void> Runner::operator()(const RunAction& run) {
 }  // namespace
 
 Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command) {
-    const Result<SessionCommand> parsed = parse_command(command);
-    if (!parsed) return std::unexpected(parsed.error());
-    return run_command(state, orders, *parsed);
+    BURIN_TRY(parsed, parse_command(command));
+    return run_command(state, orders, parsed);
 }
 
 Result<void> run_command(SessionState& state, SessionOrders& orders, const SessionCommand& command) {

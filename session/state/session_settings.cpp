@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/try.hpp"
 #include "session/activity/activity.hpp"
 #include "session/input/input_words.hpp"
 #include "session/options/option_bounds.hpp"
@@ -191,11 +192,10 @@ OptionWords words_behind(const SculptOptions& options) {
 }
 
 Result<OptionWords> words_on(const std::string& line) {
-    Result<std::vector<std::string>> all = words_of(line, "the recording's first line");
-    if (!all) return std::unexpected(all.error());
+    BURIN_TRY(all, words_of(line, "the recording's first line"));
     OptionWords words;
     std::string option;
-    for (const std::string& word : *all) {
+    for (const std::string& word : all) {
         if (word.starts_with("--")) {
             option = word;
             words[option] = "";
@@ -273,10 +273,9 @@ std::string settings_line(const SculptOptions& options) {
 
 Result<std::string> option_on(const std::string& line, const std::string& option) {
     if (!has_options(line)) return "";
-    Result<OptionWords> words = words_on(line);
-    if (!words) return std::unexpected(words.error());
-    const auto found = words->find(option);
-    return found == words->end() ? "" : found->second;
+    BURIN_TRY(words, words_on(line));
+    const auto found = words.find(option);
+    return found == words.end() ? "" : found->second;
 }
 
 Result<std::vector<NamedDevice>> hands_on(const std::string& line) {
@@ -298,26 +297,25 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
         as_before_units(recorded.options);
         return recorded;
     }
-    Result<OptionWords> words = words_on(line);
-    if (!words) return std::unexpected(words.error());
-    if (const auto same = check_activity(*words, given.activity.get()); !same) return std::unexpected(same.error());
+    BURIN_TRY(words, words_on(line));
+    BURIN_TRY_DO(check_activity(words, given.activity.get()));
     const SculptOptions defaults;
     const OptionWords given_words = words_behind(given), left_out = words_behind(defaults);
     std::string wrong;
     visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value, const auto&... bounds) {
-        const std::string now = shown(name, given_words), then = shown(name, *words);
+        const std::string now = shown(name, given_words), then = shown(name, words);
         if (now != then && now != shown(name, left_out))
             recorded.overruled.push_back("it was recorded with " + then + ", which is done again; " + now +
                                          " does not count");
         value = T{};
-        const auto found = words->extract(name);
+        const auto found = words.extract(name);
         if (!found || !wrong.empty()) return;
         if (!read(found.mapped(), value))
             wrong = then + " is no value of that option";
         else if (const std::string wanted = beyond(value, bounds...); !wanted.empty())
             wrong = then + " is not " + wanted;
     });
-    if (!words->empty()) wrong = words->begin()->first + " is no option that a session knows";
+    if (!words.empty()) wrong = words.begin()->first + " is no option that a session knows";
     if (!wrong.empty()) return fail("the recording's first line", wrong, "replay it with the program that recorded it");
     if (recorded.options.live.device.empty()) recorded.options.live.device = devices::kDefaultHapticDevice;
     if (!recorded.options.live.hands.empty()) recorded.options.live.device = recorded.options.live.hands.front().device;

@@ -175,15 +175,14 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
 
 Result<sculpt::UseTool> tool_of(const SessionState& state) {
     const sculpt::ToolSettings& tool = state.led().tool;
-    if (const auto good = sculpt::check_tool(tool); !good) return std::unexpected(good.error());
-    if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(sculpt::check_tool(tool));
+    BURIN_TRY_DO(sculpt::check_feel(state.feel));
     if (state.led().handle && tool.shape.kind != sculpt::ToolKind::ball)
         return fail("tool " + sculpt::text_of(tool.shape), "is no ball, and balls are at the points of a wand",
                     "take a ball, such as ball:0.004");
     const ToolMeshes none;
-    Result<compute::ToolShape> shape = (state.meshes ? *state.meshes : none).shape_of(tool.shape);
-    if (!shape) return std::unexpected(shape.error());
-    sculpt::Tool made = sculpt::make_tool(tool, std::move(*shape));
+    BURIN_TRY(shape, (state.meshes ? *state.meshes : none).shape_of(tool.shape));
+    sculpt::Tool made = sculpt::make_tool(tool, std::move(shape));
     made.fills_at_hand = state.mouse == MouseMode::surface;
     return sculpt::UseTool{std::move(made), sculpt::material_of(tool),
                            material_under_tool(state, state.led()).hardness_Ns_per_m3};

@@ -12,6 +12,7 @@
 
 #include "base/ring.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "session/stream/stream_inlets.hpp"
 #include "session/stream/stream_text.hpp"
 
@@ -197,16 +198,14 @@ Result<std::unique_ptr<LslStreams>> LslStreams::open(const devices::LslApi& api,
         return fail("liblsl " + api.library, "has a clock that is no number",
                     "name another library by BURIN_LIBLSL, or leave out --lsl and --lsl-markers");
     if (!plan.parts.empty()) {
-        Result<StreamOutlets> outlets = StreamOutlets::open(api, plan.parts, work->clock, plan.source);
-        if (!outlets) return std::unexpected(outlets.error());
-        work->outlets.emplace(std::move(*outlets));
+        BURIN_TRY(outlets, StreamOutlets::open(api, plan.parts, work->clock, plan.source));
+        work->outlets.emplace(std::move(outlets));
         for (std::size_t part = 0; part < plan.parts.size(); ++part)
             work->rows.push_back(std::make_unique<Work::Rows>(work->outlets->columns(part), plan.rows));
     }
     if (plan.markers) {
-        Result<StreamInlets> inlets = StreamInlets::open(api, *plan.markers, plan.source);
-        if (!inlets) return std::unexpected(inlets.error());
-        work->inlets.emplace(std::move(*inlets));
+        BURIN_TRY(inlets, StreamInlets::open(api, *plan.markers, plan.source));
+        work->inlets.emplace(std::move(inlets));
         work->markers = *plan.markers;
     }
     work->tell(formatted("streams: by liblsl %s, whose clock is %.9f s ahead of the session's, to within %.3f us",

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "session/stream/stream_text.hpp"
 
 namespace burin::session {
@@ -53,10 +54,8 @@ StreamOutlets::~StreamOutlets() {
 Result<StreamOutlets> StreamOutlets::open(const devices::LslApi& api, std::span<const StreamedPart> parts,
                                           const StreamClock& clock, const std::string& source) {
     StreamOutlets outlets(api);
-    for (const StreamedPart& part : parts)
-        if (const auto opened = outlets.open_ticks(part, clock, source); !opened)
-            return std::unexpected(opened.error());
-    if (const auto opened = outlets.open_events(clock, source); !opened) return std::unexpected(opened.error());
+    for (const StreamedPart& part : parts) BURIN_TRY_DO(outlets.open_ticks(part, clock, source));
+    BURIN_TRY_DO(outlets.open_events(clock, source));
     return outlets;
 }
 

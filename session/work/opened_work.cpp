@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/try.hpp"
 #include "compute/rays/extent.hpp"
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
@@ -91,11 +92,10 @@ Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened,
     for (std::int64_t number = 1; number <= reader.changes(); ++number) {
         bool is_there = false;
         for (const document::PartPlace& part : reader.parts()) {
-            const Result<scene::Pages> change = reader.change(part, number);
-            if (!change) return std::unexpected(change.error());
-            if (change->pages.empty()) continue;
+            BURIN_TRY(change, reader.change(part, number));
+            if (change.pages.empty()) continue;
             is_there = true;
-            if (const auto done = apply_change(*change, opened, reader.path(), history); !done) return done;
+            BURIN_TRY_DO(apply_change(change, opened, reader.path(), history));
         }
         if (!is_there) return fail(reader.path(), "change " + std::to_string(number) + " is missing");
         opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
@@ -142,24 +142,20 @@ bool has_part(const document::DocumentReader& reader, std::string_view kind) {
 // Reads the solid and what led to it.
 Result<void> read_solid(document::DocumentReader& reader, std::size_t undo_bytes, OpenedWork& opened,
                         std::string& lost) {
-    const Result<scene::Pages> pages = reader.pages_of(sculpt::kSolidPart);
-    if (!pages) return std::unexpected(pages.error());
-    Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(*pages, reader.path());
-    if (!loaded) return std::unexpected(loaded.error());
-    opened.workpiece = {.solid = std::move(loaded->solid), .report = {}};
-    lost = loaded->lost;
+    BURIN_TRY(pages, reader.pages_of(sculpt::kSolidPart));
+    BURIN_TRY(loaded, sculpt::load_solid(pages, reader.path()));
+    opened.workpiece = {.solid = std::move(loaded.solid), .report = {}};
+    lost = loaded.lost;
     if (undo_bytes > 0) take_history(reader, opened, undo_bytes, lost);
     return {};
 }
 
 Result<void> read_objects(document::DocumentReader& reader, OpenedWork& opened, std::string& lost) {
-    const Result<scene::Pages> pages = reader.pages_of(scene::kObjectsPart);
-    if (!pages) return std::unexpected(pages.error());
-    Result<scene::LoadedObjects> loaded = scene::load_objects(*pages, reader.path());
-    if (!loaded) return std::unexpected(loaded.error());
-    opened.world = {std::filesystem::path(reader.path()).stem().string(), std::move(loaded->objects), {}};
-    opened.colours = std::move(loaded->colours);
-    if (!loaded->lost.empty()) add_to(lost, loaded->lost);
+    BURIN_TRY(pages, reader.pages_of(scene::kObjectsPart));
+    BURIN_TRY(loaded, scene::load_objects(pages, reader.path()));
+    opened.world = {std::filesystem::path(reader.path()).stem().string(), std::move(loaded.objects), {}};
+    opened.colours = std::move(loaded.colours);
+    if (!loaded.lost.empty()) add_to(lost, loaded.lost);
     return {};
 }
 
@@ -250,9 +246,8 @@ std::string document_of(const SculptOptions& options) {
 Result<void> settle_document(SculptOptions& options) {
     const std::string path = document_of(options);
     if (path.empty() || options.scene != nullptr) return {};
-    const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
-    const bool has_solid = has_part(*reader, sculpt::kSolidPart), has_objects = has_part(*reader, scene::kObjectsPart);
+    BURIN_TRY(reader, document::DocumentReader::open(path));
+    const bool has_solid = has_part(reader, sculpt::kSolidPart), has_objects = has_part(reader, scene::kObjectsPart);
     if (!has_solid && !has_objects)
         return fail(path, "holds neither a workpiece nor a world", "open it with the program that has saved it");
     const bool brings_other = (has_objects && !options.world.empty() && options.world != path) ||
@@ -268,38 +263,34 @@ Result<void> settle_document(SculptOptions& options) {
 }
 
 Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes) {
-    Result<document::DocumentReader> reader = document::DocumentReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
+    BURIN_TRY(reader, document::DocumentReader::open(path));
     OpenedWork opened;
     std::string lost;
-    const bool has_objects = has_part(*reader, scene::kObjectsPart);
-    const bool has_solid = has_part(*reader, sculpt::kSolidPart) || !has_objects;
-    if (has_solid)
-        if (const auto read = read_solid(*reader, undo_bytes, opened, lost); !read)
-            return std::unexpected(read.error());
+    const bool has_objects = has_part(reader, scene::kObjectsPart);
+    const bool has_solid = has_part(reader, sculpt::kSolidPart) || !has_objects;
+    if (has_solid) BURIN_TRY_DO(read_solid(reader, undo_bytes, opened, lost));
     const bool leads_back = has_solid && undo_bytes > 0 && lost.empty();
-    if (has_objects)
-        if (const auto read = read_objects(*reader, opened, lost); !read) return std::unexpected(read.error());
+    if (has_objects) BURIN_TRY_DO(read_objects(reader, opened, lost));
     compute::History* const history = leads_back ? &*opened.history : nullptr;
-    if (const auto changed = apply_changes(*reader, opened, history); !changed) add_to(lost, changed.error().what);
+    if (const auto changed = apply_changes(reader, opened, history); !changed) add_to(lost, changed.error().what);
     if (history != nullptr) history->take_step(compute::HistoryStep::stroke);  // the one that was not ended
     if (document::is_log_damaged(path))
         add_to(lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
     if (record::lacks_its_log(path))
         add_to(lost, "its log " + path + "-wal is not beside it: the newest changes may be missing");
-    say_where_it_goes(*reader, opened);
+    say_where_it_goes(reader, opened);
     double size_m = 1.0;
     if (opened.workpiece) {
-        describe_workpiece(*reader, *opened.workpiece, lost);
+        describe_workpiece(reader, *opened.workpiece, lost);
         size_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
     }
-    opened.view = view_in(*reader, size_m, lost);
+    opened.view = view_in(reader, size_m, lost);
     if (!lost.empty()) {
         opened.lost = path + ": " + lost;
         if (opened.workpiece) opened.workpiece->report["lost"] = lost;
     }
     for (const char* fact : {kSource, document::kSourceDigestFact, kSettings})
-        if (reader->facts().contains(fact)) opened.origin[fact] = reader->fact(fact);
+        if (reader.facts().contains(fact)) opened.origin[fact] = reader.fact(fact);
     return opened;
 }
 
@@ -309,22 +300,20 @@ Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool
         if (!opened || opened->workpiece) return opened;
         return fail(options.source, "holds a world and no workpiece", "open it as one: burin world " + options.source);
     }
-    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options, pool);
-    if (!workpiece) return std::unexpected(workpiece.error());
-    return OpenedWork{.workpiece = std::move(*workpiece), .version = {}};
+    BURIN_TRY(workpiece, sculpt::load_workpiece(options, pool));
+    return OpenedWork{.workpiece = std::move(workpiece), .version = {}};
 }
 
 Result<void> take_settings_of_document(SculptOptions& options) {
     const std::string path = document_of(options);
     if (path.empty()) return {};
-    const Result<document::DocumentReader> reader = document::DocumentReader::open(path);
-    if (!reader) return std::unexpected(reader.error());
+    BURIN_TRY(reader, document::DocumentReader::open(path));
     const IntoOptions into{options, !options.tool.shape.empty(),
                            options.feel.hardness != sculpt::FeelOptions{}.hardness};
     // A command that this program does not know is left out: what it set is not there either.
-    for (const std::string& line : reader->commands())
+    for (const std::string& line : reader.commands())
         if (const Result<SessionCommand> command = parse_command_line(line)) std::visit(into, *command);
-    take_feel(*reader, into.keeps_hardness, options.feel);
+    take_feel(reader, into.keeps_hardness, options.feel);
     return {};
 }
 

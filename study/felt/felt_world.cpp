@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/sha256.hpp"
+#include "base/try.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "study/felt/tube_mesh.hpp"
 
@@ -73,8 +74,7 @@ Result<std::unique_ptr<const FeltWorld>> FeltWorld::create(const StudyWorld& wor
     geometry::LocalSurface& surface = made->surface_;
     surface.center_object = surface.origin_object = made->bounds_.center();
     surface.radius_m = reach_m;
-    if (const auto near = made->part_->add_near({0, made->bounds_.center(), reach_m}, surface); !near)
-        return std::unexpected(near.error());
+    BURIN_TRY_DO(made->part_->add_near({0, made->bounds_.center(), reach_m}, surface));
     // The tube comes first, as the objects are numbered.
     static_assert(kTubeMaterial < haptics::kMostMaterials && kFunnelMaterial < haptics::kMostMaterials);
     for (std::size_t i = 0; i < surface.meshes.size(); ++i)

@@ -6,6 +6,7 @@
 
 #include "base/file_io.hpp"
 #include "base/places.hpp"
+#include "base/try.hpp"
 #include "study/assign/allocation.hpp"
 #include "study/folder/study_folder.hpp"
 
@@ -81,7 +82,7 @@ Result<std::vector<std::string>> StudyFolder::withdraw(const std::string& id, bo
     if (!found->erased) {
         Json entry{{"event", "withdrawn"}, {"participant", id}, {"erase", erase}};
         if (erase) entry["places_taken"] = places_taken();
-        if (const auto ok = note(std::move(entry)); !ok) return std::unexpected(ok.error());
+        BURIN_TRY_DO(note(std::move(entry)));
     }
     return erase ? this->erase(id) : Result<std::vector<std::string>>();
 }
@@ -101,17 +102,16 @@ Result<std::vector<std::string>> StudyFolder::erase(const std::string& id) {
         if (error) return failed(derived, error);
         deleted.push_back(derived.lexically_relative(path_).string());
     }
-    if (const auto ok = erase_words(id); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(erase_words(id));
     return deleted;
 }
 
 // The journal is written anew, whole or not at all; its chain and its last digest stay.
 Result<void> StudyFolder::erase_words(const std::string& id) {
-    const auto text = read_text_file(path_ / "journal.jsonl", kMostJournalBytes);
-    if (!text) return std::unexpected(text.error());
-    const std::string kept = without_words(*text, id);
+    BURIN_TRY(text, read_text_file(path_ / "journal.jsonl", kMostJournalBytes));
+    const std::string kept = without_words(text, id);
     const std::span<const char> bytes(kept.data(), kept.size());
-    if (const auto ok = write_file_atomically(path_ / "journal.jsonl", std::as_bytes(bytes)); !ok) return ok;
+    BURIN_TRY_DO(write_file_atomically(path_ / "journal.jsonl", std::as_bytes(bytes)));
     journal_ = parse_journal(kept);
     return {};
 }

@@ -6,6 +6,7 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "record/motion.hpp"
 #include "record/touched_columns.hpp"
 
@@ -59,9 +60,8 @@ Result<std::unique_ptr<StageRecording>> StageRecording::create(const std::filesy
     };
     std::vector<record::RecordedHand> hands;
     hands.push_back(std::move(hand));
-    auto writer = record::RecordWriter::create(file.string(), std::move(hands), std::move(options));
-    if (!writer) return std::unexpected(writer.error());
-    made->writer_ = std::move(*writer);
+    BURIN_TRY(writer, record::RecordWriter::create(file.string(), std::move(hands), std::move(options)));
+    made->writer_ = std::move(writer);
     return made;
 }
 

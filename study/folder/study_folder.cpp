@@ -16,6 +16,7 @@
 #include "base/places.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 #include "study/assign/sealed_list.hpp"
 
 namespace burin::study {
@@ -47,7 +48,7 @@ std::uint64_t drawn_by_the_system() {
 
 // Whoever reads the key reads the list: for its owner alone.
 Result<void> write_key(const fs::path& file, const std::string& key) {
-    if (const auto ok = write_whole(file, key + "\n"); !ok) return ok;
+    BURIN_TRY_DO(write_whole(file, key + "\n"));
     std::error_code ignored;
     fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
     return {};
@@ -82,9 +83,8 @@ bool flag_in(const Json& entry, const char* key) {
 }
 
 Result<std::string> digest_of_file(const fs::path& file) {
-    const auto bytes = read_file(file, kMostRecordingBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    return sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    BURIN_TRY(bytes, read_file(file, kMostRecordingBytes));
+    return sha256({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Participant enrolled_by(const Json& entry) {
@@ -210,7 +210,7 @@ std::vector<StagePlace> places_of(const Protocol& protocol) {
 
 Result<void> create_study(const fs::path& folder, const std::string& protocol_text, const StudyMaking& making) {
     std::error_code error;
-    if (const auto ok = check_working_folder(folder); !ok) return ok;
+    BURIN_TRY_DO(check_working_folder(folder));
     if (fs::exists(fs::symlink_status(folder, error)))
         return fail(folder.string(), "exists already", "name a folder that does not, so that nothing is overwritten");
     if (!making.key.empty() && fs::exists(fs::symlink_status(making.key, error)))
@@ -291,9 +291,8 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
                     "go on with the version that made the study");
     study.facts_ = {text_in(json, "protocol_sha256"), text_in(json, "allocation_sha256"), count_in(json, "seed"),
                     flag_in(json, "seed_given"), count_in(json, "participants")};
-    const auto bytes = read_file(folder / "protocol.toml", kMostProtocolBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    BURIN_TRY(bytes, read_file(folder / "protocol.toml", kMostProtocolBytes));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (sha256(text) != study.facts_.protocol_digest)
         return fail(name + "/protocol.toml", "is not the protocol that this study was made with",
                     "restore it; for another version of the protocol make a new study");
@@ -303,9 +302,8 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
                     "use the version that the study was made with");
     study.protocol_ = std::move(parsed.protocol);
     study.protocol_text_ = text;
-    const auto journal = read_file(folder / "journal.jsonl", kMostJournalBytes);
-    if (!journal) return std::unexpected(journal.error());
-    study.journal_ = parse_journal({reinterpret_cast<const char*>(journal->data()), journal->size()});
+    BURIN_TRY(journal, read_file(folder / "journal.jsonl", kMostJournalBytes));
+    study.journal_ = parse_journal({reinterpret_cast<const char*>(journal.data()), journal.size()});
     return study;
 }
 
@@ -329,8 +327,7 @@ Result<std::string> StudyFolder::sealed_list() const {
 }
 
 Result<void> StudyFolder::check_allocation() const {
-    const auto sealed = sealed_list();
-    if (!sealed) return std::unexpected(sealed.error());
+    BURIN_TRY(sealed, sealed_list());
     for (const JournalEntry& entry : journal_.entries) {
         if (text_in(entry.value, "event") == "study made" &&
             text_in(entry.value, "allocation_sha256") != facts_.allocation_digest)
@@ -341,7 +338,7 @@ Result<void> StudyFolder::check_allocation() const {
     if (!key) return {};  // it is kept elsewhere
     for (const Participant& p : participants()) {
         if (p.erased && p.position == 0) continue;  // nobody knows its place any more
-        const auto place = open_place(*sealed, protocol_, *key, p.stratum, p.position);
+        const auto place = open_place(sealed, protocol_, *key, p.stratum, p.position);
         if (!place) return std::unexpected(place.error());
         if (protocol_.groups[place->group].code != p.group)
             return fail(p.id, "is not in the group of its place in the list", "see who changed the journal");
@@ -362,9 +359,8 @@ Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<
     const std::size_t position =
         places_taken()[static_cast<std::size_t>(std::ranges::find(strata, codes) - strata.begin())];
     if (sealed_.empty()) {
-        auto sealed = sealed_list();
-        if (!sealed) return std::unexpected(sealed.error());
-        sealed_ = std::move(*sealed);
+        BURIN_TRY(sealed, sealed_list());
+        sealed_ = std::move(sealed);
     }
     const auto key = read_key(key_file());
     if (!key)
@@ -378,7 +374,7 @@ Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<
     const Json entry{{"event", "enrolled"},    {"participant", id}, {"stratum", label},
                      {"position", p.position}, {"group", p.group},  {"consent", protocol_.consent_version},
                      {"simulated", simulated}};
-    if (const auto ok = note(entry); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(note(entry));
     return p;
 }
 
@@ -449,7 +445,7 @@ Result<StageFiles> StudyFolder::begin_stage(const std::string& id, const StagePl
                {"place", at.place},      {"stage", at.stage->name}, {"run", files.run}};
     if (has_motion) entry["recording"] = files.recording;
     if (clock_s) entry["clock_s"] = *clock_s;
-    if (const auto ok = note(std::move(entry)); !ok) return std::unexpected(ok.error());
+    BURIN_TRY_DO(note(std::move(entry)));
     return files;
 }
 
@@ -461,13 +457,12 @@ Result<void> StudyFolder::end_stage(const std::string& id, const StagePlace& at,
     if (!failures.is_null()) entry["failures"] = failures;
     if (clock_s) entry["clock_s"] = *clock_s;
     if (!files.recording.empty()) {
-        const auto digest = digest_of_file(path_ / files.recording);
-        if (!digest) return std::unexpected(digest.error());
-        entry["recording_sha256"] = *digest;
+        BURIN_TRY(digest, digest_of_file(path_ / files.recording));
+        entry["recording_sha256"] = digest;
     }
     if (!recorded.is_null()) {
         const std::string text = json_text(recorded);
-        if (const auto ok = write_whole(path_ / files.measured, text); !ok) return ok;
+        BURIN_TRY_DO(write_whole(path_ / files.measured, text));
         entry["file"] = files.measured;
         entry["digest"] = sha256(text);
     }
@@ -475,9 +470,8 @@ Result<void> StudyFolder::end_stage(const std::string& id, const StagePlace& at,
 }
 
 Result<void> StudyFolder::check_recording(const StageVisit& visit) const {
-    const auto digest = digest_of_file(path_ / visit.recording);
-    if (!digest) return std::unexpected(digest.error());
-    if (*digest != visit.recording_digest)
+    BURIN_TRY(digest, digest_of_file(path_ / visit.recording));
+    if (digest != visit.recording_digest)
         return fail((path_ / visit.recording).string(), "is not what the journal says was recorded",
                     "restore it from a copy");
     return {};
@@ -485,9 +479,8 @@ Result<void> StudyFolder::check_recording(const StageVisit& visit) const {
 
 Result<Json> StudyFolder::recorded(const StageVisit& visit) const {
     const fs::path file = path_ / visit.file;
-    const auto bytes = read_file(file, kMostJournalBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    BURIN_TRY(bytes, read_file(file, kMostJournalBytes));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (sha256(text) != visit.file_digest)
         return fail(file.string(), "is not what the journal says was recorded", "restore it from a copy");
     return Json::parse(text, nullptr, false);

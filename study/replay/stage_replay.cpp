@@ -6,6 +6,7 @@
 #include <bit>
 #include <map>
 
+#include "base/try.hpp"
 #include "record/columns.hpp"
 #include "record/record_reader.hpp"
 #include "record/touched_columns.hpp"
@@ -63,10 +64,9 @@ private:
 
 // What the operator did, by the time of the tick.
 Result<std::map<std::int64_t, OperatorAct>> acts_in(record::RecordReader& reader) {
-    const auto events = reader.events();
-    if (!events) return std::unexpected(events.error());
+    BURIN_TRY(events, reader.events());
     std::map<std::int64_t, OperatorAct> acts;
-    for (const record::EventRecord& event : *events) {
+    for (const record::EventRecord& event : events) {
         if (event.name != kOperatorEvent) continue;
         const auto act = operator_act(event.value);
         if (!act)
@@ -145,35 +145,31 @@ Result<Parts> check(const record::RecordReader& reader, const Protocol& protocol
 Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protocol& protocol,
                                  const std::string& protocol_digest, const FeltWorld& world,
                                  const OnReplayedTick& on_tick) {
-    auto reader = record::RecordReader::open(file.string());
-    if (!reader) return std::unexpected(reader.error());
-    const auto parts = check(*reader, protocol, protocol_digest, world);
-    if (!parts) return std::unexpected(parts.error());
-    StageSession session(protocol, parts->stage, parts->group, world);
+    BURIN_TRY(reader, record::RecordReader::open(file.string()));
+    BURIN_TRY(parts, check(reader, protocol, protocol_digest, world));
+    StageSession session(protocol, parts.stage, parts.group, world);
     const record::RowShape shape = record::shape_of(session.touch().device(), session.touch().parameters().probe);
-    if (reader->hands().size() != 1 || !record::can_be_replayed(reader->hands().front().columns, shape))
+    if (reader.hands().size() != 1 || !record::can_be_replayed(reader.hands().front().columns, shape))
         return fail(file.string(), "has other columns than a study's recording of this version",
                     "replay it with the version that the study was run with");
-    const record::HandRecord& hand = reader->hands().front();
-    const auto acts = acts_in(*reader);
-    if (!acts) return std::unexpected(acts.error());
+    const record::HandRecord& hand = reader.hands().front();
+    BURIN_TRY(acts, acts_in(reader));
     const Inputs inputs(hand.columns);
     const SessionTick of_session(hand.columns);
     StageReplay replay;
     replay.columns = hand.columns.size();
-    replay.closed = reader->is_closed();
-    replay.of_session = fact_in(*reader, kTicksFact) == kTicksOfSession;
+    replay.closed = reader.is_closed();
+    replay.of_session = fact_in(reader, kTicksFact) == kTicksOfSession;
     haptics::TickRecord followed;
     for (std::size_t b = 0; b < hand.blocks.size(); ++b) {
-        const auto block = reader->block(0, b);
-        if (!block) return std::unexpected(block.error());
-        for (std::uint32_t row = 0; row < block->rows(); ++row) {
-            const Nanoseconds now_ns = inputs.now_ns(*block, row);
-            const auto act = acts->find(now_ns);
-            const OperatorAct done = act != acts->end() ? act->second : OperatorAct::none;
-            const devices::DeviceSample sample = inputs.sample(*block, row);
+        BURIN_TRY(block, reader.block(0, b));
+        for (std::uint32_t row = 0; row < block.rows(); ++row) {
+            const Nanoseconds now_ns = inputs.now_ns(block, row);
+            const auto act = acts.find(now_ns);
+            const OperatorAct done = act != acts.end() ? act->second : OperatorAct::none;
+            const devices::DeviceSample sample = inputs.sample(block, row);
             if (replay.of_session) {
-                followed = of_session.record(*block, row, sample, now_ns);
+                followed = of_session.record(block, row, sample, now_ns);
                 session.follow(followed, done);
             }
             const haptics::TickRecord& tick = replay.of_session ? followed : session.take(sample, now_ns, done);
@@ -182,13 +178,13 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
             if (replay.of_session || replay.difference) continue;
             std::vector<record::Word> again = stage_row(tick, shape);
             again.resize(hand.columns.size());  // without the walls, where there were none
-            replay.difference = record::difference_in_row(hand, *block, row, again);
+            replay.difference = record::difference_in_row(hand, block, row, again);
         }
     }
     replay.end = session.state();
     replay.events = session.events();
-    if (parts->stage.kind == StageKind::trial) {
-        replay.model = touch_by_model(protocol, parts->stage, world, session.attempt());
+    if (parts.stage.kind == StageKind::trial) {
+        replay.model = touch_by_model(protocol, parts.stage, world, session.attempt());
         replay.record = trial_record(world.world(), session.state(), session.events(), replay.model);
     } else {
         replay.record = forces_record(session.forces());

@@ -10,6 +10,7 @@
 #include "base/csv.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::study {
 namespace {
@@ -304,9 +305,8 @@ ParsedTable parse_trials(std::string_view text) {
 }
 
 Result<ParsedTable> read_trials(const std::filesystem::path& path) {
-    const Result<std::string> text = read_text_file(path, kMostTableBytes);
-    if (!text) return std::unexpected(text.error());
-    return parse_trials(*text);
+    BURIN_TRY(text, read_text_file(path, kMostTableBytes));
+    return parse_trials(text);
 }
 
 }  // namespace burin::study

@@ -15,6 +15,7 @@
 #include "activities/rehab/progress/withdrawal.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -128,9 +129,8 @@ Result<KeptRun> run_of_json(const Json& json, const std::string& name) {
 }
 
 Result<KeptRun> read_run(const fs::path& path) {
-    const Result<std::string> text = read_text_file(path, kMostBytes);
-    if (!text) return std::unexpected(text.error());
-    const Json json = Json::parse(*text, nullptr, false);
+    BURIN_TRY(text, read_text_file(path, kMostBytes));
+    const Json json = Json::parse(text, nullptr, false);
     if (json.is_discarded())
         return fail(path.string(), "is cut or damaged: it is not whole JSON", "mend it, or take it out of the folder");
     const auto version = json.is_object() ? json.find("run") : json.end();
@@ -187,15 +187,14 @@ Result<void> prepare_results(const fs::path& folder, unsigned participant) {
     fs::create_directories(own, error);
     if (error) return fail(own.string(), "cannot be made: " + error.message(), "name a folder that you may write to");
     // A folder that there was stays as its owner wants it; the participant's is made for the results in any case.
-    if (is_new)
-        if (const auto alone = make_private(folder); !alone) return alone;
-    if (const auto alone = make_private(own); !alone) return alone;
+    if (is_new) BURIN_TRY_DO(make_private(folder));
+    BURIN_TRY_DO(make_private(own));
     return check_writable(own / "a-run.json");
 }
 
 Result<fs::path> keep_run(const fs::path& folder, const KeptRun& run) {
     fs::path path = free_run_file(folder, run);
-    if (const auto written = write_run(path, run); !written) return std::unexpected(written.error());
+    BURIN_TRY_DO(write_run(path, run));
     return path;
 }
 

@@ -10,6 +10,7 @@
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "base/toml_table.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -59,12 +60,11 @@ Result<PageTexts> PageTexts::in(const std::string& code) {
 Result<PageTexts> PageTexts::read(const std::filesystem::path& file, const PageTexts* model) {
     const Result<std::string> text = read_text_file(file);
     if (!text) return std::unexpected(text.error());
-    const Result<toml::table> table = parse_toml(*text, file.string());
-    if (!table) return std::unexpected(table.error());
+    BURIN_TRY(table, parse_toml(*text, file.string()));
     TableReading reading{file.string()};
     PageTexts texts;
     texts.code_ = file.stem().string();
-    for (const auto& [key, node] : *table) {
+    for (const auto& [key, node] : table) {
         const std::string name(key.str());
         const auto value = node.value<std::string>();
         if (!value) {
@@ -83,7 +83,7 @@ Result<PageTexts> PageTexts::read(const std::filesystem::path& file, const PageT
     if (model != nullptr)
         for (const auto& [key, value] : model->texts_)
             if (!texts.has(key)) reading.add({"has no text " + key, file.string(), "translate \"" + value + "\""});
-    if (const Result<void> good = reading.outcome(); !good) return std::unexpected(good.error());
+    BURIN_TRY_DO(reading.outcome());
     return texts;
 }
 

@@ -20,6 +20,7 @@
 #include "base/append_file.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -62,12 +63,10 @@ Result<std::optional<fs::path>> take_up(const fs::path& journal) {
     std::error_code ignored;
     std::optional<fs::path> made;
     if (!fs::exists(file, ignored)) {
-        const Result<std::string> text = read_text_file(journal, kMostJournalBytes);
-        if (!text) return std::unexpected(text.error());
-        const Result<KeptRun> run = run_in_journal(*text, journal.string());
-        if (!run) return std::unexpected(run.error());
-        if (has_begun(*run)) {
-            if (const auto written = write_run(file, *run); !written) return std::unexpected(written.error());
+        BURIN_TRY(text, read_text_file(journal, kMostJournalBytes));
+        BURIN_TRY(run, run_in_journal(text, journal.string()));
+        if (has_begun(run)) {
+            BURIN_TRY_DO(write_run(file, run));
             made = file;
         }
     }
@@ -182,8 +181,7 @@ RunJournal::~RunJournal() = default;
 
 Result<std::unique_ptr<RunJournal>> RunJournal::begin(const fs::path& folder, KeptRun run) {
     const fs::path own = participant_folder(folder, run.participant);
-    Result<session::DocumentLock> lock = take_participant(folder, run.participant);
-    if (!lock) return std::unexpected(lock.error());
+    BURIN_TRY(lock, take_participant(folder, run.participant));
     LeftRuns left;
     take_up_of(own, left);
     take_up_others(folder, own, left);
@@ -196,13 +194,13 @@ Result<std::unique_ptr<RunJournal>> RunJournal::begin(const fs::path& folder, Ke
                      {"report", without_events(run.report)},
                      {"events", Json::array()}};
     const std::string text = line_of_run(first);
-    if (const auto written = write_private(journal, text); !written) return std::unexpected(written.error());
+    BURIN_TRY_DO(write_private(journal, text));
     const int file = ::open(journal.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (file < 0)
         return fail(journal.string(), std::string("cannot be opened: ") + std::strerror(errno),
                     "see to its folder's permissions");
     std::unique_ptr<RunJournal> made(
-        new RunJournal(std::move(journal), std::move(run), std::move(*lock), std::move(left)));
+        new RunJournal(std::move(journal), std::move(run), std::move(lock), std::move(left)));
     made->syncer_ = std::make_unique<Syncer>(file);
     return made;
 }
@@ -227,7 +225,7 @@ Result<void> RunJournal::add(const Json& report, const Json& new_events) {
 Result<fs::path> RunJournal::keep(const Json& report) {
     run_.report = report;
     fs::path file = made_of(journal_);
-    if (const auto written = write_run(file, run_); !written) return std::unexpected(written.error());
+    BURIN_TRY_DO(write_run(file, run_));
     discard();
     return file;
 }
@@ -242,22 +240,20 @@ LeftRuns take_up_left_runs(const fs::path& folder) {
 
 Result<KeptAgain> keep_again(const fs::path& folder, const KeptRun& run, const std::string& name) {
     const fs::path own = participant_folder(folder, run.participant);
-    const Result<session::DocumentLock> lock = take_participant(folder, run.participant);
-    if (!lock) return std::unexpected(lock.error());
+    BURIN_TRY(lock, take_participant(folder, run.participant));
     LeftRuns left;
     take_up_of(own, left);
     const fs::path file = own / ((name.empty() ? run_name(run) : name) + ".json");
     KeptRun again = run;
     std::error_code ignored;
     if (fs::exists(file, ignored)) {
-        const Result<KeptRun> kept = read_run(file);
-        if (!kept) return std::unexpected(kept.error());
-        if (kept->report.at("time_s").get<double>() >= run.report.at("time_s").get<double>())
+        BURIN_TRY(kept, read_run(file));
+        if (kept.report.at("time_s").get<double>() >= run.report.at("time_s").get<double>())
             return KeptAgain{file, false};
         for (const char* told : {"language", "comment"})  // no recording has them
-            if (kept->report.contains(told) && !again.report.contains(told)) again.report[told] = kept->report.at(told);
+            if (kept.report.contains(told) && !again.report.contains(told)) again.report[told] = kept.report.at(told);
     }
-    if (const auto written = write_run(file, again); !written) return std::unexpected(written.error());
+    BURIN_TRY_DO(write_run(file, again));
     return KeptAgain{file, true};
 }
 

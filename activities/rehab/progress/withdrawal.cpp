@@ -13,6 +13,7 @@
 #include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "base/text.hpp"
+#include "base/try.hpp"
 
 namespace burin::activities {
 namespace {
@@ -58,10 +59,10 @@ Result<void> write_private(const fs::path& file, const std::string& text) {
     const auto bytes = std::as_bytes(std::span(text));
     std::error_code error;
     if (fs::exists(file, error)) {
-        if (const auto own = make_private(file); !own) return own;
+        BURIN_TRY_DO(make_private(file));
         return write_file_atomically(file, bytes);
     }
-    if (const auto possible = check_writable(file); !possible) return possible;
+    BURIN_TRY_DO(check_writable(file));
     const fs::path part =
         file.parent_path() / formatted(".%s.%ld.part", file.filename().c_str(), static_cast<long>(::getpid()));
     auto written = write_file_atomically(part, {});
@@ -85,9 +86,8 @@ Result<Withdrawals> read_withdrawals(const fs::path& folder) {
     const fs::path file = list_of(folder);
     Withdrawals withdrawals;
     if (!fs::exists(file, error)) return withdrawals;
-    const Result<std::string> text = read_text_file(file);
-    if (!text) return std::unexpected(text.error());
-    const Json json = Json::parse(*text, nullptr, false);
+    BURIN_TRY(text, read_text_file(file));
+    const Json json = Json::parse(text, nullptr, false);
     const Json* const list = json.is_object() ? find_value(json, "/withdrawn") : nullptr;
     const auto damaged = [&] {
         return fail(file.string(), "does not say who has withdrawn: it is damaged", "restore it from a copy");
@@ -110,16 +110,15 @@ bool has_withdrawn(const Withdrawals& withdrawals, unsigned participant) {
 }
 
 Result<void> withdraw(const fs::path& folder, unsigned participant, const std::string& date, bool erase) {
-    Result<Withdrawals> withdrawals = read_withdrawals(folder);
-    if (!withdrawals) return std::unexpected(withdrawals.error());
+    BURIN_TRY(withdrawals, read_withdrawals(folder));
     const std::string name = formatted("participant %u", participant);
     const fs::path own = own_folder(folder, participant);
     std::error_code error;
     const bool is_there = fs::exists(fs::symlink_status(own, error));
-    const auto told = std::ranges::find(*withdrawals, participant, &Withdrawal::participant);
-    if (told == withdrawals->end() && !is_there)
+    const auto told = std::ranges::find(withdrawals, participant, &Withdrawal::participant);
+    if (told == withdrawals.end() && !is_there)
         return fail(name, "has no runs in " + folder.string(), "name the folder that --results was given");
-    if (told != withdrawals->end() && (!erase || (told->erased && !is_there)))
+    if (told != withdrawals.end() && (!erase || (told->erased && !is_there)))
         return fail(name, "has withdrawn already",
                     erase ? "nothing is left to erase" : "add --erase to erase the runs");
     if (erase && fs::is_symlink(own, error))
@@ -128,11 +127,11 @@ Result<void> withdraw(const fs::path& folder, unsigned participant, const std::s
     Result<session::DocumentLock> lock;  // whoever does an exercise now would write it down after this
     if (is_there) lock = take_participant(folder, participant);
     if (!lock) return std::unexpected(lock.error());
-    if (told == withdrawals->end())
-        withdrawals->push_back({participant, date, erase});
+    if (told == withdrawals.end())
+        withdrawals.push_back({participant, date, erase});
     else
         told->erased = erase;
-    if (const auto written = write_list(folder, *withdrawals); !written) return written;
+    BURIN_TRY_DO(write_list(folder, withdrawals));
     if (!erase) {
         for (const char* page : {"progress.html", "progress.csv"}) fs::remove(own / page, error);
         return {};
