@@ -88,8 +88,7 @@ public:
     Result<void> load_letters(const std::string& file) {
         const Current current(context_);
         type_file_ = file;
-        BURIN_TRY(type,
-                  panel::load_type(file, kit_.scale, std::vector<std::uint32_t>(letters_.begin(), letters_.end())));
+        BURIN_TRY(type, panel::load_type(file, kit_.scale, std::vector(letters_.begin(), letters_.end())));
         kit_.type = std::move(type);
         atlas_ = panel::atlas_of_context();
         ++atlases_;
