@@ -25,8 +25,8 @@ struct StageMoments {
     std::vector<StageMoment> all;
     std::vector<bool> running;  // the attempt's clock ran
 
-    // Of those that tell most, within an attempt and where the wall is touched, the one whose wand is farthest from
-    // both ends of the path, whose funnels would hide it; of a wand that rests, the middle one.
+    // Returns a moment within an attempt, with the wall touched if there is one, at which the wand is farthest from
+    // both ends of the path: their funnels would hide it. Of a wand that rests it is the middle one.
     [[nodiscard]] const StageMoment* chosen(const std::vector<Vec3>& spine_m) const {
         for (const bool touching : {true, false}) {
             for (const bool attempt : {true, false}) {

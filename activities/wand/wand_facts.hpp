@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a recording keeps of its wand. A simulated wand is as its description says, so a recording holds the
+// Facts about the wand of a recording. A simulated wand is as its description says, so that a recording holds the
 // description's text and digest: then its motion can be felt anywhere, and a replay with another wand is refused.
 // One thread; reads the description's file.
 #pragma once

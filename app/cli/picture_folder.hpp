@@ -17,7 +17,7 @@ class PictureFolder {
 public:
     // Makes the folder and opens the device. `option` named the folder, for messages.
     [[nodiscard]] static Result<PictureFolder> create(const std::string& folder, const std::string& option);
-    // Likewise; none where no folder is named.
+    // Makes it where a folder is named; returns nothing for an empty name.
     [[nodiscard]] static Result<std::optional<PictureFolder>> create_if_named(const std::string& folder,
                                                                               const std::string& option);
 

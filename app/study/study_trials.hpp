@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the commands on a study's folder share: its damage is told, and its table of trials made.
+// Tells the damage of a study's folder and makes its table of trials, for the commands that analyse it.
 #pragma once
 
 #include <string>

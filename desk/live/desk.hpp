@@ -51,12 +51,12 @@ public:
     using Give = Session::Give;
     void step(const FrameInput& input, const wall::OutputPlace& output, std::span<const haptics::ToolState> tools,
               const Give& give, ImageSize panel_output = {});
-    // Likewise of a session whose hand has one part.
+    // Applies it for a session whose only hand has one part.
     void step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
               const Give& give, ImageSize panel_output = {}) {
         step(input, output, std::span(&tool, 1), give, panel_output);
     }
-    // As those of the session.
+    // Takes over what the session reports (Session::take_loaded, take_news), and keeps what is new of the surface.
     void take_loaded();
     void take_news(std::uint64_t updates);
 

@@ -24,7 +24,7 @@
 
 namespace burin::session {
 
-// What a step gives the panel to show, and where it is shown.
+// Inputs of the panel in a step: the session and its viewer, and where the panel is shown.
 struct PanelContext {
     ViewedSession seen;
     const Session& session;

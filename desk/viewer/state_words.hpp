@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame's checksum covers of a session and its viewer (session/record/session_check.hpp). Pure; any thread.
+// Lists the numbers of a session and its viewer that a frame's checksum covers (session_check.hpp). Pure; any thread.
 #pragma once
 
 #include "desk/viewer/viewer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a viewer's screens show of a session. Pure; any thread.
+// Makes the pictures that a viewer's screens show of a session. Pure; any thread.
 #pragma once
 
 #include <optional>

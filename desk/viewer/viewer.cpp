@@ -14,7 +14,7 @@ namespace {
 
 // Size of the workpiece's longest side as a share of the screen's height.
 constexpr double kHeightOnScreen = 0.52;
-// The same of a world, which is wide rather than high.
+// Size of a world's longest side as such a share: a world is wide rather than high.
 constexpr double kWorldOnScreen = 0.8;
 // Size of a handle's workspace that is shown as large as a world of that size.
 constexpr double kOfWorkspace = 0.8;

@@ -31,7 +31,7 @@ public:
     ViewerRunner(Viewer& viewer, SessionState& state, const DeskRoom& desk, SessionOrders& orders)
         : viewer_(viewer), state_(state), desk_(desk), orders_(orders) {}
 
-    // What is not a viewer's is the session's.
+    // Has the session run every command that is not a viewer's.
     template <typename Command>
     Result<void> operator()(const Command& command) {
         return run_command(state_, orders_, SessionCommand(command));
