@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/haptic_loop.hpp"
 
+#include "haptics/channels.hpp"
+
 #include <algorithm>
 
 namespace burin::haptics {

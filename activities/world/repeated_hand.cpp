@@ -8,6 +8,7 @@
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/simulated_wand.hpp"
+#include "haptics/channels.hpp"
 
 namespace burin::activities {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/felt/felt_figures.hpp"
 
+#include "haptics/channels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -9,6 +9,7 @@
 
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
 #include "record/record_writer.hpp"
