@@ -114,11 +114,11 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     figures.push_back({"lines of a Session", lines, 382.0, {}, ""});
     figures.push_back({"sources that read haptics/channels.hpp",
                        reading.sources_that_read("haptics/channels.hpp"),
-                       60.0,
+                       64.0,
                        {},
                        "of the product"});
     for (const auto& [folder, bar] :
-         {std::pair("session/", 7190.0), std::pair("desk/", 8430.0), std::pair("app/", 6250.0)})
+         {std::pair("session/", 7220.0), std::pair("desk/", 8430.0), std::pair("app/", 6250.0)})
         figures.push_back({std::string("lines of our headers that a source reads in ") + folder,
                            reading.mean_lines(folder),
                            bar,
