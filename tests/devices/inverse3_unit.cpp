@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -223,7 +224,8 @@ TEST(Inverse3, IsFoundByItsNumberAndServiceAndRefusedWithReasons) {
         ASSERT_GE(found.size(), 2u);
         EXPECT_EQ(found[0].presence, Presence::there);
         EXPECT_EQ(found[0].name, "inverse3:049D@" + at);
-        EXPECT_EQ(found.back().name, "inverse3:" + own_inverse3());
+        // Anywhere among the emulated ones: other programs may run some of their own.
+        EXPECT_EQ(std::ranges::count(found, "inverse3:" + own_inverse3(), &DevicePresence::name), 1);
         running->set_power(false);
         EXPECT_EQ(look_for_inverse3s(running->service())[0].presence, Presence::unusable);
         running->set_power(true);
