@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "activities/wand/cube_test.hpp"
+#include "activities/wand/pressed_cube.hpp"
 #include "activities/wand/wand_view.hpp"
 #include "app/carve/sculpt.hpp"
 #include "app/carve/sculpt_options.hpp"
@@ -64,8 +64,8 @@ activities::WandPose pose_in_case(const activities::CubeMeasure& measure) {
     return pose;
 }
 
-Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& world, const activities::CubeTest& test,
-                        const devices::WandDescription& wand, double radius_m) {
+Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& world,
+                        const activities::PressedCube& test, const devices::WandDescription& wand, double radius_m) {
     BURIN_TRY(pictures, PictureFolder::create(folder.string(), "--out"));
     const activities::WorldView view(*world.part, world.ids, radius_m);
     const activities::WandView avatar(wand, wand.gain, radius_m);
@@ -82,7 +82,7 @@ Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& wo
     return {};
 }
 
-void print_findings(const activities::CubeTest& test) {
+void print_findings(const activities::PressedCube& test) {
     for (const activities::CubeFinding& finding : test.findings) {
         std::printf("%-5s %s: %s\n      found: %s\n", finding.holds ? "yes" : "WRONG", activities::text(finding.which),
                     finding.expected.c_str(), finding.found.c_str());
@@ -99,7 +99,7 @@ void print_findings(const activities::CubeTest& test) {
 
 Json vector_of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-Json cube_report(const activities::CubeTest& test, const std::string& world) {
+Json cube_report(const activities::PressedCube& test, const std::string& world) {
     Json report{{"burin", BURIN_VERSION}, {"world", world}, {"as_expected", test.holds()}};
     report["cases"] = Json::array();
     for (const activities::CubeMeasure& m : test.measures)
@@ -117,7 +117,7 @@ Json cube_report(const activities::CubeTest& test, const std::string& world) {
     return report;
 }
 
-Result<void> write_figures(const std::filesystem::path& folder, const activities::CubeTest& test,
+Result<void> write_figures(const std::filesystem::path& folder, const activities::PressedCube& test,
                            const std::string& world) {
     for (const auto& [name, content] : {std::pair("figure-15.svg", activities::figure_control(test)),
                                         std::pair("figure-23.svg", activities::figure_forces(test)),
@@ -144,7 +144,7 @@ Result<void> demo_wand(const CubeDemo& o) {
     CubeWorld cube;
     BURIN_TRY_DO(open_cube(cube, o.world));
     BURIN_TRY_DO(session::make_picture_folder(o.out, "--out"));
-    BURIN_TRY(test, activities::run_cube_test(*cube.part, cube.materials, cube.cube_scene_m, described, o.radius_m));
+    BURIN_TRY(test, activities::press_cube(*cube.part, cube.materials, cube.cube_scene_m, described, o.radius_m));
     BURIN_TRY_DO(write_figures(o.out, test, o.world));
     if (!o.no_pictures) BURIN_TRY_DO(draw_cases(o.out, cube, test, described, o.radius_m));
     print_findings(test);

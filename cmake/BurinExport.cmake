@@ -1,17 +1,19 @@
-# The CMake package burin: find_package(burin) gives burin::base, geometry, devices, haptics, scene, gpu and compute, as
-# docs/architecture.md describes these folders, for programs outside of this repository. Headers lie in
-# PREFIX/include/burin and are included as here: "compute/cpu_engine.hpp". They are the program's own and promise no
+# The CMake package burin: find_package(burin) gives burin::base, geometry, devices, haptics, scene, gpu, compute and
+# compute_vulkan, as docs/architecture.md describes these folders, for programs outside of this repository. Headers lie
+# in PREFIX/include/burin and are included as here: "compute/cpu_engine.hpp". They are the program's own and promise no
 # stability: the package is found by exactly the version that it is of. docs/library.md has an example.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
-set(exported base geometry devices haptics scene gpu compute)
+set(exported base geometry devices haptics scene gpu compute compute/vulkan)
 set(place ${CMAKE_INSTALL_LIBDIR}/cmake/burin)
 
 set(targets burin_options burin_shaders_shared)
 foreach(folder IN LISTS exported)
-  set_target_properties(burin_${folder} PROPERTIES EXPORT_NAME ${folder})
-  list(APPEND targets burin_${folder})
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION include/burin COMPONENT development
+  string(REPLACE "/" "_" name ${folder})
+  cmake_path(GET folder PARENT_PATH above)
+  set_target_properties(burin_${name} PROPERTIES EXPORT_NAME ${name})
+  list(APPEND targets burin_${name})
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION include/burin/${above} COMPONENT development
     FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 endforeach()
 set_target_properties(burin_options PROPERTIES EXPORT_NAME options)

@@ -20,7 +20,11 @@ function(burin_shaders TARGET)
       ${compile}
       DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${shader} ${shared_headers} ${CMAKE_SOURCE_DIR}/cmake/no-contraction
       COMMENT "SPIR-V ${shader}" VERBATIM)
-    target_sources(${TARGET} PRIVATE ${header})
+    list(APPEND headers ${header})
   endforeach()
+  # A target of its own, which waits for no library: what a build folder remembers of who read a shader before it moved
+  # from one target to another then makes no circle.
+  add_custom_target(${TARGET}_shaders DEPENDS ${headers})
+  add_dependencies(${TARGET} ${TARGET}_shaders)
   target_include_directories(${TARGET} SYSTEM PRIVATE ${CMAKE_BINARY_DIR}/generated)
 endfunction()

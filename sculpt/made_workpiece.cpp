@@ -7,17 +7,17 @@
 
 namespace burin::sculpt {
 
-Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoice engine, unsigned threads,
-                                     const LoadWatch& watch) {
+Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, const compute::EngineMaker& make_engine,
+                                     unsigned threads, const LoadWatch& watch) {
     auto pool = std::make_unique<WorkerPool>(threads);
     BURIN_TRY(loaded, load_workpiece(options, *pool, watch));
-    return ready_to_carve(std::move(loaded), engine, std::move(pool), watch, meshing_from(options));
+    return ready_to_carve(std::move(loaded), make_engine, std::move(pool), watch, meshing_from(options));
 }
 
-Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, EngineChoice engine, std::unique_ptr<WorkerPool> pool,
-                                     const LoadWatch& watch, double from) {
+Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, const compute::EngineMaker& make_engine,
+                                     std::unique_ptr<WorkerPool> pool, const LoadWatch& watch, double from) {
     const compute::Lattice lattice = loaded.solid.lattice;
-    ChosenEngine chosen = choose_engine(engine, std::move(loaded.solid), *pool);
+    compute::ChosenEngine chosen = make_engine(std::move(loaded.solid), *pool);
     begin_step(watch.work, "meshing the surface", from, 1.0);
     auto carving = std::make_unique<Sculpture>(std::move(chosen.engine), *pool, watch.work);
     if (watch.work != nullptr && !watch.work->is_wanted()) return no_longer_wanted();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/workpiece.hpp"
 
@@ -19,11 +20,12 @@ struct MadeWorkpiece {
 };
 
 // Loads the workpiece and makes it ready; threads: of the pool, as WorkerPool counts them.
-[[nodiscard]] Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options, EngineChoice engine,
-                                                   unsigned threads, const LoadWatch& watch = {});
+[[nodiscard]] Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options,
+                                                   const compute::EngineMaker& make_engine, unsigned threads,
+                                                   const LoadWatch& watch = {});
 
 // Makes a workpiece that is there ready; the pool is the one that it was loaded with, or another.
-[[nodiscard]] Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, EngineChoice engine,
+[[nodiscard]] Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, const compute::EngineMaker& make_engine,
                                                    std::unique_ptr<WorkerPool> pool, const LoadWatch& watch = {},
                                                    double from = 0.0);
 

@@ -8,7 +8,6 @@
 #include "base/clock.hpp"
 #include "base/try.hpp"
 #include "compute/tools/tool_spans.hpp"
-#include "compute/vulkan/standby_engine.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -85,13 +84,7 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
 // ---- On the device
 
 void Sculpture::mesh_on_device() {
-    auto* const standby = dynamic_cast<compute::StandbyEngine*>(engine_.get());
-    compute::VulkanEngine* const vulkan = standby != nullptr ? standby->on_device() : nullptr;
-    // A device without this layout still carves, and the host meshes.
-    if (vulkan == nullptr || history_ || noted_ || !vulkan->device().capabilities().scalar_block_layout) return;
-    auto made = compute::DeviceSurface::create(*vulkan);
-    if (!made) return standby->give_up(made.error());
-    on_device_ = std::move(*made);
+    if (!history_ && !noted_) on_device_ = engine_->mesh_on_device();
 }
 
 Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> sweeps) {
@@ -119,7 +112,7 @@ Result<void> Sculpture::begin_on_device(std::span<const compute::ToolSweep> swee
                          std::get<compute::BallTool>(sweep.shape).radius_m, sweep.material, sweep.operation});
     }
     BURIN_TRY_DO(finish_on_device());
-    std::optional<compute::DeviceSurface::Ball> touched;
+    std::optional<compute::MeshingDevice::Ball> touched;
     if (asked_radius_m_ > 0.0 && !balls.empty()) touched = {balls.back().end_object_m, asked_radius_m_};
     counts_before_ = on_device_->counts();
     under_way_ = true;
@@ -151,7 +144,7 @@ void Sculpture::read_back() {
 
 Result<void> Sculpture::fetch_from_device() {
     BURIN_TRY_DO(finish_on_device());
-    BURIN_TRY_DO(static_cast<compute::StandbyEngine&>(*engine_).on_device()->read_back());
+    BURIN_TRY_DO(on_device_->read_back());
     follow_engine();
     return {};
 }
@@ -160,7 +153,7 @@ Result<void> Sculpture::fetch_from_device() {
 void Sculpture::go_on_without_the_device(const Error& why) {
     on_device_.reset();
     under_way_ = false;
-    static_cast<compute::StandbyEngine&>(*engine_).give_up(why);
+    engine_->give_up_device(why);
     figures_.rays_touched = read_back_.rays_touched;
     figures_.rays_changed = read_back_.rays_changed;
     for (const std::vector<compute::ToolSweep>& sweeps : std::exchange(only_on_device_, {})) {

@@ -5,7 +5,7 @@
 // around the changed rays are meshed anew -> the history keeps what the rays held -> the light follows. With
 // mesh_on_device() the device of a Vulkan engine carves and meshes instead, in one submission that nobody waits for
 // before the next update. A device that fails, in either case, ends nothing: the processor goes on, with one notice
-// (compute/vulkan/standby_engine.hpp).
+// (compute/vulkan/standby_engine.hpp). Which engine there is, is not known here (compute/rays/engine.hpp).
 // Frame: object, metres. Thread: one; the pool's threads work only within a call.
 #pragma once
 
@@ -19,9 +19,9 @@
 
 #include "compute/light/surface_light.hpp"
 #include "compute/mesher/surface.hpp"
+#include "compute/rays/engine.hpp"
 #include "compute/rays/history.hpp"
 #include "compute/tools/apply.hpp"
-#include "compute/vulkan/device_surface.hpp"
 #include "sculpt/mirror.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
@@ -143,14 +143,14 @@ private:
     double initial_volume_m3_ = 0.0;
     double first_mesh_ms_ = 0.0;
     // State of mesh_on_device().
-    std::unique_ptr<compute::DeviceSurface> on_device_;  // null while the host meshes
+    std::unique_ptr<compute::MeshingDevice> on_device_;  // null while the host meshes
     // Sweeps of the updates since the last read_back(), and the figures as of then: where the device is lost, the
     // processor carves these updates again.
     std::vector<std::vector<compute::ToolSweep>> only_on_device_;
     compute::CarveStats read_back_;
-    bool under_way_ = false;                      // an update whose figures have not been counted yet
-    compute::DeviceSurfaceCounts counts_before_;  // that update
-    double asked_radius_m_ = 0.0;                 // of the last local surface; 0 before the first
+    bool under_way_ = false;                        // an update whose figures have not been counted yet
+    compute::MeshingDevice::Counts counts_before_;  // that update
+    double asked_radius_m_ = 0.0;                   // of the last local surface; 0 before the first
 };
 
 }  // namespace burin::sculpt

@@ -10,12 +10,10 @@
 #include "base/try.hpp"
 #include "compute/rays/room.hpp"
 #include "compute/rays/scan_convert.hpp"
-#include "compute/vulkan/standby_engine.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/files/surface_colours.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
-#include "gpu/device.hpp"
 #include "sculpt/unmet_parts.hpp"
 
 namespace burin::sculpt {
@@ -211,20 +209,6 @@ Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     return LoadedWorkpiece{std::move(solid), {{"source", options.source}, {"size", size}}, size, LengthUnit::m, size_m};
 }
 
-std::string threads_of(const WorkerPool& pool) { return std::to_string(pool.threads()) + " threads"; }
-
-ChosenEngine native(compute::Solid solid, WorkerPool& pool, std::string reason) {
-    return {compute::make_cpu_engine(std::move(solid), pool), threads_of(pool), false, std::move(reason)};
-}
-
-// Carves on the device, or on the processor with a notice of why not.
-ChosenEngine on_vulkan(compute::Solid solid, gpu::Device& device, WorkerPool& pool, std::string reason) {
-    auto engine = std::make_unique<compute::StandbyEngine>(std::move(solid), device, pool);
-    if (engine->on_device() == nullptr)
-        return {std::move(engine), threads_of(pool), false, "the Vulkan device cannot carve this solid"};
-    return {std::move(engine), device.info().name, device.info().is_software(), std::move(reason)};
-}
-
 }  // namespace
 
 // ---- Workpiece
@@ -336,21 +320,6 @@ Box workpiece_bounds(const compute::Lattice& lattice) {
     const Vec3 inset(1.5 * lattice.spacing_m);
     const Box all = lattice_bounds(lattice);
     return {all.lo + inset, all.hi - inset};
-}
-
-// ---- Engine
-
-ChosenEngine choose_engine(EngineChoice choice, compute::Solid solid, WorkerPool& pool) {
-    if (choice == EngineChoice::cpu) return native(std::move(solid), pool, "");
-    Result<gpu::Device> device = gpu::Device::create();
-    if (choice == EngineChoice::vulkan) {
-        if (device) return on_vulkan(std::move(solid), *device, pool, "");
-        return {std::make_unique<compute::StandbyEngine>(std::move(solid), device.error(), pool), threads_of(pool),
-                false, "no Vulkan device"};
-    }
-    if (!device) return native(std::move(solid), pool, "no Vulkan device");
-    if (device->info().is_software()) return native(std::move(solid), pool, "the only Vulkan device is a software one");
-    return on_vulkan(std::move(solid), *device, pool, "a hardware Vulkan device");
 }
 
 }  // namespace burin::sculpt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The solid that is carved and the engine that carves it, as --workpiece, --resolution and --engine name them.
+// The solid that is carved, as --workpiece and --resolution name it.
 // Lengths in metres, object frame. Any thread.
 #pragma once
 
@@ -15,7 +15,7 @@
 #include "base/length_unit.hpp"
 #include "base/work_watch.hpp"
 #include "base/worker_pool.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/rays/solid.hpp"
 
 namespace burin::sculpt {
 
@@ -91,21 +91,5 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
 // Parses numbers separated by commas: exactly `count`, all finite. An Error names `what`.
 [[nodiscard]] Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count,
                                                         const std::string& what);
-
-// ---- Engine
-
-enum class EngineChoice { automatic, cpu, vulkan };
-
-struct ChosenEngine {
-    std::unique_ptr<compute::CarvingEngine> engine;
-    std::string device;            // the Vulkan device, or the number of threads
-    bool software_device = false;  // a Vulkan device without hardware
-    std::string reason;            // why automatic chose it; empty when it was asked for
-};
-
-// Makes the engine. Automatic takes a Vulkan device that is hardware, else native code: on a software device compute
-// shaders cost many times the native code. Where the device that is taken, or was asked for, cannot carve the solid,
-// the processor does, and the engine's notices say so. The pool must outlive the engine.
-[[nodiscard]] ChosenEngine choose_engine(EngineChoice choice, compute::Solid solid, WorkerPool& pool);
 
 }  // namespace burin::sculpt

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "activities/replay/recorded_device.hpp"
+#include "activities/replay/device_as_recorded.hpp"
 #include "base/json.hpp"
 #include "base/try.hpp"
 #include "record/compare.hpp"
@@ -99,7 +99,7 @@ Result<void> check_is_of_no_study(const std::string& file) {
 }
 
 Result<ThroughTable> feel_into_table(record::RecordReader& reader, const ThroughOptions& options) {
-    BURIN_TRY(device, recorded_device(reader));
+    BURIN_TRY(device, device_as_recorded(reader));
     const ThroughProbe probe{std::move(device), options.radius_m};
     BURIN_TRY(world, open_world(options.world, options.materials));
     record::DerivedTable table = table_of(options, *world, probe);

@@ -3,7 +3,7 @@
 #include <array>
 #include <functional>
 
-#include "activities/wand/cube_test.hpp"
+#include "activities/wand/pressed_cube.hpp"
 #include "base/plot/figures.hpp"
 #include "base/text.hpp"
 
@@ -40,7 +40,7 @@ Vec3 force_of_point(const CubeTick& tick, std::size_t point) {
 }
 
 // Names the case that a time belongs to: the last whose hold began by then, with the way to it.
-std::string case_at(const CubeTest& test, bool two_points, double time_s) {
+std::string case_at(const PressedCube& test, bool two_points, double time_s) {
     std::string name;
     for (const CubeMeasure& m : test.measures) {
         const bool is_two = m.which == CubeCase::top || m.which == CubeCase::bottom || m.which == CubeCase::both;
@@ -53,7 +53,7 @@ std::string case_at(const CubeTest& test, bool two_points, double time_s) {
 constexpr double kMilli = 1e3;
 
 // The ticks around one case's hold, press and return included, for a curve of torque over force.
-plot::PlotSeries torque_over_force(const CubeTest& test, CubeCase which) {
+plot::PlotSeries torque_over_force(const PressedCube& test, CubeCase which) {
     plot::PlotSeries series{text(which), {}};
     const CubeMeasure& measure = test.measures[static_cast<std::size_t>(which)];
     for (std::size_t i = 0; i < test.two_points.size(); i += kEveryTick) {
@@ -64,14 +64,14 @@ plot::PlotSeries torque_over_force(const CubeTest& test, CubeCase which) {
     return series;
 }
 
-plot::PlotSeries force_over_time(const CubeTest& test, const std::string& name, std::size_t point) {
+plot::PlotSeries force_over_time(const PressedCube& test, const std::string& name, std::size_t point) {
     plot::PlotSeries series{name, {}};
     for (std::size_t i = 0; i < test.two_points.size(); i += kEveryTick)
         series.points.push_back({test.two_points[i].time_s, force_of_point(test.two_points[i], point).z, ""});
     return series;
 }
 
-void add_rows(std::string& csv, const CubeTest& test, bool two_points) {
+void add_rows(std::string& csv, const PressedCube& test, bool two_points) {
     for (const CubeTick& tick : two_points ? test.two_points : test.one_point) {
         csv += formatted("%.3f,", tick.time_s) + case_at(test, two_points, tick.time_s);
         const Quat& q = tick.scene_from_handle.orientation;
@@ -95,7 +95,7 @@ void add_rows(std::string& csv, const CubeTest& test, bool two_points) {
 
 }  // namespace
 
-std::string cube_table(const CubeTest& test) {
+std::string cube_table(const PressedCube& test) {
     std::string csv =
         "# The cube test: forces in newtons, torques about the handle's middle in newton metres, in the scene's axes.\n"
         "# Point 1 is the top end, or the middle in the control case; point 2 the bottom end.\n"
@@ -109,7 +109,7 @@ std::string cube_table(const CubeTest& test) {
     return csv;
 }
 
-std::string figure_forces(const CubeTest& test) {
+std::string figure_forces(const PressedCube& test) {
     const std::vector<CubeTick>& ticks = test.two_points;
     plot::TimePlot top = cube_plot("Force at the top end", "N", ticks);
     add_components(top, "", ticks, 1.0, [](const CubeTick& t) { return force_of_point(t, 0); });
@@ -120,7 +120,7 @@ std::string figure_forces(const CubeTest& test) {
     return plot::time_figure("Figure 23: top end, bottom end, both ends at a cube", {top, bottom, torque}, 1);
 }
 
-std::string figure_torques(const CubeTest& test) {
+std::string figure_torques(const PressedCube& test) {
     const std::vector<CubeTick>& ticks = test.two_points;
     plot::TimePlot contact = cube_plot("Torque of the contact", "N mm", ticks);
     add_components(contact, "about ", ticks, kMilli, [](const CubeTick& t) { return t.torque_Nm; });
@@ -129,7 +129,7 @@ std::string figure_torques(const CubeTest& test) {
     return plot::time_figure("Figure 24: torques about three axes", {contact, given}, 1);
 }
 
-std::string figure_sums(const CubeTest& test) {
+std::string figure_sums(const PressedCube& test) {
     plot::Plot forces{"Force of each end along z", "time, s", "N", {}};
     forces.x_linear = forces.y_linear = true;
     forces.markers = false;
@@ -142,7 +142,7 @@ std::string figure_sums(const CubeTest& test) {
     return plot::svg_figure("Figure 25: forces of both ends, and torque against force", {forces, torque});
 }
 
-std::string figure_control(const CubeTest& test) {
+std::string figure_control(const PressedCube& test) {
     const std::vector<CubeTick>& ticks = test.one_point;
     const double face_m = test.face_m;
     plot::TimePlot sunk = cube_plot("Place behind the cube's face; above 0 it is inside", "mm", ticks);

@@ -23,7 +23,7 @@ constexpr double kReachAtDevice_m = 0.014, kWandReachAtDevice_m = 0.02;
 // The recorded values from which a tick in another world deviates. A point that was not there is not a number.
 class RecordedTouch {
 public:
-    static Result<RecordedTouch> find(const record::RecordReader& reader, const RecordedDevice& device) {
+    static Result<RecordedTouch> find(const record::RecordReader& reader, const DeviceAsRecorded& device) {
         RecordedTouch touch;
         std::string missing;
         const auto vector = [&](const std::string& before, const char* unit) {
@@ -85,7 +85,7 @@ haptics::PointRecord absent_point() {
 }
 
 TickThrough tick_through(const record::RecordedTick& recorded, const haptics::TickRecord& felt,
-                         const RecordedTouch& was, const record::RowWalk& walk, const RecordedDevice& device) {
+                         const RecordedTouch& was, const record::RowWalk& walk, const DeviceAsRecorded& device) {
     TickThrough tick{recorded, felt};
     for (std::uint32_t i = 0; i < device.point_count(); ++i) {
         PointThrough& point = tick.points[i];
@@ -135,7 +135,7 @@ struct ThroughValues {
 };
 
 template <typename Sink>
-void visit_through(Sink& sink, const RecordedDevice& device, const TickThrough& tick) {
+void visit_through(Sink& sink, const DeviceAsRecorded& device, const TickThrough& tick) {
     const auto vector = [&](const char* before, int number, const std::array<const char*, 3>& after, const char* unit,
                             const char* frame, const Vec3& v) {
         for (int i = 0; i < 3; ++i) sink.f64({before, number, after[static_cast<std::size_t>(i)]}, unit, frame, v[i]);
@@ -282,7 +282,7 @@ private:
 ExplorationSettings settings_through(const record::RecordReader& reader, const record::RecordedTick& first,
                                      const ThroughProbe& probe) {
     ExplorationSettings settings;
-    const RecordedDevice& device = probe.device;
+    const DeviceAsRecorded& device = probe.device;
     const Pose tool{first.sample.position_device_m, first.sample.orientation_device};
     const Vec3 hand = first.object_from_device * (tool * device.probe(probe.radius_m).points[0].offset_device_m);
     if (const auto own = recorded_settings(reader))
@@ -334,7 +334,7 @@ Result<std::unique_ptr<OtherWorld>> begin_through(const record::RecordReader& re
 
 }  // namespace
 
-std::vector<record::Column> through_columns(const RecordedDevice& device) {
+std::vector<record::Column> through_columns(const DeviceAsRecorded& device) {
     ThroughNames names;
     visit_through(names, device, {});
     return std::move(names.columns);

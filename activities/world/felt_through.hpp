@@ -23,7 +23,7 @@ namespace burin::activities {
 
 // The probe that is led through the world: the device as it was recorded, with a ball at each of its points.
 struct ThroughProbe {
-    RecordedDevice device;
+    DeviceAsRecorded device;
     double radius_m = 0.004;  // of the balls, in the scene
 };
 
@@ -57,7 +57,7 @@ struct ThroughFigures {
 // desired and commanded force, for a wand also torque; flags, cause; and the deviations: of each proxy from the
 // recorded one, of the commanded force, for a wand also of the torque. What a tick does not have of a point is not a
 // number, and so is a deviation from what the recorded tick did not have.
-[[nodiscard]] std::vector<record::Column> through_columns(const RecordedDevice& device = {});
+[[nodiscard]] std::vector<record::Column> through_columns(const DeviceAsRecorded& device = {});
 
 using TakeRow = std::function<Result<void>(const record::RecordedTick& tick, const std::vector<record::Word>& row)>;
 

@@ -13,7 +13,7 @@
 namespace burin::activities {
 namespace {
 
-Result<std::unique_ptr<devices::HapticDevice>> still_device(const RecordedDevice& device) {
+Result<std::unique_ptr<devices::HapticDevice>> still_device(const DeviceAsRecorded& device) {
     BURIN_TRY(hand, devices::SimulatedHand::create({devices::HandPose{}}));
     if (device.wand) return std::make_unique<devices::SimulatedWand>(std::move(hand), *device.wand);
     return std::make_unique<devices::SimulatedOmni>(std::move(hand));
@@ -21,7 +21,7 @@ Result<std::unique_ptr<devices::HapticDevice>> still_device(const RecordedDevice
 
 }  // namespace
 
-haptics::Probe RecordedDevice::probe(double radius_m) const {
+haptics::Probe DeviceAsRecorded::probe(double radius_m) const {
     haptics::Probe probe = haptics::ball_probe(radius_m);
     if (!wand || points.empty()) return probe;
     probe.count = std::min(point_count(), haptics::kMostProbePoints);
@@ -30,7 +30,7 @@ haptics::Probe RecordedDevice::probe(double radius_m) const {
     return probe;
 }
 
-Result<void> check_hand(const record::RecordReader& reader, const RecordedDevice& device) {
+Result<void> check_hand(const record::RecordReader& reader, const DeviceAsRecorded& device) {
     if (reader.hands().size() != 1)
         return fail(reader.path(), "has " + std::to_string(reader.hands().size()) + " hands",
                     "replay a recording of one hand");
@@ -53,7 +53,7 @@ Result<void> check_tick(const record::RecordReader& reader, const record::Record
                 "burin session check tells what is damaged");
 }
 
-Result<std::unique_ptr<RepeatedHand>> RepeatedHand::create(const RecordedDevice& device,
+Result<std::unique_ptr<RepeatedHand>> RepeatedHand::create(const DeviceAsRecorded& device,
                                                            haptics::HapticChannels& channels) {
     BURIN_TRY(still, still_device(device));
     return std::unique_ptr<RepeatedHand>(new RepeatedHand(std::move(still), channels));

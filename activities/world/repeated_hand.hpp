@@ -16,7 +16,7 @@
 namespace burin::activities {
 
 // The simulated device that led a recorded motion, and what of it touches: a ball at each point.
-struct RecordedDevice {
+struct DeviceAsRecorded {
     std::optional<devices::WandDescription> wand = {};  // none: the simulated Omni
     std::vector<devices::WandPoint> points = {};        // of the wand; none: one, where the tool is
 
@@ -28,7 +28,7 @@ struct RecordedDevice {
 };
 
 // Checks that the recording has one hand, and that it is of this device.
-[[nodiscard]] Result<void> check_hand(const record::RecordReader& reader, const RecordedDevice& device);
+[[nodiscard]] Result<void> check_hand(const record::RecordReader& reader, const DeviceAsRecorded& device);
 
 // Checks what a file may claim of a tick: times that can be subtracted from each other, and a mapping that is one.
 [[nodiscard]] Result<void> check_tick(const record::RecordReader& reader, const record::RecordedTick& tick);
@@ -36,7 +36,7 @@ struct RecordedDevice {
 class RepeatedHand {
 public:
     // The channels must outlive it.
-    [[nodiscard]] static Result<std::unique_ptr<RepeatedHand>> create(const RecordedDevice& device,
+    [[nodiscard]] static Result<std::unique_ptr<RepeatedHand>> create(const DeviceAsRecorded& device,
                                                                       haptics::HapticChannels& channels);
 
     // Computes a recorded tick with the newest surface and parameters of the channels, as their next one.

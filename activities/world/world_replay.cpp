@@ -82,7 +82,7 @@ Result<ExplorationSettings> recorded_settings(const record::RecordReader& reader
 
 Result<record::Comparison> repeat_world(record::RecordReader& reader, scene::MeshPart& part,
                                         const scene::MaterialTable& materials, const record::TickRange& range) {
-    const RecordedDevice omni;
+    const DeviceAsRecorded omni;
     BURIN_TRY_DO(check_hand(reader, omni));
     BURIN_TRY(settings, recorded_settings(reader));
     WorldTouch touch(part, materials, settings);

@@ -13,6 +13,7 @@
 #include "base/file_io.hpp"
 #include "base/try.hpp"
 #include "compute/tools/apply.hpp"
+#include "compute/vulkan/engine_choice.hpp"
 #include "desk/draw/pictures.hpp"
 #include "desk/input/desk_input.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -324,7 +325,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     const ChosenTool& tool = taken_up.chosen;
     const Box bounds_object = taken_up.workpiece.bounds_object;
     BURIN_TRY(pictures, open_pictures(options.pictures, bounds_object));
-    sculpt::ChosenEngine engine = sculpt::choose_engine(options.engine, std::move(taken_up.workpiece.solid), pool);
+    compute::ChosenEngine engine = compute::choose_engine(options.engine, std::move(taken_up.workpiece.solid), pool);
     sculpt::Sculpture carving(std::move(engine.engine), pool);
     if (pictures) BURIN_TRY_DO((pictures)->take_before(carving));
     const double cell_m = carving.surface().lattice().spacing_m;
@@ -368,7 +369,7 @@ Result<void> record_again(const session::SculptOptions& options) {
     sculpt::LoadedWorkpiece* const workpiece = &*opened.workpiece;
     BURIN_TRY(chosen_tool, choose_tool(options, std::nullopt));
     BURIN_TRY_DO(take_up(*workpiece, chosen_tool));
-    sculpt::ChosenEngine chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
+    compute::ChosenEngine chosen = compute::choose_engine(options.engine, std::move(workpiece->solid), pool);
     sculpt::Sculpture carving(std::move(chosen.engine), pool);
     carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);

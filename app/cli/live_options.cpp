@@ -2,6 +2,7 @@
 #include "app/cli/live_options.hpp"
 
 #include "base/try.hpp"
+#include "compute/rays/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "sculpt/workpiece.hpp"
@@ -44,12 +45,12 @@ void add_detail_option(Command command, session::LiveOptions& options) {
                                                           {"full", DetailChoice::full}});
 }
 
-void add_engine_option(Command command, sculpt::EngineChoice& engine) {
+void add_engine_option(Command command, compute::EngineChoice& engine) {
     command.choice("--engine", engine,
                    "auto, cpu or vulkan; where a device cannot carve, or is lost, the processor goes on",
-                   {{"auto", sculpt::EngineChoice::automatic},
-                    {"cpu", sculpt::EngineChoice::cpu},
-                    {"vulkan", sculpt::EngineChoice::vulkan}});
+                   {{"auto", compute::EngineChoice::automatic},
+                    {"cpu", compute::EngineChoice::cpu},
+                    {"vulkan", compute::EngineChoice::vulkan}});
 }
 
 void add_shadows_option(Command command, session::LiveOptions& options) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli/command_line.hpp"
+#include "compute/rays/chosen_engine.hpp"
 #include "session/options/session_options.hpp"
 
 namespace burin::app {
@@ -21,7 +22,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
 // Three of them, for a command that has no others.
 void add_mouse_option(Command command, session::LiveOptions& options);
 void add_detail_option(Command command, session::LiveOptions& options);
-void add_engine_option(Command command, sculpt::EngineChoice& engine);
+void add_engine_option(Command command, compute::EngineChoice& engine);
 void add_shadows_option(Command command, session::LiveOptions& options);
 // The mirror planes of a workpiece.
 void add_mirror_option(Command command, session::SculptOptions& options);

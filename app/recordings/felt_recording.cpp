@@ -8,6 +8,7 @@
 #include "base/json.hpp"
 #include "base/temporary_folder.hpp"
 #include "base/try.hpp"
+#include "compute/rays/chosen_engine.hpp"
 #include "session/options/option_bounds.hpp"
 
 namespace burin::app {
@@ -162,7 +163,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     o.workpiece.units = length_unit(units);
     for (const sculpt::OperationDescriptor& known : sculpt::operations())
         if (known.name == operation) o.tool.operation = known.operation;
-    o.engine = engine == "vulkan" ? sculpt::EngineChoice::vulkan : sculpt::EngineChoice::cpu;
+    o.engine = engine == "vulkan" ? compute::EngineChoice::vulkan : compute::EngineChoice::cpu;
     o.undo = undo ? 1 : 0;
     o.hand = session::HandChoice::simulated;
     return o;

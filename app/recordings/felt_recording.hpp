@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "record/compare.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/options/session_options.hpp"
@@ -28,7 +29,7 @@ inline constexpr const char* kFeltActivity = "felt stroke";
 // Where the files of a recording are now; empty: where they were.
 struct FeltFiles {
     std::string stroke, workpiece;
-    std::optional<sculpt::EngineChoice> engine;  // instead of the recorded one; either gives the same ticks
+    std::optional<compute::EngineChoice> engine;  // instead of the recorded one; either gives the same ticks
 };
 
 // Carves the stroke again and compares the ticks in the range. In a difference the first value is the recorded one.

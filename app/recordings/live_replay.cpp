@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "activities/registry.hpp"
-#include "activities/replay/recorded_device.hpp"
+#include "activities/replay/device_as_recorded.hpp"
 #include "activities/wand/wand_facts.hpp"
 #include "base/file_io.hpp"
 #include "base/try.hpp"

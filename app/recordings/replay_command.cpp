@@ -15,6 +15,7 @@
 #include "app/recordings/live_replay.hpp"
 #include "app/recordings/through_report.hpp"
 #include "base/try.hpp"
+#include "compute/rays/chosen_engine.hpp"
 #include "record/examination.hpp"
 #include "record/motion.hpp"
 #include "session/drive/tick_comparison.hpp"
@@ -89,10 +90,11 @@ Result<void> AskedReplay::replay() const {
     BURIN_TRY_DO(record::check_ticks(reader, range()));
     const std::string activity = reader.fact(activities::kActivityFact);
     if (activity == session::kLiveActivity) return replay_session(reader);
-    std::optional<sculpt::EngineChoice> engine;
-    if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=cpu"}) engine = sculpt::EngineChoice::cpu;
+    std::optional<compute::EngineChoice> engine;
+    if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=cpu"})
+        engine = compute::EngineChoice::cpu;
     if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=vulkan"})
-        engine = sculpt::EngineChoice::vulkan;
+        engine = compute::EngineChoice::vulkan;
     if ((!sets.empty() && !engine) || !pictures.empty())
         return fail(pictures.empty() ? "--set" : "--pictures",
                     "is for live sessions, and " + file + " is of another kind",

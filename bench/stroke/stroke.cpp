@@ -8,7 +8,9 @@
 
 #include "base/try.hpp"
 #include "bench/measure/timing.hpp"
+#include "compute/rays/chosen_engine.hpp"
 #include "compute/repair/self_intersections.hpp"
+#include "compute/vulkan/engine_choice.hpp"
 #include "picture/frame_setup.hpp"
 #include "sculpt/carved_part.hpp"
 #include "sculpt/workpiece.hpp"
@@ -43,8 +45,8 @@ Result<void> check_engine(sculpt::Sculpture& sculpture, const StrokeOptions& opt
 // Makes a sculpture of the scene's uncut solid.
 Result<std::unique_ptr<sculpt::Sculpture>> start(const compute::Solid& uncut, const StrokeOptions& options,
                                                  WorkerPool& pool, StrokeRun& run) {
-    const auto choice = options.on_vulkan ? sculpt::EngineChoice::vulkan : sculpt::EngineChoice::cpu;
-    sculpt::ChosenEngine chosen = sculpt::choose_engine(choice, uncut, pool);
+    const auto choice = options.on_vulkan ? compute::EngineChoice::vulkan : compute::EngineChoice::cpu;
+    compute::ChosenEngine chosen = compute::choose_engine(choice, uncut, pool);
     run.engine = chosen.engine->name();
     run.device = options.on_vulkan ? chosen.device : "native";
     run.software_device = chosen.software_device;

@@ -7,11 +7,13 @@
 // so no two threads write to the same page.
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/try.hpp"
 #include "compute/cpu/ball_spans.hpp"
+#include "compute/rays/chosen_engine.hpp"
 #include "compute/rays/engine.hpp"
 #include "compute/tools/sweep_units.hpp"
 
@@ -364,6 +366,12 @@ private:
 
 std::unique_ptr<CarvingEngine> make_cpu_engine(Solid solid, WorkerPool& pool) {
     return std::make_unique<CpuEngine>(std::move(solid), pool);
+}
+
+std::string threads_of(const WorkerPool& pool) { return std::to_string(pool.threads()) + " threads"; }
+
+ChosenEngine on_processor(Solid solid, WorkerPool& pool) {
+    return {make_cpu_engine(std::move(solid), pool), threads_of(pool), false, ""};
 }
 
 }  // namespace burin::compute

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Interface of the carving engines, which hold a tri-dexel solid and change its rays. There are two: one runs native
-// code on all cores, the other Vulkan compute. Both give the same ends on every ray, to the last bit.
+// code on all cores, the other Vulkan compute (compute/vulkan/). Both give the same ends on every ray, to the last bit.
 //
 // Data flow of a ball's sweep: segments of the stroke in metres -> capsules in lattice units -> each ray in a capsule's
 // footprint loses, gains or recolours a span. All other tools and operations are computed on the host, ray by ray
@@ -22,6 +22,10 @@
 #include "compute/rays/operation.hpp"
 #include "compute/rays/ray_batch.hpp"
 #include "compute/rays/solid.hpp"
+
+namespace burin::geometry {
+struct LocalSurface;
+}
 
 namespace burin::compute {
 
@@ -52,6 +56,49 @@ struct DeviceTraffic {
     std::uint64_t submissions = 0, blocking_waits = 0, bytes_to_device = 0, bytes_to_host = 0, most_memory_bytes = 0;
 };
 
+// An engine's device that carves and meshes by itself, ahead of the host's solid: only the triangles near the tool come
+// back with each cut (compute/vulkan/device_surface.hpp). After an Error of any call the device is to be given up, and
+// what it has carved since the last read_back() to be carved again. Thread: that of the engine, which must outlive it
+// and must not be called between carve() and finish().
+class MeshingDevice {
+public:
+    // The ball around the tool whose triangles are gathered.
+    struct Ball {
+        Vec3 center_object{0.0};
+        double radius_m = 0.0;
+    };
+    // Work done since the device began to mesh.
+    struct Counts {
+        std::uint64_t submissions = 0;
+        std::uint64_t tiles = 0;      // tiles meshed
+        std::uint64_t cells = 0;      // cells whose vertices were computed
+        std::uint64_t triangles = 0;  // triangles made
+        std::uint64_t growths = 0;    // enlarged buffers, because a tile had to wait
+    };
+    // Time spent on the device since the last carve, in seconds.
+    struct Times {
+        double cut_s = 0.0, mesh_s = 0.0, gather_s = 0.0;
+    };
+
+    virtual ~MeshingDevice() = default;
+    // Carves and meshes, without waiting for the device, and gathers the triangles in `touched` in the same
+    // submission: local_surface() will be called for them. Waits for the previous cut, if that is not finished.
+    [[nodiscard]] virtual Result<void> carve(std::span<const BallSweep> sweeps, const std::optional<Ball>& touched) = 0;
+    // Waits until the surface matches the device's solid.
+    [[nodiscard]] virtual Result<void> finish() = 0;
+    // Sets `out` to the triangles of the ball as loose triangles, ready for contact; finishes first. `sequence` and
+    // `made_ns` of `out` are left unchanged.
+    [[nodiscard]] virtual Result<void> local_surface(const Vec3& center_object, double radius_m,
+                                                     geometry::LocalSurface& out) = 0;
+    // Brings the engine's solid on the host up to date with the device's.
+    [[nodiscard]] virtual Result<void> read_back() = 0;
+    [[nodiscard]] virtual const Counts& counts() const = 0;
+    // Returns nothing where the device cannot measure time.
+    [[nodiscard]] virtual const std::optional<Times>& times() const = 0;
+    // Returns the statistics of the last carve, once that is finished.
+    [[nodiscard]] virtual const CarveStats& carved() const = 0;
+};
+
 class CarvingEngine {
 public:
     virtual ~CarvingEngine() = default;
@@ -64,7 +111,7 @@ public:
     [[nodiscard]] virtual Result<CarveStats> assign(const RayBatch& rays) = 0;
     // Returns the solid, which is up to date after every call.
     [[nodiscard]] virtual const Solid& solid() const = 0;
-    // Adds a material to the engine's solid, as add_material in solid.hpp does. A DeviceSurface knows only the
+    // Adds a material to the engine's solid, as add_material in solid.hpp does. A MeshingDevice knows only the
     // materials that existed when it was made.
     [[nodiscard]] virtual Result<std::uint8_t> add_material(const geometry::Material& material) = 0;
     // Returns what changed since the last call or, at the first call, since the engine was made.
@@ -72,14 +119,16 @@ public:
     // Returns what the user should know of, since the last call: that the processor goes on for a device
     // (compute/vulkan/standby_engine.hpp).
     [[nodiscard]] virtual std::vector<std::string> take_notices() { return {}; }
+    // Lets the engine's device mesh as well. Null where it has none, or one that cannot.
+    [[nodiscard]] virtual std::unique_ptr<MeshingDevice> mesh_on_device() { return nullptr; }
+    // Lets the processor go on from the host's solid where a device has carved so far, with a notice of why. The
+    // MeshingDevice must be gone.
+    virtual void give_up_device(const Error&) {}
     // Returns the work of the engine's device; nothing for an engine that never had one.
     [[nodiscard]] virtual std::optional<DeviceTraffic> traffic() const { return std::nullopt; }
 };
 
 // The pool must outlive the engine.
 [[nodiscard]] std::unique_ptr<CarvingEngine> make_cpu_engine(Solid solid, WorkerPool& pool);
-// Adds the other engine to the remedies of a failure of this one. Of gpu/ alone it is no remedy, since pictures are
-// drawn by the GPU whichever engine carves.
-[[nodiscard]] Error with_the_other_engine(Error failure);
 
 }  // namespace burin::compute

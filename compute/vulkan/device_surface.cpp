@@ -85,7 +85,7 @@ Result<void> DeviceSurface::carve(std::span<const BallSweep> sweeps, const std::
     BURIN_TRY_DO(finish());
     BURIN_TRY_DO(engine_.defer(sweeps));
     touched_ = touched;
-    times_ = DeviceTimes{};
+    times_ = Times{};
     if (!engine_.deferred_left() && !touched) return {};
     return submit({});
 }
@@ -93,7 +93,7 @@ Result<void> DeviceSurface::carve(std::span<const BallSweep> sweeps, const std::
 Result<void> DeviceSurface::update(const Changes& changes) {
     BURIN_TRY_DO(finish());
     touched_.reset();
-    times_ = DeviceTimes{};
+    times_ = Times{};
     BURIN_TRY_DO(engine_.synchronize());
     const std::size_t most =
         static_cast<std::size_t>(engine_.device().capabilities().max_storage_buffer_bytes) / sizeof(ChangedRay);
@@ -249,7 +249,7 @@ Result<void> DeviceSurface::settle() {
                mesh = under_way_->seconds_between(stamps_[1], stamps_[2]),
                gather = under_way_->seconds_between(stamps_[2], stamps_[3]);
     if (!cut || !mesh || !gather) times_.reset();
-    if (times_) times_ = DeviceTimes{times_->cut_s + *cut, times_->mesh_s + *mesh, times_->gather_s + *gather};
+    if (times_) times_ = Times{times_->cut_s + *cut, times_->mesh_s + *mesh, times_->gather_s + *gather};
     under_way_.reset();
     if (cut_under_way_) {
         BURIN_TRY_DO(engine_.end_pass());

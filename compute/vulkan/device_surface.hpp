@@ -42,47 +42,25 @@ struct DeviceSurfaceOptions {
     std::uint32_t ball_vertices = 1u << 15;   // of these triangles
 };
 
-// Work done since the surface was made.
-struct DeviceSurfaceCounts {
-    std::uint64_t submissions = 0;
-    std::uint64_t tiles = 0;      // tiles meshed
-    std::uint64_t cells = 0;      // cells whose vertices were computed
-    std::uint64_t triangles = 0;  // triangles made
-    std::uint64_t growths = 0;    // enlarged buffers, because a tile had to wait
-};
-
-// Time spent on the device since the last carve or update, in seconds.
-struct DeviceTimes {
-    double cut_s = 0.0, mesh_s = 0.0, gather_s = 0.0;
-};
-
-class DeviceSurface {
+class DeviceSurface final : public MeshingDevice {
 public:
-    // The ball around the tool whose triangles are gathered (object frame).
-    struct Ball {
-        Vec3 center_object{0.0};
-        double radius_m = 0.0;
-    };
-
     // Makes the surface of the engine's solid and meshes all of it.
     [[nodiscard]] static Result<std::unique_ptr<DeviceSurface>> create(VulkanEngine& engine,
                                                                        const DeviceSurfaceOptions& options = {});
 
-    // Carves and updates the surface, without waiting for the device. The triangles in `touched`, for which
-    // local_surface will be called, are gathered in the same submission. Waits for the previous frame, if that is not
-    // finished.
-    [[nodiscard]] Result<void> carve(std::span<const BallSweep> sweeps, const std::optional<Ball>& touched = {});
+    [[nodiscard]] Result<void> carve(std::span<const BallSweep> sweeps,
+                                     const std::optional<Ball>& touched = {}) override;
     // Updates the surface after changes that the host knows: those of VulkanEngine::assign and carve, as returned by
     // take_changes.
     [[nodiscard]] Result<void> update(const Changes& changes);
-    // Waits until the surface matches the solid.
-    [[nodiscard]] Result<void> finish();
+    [[nodiscard]] Result<void> finish() override;
 
-    // Sets `out` to the triangles of the ball as loose triangles, ready for contact. Only when they exceed what a
-    // binding shows (capabilities().max_storage_buffer_bytes) is the ball made smaller. `sequence` and `made_ns` of
-    // `out` are left unchanged. Calls finish first; takes one more submission where the ball differs from the one
-    // given to carve, and one or two more where it holds more than any before.
-    [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
+    // Only when the triangles exceed what a binding shows (capabilities().max_storage_buffer_bytes) is the ball made
+    // smaller. Takes one more submission where the ball differs from the one given to carve, and one or two more where
+    // it holds more than any before.
+    [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m,
+                                             geometry::LocalSurface& out) override;
+    [[nodiscard]] Result<void> read_back() override { return engine_.read_back(); }
     // Returns the vertices, indices and disagreeing edges of every tile, for tests and reports. Calls finish first.
     [[nodiscard]] Result<std::vector<TileMesh>> download();
 
@@ -92,11 +70,9 @@ public:
     [[nodiscard]] const gpu::Buffer& indices() const { return indices_; }
     [[nodiscard]] const gpu::Buffer& ranges() const { return ranges_; }
     [[nodiscard]] std::size_t tile_count() const { return grid_.count(); }
-    [[nodiscard]] const DeviceSurfaceCounts& counts() const { return counts_; }
-    // Returns nothing where the device cannot measure time.
-    [[nodiscard]] const std::optional<DeviceTimes>& times() const { return times_; }
-    // Returns the statistics of the last carve, once that is finished.
-    [[nodiscard]] const CarveStats& carved() const { return engine_.deferred_stats(); }
+    [[nodiscard]] const Counts& counts() const override { return counts_; }
+    [[nodiscard]] const std::optional<Times>& times() const override { return times_; }
+    [[nodiscard]] const CarveStats& carved() const override { return engine_.deferred_stats(); }
 
 private:
     enum Stage {
@@ -139,7 +115,7 @@ private:
     DeviceSurfaceOptions options_;  // its sizes grow with the buffers
     Lattice lattice_;
     TileGrid grid_;
-    DeviceSurfaceCounts counts_;
+    Counts counts_;
     std::array<gpu::ComputePipeline, kStages> stages_;
     gpu::Buffer ranges_, jobs_, cells_, edges_, free_, tables_, waiting_, vertices_, indices_, members_;
     SharedBuffer counters_{"mesh counters", SharedBuffer::Traffic::both};
@@ -151,7 +127,7 @@ private:
 
     std::optional<gpu::Submission> under_way_;
     std::array<gpu::Stamp, 4> stamps_{};  // start of under_way_ and ends of its cut, mesh and gather
-    std::optional<DeviceTimes> times_;
+    std::optional<Times> times_;
     bool cut_under_way_ = false;                // under_way_ contains a pass of the engine
     bool all_stale_ = true;                     // set when everything has to be meshed anew
     std::vector<std::uint32_t> waiting_tiles_;  // to be meshed by the next submissions

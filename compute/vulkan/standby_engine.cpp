@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "compute/tools/sweep_units.hpp"
+#include "compute/vulkan/device_surface.hpp"
 
 namespace burin::compute {
 
@@ -27,7 +28,7 @@ Result<CarveStats> StandbyEngine::carve(std::span<const BallSweep> sweeps) {
     if (on_device_ != nullptr) {
         const auto carved = on_device_->carve(sweeps);
         if (carved || !capsules_in_units(solid(), sweeps)) return carved;  // what is invalid is so for either engine
-        give_up(carved.error());
+        give_up_device(carved.error());
     }
     return engine_->carve(sweeps);
 }
@@ -36,7 +37,7 @@ Result<CarveStats> StandbyEngine::assign(const RayBatch& rays) {
     if (on_device_ != nullptr) {
         const auto assigned = on_device_->assign(rays);
         if (assigned) return assigned;
-        give_up(assigned.error());
+        give_up_device(assigned.error());
     }
     return engine_->assign(rays);
 }
@@ -50,7 +51,16 @@ Changes StandbyEngine::take_changes() {
 
 std::vector<std::string> StandbyEngine::take_notices() { return std::exchange(notices_, {}); }
 
-void StandbyEngine::give_up(const Error& why) {
+std::unique_ptr<MeshingDevice> StandbyEngine::mesh_on_device() {
+    // A device without this layout still carves, and the host meshes.
+    if (on_device_ == nullptr || !on_device_->device().capabilities().scalar_block_layout) return nullptr;
+    auto made = DeviceSurface::create(*on_device_);
+    if (made) return std::move(*made);
+    give_up_device(made.error());
+    return nullptr;
+}
+
+void StandbyEngine::give_up_device(const Error& why) {
     if (on_device_ == nullptr) return;
     before_ = on_device_->take_changes();
     last_traffic_ = on_device_->traffic();

@@ -6,7 +6,7 @@
 // (engine.hpp); the processor's engine takes this solid over and does the call again. Both give the same ends, so
 // nothing shows of it but one notice for the user. There is no way back to the device.
 // The host's solid lacks deferred cuts that were not read back (device_surface.hpp): whoever defers cuts has to do them
-// again after give_up().
+// again after give_up_device().
 // Thread: that of the engines; the pool must outlive the engine.
 #pragma once
 
@@ -41,10 +41,12 @@ public:
         return on_device_ != nullptr ? on_device_->traffic() : last_traffic_;
     }
 
+    // Has no effect once the processor carves.
+    [[nodiscard]] std::unique_ptr<MeshingDevice> mesh_on_device() override;
+    void give_up_device(const Error& why) override;
+
     // The device's engine; null once the processor carves.
     [[nodiscard]] VulkanEngine* on_device() { return on_device_; }
-    // Lets the processor go on from the host's solid, if it does not already.
-    void give_up(const Error& why);
 
 private:
     void let_the_processor_carve(Solid solid, const Error& why);

@@ -146,4 +146,8 @@ private:
     Changes changes_;
 };
 
+// Adds the other engine to the remedies of a failure of this one. Of gpu/ alone it is no remedy, since pictures are
+// drawn by the GPU whichever engine carves.
+[[nodiscard]] Error with_the_other_engine(Error failure);
+
 }  // namespace burin::compute

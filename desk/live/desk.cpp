@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/try.hpp"
+#include "compute/vulkan/engine_choice.hpp"
 #include "desk/live/opened_desk.hpp"
 #include "desk/viewer/view_cube.hpp"
 #include "desk/viewer/viewed_picture.hpp"
@@ -26,7 +27,9 @@ Result<std::unique_ptr<Desk>> Desk::create(const SculptOptions& options, const S
         desk->viewer_.edge_comfort = options.live.edge_comfort;
         return placed_before(desk->viewer_, room, desk->room_, held);
     };
-    BURIN_TRY(session, Session::create(options, clock, pace, std::move(made), place));
+    SculptOptions with_device = options;
+    if (!with_device.make_engine) with_device.make_engine = compute::engine_maker(options.engine);
+    BURIN_TRY(session, Session::create(with_device, clock, pace, std::move(made), place));
     desk->session_ = std::move(session);
     take_hand(desk->viewer_, desk->session_->state());
     desk->viewer_.seen_from = seen_from(desk->seen());

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "compute/vulkan/engine_choice.hpp"
 #include "geometry/mesh/coarse_copy.hpp"
 
 namespace burin::session {
@@ -72,7 +73,7 @@ Result<sculpt::MadeWorkpiece> OpeningWork::take() {
     return std::move(made_);
 }
 
-Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece, sculpt::EngineChoice engine,
+Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece, compute::EngineChoice engine,
                                             unsigned threads, OpeningSight& sight) {
     sculpt::LoadWatch watch{&sight.work()};
     watch.look = [&sight](const geometry::TriangleMesh& mesh) {
@@ -80,7 +81,7 @@ Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& work
         const Box bounds = drawn->bounds;
         sight.show({std::move(drawn), bounds});
     };
-    return sculpt::make_workpiece(workpiece, engine, threads, watch);
+    return sculpt::make_workpiece(workpiece, compute::engine_maker(engine), threads, watch);
 }
 
 }  // namespace burin::session

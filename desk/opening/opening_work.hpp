@@ -11,6 +11,7 @@
 #include <optional>
 #include <thread>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "picture/drawn_mesh.hpp"
 #include "sculpt/made_workpiece.hpp"
 
@@ -72,7 +73,7 @@ private:
 
 // Makes the workpiece of these options, and gives the sight a first look at its mesh.
 [[nodiscard]] Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece,
-                                                          sculpt::EngineChoice engine, unsigned threads,
+                                                          compute::EngineChoice engine, unsigned threads,
                                                           OpeningSight& sight);
 
 }  // namespace burin::session

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "compute/rays/chosen_engine.hpp"
 
 namespace burin::session {
 namespace {
@@ -19,8 +20,12 @@ constexpr double kExploringBall = 0.015;
 }  // namespace
 
 Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options, OpenedWork& opened) {
-    if (!opened.workpiece) return sculpt::make_workpiece(options.workpiece, options.engine, options.threads);
-    auto made = sculpt::ready_to_carve(std::move(*opened.workpiece), options.engine,
+    if (!options.make_engine && options.engine == compute::EngineChoice::vulkan)
+        return fail("--engine vulkan", "this session was opened without a device that carves",
+                    "take --engine cpu, or open it with engine_maker() of compute/vulkan/engine_choice.hpp");
+    const compute::EngineMaker make_engine = options.make_engine ? options.make_engine : compute::on_processor;
+    if (!opened.workpiece) return sculpt::make_workpiece(options.workpiece, make_engine, options.threads);
+    auto made = sculpt::ready_to_carve(std::move(*opened.workpiece), make_engine,
                                        std::make_unique<WorkerPool>(options.threads));
     if (!made) return made;
     if (opened.history) made->carving->keep_history(std::move(*std::exchange(opened.history, std::nullopt)));

@@ -14,7 +14,8 @@
 
 namespace burin::session {
 
-// Takes the workpiece of a document, or makes it of a file or a shape.
+// Takes the workpiece of a document, or makes it of a file or a shape. Fails where a device is to carve and the options
+// have no maker of its engine.
 [[nodiscard]] Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options, OpenedWork& opened);
 // Takes its place into the room, and what was found out of it.
 void note_workpiece(const sculpt::MadeWorkpiece& made, const SculptOptions& options, Room& room, FoundOut& found);

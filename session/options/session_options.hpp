@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "scene/world_reading.hpp"
 #include "sculpt/feel_options.hpp"
@@ -122,7 +123,9 @@ struct SculptOptions {
     sculpt::Mirror mirror;   // planes on whose other sides it works as well
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep
-    sculpt::EngineChoice engine = sculpt::EngineChoice::automatic;
+    compute::EngineChoice engine = compute::EngineChoice::automatic;
+    // Makes it; none: the processor's, and a device that is asked for is refused. No option of the command line.
+    compute::EngineMaker make_engine;
     HandChoice hand = HandChoice::rigid;
     sculpt::FeelOptions feel;  // with a simulated hand
     bool real_time = false;

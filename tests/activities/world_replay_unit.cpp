@@ -199,7 +199,7 @@ TEST(FeltThrough, AMotionThatBeginsLaterBeginsWithAProxyOfItsOwn) {
 
 // Programs of others read these by name.
 TEST(FeltThrough, ATableOfOnePointKeepsItsColumnsAndAWandHasThemForEachPoint) {
-    const auto names = [](const RecordedDevice& device) {
+    const auto names = [](const DeviceAsRecorded& device) {
         std::vector<std::string> names;
         for (const record::Column& column : through_columns(device)) names.push_back(column.name);
         return names;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "tests/support/run_command.hpp"
@@ -148,7 +149,7 @@ protected:
     // A desk that is opened later, with options of its own.
     MouseDesk() = default;
     void open() {
-        options.engine = sculpt::EngineChoice::cpu;
+        options.engine = compute::EngineChoice::cpu;
         if (const auto settled = settle_mouse(options); !settled) throw std::runtime_error(settled.error().line());
         auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());

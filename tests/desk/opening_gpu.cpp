@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "compute/vulkan/engine_choice.hpp"
 #include "desk/opening/opening.hpp"
 #include "desk/run/session.hpp"
 #include "gpu/device.hpp"
@@ -58,7 +59,7 @@ TEST_F(Opening, ShowsPicturesBeforeTheSolidIsThere) {
             EXPECT_TRUE(sight.wait_for_pictures(so_far + 1)) << "the file's mesh is seen";
             with_the_mesh = sight.pictures();
         };
-        return sculpt::make_workpiece(options.workpiece, options.engine, 1, watch);
+        return sculpt::make_workpiece(options.workpiece, compute::engine_maker(options.engine), 1, watch);
     });
     ASSERT_TRUE(made) << made.error().line();
     ASSERT_TRUE(*made);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "tests/desk/panel_models.hpp"
 
@@ -39,7 +40,7 @@ TEST(PanelHeader, KeepsALongNameOffTheFramesPerSecond) {
 TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
     SculptOptions options;
     options.workpiece = {"block:0.05,0.04,0.0305", 32, false};
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     SimulatedClock clock;
     const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
     desk->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, haptics::ToolState{},

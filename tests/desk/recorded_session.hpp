@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/drive/driver.hpp"
 #include "session/drive/recording_start.hpp"
@@ -50,7 +51,7 @@ inline SculptOptions short_options(const std::string& record) {
     SculptOptions options;
     options.workpiece.resolution = 32;
     options.tool.shape = "ball:0.012";
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     options.threads = 1;
     options.live.record = record;
     return options;

@@ -2,6 +2,7 @@
 // The roles beside a live session: what it watches, logs and queues.
 #include <gtest/gtest.h>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/panel/panel.hpp"
 #include "desk/run/session.hpp"
@@ -24,7 +25,7 @@ Viewed before(const std::string& wall) {
 double carried_m(double x_world, double y_world) {
     SculptOptions options;
     options.workpiece = {"ball:0.1", 32, false};
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     options.live.wall = std::string(kWallsFolder) + "/powerwall.toml";
     SimulatedClock clock;
     const SessionWall wall = session_wall(options.live).value();
@@ -46,7 +47,7 @@ std::size_t files_asked_for(bool writes_nothing) {
     const Workplace place;
     SculptOptions options;
     options.workpiece = {"ball:0.1", 32, false};
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     options.live.input = "script.txt";
     options.live.outputs = (place / "out").string();
     options.live.writes_nothing = writes_nothing;
@@ -225,7 +226,7 @@ TEST(Desk, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
 TEST(Desk, OffersToolSizesThatSuitItsWorkpiece) {
     SculptOptions options;
     options.workpiece = {"ball:0.01", 32, false};
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     SimulatedClock clock;
     const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
     // Where the slider is, by a panel of the same size; on a desk it is at the right of the window.
@@ -255,7 +256,7 @@ TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
     SculptOptions options;
     options.workpiece = {"ball:0.02", 16, false};
     options.tool.shape = "ball:0.001";
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     options.live.panel_window = true;
     SimulatedClock clock;
     const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "session/record/log_export.hpp"
 #include "tests/desk/recorded_session.hpp"
 #include "tests/record/failing_disk.hpp"
@@ -60,7 +61,7 @@ TEST(SessionRecording, OfAMouseOnTheSurfaceIsDoneAgainToTheBit) {
     EXPECT_EQ(recorded->options.live.mouse, MouseMode::surface);
     EXPECT_EQ(recorded->options.live.device, "mouse");
     SculptOptions again = recorded->options;
-    again.engine = sculpt::EngineChoice::cpu;
+    again.engine = compute::EngineChoice::cpu;
     const Judged is = judged(std::move(*log), path, again);
     ASSERT_TRUE(is.done) << is.done.error().line();
     EXPECT_EQ(is.found.ticks, ticks);

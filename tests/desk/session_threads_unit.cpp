@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/record/tick_source.hpp"
@@ -43,7 +44,7 @@ SculptOptions options_for(const std::string& record) {
     SculptOptions options;
     options.workpiece.resolution = 32;
     options.tool.shape = "ball:0.012";
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     options.threads = 1;
     options.live.record = record;
     return options;
@@ -61,11 +62,10 @@ public:
     RecordedSession(const Workplace& place, Clock& clock, double pace = 1.0) : place_(place) {
         const std::string path = (place / "live.log").string();
         const SculptOptions options = options_for(path);
-        auto created = Desk::create(options, *session_wall(options.live), clock, pace);
+        desk = Desk::create(options, *session_wall(options.live), clock, pace).value();
         auto writer = InputLogWriter::create(path, settings_line(options));
         auto script = parse_input_log(kScript, "script");
-        if (!created || !writer || !script) throw std::runtime_error("the session does not open");
-        desk = std::move(*created);
+        if (!writer || !script) throw std::runtime_error("the session does not open");
         untouched_ = check_of(desk->session());
         input.emplace(InputSource::play(std::move(*script), std::move(*writer)));
         recorder.emplace(*input, desk->session());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/state/session_settings.hpp"
@@ -32,7 +33,7 @@ public:
         options.world = (place_ / "w.toml").string();
         options.no_workpiece = !with_workpiece;
         options.workpiece = {"ball:0.03", 32, false};
-        options.engine = sculpt::EngineChoice::cpu;
+        options.engine = compute::EngineChoice::cpu;
         auto made = Desk::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "compute/rays/engine.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/tick.hpp"
 #include "scene/scene_thread.hpp"
@@ -31,7 +32,7 @@ struct Bench {
     static std::unique_ptr<compute::CarvingEngine> engine(WorkerPool& pool, const Vec3& place) {
         compute::Solid ball = *compute::make_ball(0.1, 32, {"skin"});
         ball.lattice.origin_object += place;
-        return std::move(choose_engine(EngineChoice::cpu, std::move(ball), pool).engine);
+        return compute::make_cpu_engine(std::move(ball), pool);
     }
     static Tool tool() { return {compute::BallTool{0.02}}; }
     // The tool at a place, with its button up or down; material without hardness goes away where the hand is.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compute/rays/chosen_engine.hpp"
 #include "sculpt/made_workpiece.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ TEST(MadeWorkpiece, TellsItsStepsAndEndsWithAllOfThemDone) {
                               triangles = mesh.triangles.size();
                               at_look = work.look().step;
                           }};
-    const auto made = make_workpiece({.source = kBallOfAFile, .resolution = 32}, EngineChoice::cpu, 1, watch);
+    const auto made = make_workpiece({.source = kBallOfAFile, .resolution = 32}, compute::on_processor, 1, watch);
     ASSERT_TRUE(made) << made.error().line();
     EXPECT_EQ(at_look, "reading the file");
     EXPECT_GT(triangles, 1000u);
@@ -33,8 +34,8 @@ TEST(MadeWorkpiece, TellsItsStepsAndEndsWithAllOfThemDone) {
 
 TEST(MadeWorkpiece, IsTheSameWhetherOrNotAnybodyLooks) {
     WorkWatch work;
-    const auto seen = make_workpiece({.source = kBallOfAFile, .resolution = 32}, EngineChoice::cpu, 2, {&work});
-    const auto unseen = make_workpiece({.source = kBallOfAFile, .resolution = 32}, EngineChoice::cpu, 1);
+    const auto seen = make_workpiece({.source = kBallOfAFile, .resolution = 32}, compute::on_processor, 2, {&work});
+    const auto unseen = make_workpiece({.source = kBallOfAFile, .resolution = 32}, compute::on_processor, 1);
     ASSERT_TRUE(seen && unseen);
     EXPECT_EQ(seen->carving->surface().triangles(), unseen->carving->surface().triangles());
     EXPECT_EQ(seen->carving->surface().volume_m3(), unseen->carving->surface().volume_m3());
@@ -45,7 +46,7 @@ TEST(MadeWorkpiece, IsNotMadeWhereItIsNoLongerWanted) {
     for (const std::string source : {kBallOfAFile, "ball:0.05"}) {
         WorkWatch work;
         work.stop();
-        const auto made = make_workpiece({.source = source, .resolution = 32}, EngineChoice::cpu, 1, {&work});
+        const auto made = make_workpiece({.source = source, .resolution = 32}, compute::on_processor, 1, {&work});
         ASSERT_FALSE(made) << source;
         EXPECT_EQ(made.error().line(), no_longer_wanted().error().line());
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Carving with planes of symmetry: both sides get the same, whatever the tool, and one undo takes back both.
+#include "compute/rays/engine.hpp"
 #include "sculpt/mirror.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ struct MirroredBlock {
     static std::unique_ptr<compute::CarvingEngine> engine(WorkerPool& pool) {
         compute::Solid block = *compute::make_block({0.06, 0.05, 0.04}, kCells, {"skin"});
         block.lattice.origin_object += Vec3(0.013, -0.021, 0.007);
-        return std::move(choose_engine(EngineChoice::cpu, std::move(block), pool).engine);
+        return compute::make_cpu_engine(std::move(block), pool);
     }
     [[nodiscard]] Vec3 middle() const { return workpiece_bounds(carving.surface().lattice()).center(); }
     // How much a stroke near the corner of the largest x, y and z takes away, on one side of each plane.

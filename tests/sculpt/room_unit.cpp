@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/rays/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
@@ -24,7 +25,7 @@ Added half_ball_on_top(double room) {
     auto block = load_workpiece({.source = "block:0.06,0.05,0.04", .resolution = 60, .room = room}, pool);
     EXPECT_TRUE(block);
     EXPECT_NEAR(block->bounds_object.hi.z, 0.04, 1e-3) << "the room is not the workpiece's";
-    Sculpture carving(std::move(choose_engine(EngineChoice::cpu, std::move(block->solid), pool).engine), pool);
+    Sculpture carving(compute::make_cpu_engine(std::move(block->solid), pool), pool);
     haptics::HapticChannels channels;
     const Tool ball{compute::BallTool{kAddedRadius_m}, compute::Operation::fill};
     CarvedScene desk(carving, channels, ball, 0.0, 0.02, 1 << 24);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A solid as pages: what is saved and loaded is the same to the bit and goes on being so; what is lost is made again.
+#include "compute/rays/engine.hpp"
 #include "sculpt/saved_solid.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ struct SavedBall {
     Sculpture carving{engine(*load_workpiece({.source = "ball:0.1", .resolution = 90, .room = 0.1}, pool)), pool};
 
     std::unique_ptr<compute::CarvingEngine> engine(LoadedWorkpiece workpiece) {
-        return std::move(choose_engine(EngineChoice::cpu, std::move(workpiece.solid), pool).engine);
+        return compute::make_cpu_engine(std::move(workpiece.solid), pool);
     }
     void stroke(const Vec3& from, const Vec3& to) {
         const auto material = carving.add_material({"red", {200, 10, 10}});
@@ -52,8 +53,7 @@ TEST(SavedSolid, IsTheSameToTheBitAndGoesOnTheSame) {
     ASSERT_TRUE(loaded) << loaded.error().line();
     EXPECT_EQ(loaded->lost, "");
     expect_same(loaded->solid, ball.solid());
-    Sculpture opened(std::move(choose_engine(EngineChoice::cpu, std::move(loaded->solid), ball.pool).engine),
-                     ball.pool);
+    Sculpture opened(compute::make_cpu_engine(std::move(loaded->solid), ball.pool), ball.pool);
     scene::Pages again;
     ASSERT_TRUE(opened.save(again));
     EXPECT_EQ(again.pages, pages.pages);

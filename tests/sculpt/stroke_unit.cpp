@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/rays/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
@@ -19,7 +20,7 @@ namespace {
 const Tool kBall{compute::BallTool{0.02}, compute::Operation::cut, 0};
 
 std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
-    return std::move(choose_engine(EngineChoice::cpu, *compute::make_ball(0.1, 32, {"skin"}), pool).engine);
+    return compute::make_cpu_engine(*compute::make_ball(0.1, 32, {"skin"}), pool);
 }
 
 // A sample of material without hardness, which gives way where the hand is.

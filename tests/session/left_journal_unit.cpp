@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "compute/rays/engine.hpp"
 #include "document/journal.hpp"
 #include "record/database.hpp"
 #include "scene/saved_objects.hpp"
@@ -95,9 +96,7 @@ protected:
     void leave(const std::function<void(document::Journal&)>& last = {}) {
         auto workpiece = sculpt::load_workpiece({.source = "ball:0.05", .resolution = 20, .room = 0.1}, pool);
         ASSERT_TRUE(workpiece);
-        sculpt::Sculpture carving(
-            std::move(sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(workpiece->solid), pool).engine),
-            pool);
+        sculpt::Sculpture carving(compute::make_cpu_engine(std::move(workpiece->solid), pool), pool);
         carving.keep_history(kUndoOfLeft_bytes);
         carve(carving, 0);
         fs::remove(document);

@@ -2,6 +2,7 @@
 // The machine's pace, and that only a session in real time has one of its own.
 #include <gtest/gtest.h>
 
+#include "compute/rays/chosen_engine.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/live/session.hpp"
 
@@ -25,7 +26,7 @@ TEST(MachinePace, AsMeasuredIsSensible) {
 TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
     SculptOptions options;
     options.workpiece.resolution = 16;
-    options.engine = sculpt::EngineChoice::cpu;
+    options.engine = compute::EngineChoice::cpu;
     for (const double pace : {1.0, 1.7}) {
         SimulatedClock clock;
         auto session = pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace);

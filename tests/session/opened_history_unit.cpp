@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Undo and redo after a document or a journal was opened: each step gives back the rays that were there, to the bit.
+#include "compute/rays/engine.hpp"
 #include "session/work/opened_history.hpp"
 
 #include <gtest/gtest.h>
@@ -32,8 +33,7 @@ protected:
         carving->keep_history(kUndo_bytes);
     }
     void begin(compute::Solid solid) {
-        carving = std::make_unique<sculpt::Sculpture>(
-            std::move(sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(solid), pool).engine), pool);
+        carving = std::make_unique<sculpt::Sculpture>(compute::make_cpu_engine(std::move(solid), pool), pool);
     }
     // A part of a stroke; each number is at another place.
     void carve(int number) {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "compute/rays/chosen_engine.hpp"
+#include "compute/rays/engine.hpp"
 #include "document/document_store.hpp"
 #include "sculpt/sculpture.hpp"
 #include "session/live/session.hpp"
@@ -68,9 +70,7 @@ public:
         if (carves_) {
             auto ball = sculpt::load_workpiece({"ball:0.03", 16, false}, pool_);
             ASSERT_TRUE(ball);
-            sculpt::Sculpture carving(
-                std::move(sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(ball->solid), pool_).engine),
-                pool_);
+            sculpt::Sculpture carving(compute::make_cpu_engine(std::move(ball->solid), pool_), pool_);
             carving.copy(content.parts.emplace_back());
         } else {
             SavedWorld world;
@@ -101,7 +101,7 @@ public:
 
 private:
     SessionState state_of(SculptOptions options) {
-        options.engine = sculpt::EngineChoice::cpu;
+        options.engine = compute::EngineChoice::cpu;
         SimulatedClock clock;
         testing::internal::CaptureStderr();
         auto made = Session::create(options, clock);

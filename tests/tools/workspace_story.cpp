@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <functional>
 
+#include "compute/rays/chosen_engine.hpp"
+#include "compute/vulkan/engine_choice.hpp"
 #include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/tool_options.hpp"
-#include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin {
@@ -186,7 +188,8 @@ Result<void> make(const std::filesystem::path& file) {
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
     workpiece->solid.materials.push_back(sculpt::material_of(*settings));
     const Box bounds = bounds_of(workpiece->solid.lattice);
-    sculpt::ChosenEngine chosen = sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(workpiece->solid), pool);
+    compute::ChosenEngine chosen =
+        compute::choose_engine(compute::EngineChoice::cpu, std::move(workpiece->solid), pool);
     sculpt::Sculpture carving(std::move(chosen.engine), pool);
     Result<session::Pictures> pictures =
         session::Pictures::create(std::filesystem::absolute(file).parent_path(), bounds);

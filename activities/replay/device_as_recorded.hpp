@@ -14,6 +14,6 @@ namespace burin::activities {
 
 // Returns the device with which a motion was recorded, and which of its points touched: of a wand as the recording
 // describes it, or as its file does where the recording holds only the digest. What is no wand is the simulated Omni.
-[[nodiscard]] Result<RecordedDevice> recorded_device(const record::RecordReader& reader);
+[[nodiscard]] Result<DeviceAsRecorded> device_as_recorded(const record::RecordReader& reader);
 
 }  // namespace burin::activities

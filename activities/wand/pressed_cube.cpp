@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "activities/wand/cube_test.hpp"
+#include "activities/wand/pressed_cube.hpp"
 
 #include <algorithm>
 #include <array>
@@ -285,13 +285,13 @@ const char* text(CubeCase which) noexcept {
     return "unknown case";
 }
 
-bool CubeTest::holds() const { return !findings.empty() && std::ranges::all_of(findings, &CubeFinding::holds); }
+bool PressedCube::holds() const { return !findings.empty() && std::ranges::all_of(findings, &CubeFinding::holds); }
 
 std::vector<CubeFinding> findings_of(const std::vector<CubeMeasure>& measures) {
     return measures.size() == kCubeCases ? CubeJudge(measures).all() : std::vector<CubeFinding>{};
 }
 
-Result<CubeTest> run_cube_test(scene::MeshPart& part, const scene::MaterialTable& materials, const Box& cube_scene_m,
+Result<PressedCube> press_cube(scene::MeshPart& part, const scene::MaterialTable& materials, const Box& cube_scene_m,
                                const devices::WandDescription& wand, double radius_m) {
     if (wand.points.size() < 2) return fail(wand.name, "has no two points", "describe its ends as [[point]]");
     WandOptions options;
@@ -303,7 +303,7 @@ Result<CubeTest> run_cube_test(scene::MeshPart& part, const scene::MaterialTable
     const Setup setup{cube_scene_m, 0.5 * options.scene_from_device.scale * glm::length(ends_m), radius_m};
     BURIN_TRY_DO(check_room(setup, wand, options.scene_from_device));
 
-    CubeTest test;
+    PressedCube test;
     test.face_m = setup.face_m();
     const auto lead = [&](const std::vector<Press>& presses, std::vector<CubeTick>& ticks) -> Result<WandRun> {
         CubeKeeper keeper(ticks, wand);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cube test with a simulated wand, and that it tells when a sign is wrong.
-#include "activities/wand/cube_test.hpp"
+#include "activities/wand/pressed_cube.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,27 +35,27 @@ struct CubeScene {
         auto made = scene::MeshPart::create(std::move(world->objects), materials);
         if (made) part = std::move(*made);
     }
-    [[nodiscard]] Result<CubeTest> test(const devices::WandDescription& wand = {}) {
-        return run_cube_test(*part, materials, bounds_m, wand, kBall_m);
+    [[nodiscard]] Result<PressedCube> test(const devices::WandDescription& wand = {}) {
+        return press_cube(*part, materials, bounds_m, wand, kBall_m);
     }
 };
 
 // The test as it stands, run once for all tests.
-const CubeTest& usual() {
+const PressedCube& usual() {
     static CubeScene scene;
-    static const Result<CubeTest> test = scene.test();
+    static const Result<PressedCube> test = scene.test();
     EXPECT_TRUE(test);
     return *test;
 }
 
-const CubeMeasure& measure_of(const CubeTest& test, CubeCase which) {
+const CubeMeasure& measure_of(const PressedCube& test, CubeCase which) {
     return test.measures[static_cast<std::size_t>(which)];
 }
 
 }  // namespace
 
-TEST(CubeTest, HasTheSignsOfTheThesis) {
-    const CubeTest& test = usual();
+TEST(PressedCube, HasTheSignsOfTheThesis) {
+    const PressedCube& test = usual();
     ASSERT_EQ(test.measures.size(), kCubeCases);
     for (const CubeFinding& finding : test.findings)
         EXPECT_TRUE(finding.holds) << text(finding.which) << ": " << finding.expected << "; found " << finding.found;
@@ -68,8 +68,8 @@ TEST(CubeTest, HasTheSignsOfTheThesis) {
 }
 
 // The force is the stiffness of the file times the depth at which the handle holds the ball, whatever hand and arm do.
-TEST(CubeTest, EachEndIsPushedBackAsItsDepthAsks) {
-    const CubeTest& test = usual();
+TEST(PressedCube, EachEndIsPushedBackAsItsDepthAsks) {
+    const PressedCube& test = usual();
     for (const CubeCase which : {CubeCase::top, CubeCase::bottom, CubeCase::both}) {
         const CubeMeasure& m = measure_of(test, which);
         for (std::size_t i = 0; i < 2; ++i) {
@@ -82,7 +82,7 @@ TEST(CubeTest, EachEndIsPushedBackAsItsDepthAsks) {
 }
 
 // The thing that a torque is for: pressed with one end, the wand leans out of the hand's way.
-TEST(CubeTest, ATorqueTurnsTheWandInTheHand) {
+TEST(PressedCube, ATorqueTurnsTheWandInTheHand) {
     const auto leans = [](CubeCase which) {
         const Quat q = measure_of(usual(), which).mean.scene_from_handle.orientation;
         return 2.0 * q.x;
@@ -92,11 +92,11 @@ TEST(CubeTest, ATorqueTurnsTheWandInTheHand) {
     EXPECT_NEAR(leans(CubeCase::both), 0.0, 0.002);
 }
 
-TEST(CubeTest, SameRunsGiveSameBits) {
+TEST(PressedCube, SameRunsGiveSameBits) {
     CubeScene scene;
-    const Result<CubeTest> again = scene.test();
+    const Result<PressedCube> again = scene.test();
     ASSERT_TRUE(again);
-    const CubeTest& test = usual();
+    const PressedCube& test = usual();
     ASSERT_EQ(again->two_points.size(), test.two_points.size());
     for (std::size_t i = 0; i < test.two_points.size(); ++i) {
         ASSERT_EQ(again->two_points[i].given_force_N, test.two_points[i].given_force_N) << i;
@@ -105,7 +105,7 @@ TEST(CubeTest, SameRunsGiveSameBits) {
     EXPECT_EQ(test.two_points_run.trips, 0u);
 }
 
-TEST(CubeTest, TellsAWrongSign) {
+TEST(PressedCube, TellsAWrongSign) {
     std::vector<CubeMeasure> measures = usual().measures;
     measures[0].mean.given_torque_Nm.x *= -1.0;
     const std::vector<CubeFinding> findings = findings_of(measures);
@@ -121,20 +121,20 @@ TEST(CubeTest, TellsAWrongSign) {
 }
 
 // By the thesis' table torque is driven about x and y: then the test holds as well, since nothing turns about z.
-TEST(CubeTest, HoldsAlsoWithTheTorquesOfTheThesisTable) {
+TEST(PressedCube, HoldsAlsoWithTheTorquesOfTheThesisTable) {
     devices::WandDescription wand;
     wand.max_torque_maker_Nm = {0.230, 0.250, 0.0};
     CubeScene scene;
-    const Result<CubeTest> test = scene.test(wand);
+    const Result<PressedCube> test = scene.test(wand);
     ASSERT_TRUE(test) << test.error().line();
     EXPECT_TRUE(test->holds());
 }
 
-TEST(CubeTest, RefusesACubeThatDoesNotSuit) {
+TEST(PressedCube, RefusesACubeThatDoesNotSuit) {
     CubeScene scene;
     ASSERT_NE(scene.part, nullptr);
     const auto refused = [&](const Box& cube) {
-        const Result<CubeTest> test = run_cube_test(*scene.part, scene.materials, cube, {}, kBall_m);
+        const Result<PressedCube> test = press_cube(*scene.part, scene.materials, cube, {}, kBall_m);
         return test ? std::string("not refused") : test.error().line();
     };
     EXPECT_NE(refused({{-0.05, 0.15, -0.05}, {0.05, 0.25, 0.05}}).find("both ends need a face of 168 mm"),
@@ -143,8 +143,8 @@ TEST(CubeTest, RefusesACubeThatDoesNotSuit) {
     EXPECT_NE(refused({{0.4, 0.1, -0.1}, {0.6, 0.3, 0.1}}).find("move the cube"), std::string::npos);
 }
 
-TEST(CubeTest, FiguresAndTableHoldEveryCase) {
-    const CubeTest& test = usual();
+TEST(PressedCube, FiguresAndTableHoldEveryCase) {
+    const PressedCube& test = usual();
     const std::string table = cube_table(test);
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(table, '\n')),
               3 + test.two_points.size() + test.one_point.size());

@@ -51,7 +51,7 @@ struct CubeFinding {
     bool holds = false;
 };
 
-struct CubeTest {
+struct PressedCube {
     std::vector<CubeTick> two_points, one_point;
     std::vector<CubeMeasure> measures;  // in the order of CubeCase
     std::vector<CubeFinding> findings;
@@ -63,7 +63,7 @@ struct CubeTest {
 // Runs the test on the box around a felt object that is a cube with its face square to z. Fails where the cube is not
 // so high that both ends of the wand fit on its face, or so high that one alone cannot, and where the places are
 // outside of the wand's workspace.
-[[nodiscard]] Result<CubeTest> run_cube_test(scene::MeshPart& part, const scene::MaterialTable& materials,
+[[nodiscard]] Result<PressedCube> press_cube(scene::MeshPart& part, const scene::MaterialTable& materials,
                                              const Box& cube_scene_m, const devices::WandDescription& wand,
                                              double radius_m);
 
@@ -72,10 +72,10 @@ struct CubeTest {
 
 // ---- Tables and figures (cube_figures.cpp)
 
-[[nodiscard]] std::string cube_table(const CubeTest& test);      // CSV, a tick a line
-[[nodiscard]] std::string figure_forces(const CubeTest& test);   // Figure 23: each end's components, torque about x
-[[nodiscard]] std::string figure_torques(const CubeTest& test);  // Figure 24: torque about each axis
-[[nodiscard]] std::string figure_sums(const CubeTest& test);     // Figure 25: both ends' forces, torque against force
-[[nodiscard]] std::string figure_control(const CubeTest& test);  // Figure 15: the middle alone
+[[nodiscard]] std::string cube_table(const PressedCube& test);      // CSV, a tick a line
+[[nodiscard]] std::string figure_forces(const PressedCube& test);   // Figure 23: each end's components, torque about x
+[[nodiscard]] std::string figure_torques(const PressedCube& test);  // Figure 24: torque about each axis
+[[nodiscard]] std::string figure_sums(const PressedCube& test);  // Figure 25: both ends' forces, torque against force
+[[nodiscard]] std::string figure_control(const PressedCube& test);  // Figure 15: the middle alone
 
 }  // namespace burin::activities

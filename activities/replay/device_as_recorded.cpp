@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "activities/replay/recorded_device.hpp"
+#include "activities/replay/device_as_recorded.hpp"
 
 #include "activities/wand/wand_facts.hpp"
 #include "activities/wand/wand_stroke.hpp"
@@ -72,9 +72,9 @@ std::string live_settings_of(const record::RecordReader& reader) {
     return session::settings_on(reader.fact(record::kLogHeaderFact));
 }
 
-Result<RecordedDevice> recorded_device(const record::RecordReader& reader) {
+Result<DeviceAsRecorded> device_as_recorded(const record::RecordReader& reader) {
     BURIN_TRY(words, device_words_of(reader));
-    RecordedDevice recorded;
+    DeviceAsRecorded recorded;
     if (!devices::has_handle(words.device, &session::session_recordings())) return recorded;
     BURIN_TRY(wand, recorded_wand(reader, words.device));
     recorded.wand = std::move(wand);
