@@ -61,7 +61,7 @@ void SceneThread::run() {
             const std::lock_guard lock(mutex_);
             if (updated) {
                 updates_.push_back(service_.seen());
-                updates_.back().orders = orders.size();
+                updates_.back().orders = static_cast<std::size_t>(std::ranges::count_if(orders, &Order::counts));
             } else {
                 failure_ = updated.error();
             }

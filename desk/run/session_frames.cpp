@@ -3,12 +3,19 @@
 
 #include <utility>
 
+#include "base/text.hpp"
 #include "base/try.hpp"
 #include "desk/present/offscreen_output.hpp"
 #include "desk/run/session.hpp"
 #include "session/record/log_outputs.hpp"
+#include "session/record/session_recording.hpp"
 
 namespace burin::session {
+namespace {
+
+constexpr Nanoseconds kLate_ns = 100'000'000;  // a few frames on a machine that keeps up
+
+}  // namespace
 
 Result<void> step_frame(Desk& desk, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
                         const std::vector<wall::OutputPlace>& places) {
@@ -58,8 +65,21 @@ Result<bool> SessionFrames::draw() {
 Result<void> SessionFrames::finish(Executor& executor) {
     BURIN_TRY(last, executor.take_updates());
     session_.finish_scene();
+    tell_of_late_input();
     recorder_.finish(last.updates);
     return {};
+}
+
+// A hand that a log leads does something else where the log's events come late, and nothing else shows that.
+void SessionFrames::tell_of_late_input() {
+    if (input_.latest_by_ns() < kLate_ns) return;
+    const std::string late = formatted("%.2f s", 1e-9 * static_cast<double>(input_.latest_by_ns()));
+    session_.notify_of_event(
+        "the input came up to " + late +
+            " late, since frames took long: what was done is not what it says; without a recording "
+            "or streams it is done in simulated time",
+        MessageKind::warning);
+    if (const auto recording = input_.recording()) recording->fact_of_end(kInputLateFact, late);
 }
 
 bool SessionFrames::look_for_signal() {

@@ -63,6 +63,7 @@ protected:
 
 private:
     [[nodiscard]] Result<bool> draw();
+    void tell_of_late_input();
 
     FrameInput frame_;
     bool cut_short_ = false;

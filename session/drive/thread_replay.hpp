@@ -44,7 +44,10 @@ public:
     [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
     // Returns the tools as these ticks left them: an update may have needed later ticks.
     [[nodiscard]] std::vector<haptics::ToolState> tools() override;
-    void order(Order order) override { orders_.push_back(std::move(order)); }
+    void order(Order order) override {
+        if (!order.counts()) return order();
+        orders_.push_back(std::move(order));
+    }
     // Runs the updates that the frame had taken.
     [[nodiscard]] Result<Taken> take_updates() override;
     // Returns, after the frame's step, whether everything is as recorded. words: what the frame's checksum covers of

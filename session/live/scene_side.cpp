@@ -62,18 +62,18 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
 
 SceneSide::Order SceneSide::noting(document::Change change, document::DocumentWriter& writer) {
     to_be_noted_.fetch_add(1, std::memory_order_relaxed);
-    return [this, change = std::move(change), &writer]() mutable {
+    return Order::aside([this, change = std::move(change), &writer]() mutable {
         writer.note(std::move(change));
         to_be_noted_.fetch_sub(1, std::memory_order_relaxed);
-    };
+    });
 }
 
 SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
-    return [this, content = std::move(content), &writer]() mutable {
+    return Order::aside([this, content = std::move(content), &writer]() mutable {
         // The workpiece is the first part.
         if (!carved_ || carved_->copy(*content.parts.emplace(content.parts.begin())))
             writer.begin_anew(std::move(content));
-    };
+    });
 }
 
 SceneSide::Order SceneSide::editing(WorldOrder order) {

@@ -32,7 +32,7 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
     if (before) hold_governed(*before, leader, orders);
     if (!input.keys_taken) activity_.press_keys(input.events, orders);
     activity_.step(state_, orders, time_.step_ns, hands(), tools(), leader);
-    for (SceneSide::Order& order : activity_.take_on_scene()) give(std::move(order));
+    for (auto& order : activity_.take_on_scene()) give(std::move(order));
     scene_.news().frames_for_ticks(activity_.is_running());
     if (step.led.hand)
         hands().move_hand(

@@ -116,6 +116,7 @@ std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseco
     std::swap(taken_, waiting_);
     while (next_ < log_.events.size() && log_.events[next_].time_ns <= last_ns_) {
         taken_.push_back(log_.events[next_++]);
+        latest_by_ns_ = std::max(latest_by_ns_, last_ns_ - taken_.back().time_ns);
         if (asks_for_a_picture(taken_.back())) break;
     }
     // Events that the previous frame left over belong to this one.

@@ -70,6 +70,10 @@ public:
     }
     void stop_recording(Error why);
 
+    // Returns by how much the latest event of a log that is played was taken after its time, so far: frames that take
+    // long come late. 0 where the log sets the time.
+    [[nodiscard]] Nanoseconds latest_by_ns() const { return latest_by_ns_; }
+
     // Returns, for live input, whether events are waiting for a frame.
     [[nodiscard]] bool has_waiting_input() const { return !waiting_.empty(); }
     [[nodiscard]] std::uint64_t refused() const { return refused_; }
@@ -88,7 +92,7 @@ private:
     std::optional<InputLogWriter> recorder_;
     std::optional<Error> recording_error_;
     std::uint64_t refused_ = 0;
-    Nanoseconds last_ns_ = 0;
+    Nanoseconds last_ns_ = 0, latest_by_ns_ = 0;
     std::vector<InputEvent> waiting_, taken_;
 
     InputLog log_;

@@ -33,6 +33,8 @@ namespace burin::session {
 inline constexpr const char* kActivityFact = "activity";
 inline constexpr const char* kLiveActivity = "session";
 inline constexpr const char* kDeviceFact = "device";
+// By how much the latest of a played log's events came late, where that is noticeable; written at the end.
+inline constexpr const char* kInputLateFact = "input late";
 // Says that table `event` has what hands touch, what becomes of devices, and what the activity writes.
 inline constexpr const char* kEventsFact = "events";
 // The event that says why a log ended.

@@ -181,15 +181,18 @@ TEST(SceneThread, CarriesOutOrdersBeforeUpdatesAndEndsWithTheLast) {
     while (scene.first.updates < 5) std::this_thread::yield();
     bool last_was_carried_out = false;
     thread.order([&] { last_was_carried_out = true; });
+    bool aside_was_carried_out = false;
+    thread.order(SceneThread::Order::aside([&] { aside_was_carried_out = true; }));
     thread.stop();
     EXPECT_GE(at_update, 0);
     EXPECT_TRUE(last_was_carried_out);
+    EXPECT_TRUE(aside_was_carried_out);
     EXPECT_EQ(calls, scene.first.updates);
     const std::vector<SceneUpdate> updates = thread.take_updates();
     EXPECT_EQ(updates.size(), static_cast<std::size_t>(scene.first.updates));
     std::size_t orders = 0;
     for (const SceneUpdate& update : updates) orders += update.orders;
-    EXPECT_EQ(orders, 2u);
+    EXPECT_EQ(orders, 2u) << "a replay does not give the one aside";
     EXPECT_FALSE(thread.failure().has_value());
 }
 

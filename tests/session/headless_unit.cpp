@@ -69,6 +69,35 @@ TEST_F(Headless, IsRecordedInRealTimeAndReplayedWithoutADriver) {
     EXPECT_NE(replayed.find("equal to the bit"), std::string::npos) << replayed;
 }
 
+// What is noted for a journal is no order that a replay, which keeps none, has to give again.
+TEST_F(Headless, IsReplayedToTheBitThoughItKeptAJournal) {
+    place.write("w.txt",
+                "burin-input 1 short\n0.1 mouse 640 360\n0.2 command object stone stiffness 341\n"
+                "0.9 command object stone stiffness 400\n1.0 command save-as a.burin\n1.2 command undo\n"
+                "1.8 mouse 600 300\n1.9 command quit\n");
+    run(kNoDriver, "world garden --input w.txt --offscreen --outputs o --record w.session --journal j");
+    EXPECT_TRUE(run(kNoDriver, "replay w.session").contains("equal to the bit"));
+    place.write(
+        "s.txt",
+        "burin-input 1 short\n0.1 command object stone stiffness 341\n0.9 button press left\n1.0 button release left\n"
+        "1.8 command object stone stiffness 500\n2.5 command quit\n");
+    run(kNoDriver,
+        "world garden --workpiece ball:0.05 --resolution 16 --input s.txt --offscreen --outputs o2 "
+        "--record s.session --journal j");
+    EXPECT_TRUE(run(kNoDriver, "replay s.session").contains("equal to the bit"));
+}
+
+// What a replay is asked for and cannot give is told beside what came of its ticks.
+TEST_F(Headless, SaysWhatCameOfTheTicksWhereAnObjectOfTheRecordingIsMissing) {
+    place.write("m.txt",
+                "burin-input 1 short\n0.1 mouse 640 360\n0.3 command object nope stiffness 341\n0.5 command quit\n");
+    const std::string world = kNoDriver + kBurinCommand + " world garden --offscreen --outputs o ";
+    static_cast<void>(place.run(world + "--input m.txt --record m.session"));
+    const auto replayed = place.run(world + "--input m.session");
+    EXPECT_EQ(replayed.status, 1) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("ticks were compared, none differs")) << replayed.output;
+}
+
 TEST_F(Headless, SaysBeforeItBeginsThatAPictureNeedsADriver) {
     place.write("s.txt", "burin-input 1 short\n0.1 command screenshot a.png\n0.2 command quit\n");
     const auto refused =

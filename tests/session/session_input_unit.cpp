@@ -453,10 +453,12 @@ TEST(InputSource, PlaysALogAtItsTimes) {
     EXPECT_EQ(source.begin_frame(100 * kMs, 105 * kMs)->events.size(), 1u);
     EXPECT_EQ(source.begin_frame(98 * kMs, 105 * kMs)->time_ns, 100 * kMs) << "never before the frame before";
     EXPECT_EQ(source.next_event_ns(), 200 * kMs);
+    EXPECT_EQ(source.latest_by_ns(), 0);
     const auto late = source.begin_frame(400 * kMs, 405 * kMs);
     ASSERT_TRUE(late);
     ASSERT_EQ(late->events.size(), 2u) << "the recording's own frame is left out";
     EXPECT_EQ(std::get<MouseMove>(late->events[1].input).position_px.x, 3.0);
+    EXPECT_EQ(source.latest_by_ns(), 200 * kMs) << "of the first of the two";
     EXPECT_FALSE(source.next_event_ns());
     EXPECT_FALSE(source.begin_frame(401 * kMs, 405 * kMs));
 }
