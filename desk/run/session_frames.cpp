@@ -36,11 +36,25 @@ SessionFrames::SessionFrames(Desk& desk, FrameOutput& output, InputSource input)
 }
 
 std::optional<Nanoseconds> SessionFrames::next() {
-    if (session_.state().quit) return std::nullopt;
+    if (session_.state().quit) {
+        tell_of_what_follows();
+        return std::nullopt;
+    }
     const std::optional<FrameInput> input = next_input();
     if (!input) return std::nullopt;
     frame_ = *input;
     return session_.start_ns() + frame_.time_ns;
+}
+
+// A script goes on after what ends the session only by mistake.
+void SessionFrames::tell_of_what_follows() {
+    const InputEvent* const next = input_.next_command();
+    if (next == nullptr) return;
+    session_.notify_of_event(
+        formatted("the session has ended at %.2f s: command %s of %.2f s, and all that follows in "
+                  "the log, was not done",
+                  seconds(frame_.time_ns), std::get<CommandInput>(next->input).name.c_str(), seconds(next->time_ns)),
+        MessageKind::warning);
 }
 
 Result<void> SessionFrames::make(Executor& executor) {

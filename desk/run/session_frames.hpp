@@ -64,6 +64,7 @@ protected:
 private:
     [[nodiscard]] Result<bool> draw();
     void tell_of_late_input();
+    void tell_of_what_follows();
 
     FrameInput frame_;
     bool cut_short_ = false;

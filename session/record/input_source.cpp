@@ -58,6 +58,14 @@ std::optional<Nanoseconds> InputSource::next_event_ns() const {
     return log_.events[next_].time_ns;
 }
 
+const InputEvent* InputSource::next_command() const {
+    if (log_has_frames_) return nullptr;
+    const auto left = std::span(log_.events).subspan(next_);
+    const auto next = std::ranges::find_if(
+        left, [](const InputEvent& event) { return std::holds_alternative<CommandInput>(event.input); });
+    return next == left.end() ? nullptr : &*next;
+}
+
 void InputSource::push(Nanoseconds now_ns, Input input, bool is_of_device) {
     if (kind_ == Kind::replay || (kind_ == Kind::play && !is_of_device && !is_of_tracker(input))) return;
     if (std::holds_alternative<FrameStart>(input) || !is_sensible(input)) {

@@ -74,6 +74,9 @@ public:
     // long come late. 0 where the log sets the time.
     [[nodiscard]] Nanoseconds latest_by_ns() const { return latest_by_ns_; }
 
+    // Returns the first command of a log written by hand that no frame has taken yet; null: there is none.
+    [[nodiscard]] const InputEvent* next_command() const;
+
     // Returns, for live input, whether events are waiting for a frame.
     [[nodiscard]] bool has_waiting_input() const { return !waiting_.empty(); }
     [[nodiscard]] std::uint64_t refused() const { return refused_; }

@@ -87,6 +87,13 @@ TEST_F(Headless, IsReplayedToTheBitThoughItKeptAJournal) {
     EXPECT_TRUE(run(kNoDriver, "replay s.session").contains("equal to the bit"));
 }
 
+TEST_F(Headless, SaysWhatOfAScriptFollowsItsEnd) {
+    place.write("s.txt", "burin-input 1 short\n0.1 command quit\n0.2 command export late.stl\n");
+    const std::string ended =
+        run(kNoDriver, "sculpt --workpiece ball:0.1 --resolution 16 --input s.txt --offscreen --outputs o");
+    EXPECT_TRUE(ended.contains("command export of 0.20 s")) << ended;
+}
+
 // What a replay is asked for and cannot give is told beside what came of its ticks.
 TEST_F(Headless, SaysWhatCameOfTheTicksWhereAnObjectOfTheRecordingIsMissing) {
     place.write("m.txt",
