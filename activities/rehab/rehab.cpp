@@ -10,6 +10,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "scene/scene_object.hpp"
 #include "session/record/session_check.hpp"
 
 namespace burin::activities {

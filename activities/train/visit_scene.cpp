@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "activities/train/visit_scene.hpp"
 
+#include "geometry/contact/local_surface.hpp"
+
 #include <algorithm>
 
 namespace burin::activities {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "activities/wand/wand_facts.hpp"
+#include "activities/wand/wand_world.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "base/temporary_folder.hpp"

@@ -18,6 +18,7 @@
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/emulators/emulator_registry.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 #include "devices/registry/present_devices.hpp"
 #include "haptics/realtime.hpp"
 #include "session/drive/end_signals.hpp"

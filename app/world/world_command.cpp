@@ -25,6 +25,7 @@
 #include "desk/run/session.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"

@@ -11,6 +11,7 @@
 #include "base/try.hpp"
 #include "desk/panel/panel_input.hpp"
 #include "desk/panel/panel_sections.hpp"
+#include "geometry/contact/surface_tile.hpp"
 
 namespace burin::session {
 

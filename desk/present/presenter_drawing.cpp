@@ -5,6 +5,9 @@
 #include "desk/present/presenter.hpp"
 
 #include "base/try.hpp"
+#include "desk/timing/session_times.hpp"
+#include "session/state/session_orders.hpp"
+#include "wall/head_prediction.hpp"
 
 namespace burin::session {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "base/try.hpp"
 #include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
 
 #include <utility>
 
@@ -30,7 +31,7 @@ std::vector<haptics::ToolState> newest_tools(const std::vector<haptics::HapticCh
 
 SteppedExecutor::SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop,
                                  std::vector<haptics::HapticChannels*> parts, scene::SceneService& service,
-                                 AfterUpdate after_update)
+                                 scene::SceneThread::AfterUpdate after_update)
     : clock_(clock),
       loop_(loop),
       parts_(std::move(parts)),
@@ -78,7 +79,7 @@ Result<Executor::Taken> SteppedExecutor::take_updates() {
 
 ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
                                    scene::SceneService& service, const haptics::LoopPace& pace,
-                                   AfterUpdate after_update)
+                                   scene::SceneThread::AfterUpdate after_update)
     : clock_(clock), parts_(std::move(parts)), touch_(loop, pace), service_(service) {
     scene_.emplace(service, clock, std::move(after_update));
 }

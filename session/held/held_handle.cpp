@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "haptics/contact/probe.hpp"
 #include "picture/frame_setup.hpp"
 #include "sculpt/tool_mesh.hpp"
 

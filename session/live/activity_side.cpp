@@ -2,6 +2,8 @@
 #include "session/live/activity_side.hpp"
 
 #include "base/try.hpp"
+#include "session/objects/world_objects.hpp"
+#include "session/state/session_orders.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "session/held/held_tool.hpp"
 
 namespace burin::session {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "session/live/session_events.hpp"
 #include "session/state/governed.hpp"
+#include "session/state/session_step.hpp"
 
 namespace burin::session {
 

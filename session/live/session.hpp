@@ -27,6 +27,7 @@
 #include "session/live/work_side.hpp"
 #include "session/options/session_options.hpp"
 #include "session/state/leader.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 

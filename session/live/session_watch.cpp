@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "picture/frame_setup.hpp"
+#include "session/held/hand_state.hpp"
 
 namespace burin::session {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/objects/world_history.hpp"
 
+#include "scene/scene_motion.hpp"
+
 #include <algorithm>
 #include <utility>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/state/governed.hpp"
 
+#include "session/state/session_orders.hpp"
+
 #include <string>
 #include <tuple>
 

@@ -4,9 +4,16 @@
 #include <functional>
 #include <utility>
 
+#include "session/state/command_table.hpp"
+#include "session/state/session_command.hpp"
+#include "session/state/session_orders.hpp"
+#include "session/state/session_commands.hpp"
 #include "session/state/session_state.hpp"
 
 #include "base/try.hpp"
+#include "sculpt/sculpt_order.hpp"
+#include "session/held/held_handle.hpp"
+#include "session/objects/world_objects.hpp"
 
 namespace burin::session {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/folder/held_device.hpp"
 
+#include "devices/registry/device_registry.hpp"
+
 #include <algorithm>
 #include <array>
 

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "desk/live/desk.hpp"
 #include "desk/opening/opening.hpp"
 #include "desk/run/session.hpp"
 #include "gpu/device.hpp"

@@ -19,10 +19,12 @@
 
 #include "desk/run/session_frames.hpp"
 #include "session/drive/driver.hpp"
+#include "session/drive/executors.hpp"
 #include "session/drive/recording_start.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/record/session_log.hpp"
+#include "session/record/session_recording.hpp"
 #include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/desk/threads_seen.hpp"

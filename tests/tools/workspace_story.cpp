@@ -10,6 +10,8 @@
 #include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "sculpt/sculpture.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "sculpt/tool_options.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/workpiece.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "activities/rehab/ball/ball_exercise.hpp"
 
+#include "haptics/forces/touch_force.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
