@@ -10,6 +10,7 @@
 #include "haptics/haptic_loop.hpp"
 #include "haptics/tick_record.hpp"
 #include "scene/contact_follower.hpp"
+#include "scene/scene_changes.hpp"
 
 namespace burin::scene {
 namespace {

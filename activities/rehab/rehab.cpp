@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "scene/scene_object.hpp"
+#include "session/objects/world_objects.hpp"
 #include "session/record/session_check.hpp"
 
 namespace burin::activities {

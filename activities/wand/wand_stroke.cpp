@@ -12,6 +12,7 @@
 #include "base/temporary_folder.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/motion.hpp"
 #include "scene/world_digest.hpp"

@@ -17,6 +17,7 @@
 #include "bench/devices/device_check.hpp"
 #include "devices/emulators/circling_hand.hpp"
 #include "devices/emulators/emulator_registry.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/haptic_host.hpp"
 #include "devices/registry/present_devices.hpp"

@@ -24,6 +24,7 @@
 #include "compute/rays/lattice.hpp"
 #include "desk/run/session.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"

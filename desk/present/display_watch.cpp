@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/display_watch.hpp"
 
+#include "desk/live/desk.hpp"
+#include "desk/present/presenter.hpp"
 #include "desk/present/session_output.hpp"
 #include "desk/view/session_head.hpp"
 #include "wall/head_prediction.hpp"

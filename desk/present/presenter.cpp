@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "base/try.hpp"
+#include "desk/live/desk.hpp"
 #include "desk/panel/panel_pointer.hpp"
 #include "desk/present/window_rows.hpp"
 #include "desk/view/session_screens.hpp"

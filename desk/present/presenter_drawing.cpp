@@ -5,6 +5,7 @@
 #include "desk/present/presenter.hpp"
 
 #include "base/try.hpp"
+#include "desk/live/desk.hpp"
 #include "desk/timing/session_times.hpp"
 #include "session/state/session_orders.hpp"
 #include "wall/head_prediction.hpp"

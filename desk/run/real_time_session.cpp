@@ -25,6 +25,7 @@
 #include "session/input/input_line.hpp"
 #include "session/options/option_bounds.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 namespace {

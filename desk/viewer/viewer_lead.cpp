@@ -9,6 +9,7 @@
 #include "desk/viewer/view_cube.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "session/state/session_commands.hpp"
+#include "session/state/session_room.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
 

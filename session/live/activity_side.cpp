@@ -4,6 +4,7 @@
 #include "base/try.hpp"
 #include "session/objects/world_objects.hpp"
 #include "session/state/session_orders.hpp"
+#include "session/state/session_state.hpp"
 
 #include <algorithm>
 #include <iterator>

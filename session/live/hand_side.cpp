@@ -5,6 +5,7 @@
 
 #include "base/try.hpp"
 #include "scene/rendered_material.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock) {

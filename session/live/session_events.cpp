@@ -3,6 +3,8 @@
 
 #include "scene/contact_events.hpp"
 #include "scene/scene_object.hpp"
+#include "session/hands/session_hands.hpp"
+#include "session/objects/world_objects.hpp"
 
 namespace burin::session {
 

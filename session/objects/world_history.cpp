@@ -2,6 +2,8 @@
 #include "session/objects/world_history.hpp"
 
 #include "scene/scene_motion.hpp"
+#include "scene/scene_object.hpp"
+#include "session/objects/world_objects.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -9,6 +9,7 @@
 #include "session/state/command_table.hpp"
 #include "session/state/leader.hpp"
 #include "session/state/session_commands.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 namespace {

@@ -5,6 +5,7 @@
 #include "devices/haptic/haptic_device.hpp"
 #include "devices/haptic/wand_description.hpp"
 #include "study/felt/felt_world.hpp"
+#include "study/felt/stage_session.hpp"
 #include "study/felt/stage_touch.hpp"
 
 #include <gtest/gtest.h>

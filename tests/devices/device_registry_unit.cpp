@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The registry of force-feedback devices.
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/haptic_host.hpp"
 #include "devices/registry/haptic_kinds.hpp"
