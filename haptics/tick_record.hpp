@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a tick used and did (TickRecord); what a frame sees of it is its ToolState (haptics/tool_state.hpp). Plain data
-// of fixed size. Units are SI; a name carries its frame. "Object" is the workpiece's frame, in which carving and contact
-// happen.
+// of fixed size. Units are SI; a name carries its frame. "Object" is the workpiece's frame, in which carving and
+// contact happen.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include "haptics/contact/probe.hpp"
 #include "haptics/contact/work_counts.hpp"
 #include "haptics/stability/coupled_wall.hpp"
-#include "haptics/stability/passivity_record.hpp"
 #include "haptics/stability/gate_output.hpp"
+#include "haptics/stability/passivity_record.hpp"
 #include "haptics/tick_flag.hpp"
 #include "haptics/workspace/piece_motion.hpp"
 #include "haptics/workspace/workspace_picture.hpp"

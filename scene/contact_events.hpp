@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What hands touch, as events: one when a part of a hand comes into contact with an object, one when it leaves it. Made
 // once, by the scene's service (scene/scene_service.hpp), of the contacts that the ticks themselves have found
-// (scene/contact_follower.hpp); everybody else reads them. Box2D's contact events are the model (begin and end, with the
-// numbers of both).
+// (scene/contact_follower.hpp); everybody else reads them. Box2D's contact events are the model (begin and end, with
+// the numbers of both).
 // Plain data.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The properties of an object that a person changes while a scene is touched, each by its name, and their values: what a
-// command, a panel's slider or a script sets. One table; nobody else lists them. How an object has them is said in
+// The properties of an object that a person changes while a scene is touched, each by its name, and their values: what
+// a command, a panel's slider or a script sets. One table; nobody else lists them. How an object has them is said in
 // scene/object_property.hpp.
 // Units: SI. Pure; any thread.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "activities/train/visit_scene.hpp"
 
-#include "geometry/contact/local_surface.hpp"
+#include "study/felt/felt_world.hpp"
 
 #include <algorithm>
 

@@ -21,7 +21,7 @@ struct FeltFigures;
 namespace burin::sculpt {
 class Sculpture;  // sculpt/sculpture.hpp
 struct Feel;
-}
+}  // namespace burin::sculpt
 
 namespace burin::app {
 

@@ -11,7 +11,6 @@
 #include "base/try.hpp"
 #include "desk/panel/panel_input.hpp"
 #include "desk/panel/panel_sections.hpp"
-#include "geometry/contact/surface_tile.hpp"
 
 namespace burin::session {
 

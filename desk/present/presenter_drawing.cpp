@@ -8,7 +8,6 @@
 #include "desk/live/desk.hpp"
 #include "desk/timing/session_times.hpp"
 #include "session/state/session_orders.hpp"
-#include "wall/head_prediction.hpp"
 
 namespace burin::session {
 namespace {

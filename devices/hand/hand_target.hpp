@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a simulated hand is to be: at one time, as a script or a steered hand has it, or as whoever steers one says. Plain
-// data; frame: device, metres.
+// Where a simulated hand is to be: at one time, as a script or a steered hand has it, or as whoever steers one says.
+// Plain data; frame: device, metres.
 #pragma once
 
 #include <cstdint>

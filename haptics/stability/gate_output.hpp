@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the gate gives in a tick, and why it gives zero where it does, for ticks to keep and for people to read. How that
-// is decided is in haptics/stability/safety_gate.hpp.
+// What the gate gives in a tick, and why it gives zero where it does, for ticks to keep and for people to read. How
+// that is decided is in haptics/stability/safety_gate.hpp.
 // Frame: device. Plain data.
 #pragma once
 

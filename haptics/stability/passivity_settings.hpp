@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the passivity observer and controller (haptics/stability/passivity.hpp) are told, and the speeds up to which walls
-// are promised to be passive (haptics/stability/rendered_wall.hpp). Plain data.
+// What the passivity observer and controller (haptics/stability/passivity.hpp) are told, and the speeds up to which
+// walls are promised to be passive (haptics/stability/rendered_wall.hpp). Plain data.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@ std::vector<haptics::ToolState> newest_tools(const std::vector<haptics::HapticCh
 
 SteppedExecutor::SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop,
                                  std::vector<haptics::HapticChannels*> parts, scene::SceneService& service,
-                                 scene::SceneThread::AfterUpdate after_update)
+                                 AfterUpdate after_update)
     : clock_(clock),
       loop_(loop),
       parts_(std::move(parts)),
@@ -79,7 +79,7 @@ Result<Executor::Taken> SteppedExecutor::take_updates() {
 
 ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
                                    scene::SceneService& service, const haptics::LoopPace& pace,
-                                   scene::SceneThread::AfterUpdate after_update)
+                                   AfterUpdate after_update)
     : clock_(clock), parts_(std::move(parts)), touch_(loop, pace), service_(service) {
     scene_.emplace(service, clock, std::move(after_update));
 }

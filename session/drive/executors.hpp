@@ -18,9 +18,11 @@ namespace burin::session {
 // and after the tick of that time an update each SceneService::kHandsMove_ns. Every run gives the same bits.
 class SteppedExecutor final : public Executor {
 public:
+    using AfterUpdate = scene::SceneThread::AfterUpdate;
+
     // All must outlive it. The first tick is one period from the clock's present time.
     SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
-                    scene::SceneService& service, scene::SceneThread::AfterUpdate after_update = {});
+                    scene::SceneService& service, AfterUpdate after_update = {});
 
     // Appends how long each tick from now on takes, in nanoseconds.
     void measure_ticks(std::vector<std::uint32_t>& durations_ns) { tick_durations_ns_ = &durations_ns; }
@@ -40,7 +42,7 @@ private:
     haptics::HapticLoop& loop_;
     std::vector<haptics::HapticChannels*> parts_;
     scene::SceneService& service_;
-    scene::SceneThread::AfterUpdate after_update_;
+    AfterUpdate after_update_;
     Nanoseconds next_update_ns_;
     MonotonicClock stopwatch_;
     std::vector<std::uint32_t>* tick_durations_ns_ = nullptr;
@@ -50,9 +52,11 @@ private:
 // which ends with zero force, then the scene, after the update that goes on.
 class ThreadedExecutor final : public Executor {
 public:
+    using AfterUpdate = scene::SceneThread::AfterUpdate;
+
     // All must outlive it. after_update is called on the scene's thread (SceneThread).
     ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
-                     scene::SceneService& service, const haptics::LoopPace& pace, scene::SceneThread::AfterUpdate after_update);
+                     scene::SceneService& service, const haptics::LoopPace& pace, AfterUpdate after_update);
     // Without a thread for the scene: the caller's makes one update each time it has come to a frame.
     ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
                      scene::SceneService& service);

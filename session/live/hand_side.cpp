@@ -95,4 +95,9 @@ Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const 
     return inverse(state.world_from_object) * (state.hands[hand].world_from_device * first_device_m);
 }
 
+void HandSide::settle(LiveOptions& live) const {
+    live.device = hands_.settled_device(0);
+    for (std::size_t hand = 0; hand < live.hands.size(); ++hand) live.hands[hand].device = hands_.settled_device(hand);
+}
+
 }  // namespace burin::session

@@ -116,7 +116,6 @@ private:
     [[nodiscard]] Result<void> load(std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> begin(const Place& place);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
-    void hold_governed(const SessionState& before, Leader& leader, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
     void take(const sculpt::SurfaceUpdate& news);
     [[nodiscard]] document::Content saved_content() const;

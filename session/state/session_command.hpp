@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every command that a session accepts, as a type; their names, help and parsers are in session/state/command_table.hpp.
+// Every command that a session accepts, as a type; names, help and parsers are in session/state/command_table.hpp.
 // Numbers are in SI units. Plain data.
 #pragma once
 

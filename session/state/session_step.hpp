@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One step of a session, as a function of its state (session/state/session_state.hpp), of what comes in and of who leads
-// it. No clock, thread or viewer.
+// One step of a session, as a function of its state (session/state/session_state.hpp), of what comes in and of who
+// leads it. No clock, thread or viewer.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "desk/run/session_frames.hpp"
-#include "session/drive/executors.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "scene/scene_changes.hpp"
 #include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "activities/rehab/ball/ball_exercise.hpp"
 
-#include "haptics/forces/touch_force.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
