@@ -2,6 +2,7 @@
 // The machine's pace, and that only a session in real time has one of its own.
 #include <gtest/gtest.h>
 
+#include "haptics/channels.hpp"
 #include "haptics/tick.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/live/session.hpp"
