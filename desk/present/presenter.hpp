@@ -23,6 +23,7 @@
 #include "desk/present/frame_output.hpp"
 #include "desk/present/session_waker.hpp"
 #include "desk/present/session_window.hpp"
+#include "desk/view/session_screens.hpp"
 #include "picture/picture.hpp"
 #include "session/options/session_options.hpp"
 #include "wall/output_settings.hpp"
@@ -30,9 +31,8 @@
 
 namespace burin::session {
 
-struct Asked;        // session/state/session_orders.hpp
-class Desk;          // desk/live/desk.hpp
-struct SessionWall;  // desk/view/session_screens.hpp
+struct Asked;  // session/state/session_orders.hpp
+class Desk;    // desk/live/desk.hpp
 
 // The main screen's picture where there is no session yet.
 struct StillPicture {

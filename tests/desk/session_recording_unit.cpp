@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "haptics/channels.hpp"
 #include "session/record/log_export.hpp"
 #include "tests/desk/recorded_session.hpp"
 #include "tests/record/failing_disk.hpp"

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "desk/live/desk.hpp"
+#include "haptics/channels.hpp"
 #include "session/drive/executors.hpp"
 #include "tests/support/paced_clock.hpp"
 

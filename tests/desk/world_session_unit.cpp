@@ -7,6 +7,7 @@
 
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
+#include "haptics/channels.hpp"
 #include "session/drive/executors.hpp"
 #include "session/state/session_commands.hpp"
 #include "session/state/session_settings.hpp"
