@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "bodies/solver/plastic_flow.hpp"
+#include "geometry/contact/local_surface.hpp"
+#include "scene/scene_changes.hpp"
 
 namespace burin::bodies {
 namespace {

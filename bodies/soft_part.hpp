@@ -25,8 +25,14 @@
 #include "bodies/mesh/embedded_surface.hpp"
 #include "bodies/solver/soft_body.hpp"
 #include "bodies/solver/soft_step.hpp"
+#include "geometry/contact/local_model.hpp"
+#include "scene/drawn_change.hpp"
 #include "scene/scene_motion.hpp"
 #include "scene/scene_part.hpp"
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::bodies {
 

@@ -15,6 +15,7 @@
 #include "geometry/contact/local_surface.hpp"
 #include "haptics/tick_parameters.hpp"
 #include "haptics/tick_record.hpp"
+#include "haptics/tool_state.hpp"
 
 namespace burin::haptics {
 

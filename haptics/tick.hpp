@@ -20,8 +20,11 @@
 #include "geometry/contact/local_surface.hpp"
 #include "haptics/probe_contact.hpp"
 #include "haptics/signals/filters.hpp"
+#include "haptics/stability/passivity.hpp"
+#include "haptics/stability/safety_gate.hpp"
 #include "haptics/tick_parameters.hpp"
 #include "haptics/tick_record.hpp"
+#include "haptics/workspace/technique.hpp"
 
 namespace burin::haptics {
 

@@ -6,35 +6,20 @@
 #include <array>
 #include <cstdint>
 
-#include "haptics/contact/contact_work.hpp"
 #include "haptics/contact/probe.hpp"
 #include "haptics/contact/tool_shape.hpp"
+#include "haptics/contact/work_counts.hpp"
 #include "haptics/forces/guidance.hpp"
 #include "haptics/forces/tool_surface.hpp"
-#include "haptics/forces/touch_force.hpp"
+#include "haptics/forces/touch_material.hpp"
 #include "haptics/signals/filters.hpp"
-#include "haptics/stability/passivity.hpp"
-#include "haptics/stability/safety_gate.hpp"
-#include "haptics/workspace/technique.hpp"
+#include "haptics/stability/coupled_wall.hpp"
+#include "haptics/stability/gate_limits.hpp"
+#include "haptics/stability/passivity_settings.hpp"
+#include "haptics/tool_action.hpp"
+#include "haptics/workspace/workspace_settings.hpp"
 
 namespace burin::haptics {
-
-// The action of the tool while its button (bit 0) is pressed.
-enum class ToolAction : std::uint8_t {
-    touch,  // feels the surface without changing it
-    cut,    // resisted by hardness and engagement
-    fill,   // deposits material at the proxy; felt as touch, or not at all in free flight (FillPlace)
-    paint,  // felt without friction: painting has no resistance
-};
-
-// Where a tool that fills is while its button is down. On the surface it rests on what is there. In free flight it is
-// with the hand and touches nothing: it would rest on what it has just added, be pushed off its way by that, and heap
-// up beads beside it. Once the button is up it touches again when it has come out of the material.
-enum class FillPlace : std::uint8_t {
-    surface,  // on the surface, and in the air as long as nothing is touched
-    begun,    // in free flight where the button goes down in the air, else on the surface
-    hand,     // in free flight always: for a hand that feels nothing
-};
 
 // Settings of a tick. Written by the frame or the study, never by the haptic thread. A set for which
 // parameters_are_sensible() (haptics/tick.hpp) is false gives zero force and GateCause::bad_parameters.

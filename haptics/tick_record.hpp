@@ -1,51 +1,24 @@
 // SPDX-License-Identifier: MIT
-// What a tick used and did (TickRecord), and what a frame sees of it (ToolState). Plain data of fixed size. Units are
-// SI; a name carries its frame. "Object" is the workpiece's frame, in which carving and contact happen.
+// What a tick used and did (TickRecord); what a frame sees of it is its ToolState (haptics/tool_state.hpp). Plain data
+// of fixed size. Units are SI; a name carries its frame. "Object" is the workpiece's frame, in which carving and
+// contact happen.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "devices/haptic/haptic_device.hpp"
-#include "haptics/contact/contact_work.hpp"
+#include "devices/haptic/device_sample.hpp"
 #include "haptics/contact/probe.hpp"
-#include "haptics/stability/passivity.hpp"
-#include "haptics/stability/rendered_wall.hpp"
-#include "haptics/stability/safety_gate.hpp"
-#include "haptics/workspace/technique.hpp"
+#include "haptics/contact/work_counts.hpp"
+#include "haptics/stability/coupled_wall.hpp"
+#include "haptics/stability/gate_output.hpp"
+#include "haptics/stability/passivity_record.hpp"
+#include "haptics/tick_flag.hpp"
+#include "haptics/workspace/piece_motion.hpp"
+#include "haptics/workspace/workspace_picture.hpp"
 
 namespace burin::haptics {
-
-// Flags of a degraded or noteworthy tick: bits of TickRecord::flags.
-enum TickFlag : std::uint32_t {
-    kTickLate = 1u << 0,          // began more than half a period after its deadline
-    kTickInContact = 1u << 1,     // the proxy is held by a surface, or the cutting point by material
-    kTickNoSurface = 1u << 2,     // no surface has been published
-    kTickOutsideKnown = 1u << 3,  // the tool leaves the ball within which the surface is known
-    kTickStaleSurface = 1u << 4,  // in contact, and the surface is older than max_surface_age_s
-    kTickPushedOut = 1u << 5,     // the proxy was inside material and was moved outside by the shortest path
-    kTickProxyReset = 1u << 6,    // the proxy was set to the HIP: first tick, new mapping, or re-enabled
-    // the proxy stopped because the tick's work budget was used up; it continues in the next tick
-    kTickWorkLimited = 1u << 7,
-    kTickForceSaturated = 1u << 8,  // the force was reduced to the force limit
-    kTickSlewLimited = 1u << 9,     // the change of force was reduced to the slew limit
-    kTickRamping = 1u << 10,        // force is being faded in
-    kTickFault = 1u << 11,          // the gate gave zero force; TickRecord::cause says why
-    kTickSampleDropped = 1u << 12,  // the scene's ring was full: it has lost this tick
-    // a material is stiffer than what the device renders passively; StiffnessBound says why
-    kTickStiffnessLimited = 1u << 13,
-    kTickPassivityActs = 1u << 14,  // the passivity controller adds damping, or scales the wrench
-    kTickPaused = 1u << 15,         // the workspace is being moved: nothing is touched or carved
-    kTickSticking = 1u << 16,       // friction holds the proxy
-    kTickCutting = 1u << 17,        // the tool is cutting into material
-    kTickGuided = 1u << 18,         // the guidance force pulls the tool to its curve
-    kTickLoopGap = 1u << 19,        // ticks were lost before this one
-    kTickDoubted = 1u << 20,        // the watch finds no sound contact: its force fades out (ContactWatch)
-    kTickLetGo = 1u << 21,          // ... and the tool was set to the hand in this tick
-    // a part, or some points of one, for which no work was left in this turn: contacts are held on their last planes
-    kTickHeldOver = 1u << 22,
-};
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
@@ -138,35 +111,5 @@ struct TickRecord {
 [[nodiscard]] constexpr std::uint64_t skipped_deadlines(Nanoseconds lateness_ns, Nanoseconds period_ns) noexcept {
     return lateness_ns > 0 && period_ns > 0 ? static_cast<std::uint64_t>(lateness_ns / period_ns) : 0;
 }
-
-// The view of a tick for the frame (tool_of): where to draw the tool and what to report about it.
-struct ToolState {
-    std::uint64_t tick = 0;  // 0: never published
-    Nanoseconds time_ns = 0;
-    Vec3 hip_object_m{0.0};
-    Vec3 proxy_object_m{0.0};
-    Vec3 contact_normal_object{0.0};  // unit; zero in free space
-    Quat orientation_object{1.0, 0.0, 0.0, 0.0};
-    Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of the tool at its proxy
-    Vec3 touched_object_m{0.0};                        // where a tool with a shape is borne; zero for balls
-    Vec3 position_device_m{0.0};
-    devices::DeviceWrench given;
-    std::uint32_t point_count = 0;
-    std::array<Vec3, kMostProbePoints> proxies_object_m{};
-    WorkspacePicture workspace;
-    StiffnessBound stiffness_bound = StiffnessBound::none;
-    std::uint32_t object = 0;     // touched by the deepest point, its wall as asked and as rendered (PointRecord), and
-    CoupledWall asked, rendered;  // the share of the force that the energy account affords
-    double energy_share = 1.0;
-    std::uint32_t buttons = 0;
-    std::uint32_t flags = 0;
-    GateCause cause = GateCause::none;
-    Nanoseconds let_go_ns = 0;          // time of the last tick in which the watch let the hand go; 0: there was none
-    std::uint64_t late_ticks = 0;       // since the start
-    std::uint64_t dropped_samples = 0;  // ticks that the scene has lost to a full ring since the start
-};
-
-[[nodiscard]] ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks,
-                                std::uint64_t dropped_samples) noexcept;
 
 }  // namespace burin::haptics

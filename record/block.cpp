@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "record/block.hpp"
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <utility>

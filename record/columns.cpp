@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::record {
 namespace {

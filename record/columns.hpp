@@ -16,7 +16,15 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "haptics/tick_record.hpp"
+
+namespace burin::devices {
+struct DeviceDescription;  // devices/haptic/haptic_device.hpp
+}  // namespace burin::devices
+
+namespace burin::haptics {
+struct Probe;       // haptics/contact/probe.hpp
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::record {
 

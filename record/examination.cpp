@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "haptics/tick_record.hpp"
 #include "record/record_writer.hpp"
 
 namespace burin::record {

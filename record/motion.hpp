@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "devices/haptic/device_sample.hpp"
 #include "record/row_walk.hpp"
 
 namespace burin::record {

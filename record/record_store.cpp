@@ -2,6 +2,7 @@
 #include "record/record_store.hpp"
 
 #include "base/try.hpp"
+#include "haptics/tick_record.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

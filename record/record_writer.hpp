@@ -34,8 +34,14 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/ring.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "haptics/contact/probe.hpp"
 #include "haptics/histogram.hpp"
 #include "record/columns.hpp"
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::record {
 

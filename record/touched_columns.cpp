@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "record/touched_columns.hpp"
 
+#include "haptics/tick_record.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <iterator>

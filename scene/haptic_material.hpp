@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "haptics/forces/touch_force.hpp"
+#include "haptics/forces/touch_material.hpp"
 
 namespace burin::scene {
 

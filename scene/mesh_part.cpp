@@ -6,7 +6,9 @@
 #include <string>
 
 #include "base/try.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "geometry/contact/touch_mesh.hpp"
+#include "scene/scene_changes.hpp"
 #include "scene/touch_publisher.hpp"
 
 namespace burin::scene {

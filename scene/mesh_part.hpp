@@ -24,11 +24,23 @@
 #include <utility>
 #include <vector>
 
+#include "scene/contact_follower.hpp"
 #include "scene/object_tree.hpp"
 #include "scene/scene_object.hpp"
 #include "scene/scene_part.hpp"
 
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
+
+namespace burin::geometry {
+struct TouchSnapshot;  // geometry/contact/touch_patch.hpp
+struct TouchedMesh;    // geometry/contact/local_surface.hpp
+}  // namespace burin::geometry
+
 namespace burin::scene {
+
+struct ObjectUpdate;  // scene/scene_changes.hpp
 
 class MeshPart final : public ScenePart {
 public:

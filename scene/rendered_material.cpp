@@ -4,6 +4,10 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "haptics/signals/filters.hpp"
+#include "haptics/stability/rendered_wall.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "scene/scene_object.hpp"
 
 namespace burin::scene {
 

@@ -8,11 +8,20 @@
 #include <span>
 #include <string>
 
-#include "haptics/tick_parameters.hpp"
+#include "haptics/stability/coupled_wall.hpp"
 #include "scene/haptic_material.hpp"
-#include "scene/scene_object.hpp"
+
+namespace burin::devices {
+struct DeviceDescription;  // devices/haptic/haptic_device.hpp
+}  // namespace burin::devices
+
+namespace burin::haptics {
+struct TickParameters;  // haptics/tick_parameters.hpp
+}  // namespace burin::haptics
 
 namespace burin::scene {
+
+struct SceneObject;  // scene/scene_object.hpp
 
 // Where so many points of the probe touch at once, the first ones. In the material's own units, as of a point that
 // renders all of its surface.

@@ -14,6 +14,7 @@
 
 #include "haptics/tick_record.hpp"
 #include "scene/contact_events.hpp"
+#include "scene/drawn_change.hpp"
 #include "scene/haptic_material.hpp"
 #include "scene/scene_object.hpp"
 
@@ -47,18 +48,6 @@ struct HandNews {
         std::ranges::move(later.contacts, std::back_inserter(contacts));
     }
 };
-
-// A change of a kind that this folder does not know, such as tiles of a carved surface: who draws it does.
-class DrawnChange {
-public:
-    DrawnChange() = default;
-    virtual ~DrawnChange() = default;
-    DrawnChange(const DrawnChange&) = delete;
-    DrawnChange& operator=(const DrawnChange&) = delete;
-};
-
-// Such a change on its way to whoever draws it.
-using DrawnShare = std::shared_ptr<const DrawnChange>;
 
 struct SceneChanges {
     std::vector<ObjectUpdate> objects;       // the newest last

@@ -16,12 +16,10 @@
 #include "base/space.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 #include "scene/haptic_material.hpp"
+#include "scene/object_id.hpp"
 #include "scene/scene_motion.hpp"
 
 namespace burin::scene {
-
-// From 1, unique in a scene. Also the name of the body by which the tick knows an object that moves.
-using ObjectId = std::uint64_t;
 
 using Colour = std::array<std::uint8_t, 3>;  // sRGB
 // The colours of each triangle's corners.

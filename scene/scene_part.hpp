@@ -16,19 +16,22 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
-#include "geometry/contact/local_surface.hpp"
-#include "haptics/tick_record.hpp"
-#include "scene/contact_events.hpp"
-#include "scene/pages.hpp"
-#include "scene/scene_changes.hpp"
+#include "base/space.hpp"
+#include "scene/scene_update.hpp"
+
+namespace burin::geometry {
+struct LocalSurface;  // geometry/contact/local_surface.hpp
+}  // namespace burin::geometry
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::scene {
 
-// What an update of a part depended on besides orders, samples and time; with it a recording can repeat the update.
-struct PartSeen {
-    bool background_ended = false;  // it was the first to find its work on another thread complete, such as an export
-    friend bool operator==(const PartSeen&, const PartSeen&) = default;
-};
+struct ContactEvent;  // scene/contact_events.hpp
+struct Pages;         // scene/pages.hpp
+struct SceneChanges;  // scene/scene_changes.hpp
 
 // The ball around a hand's probe within which the surface must be known until the next publication.
 struct ProbeBall {
@@ -47,10 +50,10 @@ public:
     // Takes what a part of a hand has done since the last update, tick by tick, just before the next one. `part` counts
     // the parts of all hands, a stylus' one and a glove's fingertips alike, as the service was given them. A scene part
     // that needs none of it leaves it.
-    virtual void take_ticks(std::size_t /*part*/, std::span<const haptics::TickRecord> /*ticks*/) {}
+    virtual void take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks);
     // Takes what all hands have begun and ended to touch since the last update, in the order of time, after their
     // ticks.
-    virtual void take_contacts(std::span<const ContactEvent> /*events*/) {}
+    virtual void take_contacts(std::span<const ContactEvent> events);
     // Brings the part to the present. `recorded`: what a recorded update saw, which this one sees again; null in a live
     // one. Fails when the part cannot go on; it is then as it was before the update.
     [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) = 0;
@@ -64,7 +67,7 @@ public:
     // published.
     virtual void after_publication() {}
     // Adds what has changed since the last call, at first all, for the frames. Called after an update.
-    virtual void take_changes(SceneChanges& /*changes*/) {}
+    virtual void take_changes(SceneChanges& changes);
     // Returns the longest time until the next update that the part allows; it may change with each.
     [[nodiscard]] virtual Nanoseconds period_ns() const = 0;
     // Waits for all work that goes on elsewhere.
@@ -72,9 +75,7 @@ public:
     // Puts what a document keeps of the part into the pages, in the middle of no update: all, or what has changed since
     // the last call, as they ask. Fails where the part cannot be saved, with the reason. What was saved is loaded by
     // whoever makes the part.
-    [[nodiscard]] virtual Result<void> save(Pages& /*pages*/) {
-        return fail("a part of the scene", "cannot be saved yet", "export it, or save a session without it");
-    }
+    [[nodiscard]] virtual Result<void> save(Pages& pages);
 };
 
 }  // namespace burin::scene

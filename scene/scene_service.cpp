@@ -8,6 +8,9 @@
 #include "base/try.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "haptics/tick_record.hpp"
+#include "scene/contact_follower.hpp"
+#include "scene/scene_changes.hpp"
 
 namespace burin::scene {
 namespace {
@@ -30,6 +33,8 @@ SceneService::SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand>
     seen_.last_ticks.resize(hands_.size());
     seen_.parts.resize(parts_.size());
 }
+
+SceneService::~SceneService() = default;
 
 Result<void> SceneService::repeat(const SceneUpdate& recorded) {
     if (recorded.last_ticks.size() > hands_.size() || recorded.parts.size() > parts_.size())

@@ -15,15 +15,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "haptics/tick_record.hpp"
+#include "scene/contact_events.hpp"
 #include "scene/scene_part.hpp"
+#include "scene/scene_update.hpp"
 #include "scene/touch_publisher.hpp"
 
 namespace burin::haptics {
+
 struct HapticChannels;  // haptics/channels.hpp
+struct TickRecord;      // haptics/tick_record.hpp
 }  // namespace burin::haptics
 
 namespace burin::scene {
+class ContactFollower;  // scene/contact_follower.hpp
 
 // One hand's side of a scene.
 struct SceneHand {
@@ -35,15 +39,6 @@ struct SceneHand {
     PartOfHand of = {};    // for its contact events
 };
 
-// Inputs of an update.
-struct SceneUpdate {
-    Nanoseconds time_ns = 0;
-    std::size_t orders = 0;                 // carried out just before it; counted by whoever gives them
-    std::vector<std::uint64_t> last_ticks;  // for each hand, the last one that was read
-    std::vector<PartSeen> parts;            // for each part
-    friend bool operator==(const SceneUpdate&, const SceneUpdate&) = default;
-};
-
 class SceneService {
 public:
     // Between updates while a hand moves.
@@ -51,6 +46,7 @@ public:
 
     // Parts and channels must outlive the service.
     SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand> hands);
+    ~SceneService();
 
     // Sets the size of a hand's probe from the next update on.
     void use_probe(std::size_t hand, double around_m) { hands_[hand].around_m = around_m; }

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "base/newest_slot.hpp"
 #include "base/try.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "geometry/contact/posed_surface.hpp"
 #include "haptics/forces/touch_force.hpp"
 
@@ -54,9 +56,17 @@ double distance_ahead_m(const geometry::TouchedMesh& mesh, const Vec3& point_sce
     return std::max(away_m - kAhead_s * speed_m_per_s, 0.0);
 }
 
+struct TouchPublisher::Placed {
+    double distance_m = 0.0;
+    bool moves = false;
+    geometry::TouchedMesh mesh;
+};
+
 TouchPublisher::TouchPublisher(std::span<Slot* const> hands) {
     for (Slot* slot : hands) hands_.push_back({slot, 0});
 }
+
+TouchPublisher::~TouchPublisher() = default;
 
 Result<void> TouchPublisher::publish(const ProbeBall& ball, std::span<ScenePart* const> parts, Nanoseconds now_ns) {
     BURIN_CHECK(ball.hand < hands_.size());

@@ -17,8 +17,17 @@
 #include <span>
 #include <vector>
 
-#include "base/newest_slot.hpp"
 #include "scene/scene_part.hpp"
+
+namespace burin {
+template <typename T>
+class NewestSlot;  // base/newest_slot.hpp
+}  // namespace burin
+
+namespace burin::geometry {
+struct LocalSurface;  // geometry/contact/local_surface.hpp
+struct TouchedMesh;
+}  // namespace burin::geometry
 
 namespace burin::scene {
 
@@ -37,6 +46,7 @@ public:
 
     // One slot for each hand, null for none; they must outlive the publisher.
     explicit TouchPublisher(std::span<Slot* const> hands);
+    ~TouchPublisher();
 
     // Publishes what the parts have near a hand's probe. Fails when a part does, or offers a mesh of a material that a
     // tick does not know; nothing is published then.
@@ -49,11 +59,7 @@ private:
         Slot* slot = nullptr;
         std::uint64_t sequence = 0;
     };
-    struct Placed {
-        double distance_m = 0.0;
-        bool moves = false;
-        geometry::TouchedMesh mesh;
-    };
+    struct Placed;  // a mesh, and how near it is
     void arrange(geometry::LocalSurface& draft);
 
     std::vector<Hand> hands_;

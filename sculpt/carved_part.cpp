@@ -10,6 +10,7 @@
 #include "base/try.hpp"
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
+#include "scene/scene_changes.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
 

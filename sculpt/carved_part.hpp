@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/drawn_change.hpp"
 #include "scene/scene_part.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/sculpt_order.hpp"

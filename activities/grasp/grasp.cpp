@@ -8,6 +8,9 @@
 
 #include "base/text.hpp"
 #include "devices/gloves/glove_device.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "scene/object_property.hpp"
+#include "session/objects/world_objects.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
 namespace burin::activities {

@@ -10,6 +10,8 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "scene/scene_object.hpp"
+#include "session/objects/world_objects.hpp"
 #include "session/record/session_check.hpp"
 
 namespace burin::activities {

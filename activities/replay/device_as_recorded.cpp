@@ -7,6 +7,7 @@
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "scene/object_property.hpp"
+#include "session/objects/world_objects.hpp"
 #include "session/record/session_check.hpp"
 
 namespace burin::activities {

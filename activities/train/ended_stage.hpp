@@ -9,8 +9,14 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "study/felt/stage_session.hpp"
+#include "study/felt/felt_forces.hpp"
 #include "study/folder/study_folder.hpp"
+#include "study/trial/stage_step.hpp"
+
+namespace burin::study {
+class FeltWorld;     // study/felt/felt_world.hpp
+class StageSession;  // study/felt/stage_session.hpp
+}  // namespace burin::study
 
 namespace burin::activities {
 

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/recordings.hpp"
 #include "study/felt/stage_touch.hpp"

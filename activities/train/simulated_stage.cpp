@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "devices/haptic/simulated_wand.hpp"
+#include "study/felt/stage_session.hpp"
 
 namespace burin::activities {
 namespace {

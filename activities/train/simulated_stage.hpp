@@ -13,6 +13,10 @@
 #include "activities/train/ended_stage.hpp"
 #include "study/people/learner.hpp"
 
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
+
 namespace burin::activities {
 
 // All must outlive the call; the world is null for a page.

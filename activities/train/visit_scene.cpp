@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "activities/train/visit_scene.hpp"
 
+#include "study/felt/felt_world.hpp"
+
 #include <algorithm>
 
 namespace burin::activities {

@@ -8,6 +8,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "haptics/tick_record.hpp"
 
 namespace burin::activities {
 namespace {

@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "activities/wand/wand_facts.hpp"
+#include "activities/wand/wand_world.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "base/temporary_folder.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/motion.hpp"
 #include "scene/world_digest.hpp"

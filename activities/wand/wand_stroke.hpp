@@ -3,15 +3,10 @@
 // One thread. Every Error names a file or an option and the remedy.
 #pragma once
 
-#include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "activities/wand/felt_wand.hpp"
 #include "base/error.hpp"
 #include "record/compare.hpp"
-#include "scene/mesh_part.hpp"
 
 namespace burin::activities {
 
@@ -23,23 +18,6 @@ struct WandStroke {
     std::string points;       // of the wand, that touch; empty: devices::usual_points()
     double radius_m = 0.004;  // of the ball that touches
 };
-
-// All that a stroke with a wand is felt with.
-struct WandWorld {
-    WandOptions feel;
-    sculpt::Stroke stroke;
-    std::vector<scene::ObjectId> ids;
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
-    std::string digest;
-};
-
-// Fails with all problems of the world printed, when it has some, and where the device has no handle with points.
-[[nodiscard]] Result<std::unique_ptr<WandWorld>> open_wand_world(const WandStroke& options);
-
-// Returns what a recording of the stroke says of the program and of what was explored. `facts`: of the program.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_wand(
-    const WandStroke& options, const WandWorld& opened, std::vector<std::pair<std::string, std::string>> facts);
 
 // The fact "activity" of a recording of such a stroke.
 inline constexpr const char* kWandActivity = "wand stroke";

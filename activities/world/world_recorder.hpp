@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/ring.hpp"
+#include "haptics/tick_record.hpp"
 #include "record/record_writer.hpp"
 
 namespace burin::activities {

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "haptics/tick_record.hpp"
+#include "haptics/tool_state.hpp"
 #include "picture/picture.hpp"
 #include "scene/mesh_part.hpp"
+#include "scene/scene_changes.hpp"
 #include "session/objects/drawn_world.hpp"
 
 namespace burin::activities {

@@ -17,6 +17,7 @@
 #include "base/places.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "study/felt/felt_world.hpp"
 #include "study/statistics/mann_whitney.hpp"
 #include "study/statistics/spearman.hpp"
 

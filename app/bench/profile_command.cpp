@@ -12,6 +12,7 @@
 #include "base/try.hpp"
 #include "compute/rays/lattice.hpp"
 #include "desk/run/session.hpp"
+#include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {

@@ -8,6 +8,7 @@
 #include "base/statistics.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "sculpt/feel_options.hpp"
+#include "sculpt/sculpture.hpp"
 #include "session/felt/felt_figures.hpp"
 
 namespace burin::app {

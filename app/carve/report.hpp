@@ -7,14 +7,21 @@
 #include <string>
 
 #include "base/json.hpp"
-#include "sculpt/sculpture.hpp"
+#include "base/length_unit.hpp"
 
+namespace burin::compute {
+struct DeviceTraffic;  // compute/rays/engine.hpp
+}  // namespace burin::compute
+namespace burin::geometry {
+struct TriangleMesh;  // geometry/mesh/triangle_mesh.hpp
+}  // namespace burin::geometry
 namespace burin::session {
 struct FeltFigures;
 }
 namespace burin::sculpt {
+class Sculpture;  // sculpt/sculpture.hpp
 struct Feel;
-}
+}  // namespace burin::sculpt
 
 namespace burin::app {
 

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
 #include "sculpt/crumbs.hpp"
+#include "session/options/option_bounds.hpp"
 
 namespace burin::app {
 

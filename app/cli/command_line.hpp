@@ -20,7 +20,7 @@
 #include "base/assets.hpp"
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
-#include "session/options/option_bounds.hpp"
+#include "session/options/bounds.hpp"
 
 namespace CLI {
 class App;

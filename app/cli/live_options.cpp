@@ -6,6 +6,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/options/option_bounds.hpp"
 
 namespace burin::app {
 

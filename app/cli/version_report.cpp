@@ -7,6 +7,7 @@
 #include "app/cli/library_versions.hpp"
 #include "base/assets.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_kinds.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "gpu/device.hpp"
 

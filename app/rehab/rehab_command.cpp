@@ -27,6 +27,7 @@
 #include "devices/gloves/glove_device.hpp"
 #include "devices/gloves/glove_hand.hpp"
 #include "devices/gloves/grip_shape.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"

@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "haptics/tick_parameters.hpp"
 
 namespace burin::app {
 namespace {

@@ -11,6 +11,7 @@
 #include "activities/wand/felt_wand.hpp"
 #include "activities/wand/wand_pictures.hpp"
 #include "activities/wand/wand_stroke.hpp"
+#include "activities/wand/wand_world.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/picture_folder.hpp"
 #include "app/world/rendered_report.hpp"

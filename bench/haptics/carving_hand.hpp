@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/haptics/carving_tools.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "compute/tools/tool.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
@@ -18,17 +19,6 @@
 #include "sculpt/carved_scene.hpp"
 
 namespace burin::bench {
-
-// A bar of six sides about +Y, from the origin up.
-[[nodiscard]] std::shared_ptr<const geometry::TriangleMesh> six_sided_bar(double radius_m, double length_m);
-
-struct CarvingTool {
-    std::string name;
-    compute::ToolShape shape;
-};
-
-// The tools of the panel, each about 3 mm wide, the ball first.
-[[nodiscard]] std::vector<CarvingTool> carving_tools();
 
 struct CarvedBlock {
     Vec3 size_m{0.04, 0.02, 0.03};

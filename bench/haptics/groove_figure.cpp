@@ -6,6 +6,7 @@
 #include "base/csv.hpp"
 #include "base/plot/figures.hpp"
 #include "base/try.hpp"
+#include "bench/haptics/carving_hand.hpp"
 #include "bench/haptics/carving_scenes.hpp"
 
 namespace burin::bench {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "bench/haptics/carving_hand.hpp"
+#include "bench/haptics/carving_tools.hpp"
 
 namespace burin::bench {
 

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "bench/measure/timing.hpp"
+#include "haptics/tick_record.hpp"
 #include "record/record_writer.hpp"
 
 namespace burin::bench {

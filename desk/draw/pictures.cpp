@@ -4,6 +4,7 @@
 #include "base/file_io.hpp"
 #include "base/try.hpp"
 #include "picture/frame_setup.hpp"
+#include "sculpt/sculpture.hpp"
 
 #include <algorithm>
 #include <cmath>

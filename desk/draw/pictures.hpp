@@ -6,9 +6,16 @@
 #include <memory>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/image.hpp"
+#include "base/space.hpp"
+#include "gpu/device.hpp"
 #include "renderer/frame/renderer.hpp"
-#include "sculpt/sculpture.hpp"
 #include "session/held/staging.hpp"
+
+namespace burin::sculpt {
+class Sculpture;  // sculpt/sculpture.hpp
+}  // namespace burin::sculpt
 
 namespace burin::session {
 

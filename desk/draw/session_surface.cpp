@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/draw/session_surface.hpp"
 
+#include "compute/light/tile_light.hpp"
+
 namespace burin::session {
 
 void SessionSurface::open(const gpu::Device& device) {

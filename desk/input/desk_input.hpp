@@ -31,6 +31,7 @@
 #include "desk/input/surface_hand.hpp"
 #include "devices/hand/steered_hand.hpp"
 #include "session/held/held_tool.hpp"
+#include "session/held/pen_at_rest.hpp"
 #include "session/input/input_event.hpp"
 
 namespace burin::session {

@@ -11,6 +11,7 @@
 #include "desk/panel/panel.hpp"
 #include "desk/present/presenter.hpp"
 #include "desk/viewer/viewer.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 

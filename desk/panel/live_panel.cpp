@@ -7,6 +7,7 @@
 
 #include "base/try.hpp"
 #include "desk/viewer/viewed_picture.hpp"
+#include "haptics/haptic_loop.hpp"
 
 namespace burin::session {
 namespace {

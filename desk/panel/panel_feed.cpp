@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/panel/panel_feed.hpp"
 
+#include "session/state/command_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -9,12 +9,21 @@
 #include <string>
 #include <vector>
 
-#include "haptics/stability/safety_gate.hpp"
+#include "base/clock.hpp"
+#include "base/space.hpp"
+#include "compute/rays/operation.hpp"
+#include "haptics/stability/gate_output.hpp"
+#include "haptics/workspace/workspace_picture.hpp"
+#include "scene/haptic_material.hpp"
 #include "scene/rendered_material.hpp"
-#include "session/activity/activity.hpp"
+#include "sculpt/feel_options.hpp"
+#include "sculpt/mirror.hpp"
+#include "sculpt/tool_kinds.hpp"
+#include "session/activity/activity_panel.hpp"
+#include "session/input/actions.hpp"
 #include "session/notices/message_kind.hpp"
 #include "session/record/panel_measured.hpp"
-#include "session/state/command_table.hpp"
+#include "wall/stereo_mode.hpp"
 
 namespace burin::session {
 

@@ -5,6 +5,7 @@
 
 #include "desk/input/desk_input_table.hpp"
 #include "desk/panel/panel_sections.hpp"
+#include "session/state/command_table.hpp"
 
 namespace burin::session::panel {
 namespace {

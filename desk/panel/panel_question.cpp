@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "desk/panel/panel_sections.hpp"
+#include "session/input/input_event.hpp"
 
 namespace burin::session::panel {
 namespace {

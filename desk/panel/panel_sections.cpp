@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "desk/panel/panel_sections.hpp"
 
+#include "session/input/input_event.hpp"
+#include "session/state/command_table.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "desk/panel/panel_widgets.hpp"
 
+#include "session/state/command_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

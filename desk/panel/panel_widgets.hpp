@@ -13,7 +13,8 @@
 
 #include "desk/panel/panel_look.hpp"
 #include "desk/panel/panel_model.hpp"
-#include "session/state/command_table.hpp"
+#include "session/input/command_input.hpp"
+#include "session/state/session_command.hpp"
 
 namespace burin::session::panel {
 

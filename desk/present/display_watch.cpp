@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/display_watch.hpp"
 
+#include "desk/live/desk.hpp"
+#include "desk/present/presenter.hpp"
+#include "desk/present/session_output.hpp"
+#include "desk/view/session_head.hpp"
+#include "wall/head_prediction.hpp"
+
 namespace burin::session {
 
 DisplayWatch::DisplayWatch(double refresh_Hz) : pacing_(begin_pacing({.period_ns = nanoseconds(1.0 / refresh_Hz)})) {}

@@ -3,11 +3,14 @@
 // Thread: that of the frames.
 #pragma once
 
-#include "desk/present/presenter.hpp"
 #include "desk/timing/frame_pacing.hpp"
+#include "desk/timing/session_times.hpp"
 #include "desk/timing/shown_frames.hpp"
 
 namespace burin::session {
+
+class Desk;       // desk/live/desk.hpp
+class Presenter;  // desk/present/presenter.hpp
 
 class DisplayWatch {
 public:

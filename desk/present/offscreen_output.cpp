@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "desk/present/offscreen_output.hpp"
 
-#include "base/try.hpp"
-
 #include <utility>
+
+#include "base/try.hpp"
+#include "desk/live/desk.hpp"
+#include "desk/present/presenter.hpp"
 
 namespace burin::session {
 
@@ -11,6 +13,10 @@ OffscreenOutput::OffscreenOutput(const LiveOptions& options, const SessionWall& 
     : options_(options), wall_(&wall) {
     for (const SessionScreen& screen : wall.screens) places_.emplace_back().size = screen.size;
 }
+
+OffscreenOutput::~OffscreenOutput() = default;
+
+bool OffscreenOutput::has_drawn() const { return presenter_ && presenter_->has_drawn(); }
 
 void OffscreenOutput::put(std::size_t screen, const wall::OutputPlace& place) {
     places_[screen] = place;
@@ -21,7 +27,7 @@ Result<bool> OffscreenOutput::draw(Desk& desk, Nanoseconds frame_ns) {
     if (!presenter_ && !desk.session().files().wants_pictures()) return false;
     if (!presenter_) {
         BURIN_TRY(opened, Presenter::open(options_, *wall_));
-        presenter_.emplace(std::move(opened));
+        presenter_ = std::make_unique<Presenter>(std::move(opened));
         for (std::size_t screen = 0; screen < places_.size(); ++screen) presenter_->put(screen, places_[screen]);
     }
     return presenter_->draw(desk, frame_ns);

@@ -8,16 +8,18 @@
 #include <vector>
 
 #include "desk/present/frame_output.hpp"
-#include "desk/present/presenter.hpp"
 #include "desk/view/session_screens.hpp"
 #include "session/options/session_options.hpp"
 
 namespace burin::session {
 
+class Presenter;  // desk/present/presenter.hpp
+
 class OffscreenOutput final : public FrameOutput {
 public:
     // The wall must outlive it.
     OffscreenOutput(const LiveOptions& options, const SessionWall& wall);
+    ~OffscreenOutput() override;
 
     void look() override {}
     [[nodiscard]] std::vector<wall::OutputPlace> places() const override { return places_; }
@@ -30,13 +32,13 @@ public:
     [[nodiscard]] Result<bool> draw(Desk& desk, Nanoseconds frame_ns) override;
     [[nodiscard]] Result<void> recover(Desk& desk, const Error& error) override;
     [[nodiscard]] Result<void> fit_modes(Desk& desk) override;
-    [[nodiscard]] bool has_drawn() const override { return presenter_ && presenter_->has_drawn(); }
+    [[nodiscard]] bool has_drawn() const override;
 
 private:
     LiveOptions options_;
     const SessionWall* wall_;
     std::vector<wall::OutputPlace> places_;
-    std::optional<Presenter> presenter_;  // none: no picture has been asked for yet
+    std::unique_ptr<Presenter> presenter_;  // null: no picture has been asked for yet
 };
 
 // Opens the outputs of a session: with a graphics device at once where somebody sees its pictures, or where some are

@@ -11,7 +11,10 @@
 #include <variant>
 
 #include "base/try.hpp"
+#include "desk/live/desk.hpp"
+#include "desk/panel/panel_pointer.hpp"
 #include "desk/present/window_rows.hpp"
+#include "desk/view/session_screens.hpp"
 #include "gpu/driver_threads.hpp"
 #include "session/options/option_bounds.hpp"
 

@@ -15,17 +15,24 @@
 #include <utility>
 #include <vector>
 
+#include "base/clock.hpp"
 #include "desk/draw/drawn_detail.hpp"
 #include "desk/draw/session_picture.hpp"
 #include "desk/draw/session_surface.hpp"
-#include "desk/live/desk.hpp"
 #include "desk/present/direct_output.hpp"
 #include "desk/present/frame_output.hpp"
 #include "desk/present/session_waker.hpp"
 #include "desk/present/session_window.hpp"
+#include "desk/view/session_screens.hpp"
+#include "picture/picture.hpp"
+#include "session/options/session_options.hpp"
+#include "wall/output_settings.hpp"
 #include "wall/parity.hpp"
 
 namespace burin::session {
+
+struct Asked;  // session/state/session_orders.hpp
+class Desk;    // desk/live/desk.hpp
 
 // The main screen's picture where there is no session yet.
 struct StillPicture {

@@ -5,6 +5,9 @@
 #include "desk/present/presenter.hpp"
 
 #include "base/try.hpp"
+#include "desk/live/desk.hpp"
+#include "desk/timing/session_times.hpp"
+#include "session/state/session_orders.hpp"
 
 namespace burin::session {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "session/input/input_line.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 namespace {

@@ -17,11 +17,15 @@
 #include "desk/run/session.hpp"
 #include "desk/view/session_tracker.hpp"
 #include "devices/trackers/tracker.hpp"
+#include "haptics/realtime.hpp"
+#include "session/drive/executors.hpp"
 #include "session/drive/recording_start.hpp"
 #include "session/drive/session_streams.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/input/input_line.hpp"
 #include "session/options/option_bounds.hpp"
+#include "session/record/session_recording.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 namespace {

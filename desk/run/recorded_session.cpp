@@ -11,6 +11,7 @@
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/record/log_outputs.hpp"
+#include "session/record/tick_source.hpp"
 
 namespace burin::session {
 namespace {

@@ -7,6 +7,7 @@
 #include "base/try.hpp"
 #include "desk/present/offscreen_output.hpp"
 #include "desk/run/session.hpp"
+#include "session/drive/executors.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_recording.hpp"
 

@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "sculpt/tool_mesh.hpp"
+#include "session/held/held_tool.hpp"
+#include "session/state/session_room.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {

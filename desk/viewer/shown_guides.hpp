@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "haptics/tick_record.hpp"
+#include "haptics/tool_state.hpp"
 #include "picture/picture.hpp"
 
 namespace burin::session {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "sculpt/tool_mesh.hpp"
+#include "session/held/held_handle.hpp"
 #include "session/held/staging.hpp"
 #include "wall/projection.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "desk/viewer/viewer.hpp"
 #include "haptics/tick_record.hpp"
+#include "haptics/tool_state.hpp"
 #include "picture/picture.hpp"
 #include "wall/comfort.hpp"
 

@@ -5,6 +5,9 @@
 #include <array>
 
 #include "desk/viewer/framed_world.hpp"
+#include "session/held/held_handle.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_room.hpp"
 #include "wall/comfort.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"

@@ -18,6 +18,7 @@
 #include "desk/view/session_screens.hpp"
 #include "desk/viewer/shown_guides.hpp"
 #include "session/options/edge_comfort.hpp"
+#include "session/state/session_command.hpp"
 #include "session/state/session_state.hpp"
 #include "wall/output_settings.hpp"
 

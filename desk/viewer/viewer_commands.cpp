@@ -8,6 +8,8 @@
 #include "desk/input/input_wand.hpp"
 #include "desk/viewer/framed_world.hpp"
 #include "desk/viewer/viewer_lead.hpp"
+#include "session/objects/world_objects.hpp"
+#include "session/state/session_commands.hpp"
 
 namespace burin::session {
 namespace {

@@ -8,6 +8,9 @@
 #include "desk/viewer/framed_world.hpp"
 #include "desk/viewer/view_cube.hpp"
 #include "sculpt/tool_mesh.hpp"
+#include "session/held/held_handle.hpp"
+#include "session/state/session_commands.hpp"
+#include "session/state/session_room.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
 

@@ -9,6 +9,7 @@
 #include "desk/input/seen_surface.hpp"
 #include "desk/viewer/viewer.hpp"
 #include "session/state/leader.hpp"
+#include "session/state/session_step.hpp"
 
 namespace burin::session {
 

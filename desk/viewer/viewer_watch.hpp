@@ -8,6 +8,7 @@
 
 #include "desk/viewer/viewer.hpp"
 #include "haptics/tick_record.hpp"
+#include "haptics/tool_state.hpp"
 #include "wall/head_prediction.hpp"
 
 namespace burin::session {

@@ -19,6 +19,7 @@
 
 #include "base/error.hpp"
 #include "base/space.hpp"
+#include "devices/hand/hand_target.hpp"
 
 namespace burin::devices {
 
@@ -49,14 +50,6 @@ struct HandGrip {
            not_negative(grip.inertia_kgm2) && not_negative(grip.torsion_Nm_per_rad) &&
            not_negative(grip.angular_damping_Nms_per_rad);
 }
-
-// The desired state of the hand at one time.
-struct HandTarget {
-    Vec3 position_device_m{0.0};
-    Vec3 velocity_device_m_per_s{0.0};
-    Quat orientation_device{1.0, 0.0, 0.0, 0.0};
-    std::uint32_t buttons = 0;
-};
 
 // Immutable after create(); any thread may call target().
 class SimulatedHand {

@@ -38,18 +38,10 @@
 
 #include "base/clock.hpp"
 #include "base/ring.hpp"
+#include "devices/hand/hand_target.hpp"
 #include "devices/hand/simulated_hand.hpp"
 
 namespace burin::devices {
-
-struct SteeredTarget {
-    // When the source was there, on its own clock; only differences count. A source that reports changes alone says
-    // where it was shortly before a change that follows a rest.
-    Nanoseconds time_ns = 0;
-    Vec3 position_device_m{0.0};
-    Quat orientation_device{1.0, 0.0, 0.0, 0.0};  // any length but 0
-    std::uint32_t buttons = 0;
-};
 
 // The channel. Its writer puts times into an order that the reader can rely on: rising by at least kLeastInterval_ns,
 // gaps closed.

@@ -5,6 +5,7 @@
 
 #include "devices/lsl/lsl_api.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_kinds.hpp"
 #include "devices/trackers/tracker.hpp"
 
 namespace burin::devices {

@@ -22,39 +22,9 @@
 #include "base/error.hpp"
 #include "base/space.hpp"
 #include "devices/presence/device_presence.hpp"
+#include "devices/trackers/tracker_input.hpp"
 
 namespace burin::devices {
-
-// Head pose; tracked false: the tracker has lost it, and the pose is the last one known.
-struct HeadInput {
-    Pose pose_world;
-    bool tracked = true;
-    friend bool operator==(const HeadInput&, const HeadInput&) = default;
-};
-struct WandInput {
-    std::uint32_t wand = 0;
-    Pose pose_world;
-    bool tracked = true;
-    friend bool operator==(const WandInput&, const WandInput&) = default;
-};
-struct WandClick {
-    std::uint32_t wand = 0, button = 0;
-    bool pressed = true;
-    friend bool operator==(const WandClick&, const WandClick&) = default;
-};
-// Stick of a wand: -1 to 1 each, x to the right, y forwards.
-struct WandStick {
-    std::uint32_t wand = 0;
-    Vec2 position{0.0};
-    friend bool operator==(const WandStick&, const WandStick&) = default;
-};
-
-using TrackerInput = std::variant<HeadInput, WandInput, WandClick, WandStick>;
-
-struct TrackerSample {
-    Nanoseconds time_ns = 0;
-    TrackerInput input;
-};
 
 // The samples that nobody has taken yet, at most kMost of them. When it is full, the oldest pose or stick makes room,
 // since a newer one of its kind replaces it and a head's prediction wants the newest; a press or release, which nothing

@@ -36,21 +36,11 @@
 
 #include "haptics/signals/filters.hpp"
 #include "haptics/stability/energy_account.hpp"
+#include "haptics/stability/passivity_record.hpp"
+#include "haptics/stability/passivity_settings.hpp"
 #include "haptics/stability/rendered_wall.hpp"
 
 namespace burin::haptics {
-
-struct PassivitySettings {
-    bool control = true;                // false: observe only
-    double max_damping_Ns_per_m = 5.0;  // a_max: a tenth of what stops the Omni's own 45 g in a tick
-    double reserve_J = 0.0005;          // the energy of hand and stylus at 0.1 m/s
-    // The promise holds up to these speeds, over this many lost ticks in a row.
-    double contact_speed_m_per_s = kContactSpeed_m_per_s;
-    double turn_speed_rad_per_s = kTurnSpeed_rad_per_s;
-    std::uint32_t lost_ticks = 5;
-    // A body's work on the hand counts as honest up to this speed: that of a ball that has fallen from 0.2 m.
-    double surface_speed_m_per_s = 2.0;
-};
 
 // What the observer has counted since contact began, and of the last tick.
 struct PassivityObserver {
@@ -85,16 +75,6 @@ struct PassivityInput {
     bool one_way = false;
     bool jumped = false;                        // the contact is not continuous with that of the last tick
     Vec3 surface_velocity_device_m_per_s{0.0};  // of the surface touched
-};
-
-// What the controller saw and did in a tick.
-struct PassivityRecord {
-    double energy_J = 0.0;          // E(n), put into the rendered world since contact began, before the controller acts
-    double budget_J = 0.0;          // A(n) of the account: what the world may still give out, for certain
-    double damping_Ns_per_m = 0.0;  // a; 0: no damping is added
-    double share = 1.0;             // of the wrench: less than 1 where the account affords no more
-    double most_N = HUGE_VAL;       // the greatest force that the account affords
-    double most_Nm = HUGE_VAL;      // the greatest torque beside it
 };
 
 struct PassivityStep {

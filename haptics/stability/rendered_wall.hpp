@@ -52,44 +52,17 @@
 #include <cstdint>
 
 #include "devices/haptic/haptic_device.hpp"
+#include "haptics/stability/coupled_wall.hpp"
+#include "haptics/stability/passivity_settings.hpp"
 
 namespace burin::haptics {
 
 // ---- Virtual coupling
 
-struct VirtualCoupling {
-    double stiffness_N_per_m = 0.0;  // Kc; 0: no coupling, the hand is the tool
-    double damping_Ns_per_m = 0.0;   // Bc
-};
-
-struct CoupledWall {
-    double stiffness_N_per_m = 0.0;
-    double damping_Ns_per_m = 0.0;
-};
-
 // The wall as the device feels it through the coupling.
 [[nodiscard]] CoupledWall through(const VirtualCoupling& coupling, const CoupledWall& wall) noexcept;
 
 // ---- Stiffness limit
-
-// The fastest motion in the wall for which passivity is promised. A deliberate tap arrives at 0.1 m/s; this is half
-// as much again, and the most at which the Omni renders the default material (600 N/m, 0.5 Ns/m) in full. Beyond it
-// the passivity controller removes the excess energy (haptics/stability/passivity.hpp).
-inline constexpr double kContactSpeed_m_per_s = 0.15;
-// The same for rotation: the contact speed at the end of a handle of 0.16 m, held in its middle.
-inline constexpr double kTurnSpeed_rad_per_s = kContactSpeed_m_per_s / 0.08;
-
-// The tightest bound; shown as the reason for a limit.
-enum class StiffnessBound : std::uint8_t {
-    none,  // the desired stiffness and damping are within all bounds
-    // Damping and friction of the device against sampling and delay, at the contact speed it is meant for.
-    sampling,
-    quantisation,  // Coulomb friction against the encoder's step: K <= 2 f_c / D
-    device,        // the limit that the device's maker gives
-    // The stiffness is kept; the desired virtual damping is more than the device can compensate.
-    damping,
-    rotation,  // one of these, of the torque that several points give together
-};
 
 struct StiffnessLimit {
     double stiffness_N_per_m = 0.0;  // the desired stiffness, or the greatest that is allowed
@@ -136,10 +109,5 @@ struct RenderedWall {
 // The wall as the device may render it: through the coupling, and limited to what stays passive. What acts side by side
 // shares the limit, and so does the resistance to rotation that it makes up together.
 [[nodiscard]] RenderedWall rendered(const WallDemand& demand, const devices::DeviceDescription& device) noexcept;
-
-// A sentence for people; static storage.
-[[nodiscard]] const char* text(StiffnessBound bound) noexcept;
-// The same in a few words: "the device", "its sampling and delay"; empty for none.
-[[nodiscard]] const char* short_text(StiffnessBound bound) noexcept;
 
 }  // namespace burin::haptics

@@ -24,41 +24,10 @@
 #include <cstdint>
 
 #include "devices/haptic/haptic_device.hpp"
+#include "haptics/stability/gate_limits.hpp"
+#include "haptics/stability/gate_output.hpp"
 
 namespace burin::haptics {
-
-// Why the gate gives zero. In order of precedence.
-enum class GateCause : std::uint8_t {
-    none,
-    device_fault,    // the device itself reports one; see DeviceSample::fault
-    not_finite,      // a sample, a desired force or a device limit is NaN, infinite or negative
-    bad_parameters,  // settings that make no sense, such as a negative stiffness
-    bad_scale,       // a scene so small or large that numbers do not resolve it at the device's motions
-    stale_sample,    // the device has stopped sending
-    future_sample,   // its time stamps lie ahead of the loop's clock
-    out_of_reach,    // it reports a position that its arm cannot reach
-    overspeed,       // the tool moves faster than any hand should
-    stale_surface,   // in contact with a surface that the carving side no longer keeps up to date
-    outside_known,   // in contact where the surface is not known
-    caught,          // the tool was held by a contact that is not there, and has been let go
-    lost_loop,       // the loop itself stood still: what it knows of the hand is out of date
-};
-
-// A sentence for people; static storage.
-[[nodiscard]] const char* text(GateCause cause) noexcept;
-
-struct GateLimits {
-    double max_force_N = 3.3;                // an Omni's; a session takes its device's, which bounds it in any case
-    double max_slew_N_per_s = 1000.0;        // 1 N a tick at 1 kHz: about what a 600 N/m wall needs at 1.7 m/s
-    double max_torque_slew_Nm_per_s = 80.0;  // the same at the end of a handle of 0.16 m
-    double contact_ramp_s = 0.1;             // after a contact that has jumped: an edit, a moved workspace
-    double ramp_s = 0.2;                     // from zero to full at the start and after a fault
-    double recovery_s = 0.05;                // time without fault before the ramp begins again
-    double max_speed_m_per_s = 3.0;          // of the tool, at the device
-    double max_sample_age_s = 0.02;          // 20 ticks without a new sample
-    double max_loop_gap_s = 0.005;           // since the last tick; four and a half periods where that is longer
-    double max_ahead_s = 0.005;              // of a sample's time stamp, before the clock
-};
 
 struct GateInput {
     devices::DeviceWrench wanted;
@@ -92,14 +61,6 @@ struct GateState {
     double contact_ramp = 1.0;    // 0 to 1, after a contact that has jumped, and after lost ticks
     double well_s = 0.0;          // time since the last fault
     bool faulted = false;         // a fault has happened and recovery_s is not yet over
-};
-
-struct GateOutput {
-    devices::DeviceWrench given;  // the commanded wrench
-    GateCause cause = GateCause::none;
-    bool saturated = false;
-    bool slew_limited = false;
-    bool ramping = false;
 };
 
 struct GateStep {

@@ -2,6 +2,7 @@
 // Written from "MAT-File Format" (The MathWorks, R2021a), chapter "Level 5 MAT-Files". A data element is a tag (type
 // and length of its data, 32 bits each) and the data, filled up to a multiple of 8 bytes.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <limits>

@@ -15,7 +15,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,14 +22,28 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/tick_parameters.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/space.hpp"
 #include "haptics/tick_record.hpp"
-#include "picture/picture.hpp"
+#include "haptics/tool_state.hpp"
 #include "scene/contact_events.hpp"
-#include "scene/scene_changes.hpp"
-#include "scene/scene_part.hpp"
-#include "session/input/input_event.hpp"
-#include "session/objects/world_objects.hpp"
+#include "scene/drawn_change.hpp"
+#include "session/activity/activity_marks.hpp"
+#include "session/activity/activity_orders.hpp"
+#include "session/activity/activity_panel.hpp"
+
+namespace burin::haptics {
+struct TickParameters;  // haptics/tick_parameters.hpp
+}  // namespace burin::haptics
+
+namespace burin::picture {
+struct Picture;  // picture/picture.hpp
+}  // namespace burin::picture
+
+namespace burin::scene {
+class ScenePart;  // scene/scene_part.hpp
+}  // namespace burin::scene
 
 namespace burin::session {
 
@@ -41,7 +54,7 @@ struct Act {
     std::string_view help;       // one line
 };
 
-using scene::PartOfHand;
+struct WorldObjects;  // session/objects/world_objects.hpp
 
 // A part of a hand in a step. A stylus and a wand are one part, a glove has one for each fingertip.
 struct PartView {
@@ -72,108 +85,10 @@ struct ActivityView {
     [[nodiscard]] const PartView& first_part() const { return hands.front().parts.front(); }
 };
 
-// A trial for the recording's table of trials, of which one is under way at a time.
-struct TrialMark {
-    Nanoseconds time_ns = 0;  // on the loop's clock
-    std::string name;         // of one that begins; empty: the one under way ends
-    std::string state = {};   // how it ended, in a word or two: "done", "given up"
-};
-
-// A row of the recording's table of events, in words: what happened, and of what.
-struct EventMark {
-    Nanoseconds time_ns = 0;  // on the loop's clock
-    std::string name, value;
-    bool operator==(const EventMark&) const = default;
-};
-// What an activity writes into the recording of its session besides its trials, in order.
-struct ActivityRecord {
-    std::vector<EventMark> events;
-};
-
-// Has parts of hands take hold of an object: from the scene's next update on it moves with the frame of them all
-// (scene::grip_frame()), from where it and they are then. A hold that there was gives way. By nobody: lets go of it,
-// and it stays fixed where it was.
-struct HoldObject {
-    std::string object;
-    std::vector<PartOfHand> by;
-    bool felt = false;  // by the parts that hold it (scene::HeldMotion)
-    bool operator==(const HoldObject&) const = default;
-};
-
-// What it wants done; filled in order.
-struct ActivityOrders {
-    std::vector<EditObject> edits;
-    std::vector<HoldObject> holds;
-    std::vector<std::string> messages;     // for the user, on panel and terminal
-    std::vector<std::string> screenshots;  // names
-    std::vector<TrialMark> trials;         // kept where a session file is recorded
-    // Done on the scene's thread before its next update, in order: what its own part of the scene is told. Whatever a
-    // function refers to must outlive the session.
-    std::vector<std::function<void()>> on_scene;
-    bool parameters = false;  // adjust() has changed
-    bool quit = false;
-};
-
 // Where a desk's mouse leads the hand of a glove: over which box of the scene, and how the hand is turned there.
 struct LedHand {
     Box reach_scene;
     Quat rest_device{1.0, 0.0, 0.0, 0.0};  // fingers along +Y, the palm looks along -Z
-};
-
-// Its section of the panel, from top to bottom.
-struct ActivityPanel {
-    struct Row {
-        std::string name, value;
-        bool operator==(const Row&) const = default;
-    };
-    struct Button {
-        std::string title;
-        std::vector<std::string> act;  // the words behind `do`
-        bool enabled = true;
-        std::string asks = {};  // a question that the panel asks before it gives the act; empty: it gives it at once
-        std::optional<Key> key = std::nullopt;  // that gives the act too, before it is any short cut
-        bool operator==(const Button&) const = default;
-    };
-    // What a person is doing now, drawn large over the picture: forces against what is asked, how long they are to be
-    // held, and what comes next.
-    struct Task {
-        struct Bar {
-            std::string name;               // "index"
-            double asked_N = 0.0;           // what the device is told to give
-            std::optional<double> given_N;  // what it measures that it gives
-            double target_N = 0.0;          // 0: none is asked
-            double full_N = 1.0;            // the bar's length
-            std::uint32_t colour_srgb = 0;  // 0xRRGGBB
-            bool operator==(const Bar&) const = default;
-        };
-        std::string state;          // "Paused"; empty: it is under way
-        std::string next;           // "Squeeze the ball"
-        std::string progress = {};  // "2 of 5"
-        std::vector<Bar> bars = {};
-        double hold_s = 0.0, held_s = 0.0;  // how long it is to be held, and has been; 0: it is not
-        bool operator==(const Task&) const = default;
-    };
-    // A table for who leads the session, which a panel in a window of its own shows. Cells of a row: as many as heads.
-    struct Table {
-        std::string title;
-        std::vector<std::string> heads;
-        std::vector<std::vector<std::string>> rows;
-        bool operator==(const Table&) const = default;
-    };
-    std::string title, aside;  // the aside stands right of the title, in a word or two
-    std::string page;          // a paragraph for the person; empty: none
-    std::vector<Row> rows;
-    std::vector<Button> buttons;  // side by side, in several rows where there are many
-    std::string field = {};       // the act that a line of text is for, behind the buttons; empty: there is no field
-    // All that is felt and seen is the activity's alone (governed.hpp): no panel, key or command changes it, and the
-    // panel shows none of its sections. Buttons and field then stand at the panel's foot, where nothing moves them.
-    bool governs = false;
-    // The panel shows none of the scene's sections, since they are no matter of the person's; all else stays as it is.
-    bool hides_scene = false;
-    std::optional<Task> task = std::nullopt;
-    std::vector<Table> tables = {};      // for who leads the session
-    std::vector<std::string> help = {};  // paragraphs, before all other help
-    bool operator==(const ActivityPanel&) const = default;
 };
 
 class Activity {

@@ -3,6 +3,7 @@
 
 #include "base/try.hpp"
 #include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
 
 #include <utility>
 

@@ -15,8 +15,13 @@
 #include <vector>
 
 #include "base/clock.hpp"
-#include "haptics/realtime.hpp"
-#include "scene/scene_thread.hpp"
+#include "base/error.hpp"
+#include "haptics/tool_state.hpp"
+#include "scene/scene_update.hpp"
+
+namespace burin::haptics {
+struct HapticChannels;  // haptics/channels.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
 
@@ -24,8 +29,8 @@ namespace burin::session {
 // have to report to the frame is collected by whoever knows them, in a call after each update (SceneThread).
 class Executor {
 public:
-    using Order = scene::SceneThread::Order;
-    using AfterUpdate = scene::SceneThread::AfterUpdate;
+    // Carried out on the scene's thread (scene::SceneThread::Order).
+    using Order = std::function<void()>;
     // Updates that a frame takes.
     struct Taken {
         std::vector<scene::SceneUpdate> updates;  // since the last call, for a recording
@@ -63,66 +68,5 @@ public:
 
 // Makes all frames, until the source has no more or something fails, and then stops the executor.
 [[nodiscard]] Result<void> drive(Executor& executor, FrameSource& frames);
-
-// Runs ticks and updates one after the other on the caller's thread in simulated time: a tick each period of the loop,
-// and after the tick of that time an update each SceneService::kHandsMove_ns. Every run gives the same bits.
-class SteppedExecutor final : public Executor {
-public:
-    // All must outlive it. The first tick is one period from the clock's present time.
-    SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
-                    scene::SceneService& service, AfterUpdate after_update = {});
-
-    // Appends how long each tick from now on takes, in nanoseconds.
-    void measure_ticks(std::vector<std::uint32_t>& durations_ns) { tick_durations_ns_ = &durations_ns; }
-
-    [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
-    [[nodiscard]] std::vector<haptics::ToolState> tools() override { return newest_tools(parts_); }
-    // Carries the order out at once, exports to their end, so that later orders find it complete.
-    void order(Order order) override;
-    // Collects once more, for orders since the last update.
-    [[nodiscard]] Result<Taken> take_updates() override;
-
-private:
-    void tick();
-    void collect();
-
-    SimulatedClock& clock_;
-    haptics::HapticLoop& loop_;
-    std::vector<haptics::HapticChannels*> parts_;
-    scene::SceneService& service_;
-    AfterUpdate after_update_;
-    Nanoseconds next_update_ns_;
-    MonotonicClock stopwatch_;
-    std::vector<std::uint32_t>* tick_durations_ns_ = nullptr;
-};
-
-// Leaves the ticks to a HapticThread in real time, and the scene to a SceneThread. Stops them in this order: haptics,
-// which ends with zero force, then the scene, after the update that goes on.
-class ThreadedExecutor final : public Executor {
-public:
-    // All must outlive it. after_update is called on the scene's thread (SceneThread).
-    ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
-                     scene::SceneService& service, const haptics::LoopPace& pace, AfterUpdate after_update);
-    // Without a thread for the scene: the caller's makes one update each time it has come to a frame.
-    ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
-                     scene::SceneService& service);
-
-    // Starts the threads; call it once. Returns what the system refused of real-time scheduling.
-    [[nodiscard]] haptics::RealtimeNotice start();
-
-    [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
-    [[nodiscard]] std::vector<haptics::ToolState> tools() override { return newest_tools(parts_); }
-    void order(Order order) override;
-    [[nodiscard]] Result<Taken> take_updates() override;
-    void stop() override;
-
-private:
-    Clock& clock_;
-    std::vector<haptics::HapticChannels*> parts_;
-    haptics::HapticThread touch_;
-    scene::SceneService& service_;
-    std::optional<scene::SceneThread> scene_;
-    std::uint64_t updates_ = 0;  // of the scene's thread, taken so far
-};
 
 }  // namespace burin::session

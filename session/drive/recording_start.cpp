@@ -6,7 +6,12 @@
 #include <utility>
 
 #include "base/try.hpp"
+#include "haptics/channels.hpp"
+#include "scene/mesh_part.hpp"
 #include "session/drive/thread_recorder.hpp"
+#include "session/live/session.hpp"
+#include "session/record/input_log.hpp"
+#include "session/record/session_recording.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {

@@ -6,10 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "session/live/session.hpp"
-#include "session/record/session_recording.hpp"
+#include "base/error.hpp"
+#include "record/record_writer.hpp"
 
 namespace burin::session {
+
+class InputLogWriter;  // session/record/input_log.hpp
+class Session;         // session/live/session.hpp
+struct SculptOptions;  // session/options/session_options.hpp
 
 // Facts of a session file, which the session does not know itself: of the program and of the files that were read.
 using SessionFacts = std::vector<std::pair<std::string, std::string>>;

@@ -7,8 +7,14 @@
 #include <utility>
 
 #include "base/try.hpp"
+#include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
+#include "session/live/session.hpp"
+#include "session/options/session_options.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/stream/lsl_streams.hpp"
 #include "session/stream/stream_text.hpp"
+#include "session/stream/tick_pump.hpp"
 
 namespace burin::session {
 namespace {
@@ -59,6 +65,9 @@ Result<std::unique_ptr<SessionStreams>> SessionStreams::open(const LiveOptions& 
     BURIN_TRY(lsl, LslStreams::open(api, std::move(plan), clock));
     return std::unique_ptr<SessionStreams>(new SessionStreams(session, std::move(lsl), live.lsl));
 }
+
+SessionStreams::SessionStreams(Session& session, std::unique_ptr<LslStreams> lsl, bool gives)
+    : session_(session), lsl_(std::move(lsl)), gives_(gives) {}
 
 SessionStreams::~SessionStreams() { pump_.reset(); }
 

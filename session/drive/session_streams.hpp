@@ -7,12 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "base/clock.hpp"
+#include "base/error.hpp"
 #include "record/record_writer.hpp"
-#include "session/live/session.hpp"
-#include "session/stream/lsl_streams.hpp"
-#include "session/stream/tick_pump.hpp"
 
 namespace burin::session {
+
+struct LiveOptions;    // session/options/session_options.hpp
+class LslStreams;      // session/stream/lsl_streams.hpp
+class Session;         // session/live/session.hpp
+struct StreamFigures;  // session/stream/lsl_streams.hpp
+class TickPump;        // session/stream/tick_pump.hpp
 
 // Fails where a session of these options cannot have the streams that they ask for: a text log has the ring that a
 // stream would read, markers have no recording to go into, or there is no library.
@@ -37,8 +42,7 @@ public:
     StreamFigures finish();
 
 private:
-    SessionStreams(Session& session, std::unique_ptr<LslStreams> lsl, bool gives)
-        : session_(session), lsl_(std::move(lsl)), gives_(gives) {}
+    SessionStreams(Session& session, std::unique_ptr<LslStreams> lsl, bool gives);
 
     Session& session_;
     std::unique_ptr<LslStreams> lsl_;

@@ -3,8 +3,15 @@
 
 #include <span>
 
+#include "compute/mesher/surface.hpp"
+#include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
+#include "scene/mesh_part.hpp"
+#include "session/live/session.hpp"
 #include "session/record/carved_by.hpp"
+#include "session/record/input_source.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/stream/lsl_streams.hpp"
 
 namespace burin::session {
 namespace {

@@ -14,13 +14,24 @@
 #include <memory>
 #include <span>
 
-#include "session/live/session.hpp"
-#include "session/record/input_source.hpp"
+#include "scene/scene_update.hpp"
+#include "session/activity/activity_marks.hpp"
 #include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
-#include "session/stream/lsl_streams.hpp"
+#include "wall/output_settings.hpp"
+#include "wall/stereo_mode.hpp"
+
+namespace burin::haptics {
+struct ToolState;  // haptics/tool_state.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
+
+class InputSource;       // session/record/input_source.hpp
+class LslStreams;        // session/stream/lsl_streams.hpp
+struct PanelMeasured;    // session/record/panel_measured.hpp
+class Session;           // session/live/session.hpp
+class SessionRecording;  // session/record/session_recording.hpp
 
 // Returns the checksum of what the session leaves: the carved surface, and where the world's objects are. A recording
 // keeps it at its end.

@@ -2,6 +2,14 @@
 #include "session/drive/thread_replay.hpp"
 
 #include "base/try.hpp"
+#include "geometry/contact/local_surface.hpp"
+#include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "session/drive/thread_recorder.hpp"
+#include "session/drive/tick_witness.hpp"
+#include "session/live/session.hpp"
+#include "session/record/tick_source.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -27,6 +35,13 @@ Result<void> check_rate(Session& session, const ThreadLog& log, const std::strin
                 "replay it with the device that it was recorded with");
 }
 
+struct ThreadReplay::Part {
+    std::optional<TickSeen> next;                 // of the turn in progress
+    std::deque<geometry::LocalSurface> surfaces;  // that ticks may still see, by sequence
+    std::deque<haptics::TickParameters> parameters;
+    std::deque<haptics::ToolState> tools;  // after each tick that frames may still see
+};
+
 ThreadReplay::ThreadReplay(Session& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
                            const std::string& name)
     : session_(session),
@@ -40,6 +55,8 @@ ThreadReplay::ThreadReplay(Session& session, const ThreadLog& log, std::unique_p
     for (std::size_t part = 0; part < parts_.size(); ++part)
         parts_[part].tools.push_back(session_.hands().newest_tool(part));
 }
+
+ThreadReplay::~ThreadReplay() = default;
 
 // ---- Frames
 

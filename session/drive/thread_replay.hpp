@@ -19,13 +19,18 @@
 #include <memory>
 
 #include "session/drive/driver.hpp"
-#include "session/drive/thread_recorder.hpp"
-#include "session/drive/tick_witness.hpp"
-#include "session/live/session.hpp"
+#include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
-#include "session/record/tick_source.hpp"
+
+namespace burin::haptics {
+struct PartInput;  // haptics/haptic_loop.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
+
+class Session;      // session/live/session.hpp
+class TickSource;   // session/record/tick_source.hpp
+class TickWitness;  // session/drive/tick_witness.hpp
 
 // Fails where the device of a session ticks at another rate than the log's. name: the log's file name.
 [[nodiscard]] Result<void> check_rate(Session& session, const ThreadLog& log, const std::string& name);
@@ -35,6 +40,7 @@ public:
     // name: the log's file name. session and log must outlive it.
     // ticks: what the ticks of each part of the hands saw.
     ThreadReplay(Session& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks, const std::string& name);
+    ~ThreadReplay() override;
 
     // Has the ticks judged; null: by the frames' checksums alone.
     void judge_ticks(TickWitness* witness) { witness_ = witness; }
@@ -62,13 +68,7 @@ public:
     [[nodiscard]] bool log_ends() const { return log_ends_; }
 
 private:
-    // What is kept of each part of the hands.
-    struct Part {
-        std::optional<TickSeen> next;                 // of the turn in progress
-        std::deque<geometry::LocalSurface> surfaces;  // that ticks may still see, by sequence
-        std::deque<haptics::TickParameters> parameters;
-        std::deque<haptics::ToolState> tools;  // after each tick that frames may still see
-    };
+    struct Part;  // what is kept of each part of the hands
     [[nodiscard]] Result<void> run_turns(std::uint64_t last);
     [[nodiscard]] Result<bool> read_turn();
     [[nodiscard]] Result<void> run_turn();

@@ -7,7 +7,7 @@
 
 #include "record/compare.hpp"
 #include "record/motion.hpp"
-#include "session/activity/activity.hpp"
+#include "session/activity/activity_marks.hpp"
 #include "session/drive/tick_witness.hpp"
 
 namespace burin::session {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "haptics/tick_record.hpp"
+#include "haptics/tool_state.hpp"
 
 namespace burin::haptics {
 struct HapticChannels;  // haptics/channels.hpp

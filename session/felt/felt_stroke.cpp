@@ -18,6 +18,7 @@
 #include "sculpt/progress.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "session/drive/driver.hpp"
+#include "session/drive/executors.hpp"
 #include "session/record/carved_by.hpp"
 
 namespace burin::session {

@@ -6,7 +6,12 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "devices/hand/steered_hand.hpp"
+#include "devices/haptic/opened_device.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
+#include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "session/record/recordings.hpp"
 
 namespace burin::session {
@@ -14,6 +19,47 @@ namespace burin::session {
 Error of_hand(const std::string& name, Error error) {
     if (!name.empty()) error.where = "hand " + name + ": " + error.where;
     return error;
+}
+
+struct SessionHands::Hand {
+    std::string name;
+    devices::HandSteering steering;
+    devices::OpenedDevice device;
+    std::string given;            // what it was opened by
+    devices::SteeredTarget told;  // the last target published
+    std::size_t first_part = 0;
+};
+
+struct SessionHands::Part {
+    Part(PartOfHand of_hand, std::size_t records) : of(of_hand), channels(haptics::HapticChannels::kTicks, records) {}
+    PartOfHand of;
+    haptics::HapticChannels channels;
+    std::uint64_t parameter_sequence = 0;
+};
+
+SessionHands::SessionHands(std::size_t records, double pace) : records_(records), pace_(pace) {}
+
+SessionHands::~SessionHands() = default;
+
+PartOfHand SessionHands::part_of_hand(std::size_t part) const { return parts_[part]->of; }
+
+std::size_t SessionHands::first_part(std::size_t hand) const { return hands_[hand]->first_part; }
+
+std::size_t SessionHands::parts_of(std::size_t hand) const { return hands_[hand]->device.parts.size(); }
+
+const std::string& SessionHands::name_of_hand(std::size_t hand) const { return hands_[hand]->name; }
+
+const std::string& SessionHands::name_in_hand(std::size_t part) const {
+    return hands_[parts_[part]->of.hand]->device.parts[parts_[part]->of.part].name;
+}
+
+haptics::HapticChannels& SessionHands::channels(std::size_t part) { return parts_[part]->channels; }
+
+const haptics::ToolState& SessionHands::newest_tool(std::size_t part) { return channels(part).tool.newest(); }
+
+const devices::DeviceDescription& SessionHands::device(std::size_t part) const {
+    const PartOfHand of = parts_[part]->of;
+    return hands_[of.hand]->device.parts[of.part].device->description();
 }
 
 Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock, bool stands_in) {
@@ -29,7 +75,7 @@ Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock
                         "take devices of one rate: one loop drives both");
         parts.push_back({*hands_[of.hand]->device.parts[of.part].device, parts_[i]->channels, of.hand});
     }
-    loop_.emplace(parts, clock);
+    loop_ = std::make_unique<haptics::HapticLoop>(parts, clock);
     return {};
 }
 

@@ -15,11 +15,24 @@
 #include <string>
 #include <vector>
 
-#include "devices/hand/steered_hand.hpp"
-#include "devices/haptic/opened_device.hpp"
-#include "haptics/channels.hpp"
-#include "haptics/haptic_loop.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/space.hpp"
+#include "devices/haptic/amplifiers.hpp"
 #include "scene/contact_events.hpp"
+
+namespace burin::devices {
+struct DeviceDescription;  // devices/haptic/haptic_device.hpp
+struct HandTarget;         // devices/hand/hand_target.hpp
+struct SteeredTarget;
+}  // namespace burin::devices
+
+namespace burin::haptics {
+class HapticLoop;       // haptics/haptic_loop.hpp
+struct HapticChannels;  // haptics/channels.hpp
+struct TickParameters;  // haptics/tick_parameters.hpp
+struct ToolState;       // haptics/tool_state.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
 
@@ -38,7 +51,10 @@ using scene::PartOfHand;
 class SessionHands {
 public:
     // records: ticks that the recording's ring of each part holds. pace: of the machine (haptics::WorkSettings).
-    SessionHands(std::size_t records, double pace) : records_(records), pace_(pace) {}
+    SessionHands(std::size_t records, double pace);
+    ~SessionHands();
+    SessionHands(const SessionHands&) = delete;
+    SessionHands& operator=(const SessionHands&) = delete;
 
     // Opens a device for each hand, simulated ones with their hand at rest. Fails, and names the hand, where one does
     // not open, or where they do not tick at one rate. stands_in: of a recording that is done again (HapticHost). The
@@ -47,15 +63,13 @@ public:
 
     [[nodiscard]] std::size_t hands() const { return hands_.size(); }
     [[nodiscard]] std::size_t parts() const { return parts_.size(); }
-    [[nodiscard]] PartOfHand part_of_hand(std::size_t part) const { return parts_[part]->of; }
+    [[nodiscard]] PartOfHand part_of_hand(std::size_t part) const;
     // Returns the number of the hand's first part, by which it is drawn and reported.
-    [[nodiscard]] std::size_t first_part(std::size_t hand) const { return hands_[hand]->first_part; }
-    [[nodiscard]] std::size_t parts_of(std::size_t hand) const { return hands_[hand]->device.parts.size(); }
+    [[nodiscard]] std::size_t first_part(std::size_t hand) const;
+    [[nodiscard]] std::size_t parts_of(std::size_t hand) const;
     // Returns the names that make it up: the hand's, "right", and the part's within it, "index"; each may be empty.
-    [[nodiscard]] const std::string& name_of_hand(std::size_t hand) const { return hands_[hand]->name; }
-    [[nodiscard]] const std::string& name_in_hand(std::size_t part) const {
-        return hands_[parts_[part]->of.hand]->device.parts[parts_[part]->of.part].name;
-    }
+    [[nodiscard]] const std::string& name_of_hand(std::size_t hand) const;
+    [[nodiscard]] const std::string& name_in_hand(std::size_t part) const;
     // Returns the number of a part, by which the scene knows it; nothing where there is none.
     [[nodiscard]] std::optional<std::size_t> number_of(PartOfHand of) const {
         return of.hand < hands() && of.part < parts_of(of.hand) ? std::optional(first_part(of.hand) + of.part)
@@ -86,44 +100,28 @@ public:
     // Returns the commands that the devices' keys have given since the last call: "undo".
     [[nodiscard]] std::vector<std::string> take_commands();
     // Returns the newest tool state that the loop has published for a part.
-    [[nodiscard]] const haptics::ToolState& newest_tool(std::size_t part) { return channels(part).tool.newest(); }
+    [[nodiscard]] const haptics::ToolState& newest_tool(std::size_t part);
 
     [[nodiscard]] double pace() const { return pace_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return *loop_; }
     [[nodiscard]] const haptics::HapticLoop& loop() const { return *loop_; }
-    [[nodiscard]] haptics::HapticChannels& channels(std::size_t part) { return parts_[part]->channels; }
+    [[nodiscard]] haptics::HapticChannels& channels(std::size_t part);
     // Returns the channels of all parts, in their order.
     [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts();
-    [[nodiscard]] const devices::DeviceDescription& device(std::size_t part) const {
-        const PartOfHand of = parts_[part]->of;
-        return hands_[of.hand]->device.parts[of.part].device->description();
-    }
+    [[nodiscard]] const devices::DeviceDescription& device(std::size_t part) const;
     // Returns whether a person's hand feels any of the devices.
     [[nodiscard]] bool felt_by_person() const;
 
 private:
-    struct Hand {
-        std::string name;
-        devices::HandSteering steering;
-        devices::OpenedDevice device;
-        std::string given;            // what it was opened by
-        devices::SteeredTarget told;  // the last target published
-        std::size_t first_part = 0;
-    };
-    struct Part {
-        Part(PartOfHand of_hand, std::size_t records)
-            : of(of_hand), channels(haptics::HapticChannels::kTicks, records) {}
-        PartOfHand of;
-        haptics::HapticChannels channels;
-        std::uint64_t parameter_sequence = 0;
-    };
+    struct Hand;  // its name, its opened device, and what steers that
+    struct Part;  // its channels, and whose it is
     [[nodiscard]] Result<void> open_one(const HandToOpen& wanted, Clock& clock, bool stands_in);
 
     std::size_t records_;
     double pace_;
     std::vector<std::unique_ptr<Hand>> hands_;
     std::vector<std::unique_ptr<Part>> parts_;
-    std::optional<haptics::HapticLoop> loop_;  // after what it ticks
+    std::unique_ptr<haptics::HapticLoop> loop_;  // after what it ticks
 };
 
 }  // namespace burin::session

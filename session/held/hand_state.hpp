@@ -6,13 +6,15 @@
 #include <optional>
 #include <string>
 
-#include "devices/hand/simulated_hand.hpp"
-#include "haptics/workspace/technique.hpp"
+#include "base/space.hpp"
+#include "devices/hand/hand_target.hpp"
+#include "haptics/workspace/workspace_picture.hpp"
 #include "sculpt/tool_options.hpp"
-#include "session/held/held_handle.hpp"
-#include "session/held/held_tool.hpp"
 
 namespace burin::session {
+
+struct HeldHandle;  // session/held/held_handle.hpp
+struct HeldTool;    // session/held/held_tool.hpp
 
 // How a hand holds the scene: it turns and moves with the hand from where both were when the hold began.
 struct SceneHold {

@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "haptics/contact/probe.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "haptics/tool_state.hpp"
 #include "picture/frame_setup.hpp"
 #include "sculpt/tool_mesh.hpp"
 

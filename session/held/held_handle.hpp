@@ -13,9 +13,17 @@
 
 #include "base/error.hpp"
 #include "devices/haptic/wand_description.hpp"
-#include "haptics/tick_parameters.hpp"
-#include "haptics/tick_record.hpp"
-#include "picture/picture.hpp"
+
+namespace burin::haptics {
+struct TickParameters;  // haptics/tick_parameters.hpp
+struct ToolState;       // haptics/tool_state.hpp
+}  // namespace burin::haptics
+
+namespace burin::picture {
+struct DrawnMesh;    // picture/drawn_mesh.hpp
+struct DrawnObject;  // picture/picture.hpp
+struct Picture;
+}  // namespace burin::picture
 
 namespace burin::session {
 

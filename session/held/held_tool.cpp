@@ -2,6 +2,8 @@
 #include "session/held/held_tool.hpp"
 
 #include "base/try.hpp"
+#include "picture/drawn_mesh.hpp"
+#include "session/held/pen_at_rest.hpp"
 
 #include <algorithm>
 

@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "picture/drawn_mesh.hpp"
 #include "sculpt/felt_tool.hpp"
 #include "sculpt/tool_kinds.hpp"
 #include "sculpt/tool_mesh.hpp"
+
+namespace burin::picture {
+struct DrawnMesh;  // picture/drawn_mesh.hpp
+}  // namespace burin::picture
 
 namespace burin::session {
 
@@ -43,9 +46,5 @@ struct HeldTool {
 // Makes a tool ready. Takes some milliseconds for one that is no ball.
 [[nodiscard]] Result<std::shared_ptr<const HeldTool>> take_up(const sculpt::ToolSpec& tool, const ToolMeshes& meshes);
 [[nodiscard]] std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::ToolShape shape);
-
-// Returns the orientation of a tool that is held as a pen is: its shaft, along its own +Y, leans to the right, up and
-// towards the viewer.
-[[nodiscard]] Quat pen_at_rest();
 
 }  // namespace burin::session

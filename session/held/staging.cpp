@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "session/held/staging.hpp"
 
+#include "haptics/tool_state.hpp"
+#include "picture/picture.hpp"
+#include "session/held/held_tool.hpp"
+
 #include <numbers>
 
 namespace burin::session {

@@ -4,11 +4,19 @@
 
 #include <memory>
 
-#include "haptics/tick_record.hpp"
-#include "picture/picture.hpp"
-#include "session/held/held_tool.hpp"
+#include "base/space.hpp"
+
+namespace burin::haptics {
+struct ToolState;  // haptics/tool_state.hpp
+}  // namespace burin::haptics
+
+namespace burin::picture {
+struct Picture;  // picture/picture.hpp
+}  // namespace burin::picture
 
 namespace burin::session {
+
+struct HeldTool;  // session/held/held_tool.hpp
 
 // Positions of the tool and of the haptic workspace in the object frame.
 struct Staging {

@@ -2,6 +2,9 @@
 #include "session/live/activity_side.hpp"
 
 #include "base/try.hpp"
+#include "session/objects/world_objects.hpp"
+#include "session/state/session_orders.hpp"
+#include "session/state/session_state.hpp"
 
 #include <algorithm>
 #include <iterator>

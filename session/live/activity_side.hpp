@@ -15,6 +15,7 @@
 
 #include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/input/input_event.hpp"
 #include "session/live/sample_tap.hpp"
 #include "session/state/leader.hpp"
 

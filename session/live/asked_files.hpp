@@ -14,9 +14,12 @@
 #include "sculpt/surface_update.hpp"
 #include "session/notices/message_log.hpp"
 #include "session/record/log_outputs.hpp"
+#include "session/state/session_orders.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
+
+struct SculptOptions;  // session/options/session_options.hpp
 
 class AskedFiles {
 public:

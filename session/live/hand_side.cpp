@@ -5,6 +5,7 @@
 
 #include "base/try.hpp"
 #include "scene/rendered_material.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock) {
@@ -92,6 +93,11 @@ Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const 
     if (hand == state.hand && state.mouse == MouseMode::surface)
         return parameters_of(state, room, hand).workspace.object_from_device * first_device_m;
     return inverse(state.world_from_object) * (state.hands[hand].world_from_device * first_device_m);
+}
+
+void HandSide::settle(LiveOptions& live) const {
+    live.device = hands_.settled_device(0);
+    for (std::size_t hand = 0; hand < live.hands.size(); ++hand) live.hands[hand].device = hands_.settled_device(hand);
 }
 
 }  // namespace burin::session

@@ -44,6 +44,8 @@ public:
         std::string told;
     };
     [[nodiscard]] Switched switch_amplifiers(std::size_t hand, bool on);
+    // Writes the devices as --device names them, with what was found when they were opened, into the options.
+    void settle(LiveOptions& live) const;
     // The tools that a step has, of each part.
     void take_tools(std::span<const haptics::ToolState> tools) { tools_.assign(tools.begin(), tools.end()); }
     [[nodiscard]] std::span<const haptics::ToolState> tools() const { return tools_; }

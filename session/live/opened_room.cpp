@@ -7,9 +7,11 @@
 #include "base/try.hpp"
 #include "devices/haptic/mouse_arm.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/held/held_handle.hpp"
 #include "session/record/recordings.hpp"
 
 namespace burin::session {

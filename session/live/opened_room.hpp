@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "session/options/session_options.hpp"
+#include "session/state/session_room.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {

@@ -10,6 +10,8 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "compute/rays/chosen_engine.hpp"
+#include "session/held/held_tool.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 namespace {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "haptics/tick_record.hpp"
+#include "scene/scene_changes.hpp"
 #include "scene/scene_part.hpp"
 
 namespace burin::session {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/scene_side.hpp"
 
+#include "session/state/session_state.hpp"
+
 #include <utility>
 
 namespace burin::session {

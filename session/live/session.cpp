@@ -5,6 +5,7 @@
 
 #include "session/live/session_events.hpp"
 #include "session/state/governed.hpp"
+#include "session/state/session_step.hpp"
 
 namespace burin::session {
 
@@ -29,7 +30,7 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
             orders.messages.push_back({done.error().line()});
     // Before the parameters are published: else the hand would go on feeling the tool that was put down.
     if (const auto taken = take_up(state_); !taken) orders.messages.push_back({taken.error().line()});
-    if (before) hold_governed(*before, leader, orders);
+    if (before) keep_governed(*before, state_, orders, leader.keep_governed(), log().newest());
     if (!input.keys_taken) activity_.press_keys(input.events, orders);
     activity_.step(state_, orders, time_.step_ns, hands(), tools(), leader);
     for (auto& order : activity_.take_on_scene()) give(std::move(order));
@@ -46,14 +47,6 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
     notices_.look(state_, hands(), tools(), tool_in_use(), step.led, scene_.spacing_m(), time_.step_ns);
     notices_.add_events(activity_.take_events());
     work_.go_on(state_, time_.step_ns, give);
-}
-
-// A hand that goes on turning the scene is told once that it stays.
-void Session::hold_governed(const SessionState& before, Leader& leader, SessionOrders& orders) {
-    const std::size_t told = orders.messages.size();
-    keep_governed(before, state_, orders, leader.keep_governed());
-    if (orders.messages.size() > told && orders.line == 0 && log().newest() == kGovernedMessage)
-        orders.messages.pop_back();
 }
 
 void Session::carry_out(SessionOrders orders, const Give& give) {
@@ -136,13 +129,9 @@ document::Content Session::saved_content() const {
 }
 
 SculptOptions Session::settled(SculptOptions options) const {
-    options.workpiece.units = found_.unit;
-    options.workpiece.close_holes = options.workpiece.close_holes || found_.holes_closed;
-    options.tool = found_.tool_options;
+    found_.settle(options);
     if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
-    options.live.device = hands().settled_device(0);
-    for (std::size_t hand = 0; hand < options.live.hands.size(); ++hand)
-        options.live.hands[hand].device = hands().settled_device(hand);
+    hands_.settle(options.live);
     return options;
 }
 

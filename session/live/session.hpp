@@ -27,6 +27,7 @@
 #include "session/live/work_side.hpp"
 #include "session/options/session_options.hpp"
 #include "session/state/leader.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 
@@ -115,7 +116,6 @@ private:
     [[nodiscard]] Result<void> load(std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> begin(const Place& place);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
-    void hold_governed(const SessionState& before, Leader& leader, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
     void take(const sculpt::SurfaceUpdate& news);
     [[nodiscard]] document::Content saved_content() const;

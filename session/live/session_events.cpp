@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/session_events.hpp"
 
+#include "scene/contact_events.hpp"
+#include "scene/scene_object.hpp"
+#include "session/hands/session_hands.hpp"
+#include "session/objects/world_objects.hpp"
+
 namespace burin::session {
 
 EventMark event_of(const scene::ContactEvent& contact, const SessionHands& hands, const WorldObjects* world) {

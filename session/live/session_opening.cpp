@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/try.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/crumbs.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/live/opened_scene.hpp"

@@ -7,6 +7,8 @@
 
 #include "base/text.hpp"
 #include "picture/frame_setup.hpp"
+#include "session/held/hand_state.hpp"
+#include "session/state/session_state.hpp"
 
 namespace burin::session {
 namespace {

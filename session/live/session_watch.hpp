@@ -12,7 +12,13 @@
 #include "sculpt/surface_update.hpp"
 #include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
+#include "session/notices/message_kind.hpp"
 #include "session/state/leader.hpp"
+
+namespace burin::sculpt {
+struct Tool;  // sculpt/tool_options.hpp
+struct ToolSettings;
+}  // namespace burin::sculpt
 
 namespace burin::session {
 

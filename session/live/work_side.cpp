@@ -14,6 +14,12 @@ constexpr Nanoseconds kEditsNoted_ns = 500'000'000;  // how often the journal ha
 
 }  // namespace
 
+void FoundOut::settle(SculptOptions& options) const {
+    options.workpiece.units = unit;
+    options.workpiece.close_holes = options.workpiece.close_holes || holes_closed;
+    options.tool = tool_options;
+}
+
 Result<void> WorkSide::open() {
     const std::string path = document_of(options_);
     if (path.empty() || options_.scene != nullptr) return {};

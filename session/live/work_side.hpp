@@ -23,6 +23,9 @@ struct FoundOut {
     LengthUnit unit = LengthUnit::m;   // of the workpiece's file
     bool holes_closed = false;         // of the workpiece's mesh
     sculpt::ToolOptions tool_options;  // as the session began
+
+    // Writes it into options that leave it open.
+    void settle(SculptOptions& options) const;
 };
 
 class WorkSide {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "picture/frame_setup.hpp"
+#include "scene/scene_changes.hpp"
 
 namespace burin::session {
 namespace {

@@ -12,6 +12,10 @@
 #include "picture/picture.hpp"
 #include "scene/mesh_part.hpp"
 
+namespace burin::scene {
+struct ObjectUpdate;  // scene/scene_changes.hpp
+}  // namespace burin::scene
+
 namespace burin::session {
 
 class DrawnWorld {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "session/objects/world_history.hpp"
 
+#include "scene/scene_motion.hpp"
+#include "scene/scene_object.hpp"
+#include "session/objects/world_objects.hpp"
+
 #include <algorithm>
 #include <utility>
 

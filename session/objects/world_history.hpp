@@ -17,10 +17,16 @@
 #include <span>
 #include <vector>
 
-#include "scene/object_property.hpp"
-#include "session/objects/world_objects.hpp"
+#include "scene/object_id.hpp"
+#include "scene/property_value.hpp"
+
+namespace burin::scene {
+struct SceneObject;  // scene/scene_object.hpp
+}  // namespace burin::scene
 
 namespace burin::session {
+
+struct WorldObjects;  // session/objects/world_objects.hpp
 
 struct WorldStep {
     std::shared_ptr<const scene::SceneObject> before, after;

@@ -5,6 +5,8 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "scene/object_property.hpp"
+#include "scene/scene_changes.hpp"
 #include "scene/world_file.hpp"
 
 namespace burin::session {

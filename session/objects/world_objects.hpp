@@ -9,10 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "scene/haptic_material.hpp"
-#include "scene/scene_changes.hpp"
 #include "scene/scene_object.hpp"
-#include "scene/object_property.hpp"
+#include "session/objects/edit_object.hpp"
+#include "session/objects/world_orders.hpp"
+
+namespace burin::scene {
+struct ObjectUpdate;  // scene/scene_changes.hpp
+}  // namespace burin::scene
 
 namespace burin::session {
 
@@ -27,29 +32,8 @@ struct WorldObjects {
     }
 };
 
-// Sets one property of an object, by their names.
-struct EditObject {
-    std::string object;
-    scene::ObjectProperty property = scene::ObjectProperty::stiffness;
-    scene::PropertyValue value{};
-    bool operator==(const EditObject&) const = default;
-};
-
 // Returns the object of that name. Fails where there is none, and says which name is nearest.
 [[nodiscard]] Result<scene::ObjectId> object_named(const WorldObjects& world, const std::string& name);
-
-struct WorldOrder {
-    scene::ObjectId object = 0;
-    scene::ObjectEdit edit;
-};
-
-// What parts of hands take hold of, by the numbers that the scene knows them by (scene/mesh_part.hpp); by none: it is
-// let go of.
-struct HoldOrder {
-    scene::ObjectId object = 0;
-    std::vector<std::size_t> parts;
-    bool felt = false;  // by these parts
-};
 
 // Returns the world after the command, and the order with which the scene follows. Fails where the world has no object
 // of that name, where the value is out of bounds, and where there would be more materials than a session has room for.

@@ -6,14 +6,9 @@
 #include <initializer_list>
 
 #include "compute/rays/lattice.hpp"
+#include "session/options/bounds.hpp"
 
 namespace burin::session {
-
-// Both ends belong to it.
-template <typename T>
-struct Bounds {
-    T least, most;
-};
 
 inline constexpr Bounds<int> kPictureBounds{64, 8192};  // width and height, pixels
 inline constexpr Bounds<double> kPanelScaleBounds{0.5, 4.0};

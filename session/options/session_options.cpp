@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/mouse_arm.hpp"
+#include "devices/registry/device_nature.hpp"
 
 namespace burin::session {
 namespace {

@@ -6,6 +6,7 @@
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "scene/world_inputs.hpp"
+#include "session/options/session_options.hpp"
 #include "session/record/input_log.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "session/options/session_options.hpp"
-
 namespace burin::session {
+
+struct SculptOptions;  // session/options/session_options.hpp
 
 // A list that grows; an empty path adds nothing.
 class InputFiles {

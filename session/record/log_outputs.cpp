@@ -13,8 +13,18 @@
 #include "base/try.hpp"
 #include "document/document_file.hpp"
 #include "geometry/files/mesh_import.hpp"
+#include "session/activity/activity.hpp"
+#include "session/held/held_tool.hpp"
+#include "session/input/command_input.hpp"
+#include "session/input/input_event.hpp"
 #include "session/input/input_words.hpp"
+#include "session/options/session_options.hpp"
 #include "session/record/input_files.hpp"
+#include "session/record/input_log.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_command.hpp"
+#include "session/state/session_commands.hpp"
+#include "session/state/session_orders.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {

@@ -14,15 +14,22 @@
 
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
-#include "session/activity/activity.hpp"
-#include "session/options/session_options.hpp"
-#include "session/record/input_log.hpp"
+
+namespace burin::sculpt {
+struct ToolSpec;  // sculpt/tool_kinds.hpp
+}  // namespace burin::sculpt
 
 namespace burin::session {
+
+class Activity;      // session/activity/activity.hpp
+struct InputEvent;   // session/input/input_event.hpp
+struct InputLog;     // session/record/input_log.hpp
+struct LiveOptions;  // session/options/session_options.hpp
 
 enum class OutputKind : std::uint8_t { picture, mesh, document };
 

@@ -6,6 +6,7 @@
 
 #include "base/try.hpp"
 #include "devices/haptic/mouse_arm.hpp"
+#include "devices/haptic/wand_description.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/record/session_check.hpp"
 
+#include "haptics/tick_record.hpp"
+
 namespace burin::session {
 void SessionCheck::tick(std::size_t part, const haptics::TickRecord& record) {
     Part& own = parts_[part];

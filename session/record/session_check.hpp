@@ -11,7 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "haptics/tick_record.hpp"
+#include "base/space.hpp"
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
 

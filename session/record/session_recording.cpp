@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/try.hpp"
+#include "haptics/tick_record.hpp"
 #include "record/export/table_export.hpp"
 #include "record/touched_columns.hpp"
 #include "session/input/input_line.hpp"

@@ -23,9 +23,14 @@
 #include <vector>
 
 #include "record/record_writer.hpp"
-#include "session/activity/activity.hpp"
+#include "scene/object_id.hpp"
+#include "session/activity/activity_marks.hpp"
 #include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
 
@@ -41,7 +46,7 @@ inline constexpr const char* kEventsFact = "events";
 inline constexpr const char* kLogEndedEvent = "log ended";
 
 // Number of the carved workpiece in the columns of touched objects; the objects of a world count from 1; 0: nothing.
-inline constexpr std::uint32_t kWorkpieceObject = geometry::LocalSurface::kUnnumbered;
+inline constexpr std::uint32_t kWorkpieceObject = static_cast<std::uint32_t>(scene::kCarvedObject);
 
 // Returns a tick's values in the order of record::columns_for() and record::touched_columns().
 [[nodiscard]] std::vector<record::Word> session_row(const haptics::TickRecord& tick, const record::RowShape& shape);

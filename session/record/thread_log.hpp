@@ -20,9 +20,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/clock.hpp"
 #include "base/error.hpp"
-#include "devices/haptic/haptic_device.hpp"
-#include "scene/scene_service.hpp"
+#include "devices/haptic/device_sample.hpp"
+#include "scene/scene_update.hpp"
 #include "session/record/panel_measured.hpp"
 #include "wall/output_settings.hpp"
 

@@ -2,6 +2,7 @@
 #include "session/record/tick_source.hpp"
 
 #include "base/try.hpp"
+#include "haptics/tick_flag.hpp"
 
 #include <utility>
 

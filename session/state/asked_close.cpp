@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "session/state/session_orders.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {

@@ -3,6 +3,8 @@
 #include <charconv>
 
 #include "session/input/actions.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_command.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {

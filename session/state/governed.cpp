@@ -4,6 +4,8 @@
 #include <string>
 #include <tuple>
 
+#include "session/state/session_orders.hpp"
+
 namespace burin::session {
 namespace {
 
@@ -33,6 +35,13 @@ void keep_governed(const SessionState& before, SessionState& state, SessionOrder
     orders.carving.clear();
     orders.parameters = true;
     orders.messages.push_back({std::string(kGovernedMessage), orders.line});
+}
+
+void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders, bool viewer_changed,
+                   std::string_view newest) {
+    const std::size_t told = orders.messages.size();
+    keep_governed(before, state, orders, viewer_changed);
+    if (orders.messages.size() > told && orders.line == 0 && newest == kGovernedMessage) orders.messages.pop_back();
 }
 
 }  // namespace burin::session

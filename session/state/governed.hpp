@@ -18,5 +18,8 @@ inline constexpr std::string_view kGovernedMessage =
 // script, a hand that turns the scene. Then the orders have a message with the log's line, and none for the scene's
 // parts. viewer_changed: the leader has put something of its own back (Leader::keep_governed()).
 void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders, bool viewer_changed);
+// The same for a user who was told `newest` last: a hand that goes on turning the scene is told once that it stays.
+void keep_governed(const SessionState& before, SessionState& state, SessionOrders& orders, bool viewer_changed,
+                   std::string_view newest);
 
 }  // namespace burin::session

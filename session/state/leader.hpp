@@ -17,12 +17,20 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/space.hpp"
-#include "devices/hand/steered_hand.hpp"
-#include "session/input/input_event.hpp"
-#include "session/state/session_state.hpp"
+#include "devices/hand/hand_target.hpp"
+#include "haptics/tool_state.hpp"
+#include "session/input/actions.hpp"
+#include "session/input/command_input.hpp"
+#include "session/state/session_command.hpp"
 
 namespace burin::session {
+
+struct InputEvent;     // session/input/input_event.hpp
+struct Room;           // session/state/session_room.hpp
+struct SessionOrders;  // session/state/session_orders.hpp
+struct SessionState;   // session/state/session_state.hpp
 
 // What a step must know of the rest of the session.
 struct StepView {
@@ -54,15 +62,11 @@ public:
 
     // Returns the buttons of the hand in use that are held down, as of the step before.
     [[nodiscard]] virtual std::uint32_t buttons() const { return 0; }
-    [[nodiscard]] virtual Led lead(const SessionState& state, const Room& /*room*/,
-                                   std::span<const InputEvent> /*events*/, const StepView& /*view*/) {
-        return {.world_from_object = state.world_from_object, .hand = std::nullopt};
-    }
+    [[nodiscard]] virtual Led lead(const SessionState& state, const Room& room, std::span<const InputEvent> events,
+                                   const StepView& view);
     virtual void meet(const InputEvent& /*event*/) {}
     // Runs a command: the leader's own, or the session's.
-    [[nodiscard]] virtual Result<void> run(SessionState& state, SessionOrders& orders, const SessionCommand& command) {
-        return run_command(state, orders, command);
-    }
+    [[nodiscard]] virtual Result<void> run(SessionState& state, SessionOrders& orders, const SessionCommand& command);
     [[nodiscard]] virtual std::vector<CommandInput> later_commands(const SessionState& /*state*/) { return {}; }
     // Puts what an activity governs of its own back as it was before the step; returns whether anything was changed.
     virtual bool keep_governed() { return false; }
@@ -71,23 +75,5 @@ public:
         return {};
     }
 };
-
-// Runs a command by its name.
-[[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command,
-                                       Leader& leader);
-
-struct SessionStep {
-    SessionState state;
-    SessionOrders orders;
-    std::size_t led_hand = 0;  // the hand in use when the step began
-    Led led;
-};
-// Goes on by one step: the leader, the events' commands, and hands that hold the scene.
-[[nodiscard]] SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
-                                       const StepView& view, Leader& leader);
-
-// Has the tool smooth from the press of a stroke that is to smooth until all of it has been carved.
-[[nodiscard]] Result<void> follow_smooth_stroke(SessionState& state, SessionOrders& orders, const Led& led,
-                                                const StepView& view);
 
 }  // namespace burin::session

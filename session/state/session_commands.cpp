@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Applies the session's own commands to it. A viewer's are the desk's (desk/viewer/viewer_commands.cpp).
+#include "session/state/session_commands.hpp"
+
 #include <cmath>
 #include <functional>
 #include <utility>
 
+#include "session/state/command_table.hpp"
+#include "session/state/session_command.hpp"
+#include "session/state/session_orders.hpp"
 #include "session/state/session_state.hpp"
 
 #include "base/try.hpp"
+#include "sculpt/sculpt_order.hpp"
+#include "session/held/held_handle.hpp"
+#include "session/objects/world_objects.hpp"
 
 namespace burin::session {
 namespace {

@@ -8,8 +8,13 @@
 #include <vector>
 
 #include "base/try.hpp"
+#include "sculpt/sculpt_order.hpp"
 #include "sculpt/stroke_reader.hpp"
 #include "sculpt/tool_mesh.hpp"
+#include "session/held/held_handle.hpp"
+#include "session/held/held_tool.hpp"
+#include "session/objects/world_objects.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 namespace {
@@ -171,6 +176,17 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.holds = hand.holds.has_value();
     p.catch_drill = hand.catch_drill;
     return p;
+}
+
+haptics::TickParameters parameters_of(const SessionState& state, const Room& room, std::size_t hand,
+                                      const devices::DeviceDescription& device) {
+    haptics::TickParameters parameters = parameters_of(state, room, hand);
+    parameters.limits.max_force_N = device.max_force_N;
+    return parameters;
+}
+
+haptics::TickParameters parameters_of(const SessionState& state, const Room& room) {
+    return parameters_of(state, room, state.hand);
 }
 
 Result<sculpt::UseTool> tool_of(const SessionState& state) {

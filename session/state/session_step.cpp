@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// One step of a session.
+#include "session/state/session_step.hpp"
+
 #include <utility>
 #include <vector>
 
 #include "base/try.hpp"
+#include "session/input/input_event.hpp"
+#include "session/state/command_table.hpp"
 #include "session/state/leader.hpp"
+#include "session/state/session_commands.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 namespace {

@@ -5,6 +5,8 @@
 
 #include "base/try.hpp"
 #include "session/state/leader.hpp"
+#include "session/state/session_commands.hpp"
+#include "session/state/session_step.hpp"
 
 namespace burin::session {
 namespace {

@@ -13,6 +13,7 @@
 #include "base/ring.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "haptics/tick_record.hpp"
 #include "session/stream/stream_inlets.hpp"
 #include "session/stream/stream_text.hpp"
 

@@ -25,8 +25,12 @@
 #include <thread>
 #include <vector>
 
-#include "session/activity/activity.hpp"
+#include "session/activity/activity_marks.hpp"
 #include "session/stream/stream_outlets.hpp"
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
 
 namespace burin::session {
 

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "devices/haptic/haptic_device.hpp"
 #include "devices/lsl/lsl_api.hpp"
+#include "haptics/contact/probe.hpp"
 #include "session/stream/stream_clock.hpp"
 #include "session/stream/streamed_columns.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "session/activity/activity.hpp"
+#include "session/activity/activity_marks.hpp"
 
 namespace burin::session {
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <optional>
 
+#include "haptics/tick_record.hpp"
 #include "record/touched_columns.hpp"
 #include "session/record/session_recording.hpp"
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "scene/mesh_part.hpp"
 #include "study/protocol/protocol.hpp"
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "study/folder/held_device.hpp"
 
+#include "devices/registry/device_nature.hpp"
+#include "devices/registry/device_registry.hpp"
+
 #include <algorithm>
 #include <array>
 

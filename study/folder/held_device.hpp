@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "devices/registry/device_registry.hpp"
+namespace burin::devices {
+struct DeviceNature;  // devices/registry/device_nature.hpp
+}  // namespace burin::devices
 
 namespace burin::study {
 

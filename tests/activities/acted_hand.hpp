@@ -14,6 +14,8 @@
 #include "activities/grasp/grasp.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/gloves/grip_shape.hpp"
+#include "scene/scene_object.hpp"
+#include "session/objects/world_objects.hpp"
 
 namespace burin::activities {
 

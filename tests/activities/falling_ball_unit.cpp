@@ -10,6 +10,8 @@
 #include "activities/rehab/exercise_kinds.hpp"
 #include "activities/rehab/rehab.hpp"
 #include "bodies/soft_part.hpp"
+#include "scene/scene_object.hpp"
+#include "session/objects/world_objects.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::activities {

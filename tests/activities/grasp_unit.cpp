@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "haptics/tick_parameters.hpp"
 #include "tests/activities/acted_hand.hpp"
 
 namespace burin::activities {

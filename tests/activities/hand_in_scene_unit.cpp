@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "haptics/tick_parameters.hpp"
 #include "picture/drawn_mesh.hpp"
+#include "scene/object_property.hpp"
 #include "shaders/shared/frame_uniforms.h"
 #include "tests/activities/acted_hand.hpp"
 #include "tests/support/uneven_poses.hpp"

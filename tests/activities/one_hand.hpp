@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/contact_follower.hpp"
 #include "session/activity/activity.hpp"
 
 namespace burin::activities {

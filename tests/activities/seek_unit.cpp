@@ -6,7 +6,9 @@
 
 #include <set>
 
+#include "scene/object_property.hpp"
 #include "session/input/input_words.hpp"
+#include "session/objects/world_objects.hpp"
 #include "tests/activities/one_hand.hpp"
 
 namespace burin::activities {

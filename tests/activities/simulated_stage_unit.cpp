@@ -2,6 +2,11 @@
 // Simulated learners with a wand in hand: every kind of stage ends, forces act as the protocol says, and the same seed
 // gives the same bits.
 #include "activities/train/simulated_stage.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "devices/haptic/wand_description.hpp"
+#include "study/felt/felt_world.hpp"
+#include "study/felt/stage_session.hpp"
+#include "study/felt/stage_touch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "base/text.hpp"
+#include "picture/picture.hpp"
 #include "record/record_reader.hpp"
 #include "study/folder/stage_recording.hpp"
 #include "study/replay/stage_replay.hpp"

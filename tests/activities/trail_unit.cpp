@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "picture/picture.hpp"
 #include "tests/activities/one_hand.hpp"
 #include "tests/activities/trail.hpp"
 

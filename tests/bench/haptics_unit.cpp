@@ -15,6 +15,7 @@
 #include "bench/haptics/haptics_rows.hpp"
 #include "bench/measure/bumpy_sphere.hpp"
 #include "bench/peers/proxy_peer.hpp"
+#include "session/state/session_room.hpp"
 #include "session/state/session_state.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"

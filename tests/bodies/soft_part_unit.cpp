@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bodies/soft_part.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::bodies {

@@ -12,6 +12,8 @@
 
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
+#include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
 #include "session/state/governed.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/desk/viewed.hpp"

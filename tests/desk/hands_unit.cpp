@@ -15,6 +15,8 @@
 #include "desk/panel/panel.hpp"
 #include "desk/run/session.hpp"
 #include "desk/run/session_frames.hpp"
+#include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/uneven_poses.hpp"

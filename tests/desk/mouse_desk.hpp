@@ -16,6 +16,7 @@
 #include "compute/rays/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "compute/vulkan/engine_choice.hpp"
+#include "desk/live/desk.hpp"
 #include "desk/opening/opening.hpp"
 #include "desk/run/session.hpp"
 #include "gpu/device.hpp"

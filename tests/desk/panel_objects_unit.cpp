@@ -5,6 +5,7 @@
 
 #include "desk/panel/panel_sections.hpp"
 #include "session/objects/object_turn.hpp"
+#include "session/state/command_table.hpp"
 #include "tests/desk/panel_models.hpp"
 
 namespace burin::session {

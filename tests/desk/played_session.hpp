@@ -17,6 +17,7 @@
 #include "desk/present/presenter.hpp"
 #include "desk/run/session_frames.hpp"
 #include "gpu/device.hpp"
+#include "session/drive/executors.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {

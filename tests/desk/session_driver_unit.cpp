@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The loop that drives every session, and the executor that does ticks and updates on the caller's thread.
 #include "session/drive/driver.hpp"
+#include "session/drive/executors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "desk/run/session.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/simulated_wand.hpp"
+#include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
 #include "tests/support/test_units.hpp"

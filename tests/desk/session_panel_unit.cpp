@@ -11,6 +11,7 @@
 #include "desk/panel/panel.hpp"
 #include "desk/panel/panel_sections.hpp"
 #include "sculpt/tool_options.hpp"
+#include "session/state/command_table.hpp"
 #include "tests/desk/panel_models.hpp"
 
 namespace burin::session {

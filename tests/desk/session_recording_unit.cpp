@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "compute/rays/chosen_engine.hpp"
+#include "haptics/channels.hpp"
 #include "session/record/log_export.hpp"
 #include "tests/desk/recorded_session.hpp"
 #include "tests/record/failing_disk.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From the haptic thread's tool state to what is drawn of tool and workspace.
+#include "haptics/tool_state.hpp"
+#include "picture/picture.hpp"
 #include "session/held/staging.hpp"
 
 #include <gtest/gtest.h>

@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "desk/live/desk.hpp"
+#include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
 #include "tests/support/paced_clock.hpp"
 
 namespace burin::session {

@@ -10,6 +10,8 @@
 #include "desk/viewer/state_words.hpp"
 #include "desk/viewer/viewed_picture.hpp"
 #include "desk/viewer/viewer_lead.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_room.hpp"
 
 namespace burin::session {
 

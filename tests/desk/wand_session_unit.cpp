@@ -8,6 +8,7 @@
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "devices/haptic/wand_file.hpp"
+#include "haptics/channels.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 

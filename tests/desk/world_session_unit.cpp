@@ -8,6 +8,9 @@
 #include "compute/rays/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
+#include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
+#include "session/state/session_commands.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The registry of force-feedback devices.
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
+#include "devices/registry/haptic_kinds.hpp"
+#include "devices/registry/opening.hpp"
 
 #include <gtest/gtest.h>
 

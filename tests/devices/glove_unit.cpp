@@ -10,6 +10,7 @@
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/gloves/glove_device.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 
 namespace burin::devices {
 namespace {

@@ -8,7 +8,10 @@
 #include <cmath>
 
 #include "devices/haptic/steered_fingers.hpp"
+#include "devices/haptic/wand_description.hpp"
+#include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 
 namespace burin::devices {
 namespace {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 #include "tests/devices/told_clock.hpp"
 
 namespace burin::devices {

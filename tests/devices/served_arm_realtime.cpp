@@ -18,6 +18,7 @@
 #include "devices/emulators/emulated_spacemouse.hpp"
 #include "devices/emulators/emulated_wand.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 #include "tests/devices/tries.hpp"
 #include "tests/support/realtime_counters.hpp"
 

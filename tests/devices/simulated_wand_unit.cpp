@@ -7,6 +7,7 @@
 #include <random>
 
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 #include "tests/support/test_units.hpp"
 
 namespace burin::devices {

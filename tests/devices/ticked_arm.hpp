@@ -7,7 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "devices/hand/simulated_hand.hpp"
+#include "devices/haptic/opened_device.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_host.hpp"
 #include "tests/devices/tries.hpp"
 
 namespace burin::devices {

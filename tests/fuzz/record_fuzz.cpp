@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/tick_record.hpp"
 #include "record/examination.hpp"
 #include "record/record_writer.hpp"
 #include "tests/fuzz/changed_file.hpp"

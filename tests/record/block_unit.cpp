@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <zstd.h>
+#include <array>
 #include <cstring>
 
 #include <string>

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/tick_record.hpp"
 #include "record/record_reader.hpp"
 #include "record/record_writer.hpp"
 #include "tests/support/run_command.hpp"

@@ -9,6 +9,8 @@
 
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_description.hpp"
+#include "haptics/stability/rendered_wall.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "scene/world_file.hpp"
 
 namespace burin::scene {

@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/newest_slot.hpp"
+#include "geometry/contact/local_surface.hpp"
 #include "haptics/tick.hpp"
 #include "scene/mesh_part.hpp"
+#include "scene/scene_changes.hpp"
 #include "scene/touch_publisher.hpp"
 #include "tests/geometry/touch_samples.hpp"
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "compute/rays/chosen_engine.hpp"
+#include "haptics/channels.hpp"
+#include "haptics/tick.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/live/session.hpp"
 

@@ -16,6 +16,7 @@
 #include "sculpt/sculpture.hpp"
 #include "session/live/session.hpp"
 #include "session/state/command_table.hpp"
+#include "session/state/session_commands.hpp"
 #include "session/work/saved_world.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/uneven_poses.hpp"

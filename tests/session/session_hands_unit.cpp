@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "session/live/activity_side.hpp"
+#include "session/objects/world_objects.hpp"
+#include "session/state/session_orders.hpp"
+#include "session/state/session_state.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/uneven_poses.hpp"
 

@@ -7,7 +7,15 @@
 #include <cmath>
 
 #include "haptics/tick.hpp"
+#include "session/held/held_tool.hpp"
+#include "session/input/input_event.hpp"
+#include "session/state/command_table.hpp"
 #include "session/state/leader.hpp"
+#include "session/state/session_commands.hpp"
+#include "session/state/session_orders.hpp"
+#include "session/state/session_room.hpp"
+#include "session/state/session_state.hpp"
+#include "session/state/session_step.hpp"
 
 namespace burin::session {
 namespace {

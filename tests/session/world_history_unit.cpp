@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Edits of a world's objects are undone and repeated: one step for each thing that a user did.
+#include "scene/scene_motion.hpp"
+#include "scene/scene_object.hpp"
 #include "session/objects/world_history.hpp"
+#include "session/objects/world_objects.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "devices/registry/device_nature.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "study/folder/stage_recording.hpp"
 #include "study/people/trial_rows.hpp"
 #include "tests/study/lost_study.hpp"

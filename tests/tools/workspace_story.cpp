@@ -13,6 +13,8 @@
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "sculpt/sculpture.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
 

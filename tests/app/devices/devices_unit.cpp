@@ -9,6 +9,7 @@
 #include "desk/panel/device_look.hpp"
 #include "devices/emulators/emulator_registry.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "devices/registry/haptic_kinds.hpp"
 #include "devices/registry/present_devices.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "tests/support/places.hpp"

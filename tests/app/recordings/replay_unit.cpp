@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/json.hpp"
+#include "haptics/tick_flag.hpp"
 #include "record/derived.hpp"
 #include "record/row_walk.hpp"
 #include "tests/app/recordings/small_world.hpp"

@@ -12,6 +12,7 @@
 #include "desk/live/desk.hpp"
 #include "desk/run/session.hpp"
 #include "desk/run/session_frames.hpp"
+#include "session/drive/executors.hpp"
 
 namespace burin::app {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "devices/drivers/library_beside.hpp"
 #include "devices/drivers/loaded_library.hpp"
+#include "haptics/tick_record.hpp"
 #include "session/stream/lsl_streams.hpp"
 #include "tests/session/stream/lsl_stand_in.hpp"
 

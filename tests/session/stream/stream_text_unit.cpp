@@ -9,7 +9,9 @@
 
 #include "devices/drivers/library_beside.hpp"
 #include "devices/lsl/lsl_api.hpp"
+#include "haptics/tick_record.hpp"
 #include "session/drive/session_streams.hpp"
+#include "session/options/session_options.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/stream/stream_text.hpp"
 #include "session/stream/streamed_columns.hpp"

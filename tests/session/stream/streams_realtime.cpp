@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/stream/tick_pump.hpp"
 #include "tests/session/stream/stand_in.hpp"

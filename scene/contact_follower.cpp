@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "scene/contact_events.hpp"
+#include "scene/contact_follower.hpp"
 
 #include <algorithm>
 #include <span>
 
+#include "geometry/contact/local_surface.hpp"
+#include "haptics/tick_record.hpp"
+
 namespace burin::scene {
+
+static_assert(kCarvedObject == geometry::LocalSurface::kUnnumbered);
+
 namespace {
 
 // Calls back for each object of a list that the other list does not have, once.
