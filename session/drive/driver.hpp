@@ -10,13 +10,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "haptics/tool_state.hpp"
+#include "scene/scene_order.hpp"
 #include "scene/scene_update.hpp"
 
 namespace burin::haptics {
@@ -29,8 +29,8 @@ namespace burin::session {
 // have to report to the frame is collected by whoever knows them, in a call after each update (SceneThread).
 class Executor {
 public:
-    // Carried out on the scene's thread (scene::SceneThread::Order).
-    using Order = std::function<void()>;
+    // Carried out on the scene's thread (scene/scene_thread.hpp).
+    using Order = scene::SceneOrder;
     // Updates that a frame takes.
     struct Taken {
         std::vector<scene::SceneUpdate> updates;  // since the last call, for a recording

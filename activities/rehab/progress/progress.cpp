@@ -58,6 +58,11 @@ bool have_same_settings(const KeptRun& one, const KeptRun& other) {
            });
 }
 
+bool is_broken_off(const KeptRun* run) {
+    const Json& ended = run->report.at("ended");
+    return ended.is_string() && ended.get_ref<const std::string&>() == "broken off";
+}
+
 }  // namespace
 
 std::optional<double> adapted_target_N(std::span<const KeptRun> runs, unsigned participant, std::string_view exercise) {
@@ -71,7 +76,7 @@ std::optional<double> adapted_target_N(std::span<const KeptRun> runs, unsigned p
 
 Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
     std::vector<const KeptRun*> runs(all.begin(), all.end());
-    std::erase_if(runs, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; });
+    std::erase_if(runs, is_broken_off);
     const unsigned level = level_of(runs.empty() ? *all.back() : *runs.back());
     if (level == 0 || levels == 0) return {0, "The exercise has no levels that are known.", {}, 0, 0, {}};
     std::vector<double> last_scores;
@@ -107,7 +112,7 @@ Proposal proposed(std::span<const KeptRun* const> all, unsigned levels) {
 
 std::vector<const KeptRun*> alike(std::span<const KeptRun* const> all) {
     std::vector<const KeptRun*> runs(all.begin(), all.end());
-    std::erase_if(runs, [](const KeptRun* run) { return run->report.at("ended") == "broken off"; });
+    std::erase_if(runs, is_broken_off);
     if (runs.empty()) return runs;
     const KeptRun* const newest = runs.back();
     std::erase_if(runs, [&](const KeptRun* run) { return !have_same_settings(*run, *newest); });
