@@ -58,7 +58,8 @@ Result<void> DerivedWriter::finish(const std::string& path) {
     if (std::fflush(spool_.get()) != 0) return no_spool();
     std::rewind(spool_.get());
     BURIN_TRY(database, Database::open(path, Database::Use::write));
-    BURIN_TRY_DO(database.run("PRAGMA synchronous = FULL"));
+    // Exclusive, so that no reader has the file meanwhile, and the log of a killed recording needs no FILE-shm.
+    BURIN_TRY_DO(database.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL"));
     BURIN_TRY_DO(database.run("BEGIN IMMEDIATE"));
     if (const auto done = insert_all(database); !done) {
         if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
