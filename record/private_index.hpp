@@ -13,7 +13,8 @@
 
 namespace burin::record {
 
-// Returns the name of a file system of SQLite's that keeps the index of a log in memory; registers it at the first call.
+// Returns the name of a file system of SQLite's that keeps the index of a log in memory; registers it at the first
+// call.
 [[nodiscard]] const char* private_index_vfs();
 // Returns whether some program has FILE-shm open now.
 [[nodiscard]] bool is_index_shared(const std::string& path);
