@@ -3,9 +3,10 @@
 //
 // SQLite reads a file with a log (FILE-wal) by an index of that log, which it keeps in FILE-shm for all who have the
 // file open. A reader would leave that file behind, and could make none on a full disk or in a folder that may only be
-// read. So readers here keep the index in their own memory. Whoever writes with Burin has the file for itself, and a
-// reader's lock on the file keeps others from bringing the log into it and from starting it anew: only a program that
-// has FILE-shm open already has to be told what the reader reads, and is_index_shared() finds that one.
+// read. So readers here keep the index in their own memory. Whoever writes with Burin has the file for itself, or adds
+// to its log alone (record/derived.cpp), and a reader's lock on the file keeps a program that closes it from bringing
+// the log into it: only a program that has FILE-shm open already has to be told what the reader reads, and
+// is_index_shared() finds that one.
 // Threads: any. Cost: 32 KiB for each 4000 pages of a log, as long as the file is open.
 #pragma once
 

@@ -8,10 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <string>
 
+#include "record/derived.hpp"
 #include "record/private_index.hpp"
 #include "record/record_store.hpp"
 #include "tests/record/made_ticks.hpp"
@@ -107,6 +109,32 @@ TEST_F(TornRecording, IsReadByTwoAtOnce) {
     ASSERT_TRUE(second) << second.error().line();
     EXPECT_EQ(*sound_ticks(path), acknowledged);
     EXPECT_EQ(files_beside(), 2u);
+}
+
+// As burin session replay --through does it: what was open reads on what it had.
+TEST_F(TornRecording, TakesAComputedTableWhileItIsRead) {
+    auto reader = RecordReader::open(path);
+    ASSERT_TRUE(reader) << reader.error().line();
+    auto writer = DerivedWriter::create({"counts", "test 1", 0, {{"tick", "", "", ColumnType::i64}}, {}, "{}"});
+    ASSERT_TRUE(writer) << writer.error().line();
+    for (std::int64_t tick = 1; tick <= 200'000; ++tick) {
+        const std::array row{static_cast<Word>(tick) * 0x9e3779b97f4a7c15u};  // which no compression makes small
+        ASSERT_TRUE(writer->add(tick, 1000 * tick, row));
+    }
+    const auto added = writer->finish(path);
+    ASSERT_TRUE(added) << added.error().line();
+    EXPECT_EQ(reader->tables(), 1u);
+    std::uint64_t rows = 0;
+    for (std::size_t n = 0; n < reader->hands()[0].blocks.size(); ++n) {
+        const auto block = reader->block(0, n);
+        ASSERT_TRUE(block) << block.error().line();
+        rows += block->rows();
+    }
+    EXPECT_EQ(rows, acknowledged);
+    EXPECT_EQ(*sound_ticks(path), acknowledged);
+    const auto again = RecordReader::open(path);
+    ASSERT_TRUE(again) << again.error().line();
+    EXPECT_EQ(again->tables(), 2u);
 }
 
 // The transaction in the journal can be taken back by writing alone.
