@@ -81,7 +81,9 @@ TEST_F(StudyOfAnother, WhoseJournalAloneIsClosedIsRefusedBeforeAnythingIsDone) {
 TEST_F(StudyOfAnother, ThatMayNotEvenBeReadSaysSo) {
     fs::permissions(place / "s/study.json", fs::perms::none);
     fs::permissions(place / "", fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
-    if (::geteuid() == 0) ASSERT_EQ(::seteuid(65534), 0);
+    if (::geteuid() == 0) {
+        ASSERT_EQ(::seteuid(65534), 0);
+    }
     const std::string why = why_not_opened(StudyAccess::read);
     EXPECT_TRUE(why.contains("may not be read") && why.contains("permission")) << why;
 }
