@@ -24,6 +24,7 @@ constexpr const char* kRemedy = kDocumentKind.words.wrong_file;
 
 Result<DocumentReader> DocumentReader::open(const std::string& path) {
     BURIN_TRY_DO(record::check_regular(path, "is empty", kRemedy));
+    record::take_back_what_was_interrupted(path);
     DocumentReader reader;
     reader.path_ = path;
     BURIN_TRY(opened, Database::open(path, Database::Use::read, {}, kDocumentKind.words));

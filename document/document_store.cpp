@@ -2,13 +2,11 @@
 #include "document/document_store.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -17,9 +15,9 @@
 #include <system_error>
 
 #include "base/flush_folder.hpp"
-#include "base/places.hpp"
 #include "base/try.hpp"
 #include "document/document_rows.hpp"
+#include "document/leftovers.hpp"
 
 namespace burin::document {
 namespace {
@@ -44,13 +42,12 @@ std::string new_id() {
     return id;
 }
 
-// Writes the content within a transaction, which commits.
+// Writes the content within a transaction.
 Result<void> put_all(Database& database, const Content& content, Saved& saved) {
     BURIN_TRY_DO(put_content(database, content, saved));
     BURIN_TRY_DO(put_fact(database, kIdFact, saved.version.id));
     BURIN_TRY_DO(put_fact(database, kSavesFact, std::to_string(saved.version.saves)));
-    BURIN_TRY_DO(put_fact(database, kSavedFact, utc_now()));
-    return database.run("COMMIT");
+    return put_fact(database, kSavedFact, utc_now());
 }
 
 Result<Version> version_in(Database& database) {
@@ -72,39 +69,6 @@ Result<void> check_version(Database& database, const std::string& path, const Ve
     if (there == known) return {};
     return fail(path, "was saved by another window or program meanwhile",
                 "save this one under another name, so that both are kept");
-}
-
-// A name beside the place that nobody has; the process' number keeps two of them apart.
-std::string beside(const std::string& path) { return path + ".saving-" + std::to_string(::getpid()); }
-
-// Returns whether a process has locked this file, as the one that writes it has.
-bool is_locked(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return true;
-    struct flock lock{};
-    lock.l_type = F_WRLCK;
-    const bool is_free = ::fcntl(fd, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_UNLCK;
-    ::close(fd);
-    return !is_free;
-}
-
-// Removes what saves to this place have left whose process was killed.
-void remove_leftovers(const std::string& path) {
-    const std::string begin = fs::path(path).filename().string() + ".saving-";
-    const fs::path folder = fs::path(path).parent_path();
-    std::error_code failed;
-    std::vector<std::string> left;
-    for (const fs::path& file : entries_of(folder.empty() ? "." : folder).value_or(std::vector<fs::path>())) {
-        const std::string name = file.filename().string();
-        const std::string process = name.starts_with(begin) ? name.substr(begin.size()) : "";
-        pid_t number = 0;
-        const auto [end, wrong] = std::from_chars(process.data(), process.data() + process.size(), number);
-        if (process.empty() || wrong != std::errc() || end != process.data() + process.size() || number <= 0) continue;
-        const bool is_dead = ::kill(number, 0) != 0 && errno == ESRCH;
-        if (is_dead && !is_locked(file.string())) left.push_back(file.string());
-    }
-    for (const std::string& file : left)
-        for (const char* ending : {"-wal", "-shm", "-journal", ""}) fs::remove(file + ending, failed);
 }
 
 // Gives the file its name; a place that must hold nothing is not overwritten, whoever comes between.
@@ -137,7 +101,7 @@ Result<void> bring_to_rest(const std::string& path) {
     if (is_locked(path)) return fail(path, record::kInUse, "wait until that has ended, or end it");
     if (Result<StoreFile> file = StoreFile::open(path, kDocumentKind)) static_cast<void>(file->close());
     // Removes the log of a file that could not be opened as well: damaged, or of another program.
-    for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
+    record::remove_log_of(path);
     return {};
 }
 
@@ -148,17 +112,16 @@ Result<Saved> write_document(const std::string& path, const Content& content, Pl
     Saved saved{.version = {new_id(), 1}, .replaced = fs::exists(path, ignored)};
     if (place == Place::nothing && saved.replaced) return record::cannot_make(path, EEXIST, kDocumentKind);
     BURIN_TRY_DO(check_replaceable(path));
-    remove_leftovers(path);
-    const std::string made_as = beside(path);
+    remove_left_saves(path);
+    const std::string made_as = name_while_saving(path);
     const auto name_the_place = [&](Error error) {
         if (error.where == made_as) error.where = path;
-        fs::remove(made_as, ignored);
+        record::remove_with_log(made_as);
         return std::unexpected(std::move(error));
     };
     Result<StoreFile> file = StoreFile::make(
         made_as, kDocumentKind,
         [&](Database& database) -> Result<void> {
-            BURIN_TRY_DO(database.run("BEGIN IMMEDIATE"));
             BURIN_TRY_DO(database.run(document_tables()));
             return put_all(database, content, saved);
         },
@@ -185,6 +148,7 @@ Result<Saved> update_document(const std::string& path, const Content& changed, c
     Result<void> done = database.run("BEGIN IMMEDIATE");
     if (done) done = check_version(database, path, known);
     if (done) done = put_all(database, changed, saved);
+    if (done) done = database.run("COMMIT");
     if (!done) {
         if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));
         static_cast<void>(file.close());  // at rest, as it was

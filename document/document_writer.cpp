@@ -194,10 +194,7 @@ void DocumentWriter::begin_journal(const Content& content) {
         return journal_fails(journal.error());
     }
     journal_.emplace(std::move(*journal));
-    std::error_code ignored;
-    if (!replaces_.empty())
-        for (const char* ending : {"", "-wal", "-shm", "-journal"})
-            std::filesystem::remove(replaces_ + ending, ignored);
+    if (!replaces_.empty()) record::remove_with_log(replaces_);
     journal_holds_all();
 }
 

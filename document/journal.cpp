@@ -10,6 +10,7 @@
 #include "base/try.hpp"
 #include "document/document_reader.hpp"
 #include "document/document_rows.hpp"
+#include "document/leftovers.hpp"
 #include "document/log_check.hpp"
 #include "record/store_reading.hpp"
 
@@ -18,11 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using record::Database, record::StoreFile;
-
-void remove_with_log(const std::string& path) {
-    std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
-}
 
 // Runs a transaction whole or not at all.
 template <typename Write>
@@ -42,7 +38,7 @@ Result<Journal> Journal::begin(const std::string& path, const Content& beginning
         path, kDocumentKind,
         [&](Database& database) -> Result<void> {
             BURIN_TRY_DO(database.run(document_tables()));
-            return in_transaction(database, [&] { return put_content(database, beginning, ignored); });
+            return put_content(database, beginning, ignored);
         },
         vfs);
     if (!file) return std::unexpected(file.error());
@@ -114,7 +110,7 @@ void Journal::note_first_steps(const Content& beginning) {
 
 void Journal::end() {
     static_cast<void>(file_.close());
-    if (!needed_) remove_with_log(path_);
+    if (!needed_) record::remove_with_log(path_);
 }
 
 namespace {
@@ -129,6 +125,7 @@ std::vector<LeftJournal> left_journals(const std::string& folder) {
     for (const fs::path& file : entries_of(folder).value_or(std::vector<fs::path>()))
         if (is_document_name(file.string())) paths.push_back(file.string());
     for (const std::string& path : paths) {
+        if (remove_hollow_journal(path)) continue;
         const Result<DocumentReader> reader = DocumentReader::open(path);
         if (!reader) {
             // That of a living session is locked, or still empty.
@@ -143,7 +140,7 @@ std::vector<LeftJournal> left_journals(const std::string& folder) {
         }
         const bool is_saved = reader->changes() == 0 && !reader->facts().contains(kUnsavedFact);
         if (is_saved && !is_log_damaged(path) && !record::lacks_its_log(path)) {
-            remove_with_log(path);
+            record::remove_with_log(path);
             continue;
         }
         left.push_back({.path = path,

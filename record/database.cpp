@@ -3,9 +3,11 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <cstring>
 #include <limits>
 
+#include "record/private_index.hpp"
 #include "record/store_reading.hpp"
 
 namespace burin::record {
@@ -29,6 +31,20 @@ std::string immutable_uri(const std::string& path) {
 }
 
 int busy_wait_ms(Database::Use use) { return use == Database::Use::write ? 2000 : 500; }
+
+// SQLite calls a write without room a full disk, and any other call without room an error of the disk.
+bool lacks_room(int code, int reason) {
+    const int kind = code & 0xff;
+    return kind == SQLITE_FULL ||
+           ((kind == SQLITE_IOERR || kind == SQLITE_CANTOPEN) && (reason == ENOSPC || reason == EDQUOT));
+}
+
+Error unwritable(int code, const std::string& path) {
+    if (code == SQLITE_READONLY_ROLLBACK || code == SQLITE_READONLY_RECOVERY)
+        return {"was left in the middle of a change, which is taken back only where its folder may be written", path,
+                "copy it to a folder that you may write to, with all files beside it whose names begin with its own"};
+    return {"cannot be written: it is read-only", path, "choose a folder that you may write to"};
+}
 
 }  // namespace
 
@@ -54,14 +70,13 @@ CREATE TABLE object(part TEXT NOT NULL, number INTEGER NOT NULL, name TEXT NOT N
 )";
 }
 
-Error database_error(sqlite3* database, int code, const std::string& path, const FileWords& words_of_kind) {
-    const std::string words = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
+Error database_error(int code, int reason, const std::string& words, const std::string& path,
+                     const FileWords& words_of_kind) {
+    if (lacks_room(code, reason)) return {"the disk is full", path, words_of_kind.full_disk};
     switch (code & 0xff) {
-        case SQLITE_FULL: return {"the disk is full", path, words_of_kind.full_disk};
         case SQLITE_BUSY:
         case SQLITE_LOCKED: return {kInUse, path, "wait until that has ended, or end it"};
-        case SQLITE_READONLY:
-            return {"cannot be written: it is read-only", path, "choose a folder that you may write to"};
+        case SQLITE_READONLY: return unwritable(code, path);
         case SQLITE_CANTOPEN: return {"cannot be opened: " + words, path, "check the path and its permissions"};
         case SQLITE_NOTADB: return {"is not an SQLite file", path, words_of_kind.wrong_file};
         case SQLITE_CORRUPT: return {"is damaged: " + words, path, "sqlite3 FILE .recover saves what can be saved"};
@@ -72,6 +87,16 @@ Error database_error(sqlite3* database, int code, const std::string& path, const
         default: return {words, path, words_of_kind.wrong_file};
     }
 }
+
+namespace {
+
+// The last failure of a connection; none: it could not even be made.
+Error failure_of(sqlite3* database, int code, const std::string& path, const FileWords& words) {
+    if (database == nullptr) return database_error(code, 0, sqlite3_errstr(code), path, words);
+    return database_error(code, sqlite3_system_errno(database), sqlite3_errmsg(database), path, words);
+}
+
+}  // namespace
 
 // ---- Statement
 
@@ -93,7 +118,7 @@ Result<bool> Statement::step() {
     const int code = sqlite3_step(statement_.get());
     if (code == SQLITE_ROW) return true;
     if (code == SQLITE_DONE) return false;
-    return std::unexpected(database_error(sqlite3_db_handle(statement_.get()), code, path_, words_));
+    return std::unexpected(failure_of(sqlite3_db_handle(statement_.get()), code, path_, words_));
 }
 
 Result<void> Statement::run() {
@@ -145,9 +170,11 @@ Result<Database> Database::open(const std::string& path, Use use, const std::str
     // A name that begins with "file:" or ":memory:" would not be taken for a file's.
     const std::string plain = path.starts_with('/') ? path : "./" + path;
     const std::string name = is_alone ? immutable_uri(plain) : plain;
-    const int code = sqlite3_open_v2(name.c_str(), &raw, flags, vfs.empty() ? nullptr : vfs.c_str());
+    const char* file_system = vfs.empty() ? nullptr : vfs.c_str();
+    if (vfs.empty() && use == Use::read && !is_index_shared(path)) file_system = private_index_vfs();
+    const int code = sqlite3_open_v2(name.c_str(), &raw, flags, file_system);
     opened.database_.reset(raw);
-    if (code != SQLITE_OK) return std::unexpected(database_error(raw, code, path, words));
+    if (code != SQLITE_OK) return std::unexpected(failure_of(raw, code, path, words));
     sqlite3_extended_result_codes(raw, 1);
     sqlite3_busy_timeout(raw, busy_wait_ms(use));
     sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMostValueBytes);
@@ -162,7 +189,7 @@ Result<Database> Database::open(const std::string& path, Use use, const std::str
 Result<void> Database::run(const std::string& sql) {
     limit_->left = limit_->most;
     const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
-    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_, words_));
+    if (code != SQLITE_OK) return std::unexpected(failure_of(database_.get(), code, path_, words_));
     return {};
 }
 
@@ -174,7 +201,7 @@ Result<Statement> Database::prepare(const std::string& sql) {
     sqlite3_stmt* raw = nullptr;
     const int code = sqlite3_prepare_v2(database_.get(), sql.c_str(), static_cast<int>(sql.size()), &raw, nullptr);
     made.statement_.reset(raw);
-    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_, words_));
+    if (code != SQLITE_OK) return std::unexpected(failure_of(database_.get(), code, path_, words_));
     return made;
 }
 
@@ -206,7 +233,7 @@ void Database::limit_steps(std::int64_t steps) {
 
 Result<void> Database::close() {
     const int code = sqlite3_close(database_.get());
-    if (code != SQLITE_OK) return std::unexpected(database_error(database_.get(), code, path_, words_));
+    if (code != SQLITE_OK) return std::unexpected(failure_of(database_.get(), code, path_, words_));
     static_cast<void>(database_.release());
     return {};
 }

@@ -102,7 +102,9 @@ private:
     FileWords words_;
 };
 
-// Returns the last failure in words: what and remedy for the codes that users meet.
-[[nodiscard]] Error database_error(sqlite3* database, int code, const std::string& path, const FileWords& words = {});
+// Returns a failure in words: what and remedy for the codes that users meet. code: SQLite's extended one; reason: the
+// operating system's errno behind it, 0 for none; words: SQLite's own.
+[[nodiscard]] Error database_error(int code, int reason, const std::string& words, const std::string& path,
+                                   const FileWords& words_of_kind);
 
 }  // namespace burin::record

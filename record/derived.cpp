@@ -58,7 +58,9 @@ Result<void> DerivedWriter::finish(const std::string& path) {
     if (std::fflush(spool_.get()) != 0) return no_spool();
     std::rewind(spool_.get());
     BURIN_TRY(database, Database::open(path, Database::Use::write));
-    BURIN_TRY_DO(database.run("PRAGMA synchronous = FULL"));
+    // A killed recording is added to while it is read, by readers who do not tell what they read (private_index.hpp):
+    // its log is brought into the file once nobody has it open any more.
+    BURIN_TRY_DO(database.run("PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL"));
     BURIN_TRY_DO(database.run("BEGIN IMMEDIATE"));
     if (const auto done = insert_all(database); !done) {
         if (database.in_transaction()) static_cast<void>(database.run("ROLLBACK"));

@@ -19,15 +19,6 @@ constexpr const char* kRemedy = "name a file that --record has written";
 
 bool fits_u32(std::int64_t value) { return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max(); }
 
-// Takes back what was being added to the file when its program was killed: a connection that only reads cannot, and is
-// refused. Where nothing may be written, the reader then says so.
-void take_back_what_was_interrupted(const std::string& path) {
-    struct stat journal{};
-    if (::stat((path + "-journal").c_str(), &journal) != 0 || journal.st_size == 0) return;
-    Result<Database> opened = Database::open(path, Database::Use::write);
-    if (opened) static_cast<void>(opened->integer("SELECT count(*) FROM sqlite_schema"));
-}
-
 }  // namespace
 
 std::uint64_t HandRecord::rows() const {

@@ -67,6 +67,7 @@ Result<void> RecordStore::make() {
         },
         options_.vfs);
     if (!made) return std::unexpected(made.error());
+    linked();
     file_.emplace(std::move(*made));
     database_ = &file_->database();
     committed_ns_ = clock_.now_ns();
@@ -74,7 +75,6 @@ Result<void> RecordStore::make() {
 }
 
 Result<void> RecordStore::fill_tables() {
-    BURIN_TRY_DO(database_->run("BEGIN IMMEDIATE"));
     BURIN_TRY_DO(database_->run(std::string(store_tables()) + chain_table()));
     Result<Statement> object = database_->prepare("INSERT OR REPLACE INTO object VALUES('', ?, ?)");
     if (!object) return fail(path_, "its tables cannot be made", "choose another disk");
@@ -88,18 +88,27 @@ Result<void> RecordStore::fill_tables() {
     for (std::size_t h = 0; h < parts_.size(); ++h)
         BURIN_TRY_DO(put_fact(period_fact(h), std::to_string(parts_[h].period_ns)));
     BURIN_TRY_DO(insert_clock());
-    return commit_with_link();
+    return add_link();
 }
 
-// Commits what the open transaction has written, with its link of the chain.
-Result<void> RecordStore::commit_with_link() {
+// Adds the link of the chain to what the open transaction has written.
+Result<void> RecordStore::add_link() {
     std::vector<std::int64_t> ended;
     for (const StoreNote& note : notes_)
         if (note.kind == StoreNote::Kind::trial_end && note.trial) ended.push_back(*note.trial);
-    BURIN_TRY_DO(chain_.add(*database_, new_facts_, ended));
-    BURIN_TRY_DO(database_->run("COMMIT"));
+    return chain_.add(*database_, new_facts_, ended);
+}
+
+// Takes note that the transaction with the link is on the disk.
+void RecordStore::linked() {
     chain_.added();
     new_facts_.clear();
+}
+
+Result<void> RecordStore::commit_with_link() {
+    BURIN_TRY_DO(add_link());
+    BURIN_TRY_DO(database_->run("COMMIT"));
+    linked();
     return {};
 }
 

@@ -66,6 +66,8 @@ private:
     [[nodiscard]] Result<void> fill_tables();
     [[nodiscard]] Result<void> fill_columns();
     [[nodiscard]] Result<void> put_fact(const std::string& key, const std::string& value);
+    [[nodiscard]] Result<void> add_link();
+    void linked();
     [[nodiscard]] Result<void> commit_with_link();
     void take(std::size_t index, const haptics::TickRecord& record);
     void seal(std::size_t index);

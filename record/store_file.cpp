@@ -22,6 +22,8 @@ Result<void> use_log(Database& database, const std::string& path, const StoreKin
     BURIN_TRY_DO(database.run("PRAGMA locking_mode = EXCLUSIVE"));
     BURIN_TRY(mode, database.text("PRAGMA journal_mode = WAL"));
     if (mode != "wal") return fail(path, "its file system takes no write-ahead log", kind.words.no_log);
+    // Reading opens the log: without it beside the file, whoever reads that would take it for lost.
+    BURIN_TRY_DO(database.integer("SELECT count(*) FROM sqlite_schema"));
     return database.run("PRAGMA synchronous = FULL");
 }
 
@@ -56,8 +58,19 @@ std::unexpected<Error> cannot_make(const std::string& path, int code, const Stor
     }
 }
 
+void remove_log_of(const std::string& path) {
+    std::error_code ignored;
+    for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
+}
+
+void remove_with_log(const std::string& path) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    remove_log_of(path);
+}
+
 Result<void> check_no_log_of(const std::string& path) {
-    for (const char* ending : {"-wal", "-journal", "-shm"}) {
+    for (const char* ending : {"-wal", "-journal"}) {
         std::error_code ignored;
         if (fs::exists(path + ending, ignored))
             return fail(path + ending, "belongs to another recording, whose file has been taken away",
@@ -117,18 +130,22 @@ Result<StoreFile> StoreFile::make(const std::string& path, const StoreKind& kind
     StoreFile file(path);
     Result<void> ready = file.hold();
     if (ready) ready = file.connect(kind, vfs);
-    if (ready) ready = use_log(*file.database_, path, kind);
+    // Whole before it has a log: a kill leaves no file that is marked and holds nothing, and a large file is not
+    // written twice.
     if (ready)
-        ready = file.database_->run("PRAGMA application_id = " + std::to_string(kind.application_id) +
-                                    "; PRAGMA user_version = " + std::to_string(kind.version));
+        ready = file.database_->run(
+            "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN IMMEDIATE;"
+            "PRAGMA application_id = " +
+            std::to_string(kind.application_id) + "; PRAGMA user_version = " + std::to_string(kind.version));
     if (ready) ready = fill(*file.database_);
+    if (ready) ready = file.database_->run("COMMIT");
+    if (ready) ready = use_log(*file.database_, path, kind);
     if (ready) {
         flush_folder_of(path);
         return file;
     }
     file.database_.reset();
-    std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending, ignored);
+    remove_with_log(path);
     return std::unexpected(ready.error());
 }
 
@@ -151,10 +168,20 @@ bool StoreFile::is_deleted() const {
     return ::fstat(place_, &now) == 0 && now.st_nlink == 0;
 }
 
+Result<void> StoreFile::end_without_room() {
+    BURIN_TRY_DO(database_->run("PRAGMA wal_checkpoint(TRUNCATE)"));
+    BURIN_TRY(mode, database_->text("PRAGMA journal_mode = MEMORY"));
+    if (mode == "memory") return {};
+    return fail(path_, "its log cannot be brought into it", "free some space and open it again");
+}
+
 Result<void> StoreFile::close() {
     if (!database_) return {};
-    // Then it can be read where nothing can be written.
-    Result<void> ended = database_->run("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
+    // Then it can be read where nothing can be written. On a full disk there is no room for the journal of that last
+    // change, of one page that is there already: without the change the file would ask for a log that has gone.
+    Result<void> ended = database_->run("PRAGMA wal_checkpoint(TRUNCATE)");
+    if (ended) ended = database_->run("PRAGMA journal_mode = DELETE");
+    if (!ended) ended = end_without_room();
     const Result<void> closed = database_->close();
     database_.reset();
     return ended ? closed : ended;

@@ -30,7 +30,8 @@ inline constexpr StoreKind kRecordingKind{.application_id = kApplicationId, .ver
 class StoreFile {
 public:
     using Fill = std::function<Result<void>(Database&)>;
-    // Makes a file and has it filled. vfs: the name of one of SQLite's file systems, empty for the usual one.
+    // Makes a file and has it filled, within the transaction that makes it: a kill leaves it whole, or empty. vfs: the
+    // name of one of SQLite's file systems, empty for the usual one.
     [[nodiscard]] static Result<StoreFile> make(const std::string& path, const StoreKind& kind, const Fill& fill,
                                                 const std::string& vfs = {});
     // Opens a file of this kind and version to write to it.
@@ -55,6 +56,8 @@ private:
     [[nodiscard]] Result<void> hold();
     [[nodiscard]] Result<void> connect(const StoreKind& kind, const std::string& vfs);
 
+    [[nodiscard]] Result<void> end_without_room();
+
     std::string path_;
     int place_ = -1;      // keeps the file's identity; O_PATH, so that closing it drops no lock
     struct stat made_{};  // the file as it was made
@@ -63,7 +66,11 @@ private:
 
 // Checks that the open file has the marks of the kind, in a version that this program knows.
 [[nodiscard]] Result<void> check_marks(Database& database, const std::string& path, const StoreKind& kind);
-// Fails where a log of SQLite lies there without its file.
+// Removes what SQLite puts beside a file: its log and that log's index.
+void remove_log_of(const std::string& path);
+// Removes a file with what SQLite has put beside it.
+void remove_with_log(const std::string& path);
+// Fails where a log of SQLite lies there without its file. The index of a log holds nothing of a file.
 [[nodiscard]] Result<void> check_no_log_of(const std::string& path);
 // The failure to make a file, by the code of errno.
 [[nodiscard]] std::unexpected<Error> cannot_make(const std::string& path, int code, const StoreKind& kind);

@@ -32,6 +32,15 @@ bool lacks_its_log(const std::string& path) {
     return file.read(header.data(), header.size()) && header[kReadVersion] == 2;
 }
 
+void take_back_what_was_interrupted(const std::string& path) {
+    struct stat journal{};
+    if (::stat((path + "-journal").c_str(), &journal) != 0 || journal.st_size == 0) return;
+    Result<Database> opened = Database::open(path, Database::Use::write);
+    // Exclusive, so that it needs no FILE-shm.
+    if (opened && opened->run("PRAGMA locking_mode = EXCLUSIVE"))
+        static_cast<void>(opened->integer("SELECT count(*) FROM sqlite_schema"));
+}
+
 Result<void> check_tables(Database& database, const std::string& path, std::initializer_list<const char*> tables,
                           const char* remedy) {
     for (const char* name : tables) {

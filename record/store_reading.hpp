@@ -21,6 +21,9 @@ inline constexpr std::size_t kMostFacts = 10'000, kMostTextBytes = std::size_t{1
 // Returns whether the file was left with a log of SQLite beside it, and that is gone: whoever has taken or copied the
 // file without FILE-wal has left behind what was written last.
 [[nodiscard]] bool lacks_its_log(const std::string& path);
+// Takes back what was being added to the file when its program was killed: a connection that only reads cannot, and is
+// refused. Where nothing may be written, the reader then says so.
+void take_back_what_was_interrupted(const std::string& path);
 // Checks that the file has these tables.
 [[nodiscard]] Result<void> check_tables(Database& database, const std::string& path,
                                         std::initializer_list<const char*> tables, const char* remedy);

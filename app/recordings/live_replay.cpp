@@ -11,6 +11,7 @@
 #include "activities/registry.hpp"
 #include "activities/replay/device_as_recorded.hpp"
 #include "activities/wand/wand_facts.hpp"
+#include "app/cli/new_folders.hpp"
 #include "base/file_io.hpp"
 #include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
@@ -273,10 +274,17 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
 Result<void> run_recorded_session(const session::SculptOptions& given, const std::string& command) {
     session::SculptOptions options = given;
     options.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
-    if (!session::is_session_file(options.live.record)) return session::run_session(options);
-    BURIN_TRY_DO(session::settle_document(options));
-    BURIN_TRY_DO(record::check_new_place(options.live.record));
-    return session::run_session(options, facts_of_live(options, command));
+    NewFolders folders({options.live.outputs, options.live.screenshots});
+    Result<void> done;
+    if (session::is_session_file(options.live.record)) {
+        BURIN_TRY_DO(session::settle_document(options));
+        BURIN_TRY_DO(record::check_new_place(options.live.record));
+        done = session::run_session(options, facts_of_live(options, command));
+    } else {
+        done = session::run_session(options);
+    }
+    if (done) folders.keep();
+    return done;
 }
 
 std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {

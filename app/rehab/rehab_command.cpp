@@ -15,6 +15,7 @@
 #include "activities/rehab/progress/page_texts.hpp"
 #include "activities/rehab/rehab.hpp"
 #include "app/cli/live_options.hpp"
+#include "app/cli/new_folders.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "app/rehab/rehab_pages.hpp"
@@ -268,6 +269,7 @@ Result<void> run_exercise(const AskedExercise& of) {
         std::fputs(activities::table_text(of.kind.name, values).c_str(), stdout);
         return {};
     }
+    NewFolders folders(of.results.folders());  // before all that keeps files there, a lock among them
     session::SculptOptions session = of.session;
     session::LiveOptions& live = session.live;
     BURIN_TRY_DO(check_glove(live));
@@ -282,6 +284,7 @@ Result<void> run_exercise(const AskedExercise& of) {
                                 : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise));
     session.activity = exercise;
     const Result<void> done = run_recorded_session(session, "rehab");
+    if (!exercise->exercise().course().events.empty()) folders.keep();
     return keep_run(of, *exercise, results, is_again, done);
 }
 

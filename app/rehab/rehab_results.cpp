@@ -85,6 +85,13 @@ Result<activities::KeptRuns> runs_until_now(const ResultsOptions& options) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> ResultsOptions::folders() const {
+    if (folder.empty()) return {};
+    std::vector<std::filesystem::path> made{folder};
+    if (participant) made.push_back(activities::participant_folder(folder, *participant));
+    return made;
+}
+
 void add_results_options(Command command, ResultsOptions& options) {
     command.option("--results", options.folder,
                    "A folder that keeps this run, and a page of the participant's progress");

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "activities/rehab/progress/baseline.hpp"
 #include "activities/rehab/progress/kept_run.hpp"
@@ -21,6 +23,9 @@ namespace burin::app {
 struct ResultsOptions {
     std::string folder, date;  // empty: nothing is kept; today
     std::optional<unsigned> participant;
+
+    // Returns the folders that keeping a run makes, where they are not there.
+    [[nodiscard]] std::vector<std::filesystem::path> folders() const;
 };
 void add_results_options(Command command, ResultsOptions& options);
 

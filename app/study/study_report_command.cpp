@@ -8,6 +8,7 @@
 #include "app/study/study_trials.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "study/folder/study_access.hpp"
 #include "study/report/study_sections.hpp"
 
 namespace burin::app {
@@ -19,7 +20,11 @@ Result<void> study_report(const std::string& folder) {
     const fs::path reports = fs::path(folder) / "reports";
     std::error_code error;
     fs::create_directory(reports, error);
-    if (error) return fail(reports.string(), "cannot be made: " + error.message(), "see to its permissions");
+    if (error) {
+        BURIN_TRY_DO(study::check_may_write_results(folder));
+        return fail(reports.string(), "cannot be made: " + error.message(), "see to its permissions");
+    }
+    BURIN_TRY_DO(study::check_may_write_results(reports));
     fs::path report;
     for (std::size_t n = 1; report.empty() || fs::exists(report, error); ++n) report = reports / formatted("%03zu", n);
     StudyAnalyseOptions options;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <random>
 #include <span>
@@ -18,6 +19,7 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "study/assign/sealed_list.hpp"
+#include "study/folder/study_access.hpp"
 
 namespace burin::study {
 namespace fs = std::filesystem;
@@ -278,10 +280,13 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
     const std::string name = folder.string();
     if (access == StudyAccess::write) {
         study.lock_ = ::open((folder / "lock").c_str(), O_RDWR | O_CLOEXEC);
-        if (study.lock_ < 0) return fail(name, "is no study", "make one with burin study init");
+        if (study.lock_ < 0) return std::unexpected(no_study(folder, errno, true));
         if (::flock(study.lock_, LOCK_EX | LOCK_NB) != 0)
             return fail(name, "is in use by another burin", "wait until it has ended, or stop it");
+        BURIN_TRY_DO(check_may_write(folder / "journal.jsonl"));
     }
+    if (::faccessat(AT_FDCWD, (folder / "study.json").c_str(), R_OK, AT_EACCESS) != 0)
+        return std::unexpected(no_study(folder, errno, false));
     const auto json_read = read_text_file(folder / "study.json", kMostProtocolBytes);
     if (!json_read) return fail(name, "is no study: " + json_read.error().what, "make one with burin study init");
     const Json json = Json::parse(*json_read, nullptr, false);

@@ -2,6 +2,7 @@
 #include "study/report/study_trials.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <set>
@@ -11,13 +12,25 @@
 #include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "study/folder/study_access.hpp"
 #include "study/people/trial_rows.hpp"
 
 namespace burin::study {
 namespace {
 
+namespace fs = std::filesystem;
+
 bool is_chosen(const TrialChoice& choice, const TrialRow& row) {
     return (!choice.day || *choice.day == row.day) && (choice.stage.empty() || choice.stage == row.stage);
+}
+
+// Writes the table of trials where it is not there as it is: a study that may only be read can still be analysed.
+Result<void> renew(const StudyFolder& study, const std::string& table) {
+    const fs::path file = study.path() / "trials.csv";
+    const auto bytes = std::as_bytes(std::span(table));
+    if (const auto there = read_file(file); there && std::ranges::equal(*there, bytes)) return {};
+    for (const fs::path& place : {file, study.path()}) BURIN_TRY_DO(check_may_write_results(place));
+    return write_file_atomically(file, bytes);
 }
 
 // Where the outcome trials are not all of one day and one world; else empty.
@@ -140,9 +153,7 @@ std::vector<std::string> study_facts(const StudyFolder& study) {
 Result<TrialsMade> make_trials(const StudyFolder& study, const TellDamage& tell) {
     const TrialRows rows = rows_of(study, tell);
     if (rows.rows.empty()) return fail(study.path().string(), "has no trial yet", "run it first: burin study run");
-    const std::string table = trials_csv(rows.rows);
-    BURIN_TRY_DO(
-        write_file_atomically(study.path() / "trials.csv", std::as_bytes(std::span(table.data(), table.size()))));
+    BURIN_TRY_DO(renew(study, trials_csv(rows.rows)));
     std::vector<std::string> groups;
     for (const Group& group : study.protocol().groups) groups.push_back(group.code);
     return TrialsMade{rows.valid(),      rows.rows.size() - rows.valid(), study_facts(study),

@@ -19,8 +19,8 @@ namespace burin::study {
 // Takes a line for each file of data that is missing or damaged. The others are used.
 using TellDamage = std::function<void(const std::string&)>;
 
-// Writes the folder's trials.csv anew from journal and data. The trials of withdrawn participants are left out. Fails
-// where nobody has come to a trial yet.
+// Writes the folder's trials.csv anew from journal and data, unless it is there as it would be. The trials of withdrawn
+// participants are left out. Fails where nobody has come to a trial yet.
 struct TrialsMade {
     std::size_t trials = 0;   // valid outcome trials
     std::size_t without = 0;  // rows without measures: lost, or a baseline

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "document/document_reader.hpp"
 #include "document/document_writer.hpp"
@@ -30,6 +31,14 @@ Content small_work() {
     content.parts.push_back({.part = "a thing"});
     content.parts[0].pages = {{{"head", 0}, bytes_of("h")}, {{"tile", 0}, bytes_of("ab", 500)}, {{"tile", 1}, {}}};
     return content;
+}
+
+// Bytes that no compression makes small.
+std::vector<std::byte> noise(std::size_t size, std::int64_t seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    std::vector<std::byte> bytes(size);
+    for (std::byte& b : bytes) b = static_cast<std::byte>(random());
+    return bytes;
 }
 
 Content changed_tile(std::string_view text) {
@@ -229,6 +238,41 @@ TEST_F(Document, OnAFullDiskStaysAsItWas) {
     ASSERT_TRUE(update_document(path, changed_tile("new"), first->version));
 }
 
+// Whichever flush it is that finds no more room, that of the file when it is closed among them.
+TEST_F(Document, LeavesNothingBesideItWhereverTheDiskFillsUp) {
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    const auto fill_up_at = [&disk](int flush) {
+        disk.reset();
+        disk.set_before_sync([&disk, flush] { disk.is_full = disk.is_full || disk.syncs >= flush; });
+    };
+    Content large = small_work();
+    for (std::int64_t tile = 2; tile < 40; ++tile) large.parts[0].pages[{"tile", tile}] = noise(5000, tile);
+    int refused = 0;
+    for (bool fits = false; !fits; ++refused) {
+        fill_up_at(refused);
+        fits = static_cast<bool>(write_document(path, large, Place::nothing, disk.kName));
+        EXPECT_EQ(files_in(at), fits ? 1u : 0u) << refused;
+        ASSERT_LT(refused, 100);
+    }
+    EXPECT_GT(refused, 2) << "else the disk was never full while it was written";
+    disk.reset();
+    fs::remove(path);
+    bool fits = false;
+    for (int flush = 0; !fits; ++flush) {
+        const auto first = write_document(path, small_work(), Place::replaced);
+        ASSERT_TRUE(first) << first.error().line();
+        fill_up_at(flush);
+        const auto update = update_document(path, large, first->version, disk.kName);
+        const bool never_full = !disk.is_full;
+        disk.reset();
+        EXPECT_EQ(pages_in(path).pages, update ? large.parts[0].pages : small_work().parts[0].pages) << flush;
+        EXPECT_FALSE(record::lacks_its_log(path)) << flush;
+        EXPECT_TRUE(update || !fs::exists(path + "-wal") || fs::file_size(path + "-wal") == 0) << flush;
+        fits = update && never_full;
+        ASSERT_LT(flush, 100);
+    }
+}
+
 TEST_F(Document, ThatTakesThePlaceOfOneWithALogIsNotChangedByIt) {
     ASSERT_TRUE(write_document(path, small_work(), Place::nothing));
     change(path, "PRAGMA journal_mode = WAL");
@@ -246,7 +290,11 @@ TEST_F(Document, RemovesWhatAKilledSaveHasLeftAndNothingElse) {
     if (child == 0) _exit(0);
     ASSERT_EQ(waitpid(child, nullptr, 0), child);
     const std::string dead = std::to_string(child), alive = std::to_string(::getppid());
+    const pid_t second = fork();
+    if (second == 0) _exit(0);
+    ASSERT_EQ(waitpid(second, nullptr, 0), second);
     for (const char* const ending : {"", "-wal", "-shm"}) at.write("work.burin.saving-" + dead + ending, "half");
+    at.write("work.burin.saving-" + std::to_string(second) + "-wal", "a log without its file");
     const std::vector<std::string> others{"work.burin.saving-" + alive, "work.burin.saving-" + dead + "x",
                                           "other.burin.saving-" + dead, "work.burin.saving-"};
     for (const std::string& name : others) at.write(name, "mine");

@@ -227,7 +227,7 @@ TEST(Journal, WhoseLogIsDamagedIsKeptAndTold) {
 TEST(Journal, ThatCannotBeReadIsToldAndStays) {
     const Workplace at;
     at.write("work-1.burin", std::string(5000, 'x'));
-    at.write("work-2.burin", "");
+    at.write("work-" + std::to_string(::getpid()) + ".burin", "");
     DocumentWriter living;
     living.keep_journal(at / "work-3.burin", beginning());
     living.finish();
