@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/error.hpp"
 #include "scene/scene_object.hpp"
 
 namespace burin::scene {
@@ -49,5 +50,9 @@ using PropertyValue = std::array<double, 4>;
 [[nodiscard]] PropertyValue value_of(const SceneObject& object, ObjectProperty property);
 // Returns the edit that gives the object this value and leaves all else as it is.
 [[nodiscard]] ObjectEdit edit_of(const SceneObject& object, ObjectProperty property, const PropertyValue& value);
+
+// Refuses a value that no object can have, whatever else is true of it: a negative stiffness, no scale. The Error says
+// what is wrong and what would be right, and names no place.
+[[nodiscard]] Result<void> check_value(ObjectProperty property, const PropertyValue& value);
 
 }  // namespace burin::scene
