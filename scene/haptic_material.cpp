@@ -20,9 +20,10 @@ void check_range(std::vector<Problem>& found, const char* key, double value, dou
 
 std::vector<Problem> problems(const HapticMaterial& m) {
     std::vector<Problem> found;
-    check_range(found, "stiffness", m.stiffness_N_per_m, kMaxStiffness_N_per_m);
-    if (m.stiffness_N_per_m == 0.0)
-        found.push_back({"stiffness", "is 0", "give N/m, such as 600; felt = false makes an object that is not felt"});
+    if (!(m.stiffness_N_per_m > 0.0 && m.stiffness_N_per_m <= kMaxStiffness_N_per_m))
+        found.push_back({"stiffness", "is " + number_text(m.stiffness_N_per_m),
+                         "give N/m above 0 and up to " + number_text(kMaxStiffness_N_per_m) +
+                             ", such as 600; felt = false makes an object that is not felt"});
     check_range(found, "damping", m.damping_Ns_per_m, kMaxDamping_Ns_per_m);
     check_range(found, "static_friction", m.static_friction, kMaxFriction);
     check_range(found, "dynamic_friction", m.dynamic_friction, kMaxFriction);

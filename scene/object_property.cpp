@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace burin::scene {
 namespace {
@@ -112,6 +113,17 @@ ObjectEdit edit_of(const SceneObject& object, ObjectProperty property, const Pro
         case ObjectProperty::felt: return SetFelt{value[0] != 0.0};
     }
     return SetMaterial{material};
+}
+
+Result<void> check_value(ObjectProperty property, const PropertyValue& value) {
+    SceneObject any;
+    any.name = "any";
+    // What slides is held no harder than what sticks: each of both frictions is bounded by the other here alone.
+    any.material.static_friction = kMaxFriction;
+    any.material.dynamic_friction = 0.0;
+    const ObjectEdit edit = edit_of(any, property, value);
+    if (const auto done = edited(std::move(any), edit); !done) return fail("", done.error().what, done.error().remedy);
+    return {};
 }
 
 }  // namespace burin::scene

@@ -171,6 +171,7 @@ Result<void> check_sizes(const ToolSpec& tool, const std::string& where) {
         if (!(size_m > 0.0 || (kind.sizes.at(i).may_be_zero && size_m == 0.0))) {
             return fail(where, "has no size", std::string(kind.size_remedy));
         }
+        if (size_m > kMostToolSize_m) return fail(where, "is larger than 10 m", "give sizes in metres");
     }
     const SizeRule& rule = kind.rule;
     if (rule.holds == nullptr || rule.holds(tool.sizes_m)) return {};

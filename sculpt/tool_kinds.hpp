@@ -87,6 +87,8 @@ struct ToolDescriptor {
 // Formats a tool so that parsing gives the same bits: "bullnose:0.005,0.001,0.02".
 [[nodiscard]] std::string text_of(const ToolSpec& tool);
 // Fails on a size that is zero or negative where it must not be, and where the kind's rule does not hold.
+// A larger tool is a mistake in the unit, on the command line as in a session.
+inline constexpr double kMostToolSize_m = 10.0;
 [[nodiscard]] Result<void> check_sizes(const ToolSpec& tool, const std::string& where);
 // Makes the shape of a tool that check_sizes accepts. Reads the file of a mesh, which must be closed.
 [[nodiscard]] Result<compute::ToolShape> make_shape(const ToolSpec& tool);

@@ -100,7 +100,7 @@ CommandAction add_profile(Command command) {
         .asset(AssetRoom::worlds);
     command.option("--tool", s.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
     command.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
-    command.option("--weld", s.workpiece.weld_m, "As burin sculpt has it");
+    command.option("--weld", s.workpiece.weld_m, "As burin sculpt has it").within(session::kWeldBounds);
     command.unit("--units", s.workpiece.units, "As burin sculpt has it");
     command.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
         .within(compute::kMinResolution, compute::kMaxResolution)

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "app/carve/sculpt.hpp"
-#include "app/carve/sculpt_options.hpp"
 #include "app/cli/live_options.hpp"
+#include "app/cli/sculpt_options.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "desk/run/session.hpp"
 

@@ -340,6 +340,18 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
     }
 }
 
+Result<void> CommandLine::take(const std::string& word) {
+    const std::array<const char*, 2> words{"burin", word.c_str()};
+    try {
+        app_->parse(static_cast<int>(words.size()), words.data());
+        return {};
+    } catch (const CLI::ParseError& error) {
+        // The library names the option before what its check has found.
+        const std::string what = error.what(), name = word.substr(0, word.find('=')) + ": ";
+        return fail(word, what.starts_with(name) ? what.substr(name.size()) : what);
+    }
+}
+
 std::string CommandLine::help() const { return app_->help(); }
 
 std::vector<ManualFile> CommandLine::manual(const std::string& version) const { return manual_files(*app_, version); }

@@ -119,6 +119,8 @@ public:
     // Parses the arguments. Returns the exit status where nothing is left to do: 0 after --help, 2 after wrong usage,
     // which it reports in one line on standard error.
     [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
+    // Parses one word, such as "--width=640", as an option of the program itself. The Error says what is wrong with it.
+    [[nodiscard]] Result<void> take(const std::string& word);
     [[nodiscard]] std::string help() const;
     // Returns the manual's pages and the shell's completion of all commands that have been added (command_manual.hpp).
     [[nodiscard]] std::vector<ManualFile> manual(const std::string& version) const;

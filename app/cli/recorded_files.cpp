@@ -67,16 +67,29 @@ std::vector<std::string> named_by_session_file(const std::string& path) {
     return files.list();
 }
 
-std::vector<std::string> named_by_text_log(const std::string& path) {
+// Returns the options of a text log's first line; empty where it is no log.
+std::string settings_of_text_log(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string head(kMostHeadBytes, '\0');
     file.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(file.gcount()));
     head.resize(std::min(head.size(), head.find('\n')));
+    return head.starts_with("burin-input ") ? session::settings_on(head) : std::string();
+}
+
+std::vector<std::string> named_by_text_log(const std::string& path) {
     NamedFiles files;
-    const std::string settings = session::settings_on(head);
-    if (head.starts_with("burin-input ") && !settings.empty()) files.add_settings(settings);
+    if (const std::string settings = settings_of_text_log(path); !settings.empty()) files.add_settings(settings);
     return files.list();
+}
+
+// Returns the options of a recording's first line; empty where it is none.
+std::string settings_of(const std::string& recording) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(recording, ignored)) return {};
+    if (!session::is_database(recording)) return settings_of_text_log(recording);
+    const Result<record::RecordReader> reader = record::RecordReader::open(recording);
+    return reader ? session::settings_on(reader->fact(record::kLogHeaderFact)) : std::string();
 }
 
 }  // namespace
@@ -85,6 +98,18 @@ std::vector<std::string> files_named_by(const std::string& recording) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(recording, ignored)) return {};
     return session::is_database(recording) ? named_by_session_file(recording) : named_by_text_log(recording);
+}
+
+std::string repeated_activity(const session::LiveOptions& live) {
+    if (live.input.empty() || !live.record.empty() || session::wants_streams(live)) return {};
+    return session::activity_on(settings_of(live.input)).value_or("");
+}
+
+void leave_to_recording(session::SculptOptions& options, bool world_given) {
+    const session::SculptOptions nothing;
+    if (!world_given) options.world.clear();
+    if (!options.live.device_given) options.live.device = nothing.live.device;
+    options.tool.shape = nothing.tool.shape;
 }
 
 }  // namespace burin::app

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The files that a recording was made from. No output may be written over them: then it could not be done again. Any
-// thread.
+// What a recording says of the session that it is of: the files that it was made from, over which no output may be
+// written, since then it could not be done again, and its activity. Any thread.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "session/options/session_options.hpp"
 
 namespace burin::app {
 
@@ -12,5 +14,12 @@ namespace burin::app {
 // of a tool and a device, with all that these read; for a session file also those that SQLite keeps beside it. Names
 // are as they were recorded, so relative to where that was. Nothing for a file that is no recording.
 [[nodiscard]] std::vector<std::string> files_named_by(const std::string& recording);
+
+// Returns the settings of the activity (session::Activity::settings()) of a recording that is done again: of --input,
+// where nothing is recorded besides. Empty where that is no recording, or one without an activity.
+[[nodiscard]] std::string repeated_activity(const session::LiveOptions& live);
+// Takes the defaults of an activity's command out of its session, which stand for nothing that its user has said: what
+// is done again has its own. Without it the user was told that they do not count. `world_given`: by the user.
+void leave_to_recording(session::SculptOptions& options, bool world_given);
 
 }  // namespace burin::app

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "app/carve/report.hpp"
-#include "app/carve/sculpt_options.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/sculpt_options.hpp"
 #include "base/clock.hpp"
 #include "base/length_unit.hpp"
 #include "base/try.hpp"
@@ -190,7 +190,7 @@ CommandAction add_combine(Command command) {
     command.unit("--units", options.units, std::string("Of both files: ") + kUnitsHelp);
     command.unit("--export-units", options.export_units, "Unit of the numbers in exported files; else that of A");
     command.flag("--close-holes", options.close_holes, "Fill the holes of meshes that are not closed");
-    command.option("--weld", options.weld_m, kWeldHelp);
+    command.option("--weld", options.weld_m, kWeldHelp).within(session::kWeldBounds);
     command.option("--export", options.exports,
                    "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
     command.option("--report", options.report, "A JSON file for all figures");

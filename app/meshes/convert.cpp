@@ -10,8 +10,8 @@
 #include <string>
 #include <system_error>
 
-#include "app/carve/sculpt_options.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/sculpt_options.hpp"
 #include "app/meshes/convert_placing.hpp"
 #include "app/meshes/document_command.hpp"
 #include "app/recordings/session_export.hpp"
@@ -290,9 +290,11 @@ void add_mesh_options(Command command, ConvertOptions& o) {
     command.unit("--units", o.units, kUnitsHelp);
     command.unit("--export-units", o.export_units, "Unit of the numbers in OUT; else that of IN");
     command.flag("--close-holes", o.close_holes, "Fill holes and turn the triangles outwards");
-    command.option("--weld", o.weld_m,
-                   "Join corners at open edges that lie up to this far apart, in metres; with --close-holes at least "
-                   "as far as the file's numbers are precise");
+    command
+        .option("--weld", o.weld_m,
+                "Join corners at open edges that lie up to this far apart, in metres; with --close-holes at least "
+                "as far as the file's numbers are precise")
+        .within(session::kWeldBounds);
     command.option("--simplify", o.simplify_m, "Fewer triangles: the surface moves at most this far, in metres");
     add_placing_options(command, o);
 }

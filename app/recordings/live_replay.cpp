@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/recordings/live_replay.hpp"
 
+#include "app/recordings/changed_settings.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -22,7 +24,6 @@
 #include "scene/vrml_world.hpp"
 #include "scene/world_digest.hpp"
 #include "session/drive/tick_comparison.hpp"
-#include "session/input/input_words.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 #include "session/record/session_recording.hpp"
@@ -95,48 +96,12 @@ Result<void> check_recorded_file(const record::RecordReader& reader, const FileO
     return fail(path, what, "put the recorded one back, or try this one on purpose by --set " + set + path);
 }
 
-// Returns the settings with one of them changed, "OPTION=VALUE"; a value of nothing leaves an option out, and is a
-// flag's where it was not there.
-Result<std::string> with_setting(const std::string& settings, const std::string& change) {
-    const std::size_t equals = change.find('=');
-    if (equals == std::string::npos || equals == 0)
-        return fail("--set " + change, "changes nothing", "write OPTION=VALUE, such as friction=0.3");
-    const std::string name = "--" + change.substr(0, equals), value = change.substr(equals + 1);
-    BURIN_TRY(words, session::words_of(settings, "the recording's settings"));
-    std::string changed;
-    for (auto word = words.begin(); word != words.end(); ++word) {
-        const auto next = std::next(word);
-        const bool has_value = next != words.end() && !next->starts_with("--");
-        if (*word == name) {
-            if (has_value) ++word;
-            continue;
-        }
-        changed += (changed.empty() ? "" : " ") + (word->starts_with("--") ? *word : session::as_word(*word));
-    }
-    return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
-}
-
-// Likewise, and refuses what the option does not take on the command line either.
-Result<std::string> with_checked_setting(const std::string& settings, const std::string& change,
-                                         const session::SculptOptions& given) {
-    Result<std::string> changed = with_setting(settings, change);
-    if (!changed) return changed;
-    if (const auto known = session::options_as_recorded(*changed, given); !known)
-        return fail("--set " + change, known.error().what, "change an option of the session to a value that it takes");
-    return changed;
-}
-
-// Returns the settings with all changes, also of where files are now.
-Result<std::string> with_changes(std::string settings, const LiveReplay& how, const session::SculptOptions& given) {
+// Returns all changes, also of where files are now.
+std::vector<std::string> changes_of(const LiveReplay& how) {
     std::vector<std::string> changes = how.sets;
     if (!how.world.empty()) changes.push_back("world=" + how.world);
     if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
-    for (const std::string& change : changes) {
-        Result<std::string> changed = with_checked_setting(settings, change, given);
-        if (!changed) return changed;
-        settings = std::move(*changed);
-    }
-    return settings;
+    return changes;
 }
 
 // Checks that the files which the session read are those that were recorded.
@@ -206,6 +171,7 @@ Result<session::MadeActivity> activity_of(const record::RecordReader& reader, co
 struct PreparedReplay {
     session::InputLog log;
     session::SculptOptions options;
+    bool another_view = false;  // than the recorded one
 };
 
 // Reads the log, and makes the activity and the scene of the session anew.
@@ -213,7 +179,7 @@ Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
     BURIN_TRY(log, session::read_session_log(reader));
     if (log.torn_line || !log.threads)
         return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
-    PreparedReplay prepared{std::move(log), {}};
+    PreparedReplay prepared{std::move(log), {}, false};
     prepared.options.live.input = reader.path();
     prepared.options.live.offscreen = true;
     BURIN_TRY(made, activity_of(reader, prepared.log.settings));
@@ -229,8 +195,10 @@ Result<void> change_settings(const record::RecordReader& reader, const LiveRepla
     session::SculptOptions& options = prepared.options;
     BURIN_TRY(first, session::options_as_recorded(log.settings, options));
     BURIN_TRY_DO(check_changes(how, first.options, options.scene != nullptr));
-    BURIN_TRY(changed, with_changes(log.settings, how, options));
-    log.settings = std::move(changed);
+    BURIN_TRY(changed, with_changes(log.settings, changes_of(how), options));
+    log.settings = std::move(changed.settings);
+    options = std::move(changed.options);
+    prepared.another_view = changed.another_view;
     options.live.refuses_exports = true;
     options.live.screenshots = how.pictures;
     if (!how.pictures.empty()) BURIN_TRY_DO(session::make_picture_folder(how.pictures, "--pictures"));
@@ -305,6 +273,7 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     session::ReplayManner manner;
     manner.draws = !how.pictures.empty();
     manner.only_compares = true;
+    manner.another_view = prepared.another_view;
     manner.picture_every_ns = nanoseconds(how.every_s);
     manner.witness = &judge;
     manner.ticks = &reader;

@@ -164,8 +164,9 @@ void add_repeat_options(Command command, AskedReplay& o) {
     command.option("--stroke", o.stroke, "Where the stroke's file is now").asset(AssetRoom::strokes);
     command.option("--workpiece", o.workpiece, "Where the workpiece's file is now").asset(AssetRoom::workpieces);
     command.option("--set", o.sets,
-                   "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
-                   "The first difference then tells what that changes. Of a felt stroke: engine=cpu or engine=vulkan");
+                   "Of a live session: a setting that is changed, OPTION=VALUE as burin sculpt takes it, such as "
+                   "friction=0.3 or swap-eyes=on; may be repeated. The first difference then tells what that changes. "
+                   "Of a felt stroke: engine=cpu or engine=vulkan");
     command.option("--pictures", o.pictures, "Of a live session: a folder for pictures of it, named by their seconds");
     command.option("--every", o.every_s, "With --pictures: seconds of the session from one to the next")
         .within(0.001, 1e6)

@@ -17,6 +17,7 @@
 #include "app/cli/live_options.hpp"
 #include "app/cli/new_folders.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/recorded_files.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "app/rehab/rehab_pages.hpp"
 #include "app/rehab/rehab_results.hpp"
@@ -184,6 +185,12 @@ struct AskedExercise {
     [[nodiscard]] Result<SettingValues> values() const {
         Result<SettingValues> values = settings_in(settings, kind);
         if (!values) return values;
+        // A recording that is done again has its own, of which the user need give none.
+        const std::string repeated = settings.empty() ? repeated_activity(session.live) : "";
+        if (repeated.starts_with("rehab " + std::string(kind.name) + " ")) {
+            BURIN_TRY(recorded, activities::exercise_of(repeated));
+            *values = recorded->settings();
+        }
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             if (numbers[i]) values->set(kind.settings[i].key, *numbers[i]);
             if (words[i].empty()) continue;
@@ -283,6 +290,7 @@ Result<void> run_exercise(const AskedExercise& of) {
     BURIN_TRY(results, is_again ? ResultsOfRun::again(of.results, recording)
                                 : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise));
     session.activity = exercise;
+    if (!repeated_activity(live).empty()) leave_to_recording(session, false);
     const Result<void> done = run_recorded_session(session, "rehab");
     if (!exercise->exercise().course().events.empty()) folders.keep();
     return keep_run(of, *exercise, results, is_again, done);

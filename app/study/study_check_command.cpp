@@ -43,7 +43,8 @@ Result<void> check_protocol(const std::string& file) {
     for (const study::ProtocolFault& f : parsed.faults) std::printf("%s\n", line_of(f, file).c_str());
     std::fflush(stdout);
     if (!parsed.faults.empty())
-        return fail(file, std::to_string(parsed.faults.size()) + " faults", "correct what is listed");
+        return fail(file, std::to_string(parsed.faults.size()) + (parsed.faults.size() == 1 ? " fault" : " faults"),
+                    "correct what is listed");
     const study::Protocol& p = parsed.protocol;
     BURIN_TRY_DO(check_reach(p, file));
     std::printf("%s: %zu groups, %zu strata, %zu worlds, %zu stages, %zu days; no faults\n", file.c_str(),
@@ -90,7 +91,8 @@ Result<void> check_folder(const std::string& folder) {
         std::fprintf(stderr, "interrupted: %s\n", one.text().c_str());
     }
     if (faults > 0)
-        return fail(folder, std::to_string(faults) + " faults", "see above; what is not named there can be used");
+        return fail(folder, std::to_string(faults) + (faults == 1 ? " fault" : " faults"),
+                    "see above; what is not named there can be used");
     std::printf(
         "%s: protocol as frozen, %zu lines of journal chained, %zu files of data as recorded, %zu stages interrupted\n",
         folder.c_str(), study.journal().entries.size(), files, interruptions.size());

@@ -45,7 +45,8 @@ Result<void> study_init(const StudyInitOptions& options) {
     for (const study::ProtocolFault& f : parsed.faults) std::printf("%s\n", line_of(f, protocol).c_str());
     std::fflush(stdout);
     if (!parsed.faults.empty())
-        return fail(protocol, std::to_string(parsed.faults.size()) + " faults", "correct what is listed");
+        return fail(protocol, std::to_string(parsed.faults.size()) + (parsed.faults.size() == 1 ? " fault" : " faults"),
+                    "correct what is listed");
     BURIN_TRY_DO(check_reach(parsed.protocol, protocol));
     study::StudyMaking making;
     making.participants = options.participants;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "activities/grasp/grasp.hpp"
 #include "app/cli/live_options.hpp"
+#include "app/cli/recorded_files.hpp"
 #include "app/recordings/live_replay.hpp"
 #include "base/assets.hpp"
 #include "base/text.hpp"
@@ -101,7 +103,23 @@ CommandAction add_hand(Command command) {
         "glove on a line, which knows the piston's length alone",
         {{"distributed", activities::GloveRendering::distributed}, {"local", activities::GloveRendering::local}});
     add_live_options(command, hand.session.live);
-    return action([options] { return app::hand(*options); });
+    return action([options, command] {
+        options->given = command.given();
+        return app::hand(*options);
+    });
+}
+
+// Leaves to a recording that is done again what the user has not given; what was given must be as it was recorded.
+Result<activities::GraspOptions> grasp_of(const HandSession& hand, const std::string& repeated) {
+    if (!repeated.starts_with("hand ")) return hand.options;
+    BURIN_TRY(grasp, activities::grasp_options_of(repeated));
+    for (const std::string& option : hand.given) {
+        if (option == "--points") grasp.points = hand.options.points;
+        if (option == "--extent") grasp.extent_mm = hand.options.extent_mm;
+        if (option == "--mesh") grasp.stiffness = hand.options.stiffness;
+        if (option == "--rendering") grasp.rendering = hand.options.rendering;
+    }
+    return grasp;
 }
 
 }  // namespace
@@ -127,7 +145,10 @@ Result<void> hand(const HandSession& options) {
             "has the arm go by a script for " + scripted_world() + ", and " + session.world + " is another world",
             "lead the hand there with --input");
     if (live.offscreen && live.input.empty()) live.input = arm_script(has_line ? "glove" : "whole");
-    const auto activity = std::make_shared<activities::Grasp>(options.options);
+    const std::string repeated = repeated_activity(live);
+    BURIN_TRY(grasp, grasp_of(options, repeated));
+    if (!repeated.empty()) leave_to_recording(session, std::ranges::find(options.given, "FILE") != options.given.end());
+    const auto activity = std::make_shared<activities::Grasp>(grasp);
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "hand");
     if (done) print_grasps(*activity);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "activities/grasp/grasp_options.hpp"
 #include "app/cli/command_table.hpp"
@@ -17,6 +18,7 @@ struct HandSession {
     session::SculptOptions session;
     std::string grasp;  // a scripted hand that closes so; empty: none
     activities::GraspOptions options;
+    std::vector<std::string> given;  // names of the options that the command line gave
 };
 void prepare_hand(HandSession& hand);  // its world, glove and tool, as they are where no option says else
 [[nodiscard]] Result<void> hand(const HandSession& options);

@@ -56,7 +56,7 @@ private:
 
     void stepped() override {
         const FrameSeen& seen = log_.frames[next_ - 1];
-        if (!replay_.is_as_recorded(desk_.words())) note_departure(seen.line);
+        if (!replay_.is_as_recorded(desk_.words()) && !manner_.another_view) note_departure(seen.line);
         if (seen.refused) desk_.go_back_to(*seen.refused);
         if (shown_on_.shows()) static_cast<void>(shown_on_.inputs(0.0));  // ignored: the recording decides
         if (manner_.picture_every_ns <= 0 || time_ns_ < next_picture_ns_) return;
@@ -72,8 +72,16 @@ private:
         if (!manner_.draws) static_cast<void>(desk_.take_surface_updates());  // else the picture has taken them
     }
 
+    // Where every tick is compared, the first that differs says more than this does, and stands in a table and no line.
     void note_departure(std::size_t line) {
         if (departed_) return;
+        if (manner_.witness != nullptr) {
+            departed_ = Error{formatted("the replay departs from the recording at %.3f s: object, device or head are "
+                                        "placed otherwise then, though every tick before is equal",
+                                        seconds(time_ns_)),
+                              name_, kRemedy};
+            return;
+        }
         departed_ = Error{"the replay departs from the recording here", name_ + ":" + std::to_string(line), kRemedy};
         std::fprintf(stderr, "burin: %s; going on\n", departed_->line().c_str());
     }

@@ -39,6 +39,8 @@ Result<InputLog> open_log(const std::string& path, const Activity* activity = nu
         if (!log->threads) return fail(path, "the last line has no end", "end it with a line feed, or take it away");
         std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
     }
+    // Whose commands they are comes first: what a search is told makes no sense elsewhere.
+    if (log->threads) BURIN_TRY_DO(check_activity_on(log->settings, activity));
     BURIN_TRY_DO(check_commands(*log, path, activity));
     return log;
 }
@@ -156,6 +158,8 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     SculptOptions options = given;
     BURIN_TRY_DO(check_for_a_session(options));
     BURIN_TRY_DO(check_streams(options.live));
+    if (options.live.live && options.live.offscreen)
+        return fail("--offscreen", "opens no window, and --live asks for one", "leave one of them out");
     // What is recorded or streamed is played in real time.
     const bool in_real_time = !options.live.record.empty() || wants_streams(options.live);
     if (options.live.offscreen && options.live.input.empty()) {

@@ -41,6 +41,9 @@ struct ReplayManner {
     TickWitness* witness = nullptr;         // judges every tick; null: only the frames' checksums are compared
     record::RecordReader* ticks = nullptr;  // the session file that has the ticks, where the log has none
     SessionNotes* notes = nullptr;          // takes trials and events; null: nobody wants them
+    // It is shown otherwise than it was recorded, on purpose: what a frame's checksum covers of the view differs, and
+    // only ticks, trials, events and the surface at the end are judged.
+    bool another_view = false;
     // What the log asked for and did not get then either is no failure of the replay.
     bool only_compares = false;
     Nanoseconds picture_every_ns = 0;  // with draws: of session time, as SECONDS.png; 0: none

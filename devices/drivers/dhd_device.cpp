@@ -34,13 +34,11 @@ std::optional<DhdChoice> dhd_chosen(const std::string& text) {
 
 OmniModel omega_model() { return dhd_model_called("omega").figures; }
 
-Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand, Clock& clock) {
+Result<void> check_dhd(const std::string& choice_with_model) {
     const auto [choice_at_library, named_model] = without_model(choice_with_model);
-    const std::size_t at = choice_at_library.find('@');
-    const std::string first = choice_at_library.substr(0, at);
+    const std::string first = choice_at_library.substr(0, choice_at_library.find('@'));
     const std::string name = kDhd + (first.empty() ? std::string() : ":" + first);
-    auto choice = dhd_chosen(first);
-    if (!choice)
+    if (!dhd_chosen(first))
         return fail(
             "haptic device " + name, "names no device",
             "write a place in the library's list, from dhd:0, or a serial number, and @FILE for a library elsewhere");
@@ -48,6 +46,16 @@ Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand
     if (names_model && dhd_model_called(named_model).key != named_model)
         return fail("haptic device " + name, named_model.empty() ? "names no model" : "has no model " + named_model,
                     "write one of " + dhd_model_keys());
+    return check_library_named("haptic device " + name, choice_at_library);
+}
+
+Result<OpenedDevice> open_dhd(const std::string& choice_with_model, AnyHand hand, Clock& clock) {
+    BURIN_TRY_DO(check_dhd(choice_with_model));
+    const auto [choice_at_library, named_model] = without_model(choice_with_model);
+    const std::size_t at = choice_at_library.find('@');
+    const std::string first = choice_at_library.substr(0, at);
+    const std::string name = kDhd + (first.empty() ? std::string() : ":" + first);
+    auto choice = dhd_chosen(first);
     const bool is_emulated = first.starts_with("emulated");
     if (is_emulated && std::ranges::count(emulated_dhds(), first) == 0)
         return fail("haptic device " + name, "no emulator runs by this name",

@@ -3,6 +3,7 @@
 // PREFIX/lib/burin/emulators of a program that is installed as PREFIX/bin/burin.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -19,14 +20,19 @@ namespace burin::devices {
     return name;
 }
 
+// Refuses an @ with nothing behind it in what follows a device's name.
+[[nodiscard]] inline Result<void> check_library_named(const std::string& where, const std::string& text) {
+    const std::size_t at = text.find('@');
+    if (at == std::string::npos || at + 1 < text.size()) return {};
+    return fail(where, "names no library behind @", "write the library's file there, or leave the @ out");
+}
+
 // Returns which library a device is opened by: the one that is named behind an @, an emulated device's, which has to be
 // beside the program, or the maker's usual one. `address` is what stands before the @ and `library` what stands behind
-// it. `where` names the device in an Error.
+// it, which check_library_named() has seen. `where` names the device in an Error.
 [[nodiscard]] inline Result<std::string> library_chosen(const std::string& where, bool is_named,
                                                         const std::string& library, const std::string& address,
                                                         const char* emulated, const std::string& usual) {
-    if (is_named && library.empty())
-        return fail(where, "names no library behind @", "write the library's file there, or leave the @ out");
     if (is_named) return library;
     if (!address.starts_with("emulated")) return usual;
     std::string beside = library_beside(emulated);

@@ -38,13 +38,19 @@ void tell_if_unsure(HdDevice& device, const ArmModel& described) {
 
 }  // namespace
 
-Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand, Clock& clock) {
+Result<void> check_omni(const std::string& name_with_model) {
     const auto [name_at_library, named_model] = without_model(name_with_model);
     const bool names_model = name_at_library != name_with_model;
     if (names_model && hd_model_called(named_model).key != named_model)
         return fail("haptic device omni " + name_at_library,
                     named_model.empty() ? "names no model" : "has no model " + named_model,
                     "write one of " + hd_model_keys());
+    return check_library_named("haptic device omni " + name_at_library, name_at_library);
+}
+
+Result<OpenedDevice> open_omni(const std::string& name_with_model, AnyHand hand, Clock& clock) {
+    BURIN_TRY_DO(check_omni(name_with_model));
+    const auto [name_at_library, named_model] = without_model(name_with_model);
     const std::size_t at = name_at_library.find('@');
     const std::string name = name_at_library.substr(0, at);
     BURIN_TRY(library, library_chosen("haptic device omni " + name, at != std::string::npos,

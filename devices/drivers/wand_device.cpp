@@ -59,6 +59,8 @@ Result<WandDescription> wand_at(const std::string& text) {
     return read_wand(address.file, quanser_wand_of_maker());
 }
 
+Result<void> check_wand(const std::string& text) { return check_library_named("haptic device wand:" + text, text); }
+
 Result<OpenedDevice> open_wand(const std::string& text, AnyHand hand, Clock& clock) {
     const WandAddress address = wand_address(text);
     auto wand = wand_at(text);

@@ -64,14 +64,17 @@ OmniModel inverse3_model() {
             .watchdog_s = 0.0};
 }
 
+Result<void> check_inverse3(const std::string& choice) {
+    if (chosen_inverse3(choice)) return {};
+    return fail("haptic device " + std::string(kInverse3) + ":" + choice, "names neither a device nor a service",
+                "write inverse3, inverse3:ID, inverse3:HOST:PORT or inverse3:ID@HOST:PORT; burin devices lists IDs");
+}
+
 Result<OpenedDevice> open_inverse3(const std::string& choice_text, AnyHand hand, Clock& clock) {
+    BURIN_TRY_DO(check_inverse3(choice_text));
     const std::string name = kInverse3 + (choice_text.empty() ? std::string() : ":" + choice_text);
     const std::string where = "haptic device " + name;
     const auto choice = chosen_inverse3(choice_text);
-    if (!choice)
-        return fail(
-            where, "names neither a device nor a service",
-            "write inverse3, inverse3:ID, inverse3:HOST:PORT or inverse3:ID@HOST:PORT; burin devices lists IDs");
     auto line = std::make_unique<Inverse3Line>(
         name,
         [where, choice]() -> Result<NetworkAddress> {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/near_name.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "devices/drivers/dhd_device.hpp"
@@ -34,16 +35,11 @@
 namespace burin::devices {
 namespace {
 
-Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& file) {
-    if (!file.empty())
-        return fail("haptic device " + std::string(kDefaultHapticDevice), "takes no description: " + file,
-                    "write the name alone");
+Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& /*text*/) {
     return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock));
 }
 
-Result<OpenedDevice> open_mouse_arm(HapticHost host, const std::string& file) {
-    if (!file.empty())
-        return fail("haptic device " + std::string(kMouseArm), "takes no description: " + file, "write the name alone");
+Result<OpenedDevice> open_mouse_arm(HapticHost host, const std::string& /*text*/) {
     if (auto* const steered = std::get_if<SteeredHand>(&host.hand)) {
         BURIN_TRY_DO(steered->hold_by(mouse_grip()));
         steered->press_within(kMousePressesWithin_m);
@@ -62,18 +58,17 @@ Result<OpenedDevice> open_simulated_wand(HapticHost host, const std::string& fil
     return of_one_part(std::move(opened), amplifiers);
 }
 
-Result<OpenedDevice> open_simulated_fingers(HapticHost host, const std::string& file) {
-    if (!file.empty())
-        return fail("haptic device " + std::string(kSimulatedFingers), "takes no description: " + file,
-                    "write the name alone");
+Result<OpenedDevice> open_simulated_fingers(HapticHost host, const std::string& /*text*/) {
     return simulated_fingers(std::move(host.hand), host.clock);
 }
 
-Result<OpenedDevice> open_glove_at(const std::string& port, AnyHand hand, Clock& clock) {
-    if (port.empty())
-        return fail("haptic device " + std::string(kGlove), "names no port", "write one: glove:/dev/ttyUSB0");
-    return open_glove(port, std::move(hand), clock);
+Result<void> check_port(const std::string& port) {
+    if (!port.empty() && !port.starts_with('@')) return {};
+    return fail("haptic device " + std::string(kGlove), "names no port", "write one: glove:/dev/ttyUSB0");
 }
+
+// Of a driver that takes any text, or none at all.
+Result<void> any_text(const std::string& /*text*/) { return {}; }
 
 Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& shape) {
     const auto grip = shape.empty() ? GripShape::whole : grip_named(shape);
@@ -134,7 +129,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = Opening::simulated(open_simulated_omni)},
+               .open = Opening::simulated(open_simulated_omni),
+               .takes_text = false},
     HapticKind{.name = kMouseArm,
                .usage = "an arm without friction that goes where the mouse points, and that nobody feels",
                .parts = 1,
@@ -144,7 +140,8 @@ constexpr std::array kHapticKinds{
                .has_amplifiers = false,
                .handle = nullptr,
                .open = Opening::simulated(open_mouse_arm),
-               .has_force = false},
+               .has_force = false,
+               .takes_text = false},
     HapticKind{.name = kSimulatedWand,
                .usage = "a wand that is driven in three forces and two torques, in a simulated hand; "
                         "simulated-wand:FILE.toml as FILE describes it",
@@ -163,7 +160,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = Opening::simulated(open_simulated_fingers)},
+               .open = Opening::simulated(open_simulated_fingers),
+               .takes_text = false},
     HapticKind{.name = kGlove,
                .usage = "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
                .parts = kGloveFingers,
@@ -172,7 +170,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = Opening::driver({.open = open_glove_at,
+               .open = Opening::driver({.check = check_port,
+                                        .open = open_glove,
                                         .at_rest = [](const std::string&, AnyHand hand,
                                                       Clock& clock) { return open_glove({}, std::move(hand), clock); },
                                         .look = look_for_gloves})},
@@ -200,7 +199,8 @@ constexpr std::array kHapticKinds{
         .felt_by_person = true,
         .has_amplifiers = false,
         .handle = nullptr,
-        .open = Opening::driver({.open = open_omni, .at_rest = at_rest<omni_that_rests>, .look = look_for_omnis})},
+        .open = Opening::driver(
+            {.check = check_omni, .open = open_omni, .at_rest = at_rest<omni_that_rests>, .look = look_for_omnis})},
     HapticKind{
         .name = kHilWand,
         .usage = "a Quanser 5-DOF wand by its maker's library (HIL); wand:IDENTIFIER of its card, "
@@ -212,19 +212,21 @@ constexpr std::array kHapticKinds{
         .felt_by_person = true,
         .has_amplifiers = true,
         .handle = wand_at,
-        .open = Opening::driver({.open = open_wand, .at_rest = at_rest<wand_that_rests>, .look = look_for_wands}),
+        .open = Opening::driver(
+            {.check = check_wand, .open = open_wand, .at_rest = at_rest<wand_that_rests>, .look = look_for_wands}),
         .file_of = [](const std::string& text) { return wand_address(text).file; }},
-    HapticKind{.name = kFalcon,
-               .usage = "a Novint Falcon on USB; falcon:FIRMWARE to give it its firmware, falcon:PLACE or "
-                        "falcon:PLACE@FIRMWARE where there are several, falcon:emulated by burin devices emulate",
-               .parts = 1,
-               .is_upright = false,
-               .is_worn = false,
-               .felt_by_person = true,
-               .has_amplifiers = false,
-               .handle = nullptr,
-               .open = Opening::driver(
-                   {.open = open_falcon, .at_rest = at_rest<falcon_that_rests>, .look = look_for_falcons})},
+    HapticKind{
+        .name = kFalcon,
+        .usage = "a Novint Falcon on USB; falcon:FIRMWARE to give it its firmware, falcon:PLACE or "
+                 "falcon:PLACE@FIRMWARE where there are several, falcon:emulated by burin devices emulate",
+        .parts = 1,
+        .is_upright = false,
+        .is_worn = false,
+        .felt_by_person = true,
+        .has_amplifiers = false,
+        .handle = nullptr,
+        .open = Opening::driver(
+            {.check = any_text, .open = open_falcon, .at_rest = at_rest<falcon_that_rests>, .look = look_for_falcons})},
     HapticKind{.name = kDhd,
                .usage = "a Force Dimension omega, delta, sigma or lambda by its maker's library; dhd:INDEX as that "
                         "lists them, dhd:SERIAL, dhd:INDEX@LIBRARY for a library elsewhere, dhd:emulated by burin "
@@ -235,7 +237,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = Opening::driver({.open = open_dhd, .at_rest = at_rest<dhd_that_rests>, .look = look_for_dhds})},
+               .open = Opening::driver(
+                   {.check = check_dhd, .open = open_dhd, .at_rest = at_rest<dhd_that_rests>, .look = look_for_dhds})},
     HapticKind{.name = kInverse3,
                .usage = "a Haply Inverse3 by its maker's service; inverse3:ID as burin devices lists it, "
                         "inverse3:HOST:PORT or inverse3:ID@HOST:PORT for a service elsewhere, inverse3:emulated by "
@@ -246,8 +249,10 @@ constexpr std::array kHapticKinds{
                .felt_by_person = true,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = Opening::driver(
-                   {.open = open_inverse3, .at_rest = at_rest<inverse3_that_rests>, .look = look_for_inverse3s})},
+               .open = Opening::driver({.check = check_inverse3,
+                                        .open = open_inverse3,
+                                        .at_rest = at_rest<inverse3_that_rests>,
+                                        .look = look_for_inverse3s})},
     HapticKind{.name = kSpaceMouse,
                .usage =
                    "a simulated stylus whose hand a 3Dconnexion SpaceMouse leads; spacemouse:PLACE as burin devices "
@@ -259,8 +264,10 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = false,
                .handle = nullptr,
-               .open = Opening::driver(
-                   {.open = open_spacemouse, .at_rest = at_rest<spacemouse_that_rests>, .look = look_for_spacemice}),
+               .open = Opening::driver({.check = check_spacemouse,
+                                        .open = open_spacemouse,
+                                        .at_rest = at_rest<spacemouse_that_rests>,
+                                        .look = look_for_spacemice}),
                .leads_itself = true,
                .has_force = false},
     HapticKind{.name = kSpaceMouseWand,
@@ -271,7 +278,8 @@ constexpr std::array kHapticKinds{
                .felt_by_person = false,
                .has_amplifiers = true,
                .handle = spacemouse_wand_described,
-               .open = Opening::driver({.open = open_spacemouse_wand,
+               .open = Opening::driver({.check = check_spacemouse_wand,
+                                        .open = open_spacemouse_wand,
                                         .at_rest = at_rest<spacemouse_wand_that_rests>,
                                         .look = look_for_spacemouse_wands}),
                .file_of = spacemouse_file_of,
@@ -286,8 +294,10 @@ constexpr std::array kHapticKinds{
         .felt_by_person = false,
         .has_amplifiers = false,
         .handle = nullptr,
-        .open = Opening::driver({.open = open_sample, .at_rest = at_rest<sample_that_rests>, .look = look_for_samples}),
-        .leads_itself = true},
+        .open = Opening::driver(
+            {.check = any_text, .open = open_sample, .at_rest = at_rest<sample_that_rests>, .look = look_for_samples}),
+        .leads_itself = true,
+        .takes_text = false},
     HapticKind{.name = kRecordedDevice,
                .usage = "the hand of a recorded session, played again: recorded:FILE.session, or "
                         "recorded:FILE.session:HAND of several, each with ,loop to begin anew at the end",
@@ -307,6 +317,30 @@ struct ChosenKind {
     std::string file;
 };
 
+// Refuses what the kind does not take behind its name.
+Result<void> check_text(const HapticKind& kind, const std::string& text) {
+    if (kind.takes_text || text.empty()) return kind.open.check(text);
+    return fail("haptic device " + std::string(kind.name), "takes no description: " + text,
+                "write " + std::string(kind.name) + " alone");
+}
+
+// Returns how a name is written whose colon is missing: `rest` begins with what stands in its place. wand@LIBRARY is
+// wand:@LIBRARY and omni,model=touch-x has all of that as its text, spacemouse,speed=1 not the comma, and of
+// inverse3@HOST:PORT, where a device stands before the @, only the place is right.
+std::string with_colon(const HapticKind& kind, std::string_view rest) {
+    const std::string name(kind.name);
+    const bool names_model = rest.starts_with(",model=");
+    const bool keeps = names_model || (rest.starts_with('@') && kind.usage.contains('@'));
+    const std::string kept(rest), bare(rest.substr(1));
+    if (kind.takes_text && keeps) {
+        const auto right = kind.open.check(kept);
+        if (right) return "write " + name + ":" + kept;
+        if (names_model) return right.error().remedy;
+    }
+    if (kind.takes_text && !bare.empty() && kind.open.check(bare)) return "write " + name + ":" + bare;
+    return kind.open.check({}) ? "write " + name + " alone" : kind.open.check({}).error().remedy;
+}
+
 // Splits NAME:FILE. Fails where there is no device of the name.
 Result<ChosenKind> chosen(std::string_view name) {
     const std::string_view kind_name = name.substr(0, name.find(':'));
@@ -319,15 +353,14 @@ Result<ChosenKind> chosen(std::string_view name) {
     // wand@LIBRARY, where wand:@LIBRARY is meant, and omni,model=touch-x.
     const std::size_t end = name.find_first_of("@,=");
     const auto meant = std::ranges::find(kHapticKinds, name.substr(0, end), &HapticKind::name);
-    if (end != std::string_view::npos && meant != kHapticKinds.end()) {
-        const bool keeps = name[end] == '@' || name.substr(end).starts_with(",model=");
-        return fail(where, "has no colon behind the device's name",
-                    "write " + std::string(meant->name) + ":" + std::string(name.substr(keeps ? end : end + 1)));
-    }
+    if (end != std::string_view::npos && meant != kHapticKinds.end())
+        return fail(where,
+                    meant->takes_text ? "has no colon behind the device's name"
+                                      : "takes no description: " + std::string(name.substr(end)),
+                    with_colon(*meant, name.substr(end)));
     std::array<std::string_view, kHapticKinds.size()> names;
     std::ranges::transform(kHapticKinds, names.begin(), &HapticKind::name);
-    return fail(where, "is no device that Burin knows",
-                "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
+    return fail(where, "is no device that Burin knows", meant_by(kind_name, names) + "There are: " + joined(names));
 }
 
 // Returns the device that a recorded one plays; any other name as it is.
@@ -384,6 +417,7 @@ std::span<const HapticKind> haptic_kinds() { return kHapticKinds; }
 
 Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
     BURIN_TRY(wanted, chosen(name));
+    if (!host.stands_in) BURIN_TRY_DO(check_text(*wanted.kind, wanted.file));
     return wanted.kind->open(wanted.kind->name, std::move(host), wanted.file);
 }
 

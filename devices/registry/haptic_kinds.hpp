@@ -31,6 +31,7 @@ struct HapticKind {
     std::string (*file_of)(const std::string& text) = nullptr;
     // Mean what they mean in DeviceNature.
     bool leads_itself = false, has_force = true;
+    bool takes_text = true;  // behind its name and a colon; false: the name is all of it
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 

@@ -43,6 +43,9 @@ private:
 struct DriverFunctions {
     using Open = Result<OpenedDevice> (*)(const std::string& text, AnyHand hand, Clock& clock);
 
+    // Refuses a text of another form than the driver's, before anything is looked for: a slip is told as one,
+    // also where no device could be opened. The Error's remedy names a text that is right.
+    Needed<Result<void> (*)(const std::string& text)> check;
     Needed<Open> open;  // called in real time alone
     // Opens one of the same description that is nowhere and rests: a recording is done again, in any time.
     Needed<Open> at_rest;
@@ -58,6 +61,8 @@ public:
     [[nodiscard]] static consteval Opening driver(DriverFunctions functions) { return Opening(functions); }
 
     [[nodiscard]] constexpr bool is_driver() const { return simulated_ == nullptr; }
+    // Refuses what no device of the kind can be called. A simulated one refuses it as it is opened.
+    [[nodiscard]] Result<void> check(const std::string& text) const { return driver_.check(text); }
     // Opens it, or what stands in for it. Fails where a device that is really there was asked for in simulated time.
     // `name` is the kind's.
     [[nodiscard]] Result<OpenedDevice> operator()(std::string_view name, HapticHost host,
@@ -66,8 +71,9 @@ public:
     [[nodiscard]] std::vector<DevicePresence> look() const { return driver_.look(); }
 
 private:
-    consteval explicit Opening(OpenSimulated open) : simulated_(open), driver_{unused, unused, unused_look} {}
+    consteval explicit Opening(OpenSimulated open) : simulated_(open), driver_{any_text, unused, unused, unused_look} {}
     consteval explicit Opening(DriverFunctions functions) : driver_(functions) {}
+    static Result<void> any_text(const std::string&) { return {}; }
     static Result<OpenedDevice> unused(const std::string&, AnyHand, Clock&) { return OpenedDevice{}; }
     static std::vector<DevicePresence> unused_look() { return {}; }
 

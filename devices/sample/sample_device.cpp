@@ -128,7 +128,8 @@ std::string SampleLine::words_for(const LineNotice& notice) const {
 
 Result<OpenedDevice> open_sample(const std::string& text, AnyHand hand, Clock& clock) {
     if (!text.empty())
-        return fail("haptic device " + std::string(kSample), "takes no description: " + text, "write the name alone");
+        return fail("haptic device " + std::string(kSample), "takes no description: " + text,
+                    "write " + std::string(kSample) + " alone");
     BURIN_TRY(servo, LineServo::open(std::make_unique<SampleLine>(open_sample_cable)));
     return served_arm(std::move(servo), sample_description(), std::move(hand), clock);
 }

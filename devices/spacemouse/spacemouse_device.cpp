@@ -171,10 +171,20 @@ OpenedDevice opened(std::unique_ptr<LedBySpaceMouse<Arm>> whole, Amplifiers* amp
 
 }  // namespace
 
+Result<void> check_spacemouse(const std::string& text) {
+    BURIN_TRY(settings, spacemouse_settings(where_of(kSpaceMouse, text), text));
+    if (settings.file.empty()) return {};
+    return fail(where_of(kSpaceMouse, text), "takes no description: " + settings.file,
+                "write " + std::string(kSpaceMouseWand) + ":" + text + " for the wand that it describes");
+}
+
+Result<void> check_spacemouse_wand(const std::string& text) {
+    const auto settings = spacemouse_settings(where_of(kSpaceMouseWand, text), text);
+    return settings ? Result<void>{} : std::unexpected(settings.error());
+}
+
 Result<OpenedDevice> open_spacemouse(const std::string& text, AnyHand hand, Clock& clock) {
-    if (const std::string file = spacemouse_file_of(text); !file.empty())
-        return fail(where_of(kSpaceMouse, text), "takes no description: " + file,
-                    "write " + std::string(kSpaceMouseWand) + ":" + file + " for the wand that it describes");
+    BURIN_TRY_DO(check_spacemouse(text));
     BURIN_TRY(open, open_line(kSpaceMouse, text));
     return opened(std::make_unique<LedBySpaceMouse<SimulatedOmni>>(std::move(open.line), open.settings,
                                                                    beginning_of(hand), clock, OmniModel{}),

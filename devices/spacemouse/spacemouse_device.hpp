@@ -29,6 +29,9 @@ inline constexpr double kSpaceMouseTurnLead_rad = 0.3;
 
 // `text` is what follows the name (spacemouse_rates.hpp). The clock must be the machine's and outlive the device. The
 // hand says where it begins, and is not followed.
+// Refuse a text with settings that are none, and of the first one that describes a wand.
+[[nodiscard]] Result<void> check_spacemouse(const std::string& text);
+[[nodiscard]] Result<void> check_spacemouse_wand(const std::string& text);
 [[nodiscard]] Result<OpenedDevice> open_spacemouse(const std::string& text, AnyHand hand, Clock& clock);
 [[nodiscard]] Result<OpenedDevice> open_spacemouse_wand(const std::string& text, AnyHand hand, Clock& clock);
 // Devices that are nowhere and rest, for a recording that is done again.

@@ -25,7 +25,8 @@ constexpr std::array kRateSettings{
     RateSetting{"dead", &SpaceMouseSettings::dead_zone, 0.0, 0.9},
 };
 constexpr const char* kHowToWrite =
-    "write a place as burin devices lists it, and settings after commas: hidraw3,speed=0.08,turn=1.2,dead=0.1";
+    "write a place as burin devices lists it, settings, or both with commas between them: "
+    "hidraw3,speed=0.08,turn=1.2,dead=0.1";
 
 Result<void> set(SpaceMouseSettings& settings, const std::string& where, const std::string& item) {
     const std::size_t equals = item.find('=');
@@ -61,7 +62,8 @@ Result<SpaceMouseSettings> spacemouse_settings(const std::string& where, const s
         }
         std::string& named = item.ends_with(".toml") ? settings.file : settings.place;
         if (!named.empty() || item.empty())
-            return fail(where, item.empty() ? "has nothing between two commas" : "names two: " + named + ", " + item,
+            return fail(where,
+                        item.empty() ? "has nothing on one side of a comma" : "names two: " + named + ", " + item,
                         kHowToWrite);
         named = item;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/near_name.hpp"
 #include "base/text.hpp"
 #include "session/input/input_words.hpp"
 
@@ -31,14 +32,14 @@ Result<void> check_act(const Activity* activity, std::span<const std::string> wo
     const std::string name = words.empty() ? "" : words.front();
     if (activity == nullptr)
         return fail("command do " + name, "is for an activity, and this session has none",
-                    "start one: burin seek, or burin study run");
+                    "start one: burin seek, burin rehab, or burin study run");
     std::vector<std::string_view> names;
     for (const Act& known : activity->acts()) names.push_back(known.name);
     if (const auto known = std::ranges::find(activity->acts(), name, &Act::name); known != activity->acts().end())
         return check_arguments(*known, words.subspan(1));
     if (names.empty()) return fail("command do " + name, "is no act of this activity", "it has none");
     return fail("command do " + name, "is no act of this activity",
-                "did you mean " + std::string(nearest_name(name, names)) + "?");
+                meant_by(name, names) + "There are " + joined(names));
 }
 
 }  // namespace burin::session

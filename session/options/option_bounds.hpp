@@ -16,6 +16,7 @@ inline constexpr Bounds<int> kResolutionBounds{compute::kMinResolution, compute:
 inline constexpr Bounds<double> kSweepToleranceBounds{0.001, 1000.0};  // lattice cells
 inline constexpr Bounds<double> kSmoothStrengthBounds{0.0, 1.0};
 inline constexpr Bounds<double> kRoomBounds{0.0, 2.0};               // of the longest side
+inline constexpr Bounds<double> kWeldBounds{1e-9, 1000.0};           // metres
 inline constexpr Bounds<int> kUndoMemoryBounds{1, 1 << 20};          // MiB
 inline constexpr std::initializer_list<int> kSampleCounts{0, 1, 4};  // a pixel; 0: the session chooses
 

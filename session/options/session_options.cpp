@@ -16,10 +16,17 @@ bool is_hand_name(const std::string& name) {
     return !name.empty() && name.size() <= 32 && name.find_first_not_of(kLetters) == std::string::npos;
 }
 
+// Returns where the = behind a hand's name is; npos: a device alone is named. That may have a = of its own behind a
+// colon or, where the colon is missing, behind the comma of a setting: omni,model=touch-x.
+std::size_t hand_ends_at(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    return equals < text.find_first_of(":,@") ? equals : std::string::npos;
+}
+
 }  // namespace
 
 Result<NamedDevice> parse_named_device(const std::string& text) {
-    const std::size_t equals = text.find('=');
+    const std::size_t equals = hand_ends_at(text);
     NamedDevice named{text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1)};
     if (equals == std::string::npos)
         return fail("--device " + text, "does not say whose device it is, and there are several hands",
@@ -89,9 +96,7 @@ void settle_room(SculptOptions& options, bool in_session) {
 Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& given) {
     if (given.empty()) return {};
     live.device_given = true;
-    // A device alone may have a = in the name of its file, behind the colon.
-    const auto is_named = [](const std::string& text) { return text.find('=') < text.find(':'); };
-    if (given.size() == 1 && !is_named(given.front())) {
+    if (given.size() == 1 && hand_ends_at(given.front()) == std::string::npos) {
         live.device = given.front();
         return {};
     }

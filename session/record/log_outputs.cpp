@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/file_io.hpp"
 #include "base/places.hpp"
@@ -179,14 +182,20 @@ Result<void> check_commands(const InputLog& log, const std::string& name, const 
     BURIN_TRY(state, plain_state());
     auto meshes = std::make_shared<ToolMeshes>();
     state.meshes = meshes;
+    std::vector<Error> wrong;
     for (const InputEvent& event : log.events) {
         const auto* command = std::get_if<CommandInput>(&event.input);
         if (command == nullptr) continue;
+        Result<void> ok;
         if (const auto tool = tool_in(*command))
-            if (const auto read = meshes->read(*tool); !read) return on_line(read.error(), name, event.line);
-        if (const auto ok = check_command(*command, state, activity); !ok) return on_line(ok.error(), name, event.line);
+            if (const auto read = meshes->read(*tool); !read) ok = std::unexpected(read.error());
+        if (ok) ok = check_command(*command, state, activity);
+        if (!ok) wrong.push_back(on_line(ok.error(), name, event.line).error());
     }
-    return {};
+    if (wrong.empty()) return {};
+    if (wrong.size() == 1) return std::unexpected(wrong.front());
+    for (const Error& one : wrong) std::fprintf(stderr, "burin: %s\n", one.line().c_str());
+    return fail(name, std::to_string(wrong.size()) + " mistakes", "correct them; they are listed above");
 }
 
 // ---- Places

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/text.hpp"
+#include "base/near_name.hpp"
 #include "base/try.hpp"
 #include "document/document_file.hpp"
 #include "sculpt/workpiece.hpp"
@@ -16,9 +16,6 @@ namespace {
 
 using Parsed = Result<SessionCommand>;
 using CommandWords = std::span<const std::string>;
-
-// The input log's bound on all lengths.
-constexpr double kMostLength_m = 10.0;
 
 std::unexpected<Error> no_argument(std::string_view command, std::string_view given, const std::string& remedy) {
     return fail("command " + std::string(command) + (given.empty() ? "" : " " + std::string(given)),
@@ -35,8 +32,7 @@ std::string listed(const auto& names) {
 Result<std::size_t> choice(std::string_view command, std::string_view word, std::span<const std::string_view> names) {
     const auto at = std::ranges::find(names, word);
     if (at == names.end()) {
-        return no_argument(command, word,
-                           "did you mean " + std::string(nearest_name(word, names)) + "? There are " + listed(names));
+        return no_argument(command, word, meant_by(word, names) + "There are " + listed(names));
     }
     return static_cast<std::size_t>(at - names.begin());
 }
@@ -73,9 +69,6 @@ Parsed parse_tool(CommandWords words) {
     BURIN_TRY(kind, choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds()));
     const std::string where = "command tool " + text;
     BURIN_TRY(tool, sculpt::parse_tool_spec(text, where));
-    if (std::ranges::any_of(tool.sizes_m, [](double size_m) { return size_m > kMostLength_m; })) {
-        return fail(where, "is larger than 10 m", "give sizes in metres");
-    }
     return SetTool{std::move(tool)};
 }
 
@@ -252,6 +245,8 @@ Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& proper
     if (is_opacity && !is_part(value[0])) return fail(where, "is out of bounds", kOpacityRemedy);
     if (property.property == scene::ObjectProperty::orientation && !(Vec3(value[0], value[1], value[2]) != Vec3(0.0)))
         return fail(where, "has an axis without length", "write an axis and an angle in radians, such as 0,1,0,1.57");
+    if (const auto possible = scene::check_value(property.property, value); !possible)
+        return fail(where, possible.error().what, possible.error().remedy);
     return value;
 }
 
@@ -385,7 +380,7 @@ Parsed parse_action(const CommandInput& input) {
         std::vector<std::string_view> known;
         for (const CommandSpec& spec : all_commands()) known.push_back(spec.name);
         return fail("command " + input.name, "is not known",
-                    "did you mean " + std::string(nearest_name(input.name, known)) + "? F1 lists all commands");
+                    meant_by(input.name, known) + "docs/formats.md lists all commands, and F1 in a window");
     }
     if (!input.arguments.empty()) {
         return fail("command " + input.name, "takes no argument",

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -31,7 +32,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--units", o.workpiece.units);
     visit("--export-units", o.export_units);
     visit("--close-holes", o.workpiece.close_holes);
-    visit("--weld", o.workpiece.weld_m);
+    visit("--weld", o.workpiece.weld_m, kWeldBounds);
     visit("--resolution", o.workpiece.resolution, kResolutionBounds);
     visit("--room", o.workpiece.room, kRoomBounds);
     visit("--crumbs", o.crumbs_m);
@@ -220,11 +221,14 @@ Result<void> check_activity(OptionWords& words, const Activity* given) {
     const auto named = [](const std::string& settings) {
         return settings.empty() ? "no activity" : "the activity " + as_word(settings);
     };
-    return fail("the recording", "is of " + named(then) + ", and this session has " + named(now),
-                then.empty() ? "replay it with burin sculpt or burin world"
-                             : "do a session file again with burin replay FILE; a log as text with the command that "
-                               "recorded it: burin " +
-                                   then);
+    const std::string command = then.substr(0, then.find(" --"));  // "rehab ball" of its settings
+    std::string remedy = "replay it with burin sculpt or burin world";
+    if (!then.empty() && now.starts_with(command))
+        remedy = "leave out what was given otherwise: the recording has its own";
+    else if (!then.empty())
+        remedy = "do it again with the command that recorded it, burin " + command +
+                 " --input FILE, or a session file with burin replay FILE";
+    return fail("the recording", "is of " + named(then) + ", and this session has " + named(now), remedy);
 }
 
 // Completes the options of a recording that names no unit. Every recording has named one since there are units; before,
@@ -289,6 +293,35 @@ Result<std::vector<NamedDevice>> hands_on(const std::string& line) {
     return hands;
 }
 
+std::vector<std::string> setting_names() {
+    std::vector<std::string> names;
+    const SculptOptions defaults;
+    visit_settings(defaults, [&](const char* name, const auto&...) { names.emplace_back(name); });
+    return names;
+}
+
+Result<std::string> with_setting_of(const SculptOptions& from, const std::string& option, const std::string& line) {
+    BURIN_TRY(words, words_of(line, "the recording's first line"));
+    std::string changed;
+    for (auto word = words.begin(); word != words.end(); ++word) {
+        if (*word == option) {
+            if (const auto next = std::next(word); next != words.end() && !next->starts_with("--")) ++word;
+            continue;
+        }
+        changed += (changed.empty() ? "" : " ") + (word->starts_with("--") ? *word : as_word(*word));
+    }
+    const OptionWords behind = words_behind(from);
+    const auto found = behind.find(option);
+    if (found == behind.end()) return changed;
+    return changed + " " + option + (found->second.empty() ? "" : " " + as_word(found->second));
+}
+
+Result<void> check_activity_on(const std::string& line, const Activity* given) {
+    if (!has_options(line)) return {};
+    BURIN_TRY(words, words_on(line));
+    return check_activity(words, given);
+}
+
 Result<std::string> activity_on(const std::string& line) { return option_on(line, kActivity); }
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
@@ -311,7 +344,7 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
         const auto found = words.extract(name);
         if (!found || !wrong.empty()) return;
         if (!read(found.mapped(), value))
-            wrong = then + " is no value of that option";
+            wrong = found.mapped().empty() ? name + " has no value" : then + " is no value of that option";
         else if (const std::string wanted = beyond(value, bounds...); !wanted.empty())
             wrong = then + " is not " + wanted;
     });

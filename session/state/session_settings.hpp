@@ -22,6 +22,15 @@ namespace burin::session {
 // Returns the settings of the activity of a recording's line (Activity::settings()); empty where it had none.
 [[nodiscard]] Result<std::string> activity_on(const std::string& line);
 
+// Returns the names of all options that such lines may hold, "--world" first; the activity is none.
+[[nodiscard]] std::vector<std::string> setting_names();
+// Returns the line with one of those options as `from` has it, last; without it where `from` leaves it out.
+[[nodiscard]] Result<std::string> with_setting_of(const SculptOptions& from, const std::string& option,
+                                                  const std::string& line);
+
+// Checks that a recording's line is of the given activity; null: of none. The Error names the command that recorded it.
+[[nodiscard]] Result<void> check_activity_on(const std::string& line, const Activity* given);
+
 // Reads the options of a recording's line; options that such lines never hold keep their given values. A recording
 // without a unit is read in metres, as it was made. The Error names an option that is unknown or wrong, or says that
 // the recording is of another activity than the given one.

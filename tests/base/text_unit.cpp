@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "base/near_name.hpp"
 #include "base/statistics.hpp"
 
 namespace burin {
@@ -69,4 +70,19 @@ TEST(Statistics, MeanSumAndExtremesAreThoseOfTheValues) {
 }
 
 }  // namespace
+// frobnicate was taken for force, fit for quit and panel for hand.
+TEST(Text, GuessesNoNameThatIsFarFromTheWord) {
+    const std::vector<std::string_view> names{"force", "quit", "hand", "mouse", "oak", "start"};
+    for (const std::string_view far : {"frobnicate", "fit", "panel", "xyzzy", ""}) {
+        EXPECT_EQ(near_name(far, names), "") << far;
+        EXPECT_EQ(meant_by(far, names), "") << far;
+    }
+    EXPECT_EQ(near_name("mose", names), "mouse");
+    EXPECT_EQ(near_name("oka", names), "oak") << "exchanged letters are one slip";
+    EXPECT_EQ(near_name("strat", names), "start");
+    EXPECT_EQ(meant_by("quti", names), "did you mean quit? ");
+    EXPECT_EQ(near_name("mouse" + std::string(10000000, 'x'), names), "") << "cut off, not slow";
+    EXPECT_EQ(near_name("mouse", {}), "");
+}
+
 }  // namespace burin

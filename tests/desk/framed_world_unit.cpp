@@ -176,7 +176,7 @@ TEST(FramedWorldSession, SwitchesTakeYesAndNo) {
     world.command("object", {"left", "felt", "yes"});
     EXPECT_TRUE(world.state().world->find(1)->felt);
     testing::internal::CaptureStderr();
-    world.command("object", {"left", "felt", "nope"});
+    world.command("object", {"left", "felt", "noo"});
     EXPECT_NE(testing::internal::GetCapturedStderr().find("did you mean no?"), std::string::npos);
 }
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "devices/haptic/recorded_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
@@ -45,7 +47,8 @@ TEST(HapticRegistry, HasNoRowOfADriverWithoutAllItsFunctions) {
     SimulatedClock clock;
     for (const HapticKind& kind : haptic_kinds()) {
         if (!kind.open.is_driver()) continue;
-        const auto opened = open_haptic_device(std::string(kind.name) + ":emulated", host_of(clock));
+        const auto opened =
+            open_haptic_device(std::string(kind.name) + (kind.takes_text ? ":emulated" : ""), host_of(clock));
         ASSERT_FALSE(opened) << kind.name << " was opened in simulated time";
         EXPECT_TRUE(opened.error().line().contains("time is simulated")) << opened.error().line();
     }
@@ -129,16 +132,65 @@ TEST(HapticRegistry, SaysTheRightFormOfATrackersNameAnEmptyLibraryAndAMissingCol
     EXPECT_TRUE(said("dtrack:5000").contains("give it as --tracker dtrack:5000"));
     EXPECT_TRUE(said("wand@/x/libhil.so").contains("write wand:@/x/libhil.so")) << said("wand@/x/libhil.so");
     for (const std::string arm : {"omni", "dhd"}) {
-        const std::string model = ",model=delta";
+        const std::string model = arm == "omni" ? ",model=touch-x" : ",model=delta";
         EXPECT_TRUE(said(arm + model).contains("write " + arm + ":" + model)) << said(arm + model);
         EXPECT_TRUE(said(arm + ":,model=").contains("names no model")) << said(arm + ":,model=");
     }
+    EXPECT_TRUE(said("omni,model=delta").contains("write one of ")) << said("omni,model=delta");
+    EXPECT_TRUE(said("inverse3@localhost:1").contains("write inverse3:localhost:1")) << said("inverse3@localhost:1");
     EXPECT_TRUE(said("dhd@/x/libdhd.so").contains("write dhd:@/x/libdhd.so"));
     EXPECT_TRUE(said("spacemouse,speed=0.1").contains("write spacemouse:speed=0.1"));
     for (const std::string name : {"dhd:@", "wand:@", "omni:@", "wand:emulated@", "dhd:emulated@", "omni:emulated@"})
         EXPECT_FALSE(said(name).contains("cannot be loaded")) << said(name);
     for (const std::string name : {"dhd:@", "wand:@", "omni:@"})
         EXPECT_TRUE(said(name).contains("names no library behind @")) << said(name);
+}
+
+// sample@x was answered with sample:@x, and inverse3@localhost:1 with inverse3:@localhost:1, which are refused too.
+TEST(HapticRegistry, NamesNoRemedyForAMissingColonThatItRefusesItself) {
+    SimulatedClock clock;
+    for (const HapticKind& kind : haptic_kinds()) {
+        for (const std::string behind : {"@x", ",x", "=left", "@localhost:1", ",model=touch-x", ",speed=1", "@"}) {
+            const std::string wrong = std::string(kind.name) + behind;
+            const auto refused = open_haptic_device(wrong, host_of(clock));
+            ASSERT_FALSE(refused) << wrong;
+            const std::string& remedy = refused.error().remedy;
+            if (!remedy.starts_with("write " + std::string(kind.name))) continue;  // an alternative in words
+            const std::string right = remedy.substr(6, remedy.find(' ', 6) - 6);
+            const auto again = open_haptic_device(right, host_of(clock));
+            if (again) continue;
+            const std::string line = again.error().line();
+            // A simulated one says what it misses itself: a file of that name.
+            EXPECT_TRUE(!kind.open.is_driver() || line.contains("time is simulated")) << wrong << ": " << line;
+            EXPECT_FALSE(line.contains("takes no description") || line.contains("has no colon"))
+                << wrong << ": " << line;
+        }
+        if (kind.takes_text) continue;
+        const auto refused = open_haptic_device(std::string(kind.name) + ":x", host_of(clock));
+        ASSERT_FALSE(refused) << kind.name;
+        EXPECT_TRUE(refused.error().line().contains("write " + std::string(kind.name) + " alone"))
+            << refused.error().line();
+    }
+}
+
+// That they are there in real time alone was said first, which sent the user on to the next fault.
+TEST(HapticRegistry, TellsAMisspeltTextBeforeThatTimeIsSimulated) {
+    SimulatedClock clock;
+    for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
+             {"omni:,model=none", "has no model none"},
+             {"dhd:,model=none", "has no model none"},
+             {"dhd:x", "names no device"},
+             {"wand:1@", "names no library behind @"},
+             {"inverse3:@localhost:1", "names neither a device nor a service"},
+             {"spacemouse:speed=nan", "'speed=nan' is no number of that setting"},
+             {"spacemouse:,speed=1", "has nothing on one side of a comma"},
+             {"spacemouse:w.toml", "write spacemouse-wand:w.toml"},
+             {"spacemouse-wand:speed=x", "is no number of that setting"},
+             {"glove", "names no port"}}) {
+        const auto opened = open_haptic_device(name, host_of(clock));
+        ASSERT_FALSE(opened) << name;
+        EXPECT_TRUE(opened.error().line().contains(said)) << opened.error().line();
+    }
 }
 
 }  // namespace burin::devices

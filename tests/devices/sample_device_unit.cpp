@@ -136,7 +136,7 @@ TEST(SampleDevice, IsOpenedByItsNameIsThereAndTakesNoDescription) {
     EXPECT_EQ(opened->parts.front().device->description().max_force_N, kSampleMost_N);
     const auto refused = open_haptic_device("sample:7", host());
     ASSERT_FALSE(refused);
-    EXPECT_TRUE(refused.error().line().contains("write the name alone")) << refused.error().line();
+    EXPECT_TRUE(refused.error().line().contains("write sample alone")) << refused.error().line();
     ASSERT_EQ(look_for_samples().size(), 1u);
     EXPECT_EQ(look_for_samples().front().presence, Presence::there);
 }

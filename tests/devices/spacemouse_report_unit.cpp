@@ -197,7 +197,7 @@ TEST(SpaceMouseSettings, AreReadAndBoundedAndNamedWhenWrong) {
     EXPECT_TRUE(settings_error("dead=1").contains("write one from 0 to 0.9"));
     EXPECT_TRUE(settings_error("turn=2x").contains("is no number"));
     EXPECT_TRUE(settings_error("hidraw1,hidraw2").contains("names two"));
-    EXPECT_TRUE(settings_error("hidraw1,,dead=0").contains("nothing between two commas"));
+    EXPECT_TRUE(settings_error("hidraw1,,dead=0").contains("nothing on one side of a comma"));
 }
 
 }  // namespace burin::devices

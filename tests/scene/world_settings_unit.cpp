@@ -108,7 +108,8 @@ TEST(WorldSettings, TellEveryProblemAtItsLine) {
               "yard.toml:6: scale is -1; give a factor from 1e-6 to 1e6\n"
               "yard.toml:7: colour is red; write red, green and blue as \"#c08040\", say\n"
               "yard.toml:8: mesh has no place here, since the shape is the world's; leave it out\n"
-              "yard.toml:10: stiffness is 0; give N/m, such as 600; felt = false makes an object that is not felt\n"
+              "yard.toml:10: stiffness is 0; give N/m above 0 and up to 1e+05, such as 600; felt = false makes "
+              "an object that is not felt\n"
               "yard.toml:12: name is Rock again, after line 5; write all of an object into one table\n"
               "yard.toml:13: [[object]] has no key named sen; did you mean seen?\n");
     EXPECT_NE(told("[[object]]\nfelt = false\n").find("[[object]] has no name"), std::string::npos);

@@ -32,7 +32,7 @@ TEST(SettingsOfARecording, BeyondTheBoundsOfTheCommandLineAreRefusedByThem) {
              {"--room 3", "--room 3 is not from 0 to 2"},
              {"--samples 3", "--samples 3 is not one of 0, 1, 4"},
              {"--width 99999999999999999999", "--width 99999999999999999999 is no value of that option"},
-             {"--resolution", "--resolution is no value of that option"},
+             {"--resolution", "--resolution has no value"},
              {"--close-holes no", "--close-holes no is no value of that option"},
              {"--flavour sweet", "--flavour is no option that a session knows"}}) {
         EXPECT_NE(refusal_of(settings).find(said), std::string::npos) << settings << ": " << refusal_of(settings);

@@ -308,6 +308,19 @@ TEST(Command, AWorkpieceFarFromItsOriginIsExportedOnlyWhereNumbersSuffice) {
     EXPECT_EQ(place.run(kBurin + " convert tiny.off tiny.obj").status, 0);
 }
 
+// What had no effect was taken in silence.
+TEST(Command, RefusesOptionsThatContradictEachOtherAndSizesThatNoSessionTakes) {
+    Workplace place;
+    place.write("s.csv", kStrokeHeader + "0,0,0,0.06,0,0,0,1,1\n");
+    place.write("s.txt", "burin-input 1 test\n0.1 close\n");
+    const std::string stroke = "sculpt --workpiece ball:0.05 --resolution 32 --stroke s.csv --export o.stl ";
+    expect_refused(place, "sculpt --live --offscreen --input s.txt", 1, {"--offscreen", "leave one of them out"});
+    expect_refused(place, stroke + "--tool ball:1e9", 1, {"ball:1e9", "is larger than 10 m"});
+    expect_refused(place, "sculpt --tool ball:10.1 --offscreen --input s.txt", 1, {"ball:10.1", "is larger than 10 m"});
+    for (const std::string weld : {"-1", "0", "nan"})
+        expect_refused(place, stroke + "--weld " + weld, 2, {"--weld", "is no number"});
+}
+
 TEST(Command, AnExistingFileSurvivesAFailedRun) {
     Workplace place;
     place.write("out.stl", "precious");

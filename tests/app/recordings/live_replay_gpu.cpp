@@ -82,19 +82,40 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
     EXPECT_TRUE(tells(at.run(kLiveBurin + " replay a.session --set tol=1"), "no option")) << "a setting that is none";
     // What no command line takes, no replay takes either.
     for (const auto& [set, said] : std::vector<std::pair<std::string, std::string>>{
-             {"width=9", "--set width=9: --width 9 is not from 64 to 8192"},
-             {"resolution=4096", "--resolution 4096 is not from 16 to 2048"},
-             {"samples=3", "--samples 3 is not one of 0, 1, 4"},
-             {"undo-memory=-1", "--undo-memory -1 is no value of that option"},
-             {"smooth-strength=nan", "--smooth-strength nan is not from 0 to 1"},
+             {"width=9", "--set width=9: '9' is no whole number from 64 to 8192"},
+             {"resolution=4096", "'4096' is no whole number from 16 to 2048"},
+             {"samples=3", "--set samples=3: "},
+             {"undo-memory=-1", "'-1' is no whole number from 1 to 1048576"},
+             {"smooth-strength=nan", "'nan' is no number from 0 to 1"},
              {"friction=9", "--friction: is out of range; give a number from 0 to 2"},
              {"friction=nan", "--friction: is out of range"},
              {"tool=ball:-1", "ball:-1"},
-             {"hardness=stone", "--hardness stone"}}) {
+             {"hardness=stone", "--hardness stone"},
+             {"shadow=off", "did you mean shadows?"},
+             {"swap-eyes=maybe", "'maybe' is no value of a flag; write on or off"},
+             {"close-holes=3x", "is no value of a flag"},
+             {"units=", "names no value, and the recording needs one"},
+             {"first-steps=on", "is no option"},
+             {"world=nowhere", "'nowhere' is no file, and not among the worlds"}}) {
         const auto refused = at.run(kLiveBurin + " replay a.session --set " + set);
         EXPECT_EQ(refused.status, 1) << set;
         EXPECT_TRUE(tells(refused, said)) << refused.output;
         EXPECT_FALSE(tells(refused, "equal")) << refused.output;
+    }
+    // What the command line takes, a replay takes: flags, names of assets, and options that no recording keeps. What
+    // changes the view alone leaves every tick as it was, though frames are seen otherwise.
+    for (const std::string set :
+         {"swap-eyes=on", "swap-eyes=false", "close-holes=true", "shadows=off", "detail=full", "stereo=side-by-side",
+          "width=400", "panel-scale=2", "edge-comfort=on", "friction="}) {
+        const auto same = at.run(kLiveBurin + " replay a.session --set " + set);
+        EXPECT_EQ(same.status, 0) << set << ": " << same.output;
+        EXPECT_TRUE(tells(same, "equal to the bit")) << same.output;
+        EXPECT_FALSE(tells(same, "departs")) << same.output;
+    }
+    for (const std::string set : {"world=garden", "workpiece=soccer_ball"}) {
+        const auto elsewhere = at.run(kLiveBurin + " replay a.session --set " + set);
+        EXPECT_EQ(elsewhere.status, 1) << set;
+        EXPECT_TRUE(tells(elsewhere, "equal ticks: tick 1, object_from_device")) << elsewhere.output;
     }
     EXPECT_TRUE(tells(at.run(kLiveBurin + " replay a.session --to 0"), "has no ticks in this range"));
 
@@ -129,6 +150,53 @@ TEST(LiveRecording, IsNotDoneAgainInAnotherWorldThanItWasRecordedIn) {
     EXPECT_TRUE(tells(on_purpose, "is another world")) << on_purpose.output;
     EXPECT_EQ(on_purpose.status, 1);
     EXPECT_TRUE(tells(on_purpose, "differs after ")) << on_purpose.output;
+}
+
+// The points of a fingertip's patch were taken for those of a handle, and other options of an activity for none at all.
+TEST(LiveRecording, KeepsTheOptionsOfItsActivity) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("use.txt", "burin-input 1 test\n0.1 close\n");
+    const std::string by = " --offscreen --width 320 --height 200 --input use.txt --record ";
+    ASSERT_EQ(at.run(kLiveBurin + " hand" + by + "h.session").status, 0);
+    ASSERT_EQ(at.run(kLiveBurin + " seek garden" + by + "s.session").status, 0);
+    for (const std::string set : {"h.session --set points=2", "h.session --set extent=5", "s.session --set seed=2",
+                                  "s.session --set targets=1"}) {
+        const auto refused = at.run(kLiveBurin + " replay " + set);
+        EXPECT_EQ(refused.status, 1) << set;
+        EXPECT_TRUE(tells(refused, "is the activity's own, and cannot be changed")) << refused.output;
+    }
+}
+
+// The command wanted again what the recording knows, and told defaults of its own as what the user had given.
+TEST(LiveRecording, IsDoneAgainByItsCommandWithoutItsOptions) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("use.txt", "burin-input 1 test\n0.05 command do start\n0.1 close\n");
+    at.write("rest.txt", "burin-input 1 test\n0.1 close\n");
+    const std::string by = " --offscreen --width 320 --height 200 --record ";
+    ASSERT_EQ(at.run(kLiveBurin + " seek garden --targets 2 --seed 5 --input use.txt" + by + "s.session").status, 0);
+    ASSERT_EQ(at.run(kLiveBurin + " hand --points 3 --extent 4 --mesh literal --device simulated-glove:pinch " +
+                     "--input rest.txt" + by + "h.session")
+                  .status,
+              0);
+    ASSERT_EQ(at.run(kLiveBurin + " rehab ball --level 2 --input rest.txt" + by + "r.session").status, 0);
+    for (const std::string again : {"seek --input s.session", "seek garden --seed 5 --input s.session",
+                                    "hand --input h.session", "rehab ball --input r.session"}) {
+        const auto done = at.run(kLiveBurin + " " + again + " --offscreen --outputs out");
+        EXPECT_EQ(done.status, 0) << again << ": " << done.output;
+        EXPECT_TRUE(tells(done, "equal to the bit")) << done.output;
+        EXPECT_FALSE(tells(done, "does not count")) << done.output;
+    }
+    for (const std::string other : {"seek --seed 6 --input s.session", "hand --points 2 --input h.session"}) {
+        const auto refused = at.run(kLiveBurin + " " + other + " --offscreen --outputs out");
+        EXPECT_EQ(refused.status, 1) << other;
+        EXPECT_TRUE(tells(refused, "leave out what was given otherwise")) << refused.output;
+    }
+    const auto elsewhere = at.run(kLiveBurin + " sculpt --input s.session --offscreen");
+    EXPECT_EQ(elsewhere.status, 1);
+    EXPECT_TRUE(tells(elsewhere, "burin seek --input FILE")) << elsewhere.output;
+    EXPECT_EQ(at.run(kLiveBurin + " seek --input use.txt --offscreen").status, 2) << "a script names no world";
 }
 
 // The digest of a world was computed from a second reading, which told its remarks again.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/carve/sculpt_options.hpp"
+#include "app/cli/sculpt_options.hpp"
 
 #include <string>
 #include <utility>
@@ -39,7 +39,7 @@ void add_tool_options(Command command, session::SculptOptions& options) {
     command.unit("--export-units", options.export_units,
                  "Unit of the numbers in exported files; else that of the workpiece's file, or m");
     command.flag("--close-holes", options.workpiece.close_holes, "Fill the holes of a mesh that is not closed");
-    command.option("--weld", options.workpiece.weld_m, kWeldHelp);
+    command.option("--weld", options.workpiece.weld_m, kWeldHelp).within(session::kWeldBounds);
     command
         .option("--tool", options.tool.shape,
                 sculpt::alternatives(sculpt::tool_synopses()) +
