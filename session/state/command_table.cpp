@@ -7,6 +7,7 @@
 #include "base/near_name.hpp"
 #include "base/try.hpp"
 #include "document/document_file.hpp"
+#include "scene/object_property.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/input_words.hpp"
 
