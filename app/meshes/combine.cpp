@@ -22,6 +22,7 @@
 #include "geometry/mesh/mesh_placing.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {

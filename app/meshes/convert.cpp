@@ -25,6 +25,7 @@
 #include "sculpt/finishing.hpp"
 #include "sculpt/progress.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
