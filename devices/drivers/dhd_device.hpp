@@ -25,9 +25,9 @@ inline constexpr const char* kEmulatedDhdLibrary = "libburin_emulated_dhd.so";
 // Returns the figures of an omega.3, which the description and emulated devices have.
 [[nodiscard]] OmniModel omega_model();
 
-// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 // Refuses a text that names no device, no model or no library where it should.
 [[nodiscard]] Result<void> check_dhd(const std::string& choice_at_library);
+// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_dhd(const std::string& choice_at_library, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, of the model that the text names, for a recording that is done again.
 [[nodiscard]] OpenedDevice dhd_that_rests(const std::string& choice_at_library, Clock& clock);

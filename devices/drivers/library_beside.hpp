@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/try.hpp"
 
 namespace burin::devices {
 
@@ -29,10 +30,11 @@ namespace burin::devices {
 
 // Returns which library a device is opened by: the one that is named behind an @, an emulated device's, which has to be
 // beside the program, or the maker's usual one. `address` is what stands before the @ and `library` what stands behind
-// it, which check_library_named() has seen. `where` names the device in an Error.
+// it, which must not be empty where one is named. `where` names the device in an Error.
 [[nodiscard]] inline Result<std::string> library_chosen(const std::string& where, bool is_named,
                                                         const std::string& library, const std::string& address,
                                                         const char* emulated, const std::string& usual) {
+    BURIN_TRY_DO(check_library_named(where, is_named ? "@" + library : ""));
     if (is_named) return library;
     if (!address.starts_with("emulated")) return usual;
     std::string beside = library_beside(emulated);

@@ -25,9 +25,9 @@ namespace burin::devices {
 inline constexpr const char* kOmni = "omni";
 inline constexpr const char* kEmulatedHdLibrary = "libburin_emulated_hd.so";
 
-// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 // Refuses a text that names no model or no library where it should.
 [[nodiscard]] Result<void> check_omni(const std::string& name_at_library);
+// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_omni(const std::string& name_at_library, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, of the model that the text names, for a recording that is done again.
 [[nodiscard]] OpenedDevice omni_that_rests(const std::string& name_at_library, Clock& clock);

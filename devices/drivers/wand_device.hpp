@@ -30,9 +30,9 @@ struct WandAddress {
 
 // Returns the wand that the text's file describes.
 [[nodiscard]] Result<WandDescription> wand_at(const std::string& text);
-// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 // Refuses a text that names no library behind its @.
 [[nodiscard]] Result<void> check_wand(const std::string& text);
+// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_wand(const std::string& text, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, for a recording that is done again.
 [[nodiscard]] Result<OpenedDevice> wand_that_rests(const std::string& text, Clock& clock);

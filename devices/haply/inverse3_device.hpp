@@ -26,9 +26,9 @@ inline constexpr const char* kInverse3 = "inverse3";
 // Returns the figures that the description and emulated devices have.
 [[nodiscard]] OmniModel inverse3_model();
 
-// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 // Refuses a text that names neither a device nor a service.
 [[nodiscard]] Result<void> check_inverse3(const std::string& choice);
+// The clock must be the machine's and outlive the device. `hand` is not followed: a person's is there.
 [[nodiscard]] Result<OpenedDevice> open_inverse3(const std::string& choice, AnyHand hand, Clock& clock);
 // One that is nowhere and rests, for a recording that is done again.
 [[nodiscard]] OpenedDevice inverse3_that_rests(Clock& clock);

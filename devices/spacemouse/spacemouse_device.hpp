@@ -27,11 +27,11 @@ inline constexpr Nanoseconds kSpaceMouseLost_ns = 500'000'000;  // a thread that
 inline constexpr double kSpaceMouseLead_m = 0.015;
 inline constexpr double kSpaceMouseTurnLead_rad = 0.3;
 
-// `text` is what follows the name (spacemouse_rates.hpp). The clock must be the machine's and outlive the device. The
-// hand says where it begins, and is not followed.
-// Refuse a text with settings that are none, and of the first one that describes a wand.
+// `text` is what follows the name (spacemouse_rates.hpp). Refuse one with settings that are none, and the first also
+// one that describes a wand.
 [[nodiscard]] Result<void> check_spacemouse(const std::string& text);
 [[nodiscard]] Result<void> check_spacemouse_wand(const std::string& text);
+// The clock must be the machine's and outlive the device. The hand says where it begins, and is not followed.
 [[nodiscard]] Result<OpenedDevice> open_spacemouse(const std::string& text, AnyHand hand, Clock& clock);
 [[nodiscard]] Result<OpenedDevice> open_spacemouse_wand(const std::string& text, AnyHand hand, Clock& clock);
 // Devices that are nowhere and rest, for a recording that is done again.

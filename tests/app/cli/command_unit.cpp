@@ -175,7 +175,9 @@ TEST(Command, RefusesBadToolSizesColoursAndUses) {
     expect_refused(place, ball + "--tool cylinder:0.1,0", 1, {"cylinder:0.1,0", "above zero"});
     expect_refused(place, ball + "--tool cone:0,0,1", 1, {"cone:0,0,1", "radius"});
     expect_refused(place, ball + "--tool bullnose:0.01,0.02,1", 1, {"corner"});
-    expect_refused(place, ball + "--tool box:0.1,0.1,1e9", 1, {"too large", "4096"});
+    expect_refused(place, ball + "--tool box:0.1,0.1,1e9", 1, {"larger than 10 m"});
+    expect_refused(place, "sculpt --workpiece ball:0.01 --resolution 32 --export out.ply --tool box:0.1,0.1,9", 1,
+                   {"too large", "4096"});
     expect_refused(place, ball + "--tool mesh:missing.stl", 1, {"missing.stl"});
     expect_refused(place, ball + "--tool mesh:open.off", 1, {"open.off", "closed"});
     expect_refused(place, ball + "--tool box:9,9,9 --operation smooth", 1, {"too large", "100 lattice cells"});
