@@ -88,7 +88,7 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
              {"undo-memory=-1", "'-1' is no whole number from 1 to 1048576"},
              {"smooth-strength=nan", "'nan' is no number from 0 to 1"},
              {"friction=9", "--friction: is out of range; give a number from 0 to 2"},
-             {"friction=nan", "--friction: is out of range"},
+             {"friction=nan", "'nan' is no number"},
              {"tool=ball:-1", "ball:-1"},
              {"hardness=stone", "--hardness stone"},
              {"shadow=off", "did you mean shadows?"},
