@@ -70,6 +70,14 @@ CommandOption with_number(CLI::Option* option) {
     return CommandOption(option);
 }
 
+// Returns why a text is no value of a flag, as in --live=no; empty where it is one. The library takes any text that
+// begins with a number.
+std::string refusal_of_flag(const std::string& text) {
+    static constexpr std::array<std::string_view, 8> kValues{"true", "false", "on", "off", "yes", "no", "1", "0"};
+    if (std::ranges::find(kValues, text) != kValues.end()) return {};
+    return "'" + text + "' is no value of a flag, which is on or off";
+}
+
 template <typename Number>
 void narrow(CLI::Option* option, Number least, Number most) {
     CLI::Validator* const check = option->get_validator(kNumberCheck);
@@ -270,7 +278,7 @@ CommandOption Command::option(const std::string& name, std::optional<double>& to
 }
 
 CommandOption Command::flag(const std::string& name, bool& to, const std::string& help) {
-    return CommandOption(app_->add_flag(name, to, help));
+    return CommandOption(app_->add_flag(name, to, help)->check(refusal_of_flag));
 }
 
 CommandOption Command::add_choice(const std::string& name, const std::string& help,

@@ -85,10 +85,7 @@ Result<void> take(const Change& change, session::SculptOptions& options) {
     add_live_options(line.program(), options.live, kInputHelp, "");
     const auto taken = line.take(change.name + "=" + change.value);
     if (taken) return {};
-    const std::string& what = taken.error().what;
-    if (what.starts_with("Could not convert"))  // the library's words for what is no value of a flag
-        return fail(change.where, "'" + change.value + "' is no value of a flag", "write on or off");
-    return fail(change.where, what, "write what burin sculpt " + change.name + " takes");
+    return fail(change.where, taken.error().what, "write what burin sculpt " + change.name + " takes");
 }
 
 // Each device may be an asset, as it may behind --device.

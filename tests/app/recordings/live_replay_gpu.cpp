@@ -92,7 +92,7 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
              {"tool=ball:-1", "ball:-1"},
              {"hardness=stone", "--hardness stone"},
              {"shadow=off", "did you mean shadows?"},
-             {"swap-eyes=maybe", "'maybe' is no value of a flag; write on or off"},
+             {"swap-eyes=maybe", "'maybe' is no value of a flag, which is on or off"},
              {"close-holes=3x", "is no value of a flag"},
              {"units=", "names no value, and the recording needs one"},
              {"first-steps=on", "is no option"},
