@@ -16,6 +16,7 @@
 
 #include "base/text.hpp"
 #include "picture/drawn_mesh.hpp"
+#include "picture/picture.hpp"
 #include "session/activity/activity.hpp"
 #include "session/record/session_check.hpp"
 
