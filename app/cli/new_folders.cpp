@@ -15,7 +15,7 @@ void remove_hollow(const fs::path& folder) {
     std::error_code ignored;
     if (!fs::is_directory(fs::symlink_status(folder, ignored))) return;
     for (const fs::path& entry : entries_of(folder).value_or(std::vector<fs::path>())) remove_hollow(entry);
-    // Of a folder that holds something the removal fails, which is what is wanted.
+    // Fails for a folder that holds something, which has to stay.
     fs::remove(folder, ignored);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a recording says of the session that it is of: the files that it was made from, over which no output may be
-// written, since then it could not be done again, and its activity. Any thread.
+// Reads from a recording its session's activity and the files that the session was made from. No output may be written
+// over those files, since the recording could not be done again without them. Any thread.
 #pragma once
 
 #include <string>

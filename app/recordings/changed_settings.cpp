@@ -19,9 +19,9 @@ namespace {
 
 // The devices of several hands, which the command line has as several of --device.
 constexpr std::string_view kHands = "--hands";
-// What a recording has settled: without it, it would be read as one from before there was that option.
+// Options that a recording always holds: one without them is read as older than the options.
 constexpr std::array<std::string_view, 2> kSettled{"--units", "--tool"};
-// What a session settles by itself, and no command line has.
+// Settings that a session chooses by itself; no command line takes them.
 constexpr std::array<std::string_view, 2> kNobodySays{"--frames-world", "--first-steps"};
 constexpr std::array<std::string_view, 11> kOfTheView{"--wall",    "--stereo",  "--swap-eyes",    "--edge-comfort",
                                                       "--width",   "--height",  "--panel-window", "--panel-scale",

@@ -18,7 +18,7 @@ struct HandTarget {
     std::uint32_t buttons = 0;
 };
 
-// What is sent to a steered hand (devices/hand/steered_hand.hpp).
+// Target that a steered hand follows (devices/hand/steered_hand.hpp).
 struct SteeredTarget {
     // When the source was there, on its own clock; only differences count. A source that reports changes alone says
     // where it was shortly before a change that follows a rest.

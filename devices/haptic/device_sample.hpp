@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a force-feedback device reads and is given in a tick: a sample in, a wrench out, plain data of fixed size. What
-// does not ask a device anything, but keeps or shows what one has read, needs no more of devices than this.
+// The sample that a force-feedback device reads in a tick, and the wrench that it is given: plain data of fixed size.
+// Code that keeps or shows a sample, and asks no device for one, needs this header alone.
 // Frame: device (base/space.hpp).
 #pragma once
 

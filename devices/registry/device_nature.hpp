@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a force-feedback device is, whichever it is; asked for by its name (devices/registry/device_registry.hpp). Plain
-// data.
+// Properties of a force-feedback device that do not depend on its kind, as plain data. The registry returns them for a
+// device's name (devices/registry/device_registry.hpp).
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace burin::devices {
 
-// What a device is, as far as it can be known before it is opened. Who wants a device asks for what it needs of this,
-// and for no device by its name.
+// Properties of a device that are known before it is opened. Code that needs a certain device asks for the property and
+// never for a name.
 struct DeviceNature {
     std::size_t parts = 1;        // that move by themselves
     bool is_upright = false;      // held as a handle or a hand is, not as a pen

@@ -67,7 +67,7 @@ Result<void> check_port(const std::string& port) {
     return fail("haptic device " + std::string(kGlove), "names no port", "write one: glove:/dev/ttyUSB0");
 }
 
-// Of a driver that takes any text, or none at all.
+// Accepts any text, or none at all: the check of a driver that refuses no text.
 Result<void> any_text(const std::string& /*text*/) { return {}; }
 
 Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& shape) {

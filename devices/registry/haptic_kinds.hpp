@@ -19,7 +19,7 @@ namespace burin::devices {
 struct HapticKind {
     std::string_view name;   // as --device spells it
     std::string_view usage;  // what it is, for the help
-    // As in DeviceNature:
+    // Mean what they mean in DeviceNature:
     Needed<std::size_t> parts;
     Needed<bool> is_upright, is_worn, felt_by_person, has_amplifiers;
     // Returns the handle's description: of the file, or the program's where none is named; null: it has no handle.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What trackers report, as plain data: poses of a head and of wands, with the wands' buttons and sticks.
+// Reports of trackers as plain data: poses of a head and of wands, with the wands' buttons and sticks.
 // Frame: world, metres (base/space.hpp). Times: arrival, on the process's one clock.
 #pragma once
 
