@@ -18,6 +18,7 @@
 
 #include "devices/emulators/emulated_vrpn.hpp"
 #include "tests/devices/raw_vrpn_server.hpp"
+#include "tests/devices/told_clock.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::devices {
@@ -262,24 +263,18 @@ TEST(VrpnTracker, PingsAServerThatIsQuietAndLeavesOneThatIsSilent) {
 // its own: ten years behind.
 TEST(VrpnTracker, TakesNoPoseThatIsStaleByTheServersOwnTime) {
     RawServer server;
-    MonotonicClock clock;
+    // All arrive at one time, so that the stamps alone say how late they come, on a busy machine too.
+    ToldClock clock;
     const auto tracker = server.opened(clock);
     constexpr std::int64_t kThen_us = 1'480'000'000'000'000;
-    const auto began = std::chrono::steady_clock::now();
-    const auto now_us = [&] {
-        return kThen_us +
-               std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began).count();
-    };
-    // All in one piece, so that nothing keeps the tracker from its work between two of them.
     VrpnServerBytes report;
     const auto add = [&](double x_m, std::int64_t time_us) {
         report.message(9, 7, vrpn_pos_quat(0, {{x_m, 1.6, 2.0}, {1, 0, 0, 0}}), time_us);
     };
-    add(0.1, now_us());
-    const std::int64_t repeated_us = now_us();
-    for (int i = 0; i < 4; ++i) add(0.2, repeated_us);
-    add(0.3, now_us() - 700'000);  // late by 0.7 s
-    add(0.4, now_us() + 1);
+    add(0.1, kThen_us);
+    for (int i = 0; i < 4; ++i) add(0.2, kThen_us + 1);
+    add(0.3, kThen_us + 1 - 700'000);
+    add(0.4, kThen_us + 2);
     server.send(report.bytes());
     const auto heads = of_kind<HeadInput>(heard_until(*tracker, [](const auto& all) { return all.size() >= 4; }));
     ASSERT_EQ(heads.size(), 4u);
