@@ -30,6 +30,7 @@ Needs needs_of(BufferUse use, bool unified_memory) {
         case BufferUse::upload: return {VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kSeen, 0, false};
         case BufferUse::readback:
             return {VK_BUFFER_USAGE_TRANSFER_DST_BIT, kSeen, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, false};
+        case BufferUse::host_storage: return {kStorage, kSeen, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, true};
         case BufferUse::uniform:
             return {VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | kCopied, kSeen, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false};
     }

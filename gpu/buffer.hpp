@@ -21,6 +21,7 @@ enum class BufferUse {
     device_storage,  // read and written by shaders, also indirect arguments; mapped only with unified memory
     upload,          // written by the CPU through mapped(), copied from
     readback,        // copied to, read by the CPU through mapped()
+    host_storage,    // written by shaders and read by the CPU through mapped(): only what is written crosses over
     addressed,       // like device_storage, but reached by address(): up to the size of an allocation
     vertex,          // vertices; also a storage buffer, so that a compute shader can write it
     index,           // indices; also a storage buffer

@@ -53,6 +53,8 @@ Result<void> Submission::wait() { return core_->wait_for(serial_); }
 
 bool Submission::done() const { return core_->completed() >= serial_; }
 
+bool Submission::done_within(std::uint64_t most_ns) const { return core_->completed_within(serial_, most_ns); }
+
 std::optional<double> Submission::seconds_between(Stamp earlier, Stamp later) const {
     if (set_.stamps == VK_NULL_HANDLE) return std::nullopt;
     std::uint64_t ticks[2] = {0, 0};

@@ -55,6 +55,8 @@ public:
     // Blocks until the work is done; returns an Error after 120 s or when the device is lost.
     [[nodiscard]] Result<void> wait();
     [[nodiscard]] bool done() const;
+    // Waits until the work is done, but no longer than this; returns whether it is. A lost device is done with it.
+    [[nodiscard]] bool done_within(std::uint64_t most_ns) const;
     // Returns the GPU time between two stamps, after wait(); nothing where capabilities().timestamps is false.
     [[nodiscard]] std::optional<double> seconds_between(Stamp earlier, Stamp later) const;
 

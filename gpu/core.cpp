@@ -47,6 +47,16 @@ std::uint64_t Core::completed() {
     return value;
 }
 
+bool Core::completed_within(std::uint64_t serial, std::uint64_t most_ns) {
+    if (completed() >= serial) return true;
+    if (most_ns == 0) return lost;
+    auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
+    wait.semaphoreCount = 1;
+    wait.pSemaphores = &timeline;
+    wait.pValues = &serial;
+    return lost || vk.vkWaitSemaphores(device, &wait, most_ns) != VK_TIMEOUT;
+}
+
 Result<void> Core::wait_for(std::uint64_t serial) {
     if (serial > waited) ++waits;
     waited = std::max(waited, serial);

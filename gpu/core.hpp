@@ -73,6 +73,10 @@ public:
     std::uint64_t waits = 0, waited = 0;
     // Copied between buffers that the host sees and those that it does not.
     std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
+    // Counts what a shader has written into the host's memory.
+    void count_written_home(std::uint64_t bytes) {
+        if (!capabilities.unified_memory) bytes_to_host += bytes;
+    }
     // For tests: how many pieces of memory were asked of the driver.
     std::uint64_t allocations = 0;
     // Of the device's own memory: held now, and at most so far.
@@ -88,6 +92,8 @@ public:
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info);
     [[nodiscard]] std::uint64_t completed();
     [[nodiscard]] Result<void> wait_for(std::uint64_t serial);
+    // Waits no longer than this; a failure is for wait_for to tell.
+    [[nodiscard]] bool completed_within(std::uint64_t serial, std::uint64_t most_ns);
 
     // Destroys the object when everything submitted so far is done.
     template <typename Handle>

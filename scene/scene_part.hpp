@@ -59,6 +59,9 @@ public:
     [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) = 0;
     // Returns what the last update saw.
     [[nodiscard]] virtual const PartSeen& seen() const = 0;
+    // Says, before the first update, that time is real: what a device has not done yet may be left to a later update,
+    // as PartSeen notes. Otherwise each update waits, and every run gives the same bits.
+    virtual void let_lag() {}
     // Adds what lies in the ball to a draft, which begins empty and holds the ball; other parts add to it as well. One
     // part of a scene alone may set origin, tiles and loose triangles; the others add meshes. A part that knows its
     // surface in a smaller ball only lowers radius_m. Sequence and time are the publisher's.

@@ -102,6 +102,10 @@ Nanoseconds SceneService::period_ns() const {
     return period_ns;
 }
 
+void SceneService::let_lag() {
+    for (ScenePart* part : parts_) part->let_lag();
+}
+
 void SceneService::finish() {
     for (ScenePart* part : parts_) part->finish();
 }

@@ -48,6 +48,8 @@ public:
     SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand> hands);
     ~SceneService();
 
+    // Tells the parts, before the first update, that time is real (ScenePart::let_lag).
+    void let_lag();
     // Sets the size of a hand's probe from the next update on.
     void use_probe(std::size_t hand, double around_m) { hands_[hand].around_m = around_m; }
     // Does what the hands have done since the last update. Fails when a part cannot go on; nothing is published then.

@@ -11,6 +11,7 @@ SceneThread::SceneThread(SceneService& service, Clock& clock, AfterUpdate after_
     : service_(service), clock_(clock), after_update_(std::move(after_update)) {}
 
 void SceneThread::start() {
+    service_.let_lag();
     thread_ = std::thread([this] { run(); });
 }
 

@@ -14,6 +14,7 @@ namespace burin::scene {
 // What an update of a part depended on besides orders, samples and time; with it a recording can repeat the update.
 struct PartSeen {
     bool background_ended = false;  // it was the first to find its work on another thread complete, such as an export
+    std::size_t behind = 0;         // so many updates of its solid were under way on a device, and not taken
     friend bool operator==(const PartSeen&, const PartSeen&) = default;
 };
 

@@ -80,9 +80,15 @@ void CarvedPart::take_ticks(std::size_t part, std::span<const haptics::TickRecor
 }
 
 Result<void> CarvedPart::update(Nanoseconds now_ns, const scene::PartSeen* recorded) {
-    seen_ = recorded != nullptr ? *recorded : scene::PartSeen{export_is_done()};
+    seen_ = recorded != nullptr ? *recorded : scene::PartSeen{.background_ended = export_is_done()};
     if (seen_.background_ended) finish();
     for (Carver& carver : carvers_) BURIN_TRY_DO(carve(carver));
+    if (recorded == nullptr && lags_) {
+        BURIN_TRY_DO(sculpture_.follow_done());
+        seen_.behind = sculpture_.under_way();
+    } else {
+        BURIN_TRY_DO(sculpture_.follow_until(seen_.behind));
+    }
     carry_out_waiting(now_ns);
     if (!pressed() || now_ns - journal_told_ns_ >= kJournal_ns) {
         tell_journal();
@@ -117,7 +123,7 @@ Result<void> CarvedPart::carve(Carver& carver) {
         drop_invalid(carver, swept.sweeps);
         note_border(carver, swept.sweeps);
         if (!swept.sweeps.empty()) {
-            BURIN_TRY_DO(sculpture_.update(swept.sweeps));
+            BURIN_TRY_DO(sculpture_.begin(swept.sweeps));
         }
         if (swept.stroke_ended) {
             sculpture_.end_stroke();

@@ -79,6 +79,7 @@ public:
     void take_ticks(std::size_t part, std::span<const haptics::TickRecord> ticks) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const scene::PartSeen* recorded) override;
     [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
+    void let_lag() override { lags_ = true; }
     [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;
     void after_publication() override;
     [[nodiscard]] Nanoseconds period_ns() const override { return busy_ ? kBusy_ns : kResting_ns; }
@@ -123,6 +124,7 @@ private:
     Sculpture& sculpture_;
     std::vector<Carver> carvers_;  // at least one, in the order in which they were given tools
     bool keeps_history_;
+    bool lags_ = false;                 // what a device has not done yet is left to a later update
     std::uint32_t edits_ = 0;           // LocalSurface::tiles_edits
     bool stroke_open_ = false;          // a button was down at the end of the last update
     bool status_changed_ = true;        // something other than tiles and messages has to be reported

@@ -46,12 +46,17 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
 }
 
 Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps) {
-    if (!mirror_.mirror().any()) return carve(sweeps);
-    const auto all = mirror_.with_images(sweeps);
-    return all ? carve(*all) : std::unexpected(all.error());
+    BURIN_TRY_DO(begin(sweeps));
+    return follow_until(0);
 }
 
-Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
+Result<void> Sculpture::begin(std::span<const compute::ToolSweep> sweeps) {
+    std::vector<compute::ToolSweep> with_images;
+    if (mirror_.mirror().any()) {
+        BURIN_TRY(all, mirror_.with_images(sweeps));
+        with_images = std::move(all);
+        sweeps = with_images;
+    }
     if (on_device_ && std::ranges::all_of(sweeps, is_for_device)) return update_on_device(sweeps);
     if (on_device_) {
         read_back();
@@ -59,31 +64,62 @@ Result<void> Sculpture::carve(std::span<const compute::ToolSweep> sweeps) {
     }
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
-    BURIN_TRY(cut, compute::apply(*engine_, sweeps, pool_));
-    const Nanoseconds cut_ns = clock.now_ns();
-    const compute::Changes changes = engine_->take_changes();
-    const compute::RemeshStats remeshed = surface_.update(engine_->solid(), changes, pool_);
-    const Nanoseconds meshed_ns = clock.now_ns();
-    if (history_) history_->record(changes);
-    unsaved_.note(changes);
-    if (noted_) noted_->note(changes);
-    note_changed_tiles();
+    BURIN_TRY_DO(engine_->begin(sweeps));
+    begun_ms_ = milliseconds(start_ns, clock.now_ns());
     ++figures_.updates;
     figures_.sweeps += sweeps.size();
-    figures_.rays_touched += cut.rays_touched;
-    figures_.rays_changed += cut.rays_changed;
+    return {};
+}
+
+Result<void> Sculpture::follow_done() {
+    BURIN_TRY(first, follow_next(compute::Wait::briefly));
+    for (bool followed = first; followed;) {
+        BURIN_TRY(next, follow_next(compute::Wait::no));
+        followed = next;
+    }
+    return {};
+}
+
+Result<void> Sculpture::follow_until(std::size_t left) {
+    while (engine_->under_way() > left) {
+        BURIN_TRY_DO(follow_next(compute::Wait::yes));
+    }
+    return {};
+}
+
+// Takes an update from the engine, if one is done, and brings everything up to date with it.
+Result<bool> Sculpture::follow_next(compute::Wait wait) {
+    MonotonicClock clock;
+    const Nanoseconds start_ns = clock.now_ns();
+    BURIN_TRY(delta, engine_->take(wait));
+    if (!delta) return false;
+    const Nanoseconds cut_ns = clock.now_ns();
+    const compute::RemeshStats remeshed = surface_.update(engine_->solid(), delta->changes, pool_);
+    const Nanoseconds meshed_ns = clock.now_ns();
+    if (history_) history_->record(delta->changes);
+    unsaved_.note(delta->changes);
+    if (noted_) noted_->note(delta->changes);
+    note_changed_tiles();
+    figures_.rays_touched += delta->stats.rays_touched;
+    figures_.rays_changed += delta->stats.rays_changed;
     figures_.tiles_remeshed += remeshed.tiles;
     figures_.cells_remeshed += remeshed.cells;
     figures_.triangles_remeshed += remeshed.triangles;
-    figures_.carve_ms.push_back(milliseconds(start_ns, cut_ns));
+    const double begun_ms = std::exchange(begun_ms_, 0.0);
+    figures_.carve_ms.push_back(begun_ms + milliseconds(start_ns, cut_ns));
     figures_.mesh_ms.push_back(milliseconds(cut_ns, meshed_ns));
-    figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
-    return {};
+    figures_.update_ms.push_back(begun_ms + milliseconds(start_ns, clock.now_ns()));
+    return true;
 }
+
+// Has all updates done, before something else reads or changes the solid. An engine without a device cannot fail, and
+// one with a device goes on with the processor, so that there is nothing to hand on.
+void Sculpture::settle() { static_cast<void>(follow_until(0)); }
 
 // ---- On the device
 
 void Sculpture::mesh_on_device() {
+    settle();
     if (!history_ && !noted_) on_device_ = engine_->mesh_on_device();
 }
 
@@ -92,7 +128,7 @@ Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> swe
         BURIN_TRY_DO(compute::check_sweep(engine_->solid(), sweep));
     }
     if (only_on_device_.size() == kMostOnDevice) read_back();
-    if (!on_device_) return carve(sweeps);  // it was lost just now
+    if (!on_device_) return begin(sweeps);  // it was lost just now
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
     only_on_device_.emplace_back(sweeps.begin(), sweeps.end());
@@ -136,6 +172,7 @@ Result<void> Sculpture::finish_on_device() {
 }
 
 void Sculpture::read_back() {
+    settle();
     if (!on_device_) return;
     if (const auto fetched = fetch_from_device(); !fetched) return go_on_without_the_device(fetched.error());
     only_on_device_.clear();
@@ -158,7 +195,7 @@ void Sculpture::go_on_without_the_device(const Error& why) {
     figures_.rays_changed = read_back_.rays_changed;
     for (const std::vector<compute::ToolSweep>& sweeps : std::exchange(only_on_device_, {})) {
         // Cannot fail: the sweeps were checked when they came, and the processor's engine needs no device.
-        if (const auto cut = compute::apply(*engine_, sweeps, pool_)) {
+        if (const auto cut = engine_->carve(sweeps)) {
             figures_.rays_touched += cut->rays_touched;
             figures_.rays_changed += cut->rays_changed;
         }
@@ -186,6 +223,7 @@ std::vector<std::string> Sculpture::take_notices() {
 // ---- Undo
 
 void Sculpture::end_stroke() {
+    settle();
     if (history_) history_->end_stroke();
     if (noted_ && noted_->is_open()) note_step(compute::HistoryStep::stroke);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The solid that is carved, with its surface and, where asked for, its light and its undo history.
 //
-// Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays -> the surface's cells
-// around the changed rays are meshed anew -> the history keeps what the rays held -> the light follows. With
+// Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays, at once or while other
+// work is done -> as its Delta is taken, the surface's cells around the changed rays are meshed anew -> the history
+// keeps what the rays held -> the light follows. With
 // mesh_on_device() the device of a Vulkan engine carves and meshes instead, in one submission that nobody waits for
 // before the next update. A device that fails, in either case, ends nothing: the processor goes on, with one notice
 // (compute/vulkan/standby_engine.hpp). Which engine there is, is not known here (compute/rays/engine.hpp).
@@ -52,6 +53,14 @@ public:
     // Carries out the sweeps in order and brings the surface, the history and the light's bookkeeping up to date. Fails
     // on an invalid sweep, and then changes nothing (compute/tools/apply.hpp).
     [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps);
+    // The same in two: begins an update without waiting for a device, and follows those that it has done, for which it
+    // is waited briefly. The end of
+    // a stroke, undo, redo, save() and read_back() wait for all of them first.
+    [[nodiscard]] Result<void> begin(std::span<const compute::ToolSweep> sweeps);
+    [[nodiscard]] Result<void> follow_done();
+    // Follows the updates, one by one, until only so many are left: as a recording says (scene::PartSeen).
+    [[nodiscard]] Result<void> follow_until(std::size_t left);
+    [[nodiscard]] std::size_t under_way() const { return engine_->under_way(); }
     // Has the sweeps of later updates carved on the other sides of these planes as well; they go through the middle of
     // the workpiece as it was made. An update with its images is undone as one.
     void mirror(const Mirror& mirror) { mirror_.set(mirror); }
@@ -120,9 +129,10 @@ public:
 private:
     [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, compute::HistoryStep step);
     void follow_engine();
+    [[nodiscard]] Result<bool> follow_next(compute::Wait wait);
+    void settle();
     void note_step(compute::HistoryStep step);
     void note_changed_tiles();
-    [[nodiscard]] Result<void> carve(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> update_on_device(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> begin_on_device(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> finish_on_device();
@@ -142,6 +152,7 @@ private:
     SculptFigures figures_;
     double initial_volume_m3_ = 0.0;
     double first_mesh_ms_ = 0.0;
+    double begun_ms_ = 0.0;  // that it took to begin the last update, for its figures
     // State of mesh_on_device().
     std::unique_ptr<compute::MeshingDevice> on_device_;  // null while the host meshes
     // Sweeps of the updates since the last read_back(), and the figures as of then: where the device is lost, the

@@ -7,14 +7,18 @@
 // so no two threads write to the same page.
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/try.hpp"
 #include "compute/cpu/ball_spans.hpp"
 #include "compute/rays/chosen_engine.hpp"
 #include "compute/rays/engine.hpp"
+#include "compute/tools/apply.hpp"
 #include "compute/tools/sweep_units.hpp"
 
 namespace burin::compute {
@@ -110,27 +114,68 @@ public:
     [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
         return burin::compute::add_material(solid_, material);
     }
-    [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
-    [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override {
+    [[nodiscard]] Result<Ticket> begin(std::span<const ToolSweep> sweeps) override {
+        for (const ToolSweep& sweep : sweeps) BURIN_TRY_DO(check_tool(solid_, sweep));
+        waiting_.emplace_back(std::vector(sweeps.begin(), sweeps.end()));
+        return ++begun_;
+    }
+    [[nodiscard]] Result<Ticket> begin(RayBatch rays) override {
+        waiting_.emplace_back(std::move(rays));
+        return ++begun_;
+    }
+    [[nodiscard]] std::size_t under_way() const override { return waiting_.size(); }
+
+    // The work is done here, where its result is asked for.
+    [[nodiscard]] Result<std::optional<Delta>> take(Wait) override {
+        if (waiting_.empty()) return std::nullopt;
+        Delta delta{begun_ - waiting_.size() + 1, {}, {}};
+        const auto work = std::move(waiting_.front());
+        waiting_.pop_front();
+        if (const RayBatch* const rays = std::get_if<RayBatch>(&work)) {
+            delta.stats = {rays->rays.size(), assign_rays(*rays)};
+        } else {
+            BURIN_TRY(stats, carry_out(std::get<std::vector<ToolSweep>>(work)));
+            delta.stats = stats;
+        }
+        delta.changes = changes_.take();
+        return delta;
+    }
+
+private:
+    [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps) {
+        CarveStats stats;
+        std::vector<BallSweep> balls;
+        for (std::size_t i = 0; i < sweeps.size();) {
+            balls.clear();
+            while (i < sweeps.size() && is_ball_cut(sweeps[i])) balls.push_back(ball_sweep(sweeps[i++]));
+            const Result<CarveStats> done =
+                balls.empty() ? apply_on_host(solid_, sweeps[i++], pool_,
+                                              [this](const RayBatch& rays) { return assign_rays(rays); })
+                              : carve_balls(balls);
+            if (!done) return done;
+            stats += *done;
+        }
+        return stats;
+    }
+
+    [[nodiscard]] Result<CarveStats> carve_balls(std::span<const BallSweep> sweeps) {
         BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
         deal_out(capsules);
         pool_.run(band_count_, [&](std::size_t i) { carve_band(bands_[i], capsules); });
         return collect();
     }
 
-    [[nodiscard]] Result<CarveStats> assign(const RayBatch& batch) override {
-        CarveStats stats;
+    std::uint64_t assign_rays(const RayBatch& batch) {
+        std::uint64_t changed = 0;
         for (const RayBatch::Ray& ray : batch.rays) {
-            ++stats.rays_touched;
             const RayPlace place = place_of(ray.code);
             DexelSet& set = solid_.sets[static_cast<std::size_t>(place.axis)];
-            if (assign_ray(set, place, batch.ends_of(ray), changes_)) ++stats.rays_changed;
+            if (assign_ray(set, place, batch.ends_of(ray), changes_)) ++changed;
         }
-        return stats;
+        return changed;
     }
 
-private:
     // Splits the rows into bands with about equal numbers of rays to visit. Makes few bands when there is little to do,
     // since waking the other cores costs as much as some hundred rays.
     void deal_out(std::span<const Capsule> capsules) {
@@ -356,7 +401,9 @@ private:
     Solid solid_;
     WorkerPool& pool_;
     Changes changes_;
-    std::array<std::vector<Footprint>, 3> footprints_;  // of each capsule, by axis
+    Ticket begun_ = 0;
+    std::deque<std::variant<std::vector<ToolSweep>, RayBatch>> waiting_;  // the updates that were not taken
+    std::array<std::vector<Footprint>, 3> footprints_;                    // of each capsule, by axis
     // Only the first band_count_ are in use; the others keep their memory.
     std::vector<Band> bands_;
     std::size_t band_count_ = 0;

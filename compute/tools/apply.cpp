@@ -15,15 +15,6 @@
 namespace burin::compute {
 namespace {
 
-bool is_for_engine(const ToolSweep& sweep) {
-    return std::holds_alternative<BallTool>(sweep.shape) && sweep.operation != Operation::smooth;
-}
-
-BallSweep ball_sweep(const ToolSweep& sweep) {
-    return {sweep.start.position_m, sweep.end.position_m, std::get<BallTool>(sweep.shape).radius_m, sweep.material,
-            sweep.operation};
-}
-
 void append_result(Operation operation, RayEnds held, RayEnds covered, std::vector<shared::DexelEnd>& to) {
     switch (operation) {
         case Operation::cut: return append_difference(held, covered, to);
@@ -84,7 +75,8 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
 
 // Smooths along the sweep in stretches of at most kSmoothStretch radii, one after the other; with a tool that is no
 // ball, in each of its balls (smooth_cover.hpp).
-Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
+template <typename Assign>
+void smooth_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool, const Assign& assign) {
     const SmoothCover cover = smooth_cover(sweep.shape);
     const bool turns = sweep.start.orientation != sweep.end.orientation;
     double farthest_m = 0.0;
@@ -96,29 +88,31 @@ Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep,
             turns ? glm::slerp(sweep.start.orientation, sweep.end.orientation, part) : sweep.start.orientation;
         return Pose{sweep.start.position_m + (sweep.end.position_m - sweep.start.position_m) * part, orientation};
     };
-    CarveStats stats;
     for (double i = 0.0; i < stretches; i += 1.0) {
         const Pose from = pose_at(i / stretches), to = pose_at((i + 1.0) / stretches);
         for (const Vec3& middle : cover.middles_m) {
             const SmoothBall ball{from * middle, to * middle, cover.radius_m, sweep.smooth_strength, sweep.material};
-            const Result<CarveStats> done = engine.assign(smoothed_rays(engine.solid(), ball, pool));
-            if (!done) return done;
-            stats += *done;
+            assign(smoothed_rays(solid, ball, pool));
         }
     }
-    stats.rays_touched = stats.rays_changed;
-    return stats;
-}
-
-Result<CarveStats> apply_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
-    if (sweep.operation == Operation::smooth) return smooth_on_host(engine, sweep, pool);
-    BURIN_TRY(covered, tool_spans(engine.solid(), sweep, pool));
-    Result<CarveStats> stats = engine.assign(changed_rays(engine.solid(), covered, sweep.operation, pool));
-    if (stats) stats->rays_touched = covered.rays.size();
-    return stats;
 }
 
 }  // namespace
+
+Result<CarveStats> apply_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool,
+                                 const AssignRays& assign) {
+    CarveStats stats;
+    const auto counted = [&](const RayBatch& rays) { stats.rays_changed += assign(rays); };
+    if (sweep.operation == Operation::smooth) {
+        smooth_on_host(solid, sweep, pool, counted);
+        stats.rays_touched = stats.rays_changed;
+        return stats;
+    }
+    BURIN_TRY(covered, tool_spans(solid, sweep, pool));
+    counted(changed_rays(solid, covered, sweep.operation, pool));
+    stats.rays_touched = covered.rays.size();
+    return stats;
+}
 
 Result<void> check_tool(const Solid& solid, const ToolSweep& sweep) {
     if (sweep.operation == Operation::smooth) {
@@ -137,20 +131,13 @@ Result<void> check_tool(const Solid& solid, const ToolSweep& sweep) {
     return check_sweep(solid, sweep);
 }
 
-Result<CarveStats> apply(CarvingEngine& engine, std::span<const ToolSweep> sweeps, WorkerPool& pool) {
-    for (const ToolSweep& sweep : sweeps) {
-        BURIN_TRY_DO(check_tool(engine.solid(), sweep));
-    }
-    CarveStats stats;
-    std::vector<BallSweep> balls;
-    for (std::size_t i = 0; i < sweeps.size();) {
-        balls.clear();
-        while (i < sweeps.size() && is_for_engine(sweeps[i])) balls.push_back(ball_sweep(sweeps[i++]));
-        const Result<CarveStats> done = balls.empty() ? apply_on_host(engine, sweeps[i++], pool) : engine.carve(balls);
-        if (!done) return done;
-        stats += *done;
-    }
-    return stats;
+bool is_ball_cut(const ToolSweep& sweep) {
+    return std::holds_alternative<BallTool>(sweep.shape) && sweep.operation != Operation::smooth;
+}
+
+BallSweep ball_sweep(const ToolSweep& sweep) {
+    return {sweep.start.position_m, sweep.end.position_m, std::get<BallTool>(sweep.shape).radius_m, sweep.material,
+            sweep.operation};
 }
 
 }  // namespace burin::compute

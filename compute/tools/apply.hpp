@@ -1,26 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Applies tool sweeps of any kind to an engine's solid. All strokes reach an engine this way, except balls that a
-// DeviceSurface carves without waiting (compute/vulkan/device_surface.hpp).
+// What sweeps of tools are to an engine: whether they can be carried out, and how the host does those that an engine
+// has no way of its own for.
 //
-// Consecutive cuts, fills and paint with a ball are passed to the engine itself (CarvingEngine::carve) in one call.
-// Everything else is computed here: what the tool covers of each ray (tool_spans.hpp) and the set algebra of that ray
-// (set_algebra.hpp), or the smoothed surface (smooth.hpp). The rays whose ends differ are then assigned. For a ball,
-// both ways agree to the bit.
-// The result depends neither on the number of threads nor on the kind of engine.
+// Cuts, fills and paint with a ball are an engine's own (sweep_units.hpp). For everything else it is computed here what
+// the tool covers of each ray (tool_spans.hpp) and the set algebra of that ray (set_algebra.hpp), or the smoothed
+// surface (smooth.hpp), and the engine assigns the rays whose ends differ. For a ball, both ways agree to the bit. The
+// result does not depend on the number of threads.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
+#include "base/worker_pool.hpp"
 #include "compute/rays/engine.hpp"
 #include "compute/tools/tool.hpp"
 
 namespace burin::compute {
 
-// Checks a sweep as apply() does: check_sweep (tool_spans.hpp), and what smoothing asks for besides, a ball of at most
-// 100 cells and a strength from 0 to 1.
+// Checks a sweep as an engine does before it begins an update: check_sweep (tool_spans.hpp), and what smoothing asks
+// for besides, a ball of at most 100 cells and a strength from 0 to 1.
 [[nodiscard]] Result<void> check_tool(const Solid& solid, const ToolSweep& sweep);
 
-// Carries out the sweeps in order; filled material is clipped to the lattice. Fails, with the solid unchanged, on an
-// invalid sweep (check_tool). When a device fails part of the way, the solid holds the result of the sweeps before.
-// Touched rays are those of which the tool covers a part, counted for each sweep.
-[[nodiscard]] Result<CarveStats> apply(CarvingEngine& engine, std::span<const ToolSweep> sweeps, WorkerPool& pool);
+// Says whether a sweep cuts, fills or paints with a ball, and returns it as such.
+[[nodiscard]] bool is_ball_cut(const ToolSweep& sweep);
+[[nodiscard]] BallSweep ball_sweep(const ToolSweep& sweep);
+
+// Assigns the rays to the solid, and returns how many of them changed.
+using AssignRays = std::function<std::uint64_t(const RayBatch&)>;
+
+// Carries out a sweep that check_tool accepts. `assign` is called once, or once for each ball that smooths, and must
+// change this solid. Touched rays are those of which the tool covers a part; of a sweep that smooths, those changed.
+[[nodiscard]] Result<CarveStats> apply_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool,
+                                               const AssignRays& assign);
 
 }  // namespace burin::compute

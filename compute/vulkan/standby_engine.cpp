@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "compute/tools/sweep_units.hpp"
+#include "base/try.hpp"
 #include "compute/vulkan/device_surface.hpp"
 
 namespace burin::compute {
@@ -11,7 +11,7 @@ namespace burin::compute {
 StandbyEngine::StandbyEngine(Solid solid, const gpu::Device& device, WorkerPool& pool,
                              const VulkanEngineOptions& options)
     : pool_(pool) {
-    auto made = VulkanEngine::create(std::move(solid), device, options);
+    auto made = VulkanEngine::create(std::move(solid), device, pool, options);
     if (!made) {
         let_the_processor_carve(std::move(solid), made.error());
         return;
@@ -24,29 +24,35 @@ StandbyEngine::StandbyEngine(Solid solid, const Error& why, WorkerPool& pool) : 
     let_the_processor_carve(std::move(solid), why);
 }
 
-Result<CarveStats> StandbyEngine::carve(std::span<const BallSweep> sweeps) {
-    if (on_device_ != nullptr) {
-        const auto carved = on_device_->carve(sweeps);
-        if (carved || !capsules_in_units(solid(), sweeps)) return carved;  // what is invalid is so for either engine
-        give_up_device(carved.error());
-    }
-    return engine_->carve(sweeps);
+Result<Ticket> StandbyEngine::begin(std::span<const ToolSweep> sweeps) {
+    BURIN_TRY_DO(engine_->begin(sweeps));
+    if (on_device_ != nullptr) kept_.emplace_back(std::vector(sweeps.begin(), sweeps.end()));
+    return ++begun_;
 }
 
-Result<CarveStats> StandbyEngine::assign(const RayBatch& rays) {
+Result<Ticket> StandbyEngine::begin(RayBatch rays) {
+    if (on_device_ != nullptr) kept_.emplace_back(rays);
+    BURIN_TRY_DO(engine_->begin(std::move(rays)));
+    return ++begun_;
+}
+
+Result<std::optional<Delta>> StandbyEngine::take(Wait wait) {
     if (on_device_ != nullptr) {
-        const auto assigned = on_device_->assign(rays);
-        if (assigned) return assigned;
-        give_up_device(assigned.error());
+        auto taken = on_device_->take(wait);
+        if (taken) {
+            while (kept_.size() > on_device_->under_way()) kept_.pop_front();
+            return taken;
+        }
+        give_up_device(taken.error());
     }
-    return engine_->assign(rays);
+    auto taken = engine_->take(wait);
+    if (taken && *taken) (*taken)->ticket += of_device_;
+    return taken;
 }
 
 Changes StandbyEngine::take_changes() {
-    if (before_.empty()) return engine_->take_changes();
-    Changes all = std::exchange(before_, {});
-    all.append(engine_->take_changes());
-    return all;
+    gather(engine_->take_changes());
+    return CarvingEngine::take_changes();
 }
 
 std::vector<std::string> StandbyEngine::take_notices() { return std::exchange(notices_, {}); }
@@ -62,12 +68,20 @@ std::unique_ptr<MeshingDevice> StandbyEngine::mesh_on_device() {
 
 void StandbyEngine::give_up_device(const Error& why) {
     if (on_device_ == nullptr) return;
-    before_ = on_device_->take_changes();
+    gather(on_device_->take_changes());
     last_traffic_ = on_device_->traffic();
     Solid solid = on_device_->give_solid();
     on_device_ = nullptr;
     engine_.reset();  // frees the device's memory first, which may be the host's
     let_the_processor_carve(std::move(solid), why);
+    of_device_ = begun_ - kept_.size();
+    // Cannot fail: the sweeps were checked when they came.
+    for (auto& work : std::exchange(kept_, {})) {
+        if (auto* const rays = std::get_if<RayBatch>(&work))
+            static_cast<void>(engine_->begin(std::move(*rays)));
+        else
+            static_cast<void>(engine_->begin(std::get<std::vector<ToolSweep>>(work)));
+    }
 }
 
 void StandbyEngine::let_the_processor_carve(Solid solid, const Error& why) {

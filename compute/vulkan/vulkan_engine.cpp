@@ -48,15 +48,15 @@ void copy_to(const SharedBuffer& buffer, std::span<const T> values) {
     std::ranges::copy(values, buffer.to_device<T>().begin());
 }
 
-void keep_each_once(std::vector<std::uint32_t>& codes) {
-    std::ranges::sort(codes);
-    const auto repeated = std::ranges::unique(codes);
-    codes.erase(repeated.begin(), repeated.end());
-}
-
 std::uint32_t groups_of(std::uint32_t rays) { return (rays + shared::kCutGroup - 1) / shared::kCutGroup; }
 
 }  // namespace
+
+void keep_each_once(std::vector<std::uint32_t>& ray_codes) {
+    std::ranges::sort(ray_codes);
+    const auto repeated = std::ranges::unique(ray_codes);
+    ray_codes.erase(repeated.begin(), repeated.end());
+}
 
 Error with_the_other_engine(Error failure) {
     constexpr const char* kOther = "use --engine cpu";
@@ -65,7 +65,7 @@ Error with_the_other_engine(Error failure) {
     return failure;
 }
 
-Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const gpu::Device& device,
+Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const gpu::Device& device, WorkerPool& pool,
                                                            const VulkanEngineOptions& options) {
     const gpu::Capabilities& can = device.capabilities();
     if (!can.shader_int64 || !can.shader_float64 || !can.buffer_address) {
@@ -76,7 +76,7 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
                                                : "addresses of buffers"),
                     "use --engine cpu");
     }
-    std::unique_ptr<VulkanEngine> engine(new VulkanEngine(std::move(solid), device, options));
+    std::unique_ptr<VulkanEngine> engine(new VulkanEngine(std::move(solid), device, pool, options));
     const auto compile = [&](gpu::ComputePipeline& to, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
                              const char* name) -> Result<void> {
         BURIN_TRY(made, gpu::ComputePipeline::create(engine->device_, {.spirv = spirv,
@@ -97,24 +97,8 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
     return engine;
 }
 
-VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options)
-    : solid_(std::move(solid)), device_(device), options_(options) {}
-
-Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
-    if (const auto done = read_back(); !done) return std::unexpected(with_the_other_engine(done.error()));
-    CarveStats stats;
-    for (const RayBatch::Ray& ray : rays.rays) {
-        const RayPlace place = place_of(ray.code);
-        ++stats.rays_touched;
-        if (assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place, rays.ends_of(ray), changes_)) {
-            ++stats.rays_changed;
-            assigned_.push_back(ray.code);
-        }
-    }
-    // Undo, smoothing and most tools assign, often many times before the next cut.
-    if (assigned_.size() > solid_.rays_held()) keep_each_once(assigned_);
-    return stats;
-}
+VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, WorkerPool& pool, const VulkanEngineOptions& options)
+    : solid_(std::move(solid)), device_(device), pool_(pool), options_(options) {}
 
 // Sends the rays that were assigned since the device was last used, as they are now.
 Result<void> VulkanEngine::send_assigned() {
@@ -172,22 +156,6 @@ Result<void> VulkanEngine::patch(const RayBatch& rays) {
     return {};
 }
 
-Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
-    BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
-    const CutTasks tasks = cut_tasks(solid_.lattice, capsules);
-    if (tasks.tasks.empty()) return CarveStats{};
-    if (const auto done = read_back(); !done) return std::unexpected(with_the_other_engine(done.error()));
-    if (const auto sent = synchronize(); !sent) return std::unexpected(with_the_other_engine(sent.error()));
-    const auto stats = cut_on_device(capsules, tasks);
-    if (!stats) {
-        synchronized_ = false;
-        return std::unexpected(with_the_other_engine(stats.error()));
-    }
-    apply_changes();
-    ++counts_.cuts;
-    return stats;
-}
-
 Result<void> VulkanEngine::synchronize() {
     if (synchronized_) return send_assigned();
     assigned_.clear();
@@ -202,27 +170,6 @@ Result<void> VulkanEngine::synchronize() {
     return {};
 }
 
-Result<CarveStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules, const CutTasks& tasks) {
-    changed_rays_.clear();
-    new_ends_.clear();
-    BURIN_TRY_DO(reserve(capsules, tasks));
-    CarveStats stats;
-    for (std::size_t next = 0; next < tasks.tasks.size();) {
-        const std::uint32_t some = send_tasks(std::span(tasks.tasks).subspan(next));
-        next += some;
-        std::uint32_t pending = 0;
-        do {
-            BURIN_TRY(counters, pass(some, pending));
-            stats.rays_touched += counters.touched;
-            collect(counters);
-            BURIN_TRY_DO(make_room_for(counters));
-            pending = counters.pending;
-        } while (pending > 0);
-    }
-    stats.rays_changed = changed_rays_.size();
-    return stats;
-}
-
 // Sends as many tasks as one pass takes, and returns their number.
 std::uint32_t VulkanEngine::send_tasks(std::span<const CutTask> tasks) {
     const auto some = tasks.first(std::min<std::size_t>(options_.tasks_a_pass, tasks.size()));
@@ -232,7 +179,7 @@ std::uint32_t VulkanEngine::send_tasks(std::span<const CutTask> tasks) {
 }
 
 // Reserves the buffers of a cut, for the case that every ray visited in a pass changes or is left pending.
-Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutTasks& tasks) {
+Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutTasks& tasks, SharedBuffer& changed) {
     const std::size_t task_count = std::min<std::size_t>(tasks.tasks.size(), options_.tasks_a_pass);
     const std::size_t rays = task_count * shared::kCutGroup;
     const std::pair<SharedBuffer*, std::size_t> sizes[] = {
@@ -240,7 +187,7 @@ Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutT
         {&tasks_, task_count * sizeof(CutTask)},
         {&order_, tasks.order.size() * sizeof(std::uint32_t)},
         {&counters_, sizeof(CutCounters)},
-        {&changed_, rays * sizeof(ChangedRay)},
+        {&changed, rays * sizeof(ChangedRay)},
         {&exported_, std::max<std::size_t>(rays * options_.export_per_ray, 1) * sizeof(DexelEnd)},
         {&pending_buffer_, rays * sizeof(PendingRay)},
         {&continued_, rays * sizeof(PendingRay)},
@@ -292,7 +239,8 @@ Result<CutCounters> VulkanEngine::counted(gpu::Commands commands) {
     return counters_.from_device<CutCounters>()[0];
 }
 
-void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t task_count) {
+void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t task_count,
+                              const SharedBuffer& changed) {
     passed_rays_ = parameters.pending > 0 ? parameters.pending : task_count * shared::kCutGroup;
     std::swap(pending_buffer_, continued_);
     capsules_.send(commands, capsule_bytes_);
@@ -302,132 +250,8 @@ void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters,
     commands.dispatch(
         cut_rays_,
         {device_solid_.rays(), stale_.buffer(), capsules_.buffer(), tasks_.buffer(), order_.buffer(),
-         counters_.buffer(), changed_.buffer(), exported_.buffer(), continued_.buffer(), pending_buffer_.buffer()},
+         counters_.buffer(), changed.buffer(), exported_.buffer(), continued_.buffer(), pending_buffer_.buffer()},
         gpu::bytes_of(parameters), {groups_of(passed_rays_), 1, 1});
-}
-
-// Runs one pass in one submission: over the rays of the tasks, or over those that an earlier pass left pending.
-Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t pending) {
-    BURIN_TRY_DO(check_longest());
-    BURIN_TRY(commands, gpu::Commands::begin(device_));
-    CutParameters parameters = this->parameters();
-    const std::uint32_t rays = pending > 0 ? pending : task_count * shared::kCutGroup;
-    // The buffer may be larger from an earlier cut, but all that a shader may use has to be read back.
-    const std::uint64_t space = exported_.size_bytes() / sizeof(DexelEnd);
-    const std::uint64_t expected = std::max<std::uint64_t>(std::uint64_t{rays} * options_.export_per_ray, 1);
-    parameters.export_size = static_cast<std::uint32_t>(pending > 0 ? space : std::min(space, expected));
-    parameters.pending = pending;
-    record_cut(commands, parameters, task_count);
-    commands.barrier();
-    changed_.fetch(commands, rays * sizeof(ChangedRay));
-    exported_.fetch(commands, parameters.export_size * sizeof(DexelEnd));
-    return counted(std::move(commands));
-}
-
-// ---- Deferred cuts
-
-Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
-    deferred_tasks_.clear();
-    next_task_ = 0;
-    pending_ = 0;
-    deferred_stats_ = {};
-    BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
-    CutTasks tasks = cut_tasks(solid_.lattice, capsules);
-    if (tasks.tasks.empty()) return {};
-    BURIN_TRY_DO(synchronize());
-    BURIN_TRY_DO(check_longest());
-    BURIN_TRY_DO(reserve(capsules, tasks));
-    deferred_tasks_ = std::move(tasks.tasks);
-    ++counts_.cuts;
-    return {};
-}
-
-void VulkanEngine::record_pass(gpu::Commands& commands) {
-    CutParameters parameters = this->parameters();
-    parameters.pending = pending_;
-    parameters.deferred = 1;
-    std::uint32_t tasks = 0;
-    if (pending_ == 0) next_task_ += tasks = send_tasks(std::span(deferred_tasks_).subspan(next_task_));
-    record_cut(commands, parameters, tasks);
-    commands.barrier();
-    counters_.fetch(commands, sizeof(CutCounters));
-    ++counts_.submissions;
-}
-
-Result<void> VulkanEngine::end_pass() {
-    const CutCounters counters = counters_.from_device<CutCounters>()[0];
-    deferred_stats_.rays_touched += counters.touched;
-    deferred_stats_.rays_changed += counters.changed;
-    stale_count_ = counters.stale;
-    longest_ = std::max(longest_, counters.longest);
-    pending_ = counters.pending;
-    auto done = make_room_for(counters);
-    if (done && pending_ > 0) done = check_longest();
-    if (!done) {
-        synchronized_ = false;
-        stale_count_ = pending_ = 0;
-        deferred_tasks_.clear();
-        next_task_ = 0;
-    }
-    return done;
-}
-
-// All is fetched before anything is assigned: a device that fails in between leaves the host's solid as it was.
-Result<void> VulkanEngine::read_back() {
-    const std::uint32_t rays = std::exchange(stale_count_, 0);
-    const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes;
-    const auto most = static_cast<std::uint32_t>(std::min<std::uint64_t>(limit / sizeof(ChangedRay), 1 << 20));
-    changed_rays_.clear();
-    new_ends_.clear();
-    for (std::uint32_t first = 0, some = 0; first < rays; first += some) {
-        some = std::min(most, rays - first);
-        const auto fetched = fetch_stale(first, some);
-        if (!fetched) {
-            synchronized_ = false;
-            return std::unexpected(fetched.error());
-        }
-        some = fetched->changed;
-        collect(*fetched);
-    }
-    for (const ChangedRay& ray : changed_rays_) {
-        const RayPlace place = place_of(ray.ray);
-        // Returns false, which does not matter here, if the ray has its former ends again.
-        (void)assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place,
-                         std::span(new_ends_).subspan(ray.first, ray.count), changes_);
-    }
-    return {};
-}
-
-// Fetches some of the stale rays into changed_ and exported_. `changed` of what it returns says how many: fewer than
-// requested where their ends do not fit into one buffer.
-Result<CutCounters> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32_t rays) {
-    const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd);
-    std::uint64_t ends = std::min<std::uint64_t>(std::uint64_t{2} * rays, limit);
-    for (;;) {
-        auto kept = changed_.reserve(device_, rays * sizeof(ChangedRay));
-        if (kept) kept = exported_.reserve(device_, ends * sizeof(DexelEnd));
-        if (kept) kept = counters_.reserve(device_, sizeof(CutCounters));
-        if (!kept) return std::unexpected(kept.error());
-        BURIN_TRY(commands, gpu::Commands::begin(device_));
-        CutParameters parameters = this->parameters();
-        parameters.pending = rays;
-        parameters.first_stale = first;
-        parameters.export_size = static_cast<std::uint32_t>(ends);
-        send_counters(commands);
-        commands.dispatch(
-            export_rays_,
-            {device_solid_.rays(), stale_.buffer(), counters_.buffer(), changed_.buffer(), exported_.buffer()},
-            gpu::bytes_of(parameters), {groups_of(rays), 1, 1});
-        commands.barrier();
-        changed_.fetch(commands, rays * sizeof(ChangedRay));
-        exported_.fetch(commands, ends * sizeof(DexelEnd));
-        auto counters = counted(std::move(commands));
-        if (!counters) return std::unexpected(counters.error());
-        counters->changed = rays;
-        if (counters->exported <= ends) return counters;
-        ends = std::min<std::uint64_t>(counters->exported, limit);
-        if (counters->exported > limit) rays = std::max(1u, rays / 2);
-    }
 }
 
 void VulkanEngine::collect(const CutCounters& counters) {
@@ -461,11 +285,11 @@ Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
     return {};
 }
 
-void VulkanEngine::apply_changes() {
+void VulkanEngine::apply_changes(Changes& changes) {
     for (const ChangedRay& change : changed_rays_) {
         const RayPlace place = place_of(change.ray);
         DexelSet& set = solid_.sets[static_cast<std::size_t>(place.axis)];
-        changes_.record(place, change.changed_lo, change.changed_hi, set.ends(place.u, place.v));
+        changes.record(place, change.changed_lo, change.changed_hi, set.ends(place.u, place.v));
         set.replace(place.u, place.v, std::span(new_ends_).subspan(change.first, change.count));
     }
 }

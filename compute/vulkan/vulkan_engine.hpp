@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The carving engine on a Vulkan device.
 //
-// Data flow of a cut: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> one submission that cuts the rays
-// on the device and lists the changed ones with their new ends -> only those are read back into the host's solid and
-// recorded. Rays that found no space in the store, or used up their share of one pass, are continued in further
-// submissions; usually there are none.
+// Data flow of an update of balls: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> begin() submits work
+// that cuts the rays on the device and writes those that change, with their new ends, into the host's memory -> take()
+// puts these into the host's solid, once the device has done all. Rays that found no space in the store, or used up
+// their share of one pass, are continued in further submissions; usually there are none. One update is under way at a
+// time; those that come meanwhile wait, and are carried out as one if the device is late. So nobody waits for the
+// device, and the host's solid lags behind by as many updates as were not taken.
+// What the device has no shader for, the host does when the update is taken (compute/tools/apply.hpp); so it does with
+// rays that are assigned. The device is sent them before it is used again.
 //
-// The host's solid changes only when all passes are done: an Error leaves it unchanged, and the next cut sends it to
-// the device anew. The change of a ray is recorded once, between the lowest and the highest depth that changed.
+// The change of a ray is recorded once an update, between the lowest and the highest depth that changed. After an
+// Error, the next update sends the host's solid to the device anew.
 //
 // A cut can also be deferred: recorded into the caller's commands, without a wait. The host's solid then lags behind
 // the device's until read_back fetches the rays that differ; the device keeps a list of them, each once.
@@ -15,7 +19,10 @@
 // Thread: one, as gpu::Device.
 #pragma once
 
+#include <deque>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,20 +52,20 @@ class VulkanEngine final : public CarvingEngine {
 public:
     // Makes the engine and sends the solid to the device. Fails on a device without 64-bit integers, doubles or buffer
     // addresses in shaders, or without space for the solid, which then stays the caller's.
+    // The pool must outlive the engine.
     [[nodiscard]] static Result<std::unique_ptr<VulkanEngine>> create(Solid&& solid, const gpu::Device& device,
+                                                                      WorkerPool& pool,
                                                                       const VulkanEngineOptions& options = {});
 
     [[nodiscard]] const char* name() const override { return "vulkan"; }
-    [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override;
-    // Assigns the batch's rays, on the host alone. The device is sent them before it is used again: each once, in one
-    // submission for all batches since, or more when the store is full.
-    [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
-    // Returns the host's solid, which lags behind the device's after deferred cuts, until read_back.
+    [[nodiscard]] Result<Ticket> begin(std::span<const ToolSweep> sweeps) override;
+    [[nodiscard]] Result<Ticket> begin(RayBatch rays) override;
+    [[nodiscard]] Result<std::optional<Delta>> take(Wait wait) override;
+    [[nodiscard]] std::size_t under_way() const override { return static_cast<std::size_t>(begun_ - taken_); }
     [[nodiscard]] const Solid& solid() const override { return solid_; }
     [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
         return burin::compute::add_material(solid_, material);
     }
-    [[nodiscard]] Changes take_changes() override { return changes_.take(); }
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
         return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host,
@@ -72,7 +79,7 @@ public:
     // A deferred cut, for callers that record commands of their own (device_surface.hpp). Call defer; then, while
     // deferred_left(): record_pass into commands, submit them and wait at any later time, end_pass. After each pass,
     // changed_rays() holds the rays that it finished; `changed` in counters() is their number, at most passed_rays().
-    // Nothing else may be called on the engine in between. An Error loses the cuts deferred since the last read_back:
+    // Nothing else may be called on the engine in between, and no update be under way. An Error loses the cuts deferred since the last read_back:
     // the next call sends the host's solid anew.
     [[nodiscard]] Result<void> defer(std::span<const BallSweep> sweeps);
     [[nodiscard]] bool deferred_left() const { return pending_ > 0 || next_task_ < deferred_tasks_.size(); }
@@ -84,7 +91,7 @@ public:
     [[nodiscard]] Result<void> read_back();
     [[nodiscard]] std::uint32_t stale_rays() const { return stale_count_; }
     [[nodiscard]] const DeviceSolid& device_solid() const { return device_solid_; }
-    [[nodiscard]] const gpu::Buffer& changed_rays() const { return changed_.buffer(); }
+    [[nodiscard]] const gpu::Buffer& changed_rays() const { return deferred_changed_.buffer(); }
     [[nodiscard]] const gpu::Buffer& counters() const { return counters_.buffer(); }
     [[nodiscard]] std::uint32_t passed_rays() const { return passed_rays_; }
     [[nodiscard]] gpu::Device& device() { return device_; }
@@ -92,25 +99,58 @@ public:
     [[nodiscard]] Result<void> synchronize();
 
 private:
-    VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options);
+    // An update that waits; `rays` are assigned where there are no sweeps.
+    struct Update {
+        std::vector<ToolSweep> sweeps;
+        RayBatch rays;
+        [[nodiscard]] bool is_for_device() const;
+    };
+    // An update, or several as one, that the device carries out.
+    struct Flight {
+        std::size_t updates = 0;
+        std::vector<shared::Capsule> capsules;
+        CutTasks tasks;
+        std::size_t next_task = 0;                  // that was not sent
+        std::uint32_t pending = 0;                  // rays that the last submission left
+        std::optional<gpu::Submission> submission;  // under way
+        CarveStats stats;
+        [[nodiscard]] bool is_done() const { return !submission && pending == 0 && next_task == tasks.tasks.size(); }
+    };
+
+    VulkanEngine(Solid solid, const gpu::Device& device, WorkerPool& pool, const VulkanEngineOptions& options);
+
+    // ---- Updates (vulkan_engine_updates.cpp)
+    void start(Wait alone);
+    [[nodiscard]] Result<void> prepare(std::span<const ToolSweep> sweeps);
+    [[nodiscard]] Result<void> advance(Wait wait);
+    [[nodiscard]] Result<void> submit_pass();
+    [[nodiscard]] Result<void> end_submission();
+    [[nodiscard]] Delta land();
+    [[nodiscard]] Result<Delta> carry_out_on_host();
+    [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps, Changes& changes);
+    [[nodiscard]] Result<CarveStats> cut_now(std::span<const ToolSweep> balls, Changes& changes);
+    [[nodiscard]] std::uint64_t assign_rays(const RayBatch& rays, Changes& changes);
+    [[nodiscard]] Error forgotten(const Error& why);
+
     [[nodiscard]] Result<void> send_assigned();
     [[nodiscard]] Result<void> patch(const RayBatch& rays);
     [[nodiscard]] Result<shared::CutCounters> fetch_stale(std::uint32_t first, std::uint32_t rays);
-    [[nodiscard]] Result<CarveStats> cut_on_device(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
-    [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
+    [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks,
+                                       SharedBuffer& changed);
     [[nodiscard]] Result<void> check_longest() const;
     [[nodiscard]] shared::CutParameters parameters() const;
     void send_counters(gpu::Commands& commands);
     [[nodiscard]] Result<shared::CutCounters> counted(gpu::Commands commands);
-    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t task_count);
-    [[nodiscard]] Result<shared::CutCounters> pass(std::uint32_t task_count, std::uint32_t pending);
+    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t task_count,
+                    const SharedBuffer& changed);
     [[nodiscard]] std::uint32_t send_tasks(std::span<const shared::CutTask> tasks);
     [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
     void collect(const shared::CutCounters& counters);
-    void apply_changes();
+    void apply_changes(Changes& changes);
 
     Solid solid_;
     gpu::Device device_;
+    WorkerPool& pool_;
     VulkanEngineOptions options_;
     VulkanEngineCounts counts_;
     gpu::ComputePipeline cut_rays_, patch_rays_, export_rays_;
@@ -128,13 +168,19 @@ private:
     SharedBuffer tasks_{"cut tasks", SharedBuffer::Traffic::to_device};
     SharedBuffer order_{"capsule order", SharedBuffer::Traffic::to_device};
     SharedBuffer counters_{"cut counters", SharedBuffer::Traffic::both};
-    SharedBuffer changed_{"changed rays", SharedBuffer::Traffic::from_device};
-    SharedBuffer exported_{"changed ends", SharedBuffer::Traffic::from_device};
+    SharedBuffer changed_{"changed rays", SharedBuffer::Traffic::in_place};
+    SharedBuffer exported_{"changed ends", SharedBuffer::Traffic::in_place};
+    SharedBuffer deferred_changed_{"rays to mesh", SharedBuffer::Traffic::none};
     SharedBuffer pending_buffer_{"pending rays", SharedBuffer::Traffic::none};
     SharedBuffer continued_{"continued rays", SharedBuffer::Traffic::none};
     SharedBuffer stale_{"stale rays", SharedBuffer::Traffic::none};
     SharedBuffer patches_{"patched rays", SharedBuffer::Traffic::to_device};
     SharedBuffer patch_ends_{"patch ends", SharedBuffer::Traffic::to_device};
+    // Updates that were begun and not taken: one on the device, then those that wait.
+    std::deque<Update> waiting_;
+    std::optional<Flight> flight_;
+    Ticket begun_ = 0, taken_ = 0;
+    std::optional<Error> failure_;  // of starting an update, for the next take()
     // State of the deferred cut.
     std::vector<shared::CutTask> deferred_tasks_;
     std::size_t next_task_ = 0;
@@ -143,8 +189,10 @@ private:
     // Changed rays of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
     std::vector<shared::ChangedRay> changed_rays_;
     std::vector<shared::DexelEnd> new_ends_;
-    Changes changes_;
 };
+
+// Sorts codes of rays, and leaves each once.
+void keep_each_once(std::vector<std::uint32_t>& ray_codes);
 
 // Adds the other engine to the remedies of a failure of this one. Of gpu/ alone it is no remedy, since pictures are
 // drawn by the GPU whichever engine carves.

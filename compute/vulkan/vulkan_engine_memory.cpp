@@ -61,7 +61,8 @@ Result<void> SharedBuffer::reserve(gpu::Device& device, std::uint64_t size_bytes
     if (size_bytes <= device_side_.size_bytes()) return {};
     const std::uint64_t limit = device.capabilities().max_storage_buffer_bytes;
     const std::uint64_t grown = std::max(size_bytes, std::min(size_bytes + size_bytes / 2, limit));
-    BURIN_TRY(made, gpu::Buffer::create(device, gpu::BufferUse::device_storage, grown, name_));
+    const auto use = traffic_ == Traffic::in_place ? gpu::BufferUse::host_storage : gpu::BufferUse::device_storage;
+    BURIN_TRY(made, gpu::Buffer::create(device, use, grown, name_));
     gpu::Buffer upload, readback;
     if (made.mapped().empty()) {
         if (traffic_ == Traffic::to_device || traffic_ == Traffic::both) {

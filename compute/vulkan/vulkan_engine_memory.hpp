@@ -19,7 +19,8 @@ namespace burin::compute {
 // is mapped; otherwise there is a copy in host memory, which send and fetch transfer.
 class SharedBuffer {
 public:
-    enum class Traffic { to_device, from_device, both, none };
+    // in_place: shaders write into the host's memory, so that only what is written crosses over.
+    enum class Traffic { to_device, from_device, both, none, in_place };
     SharedBuffer(std::string name, Traffic traffic) : name_(std::move(name)), traffic_(traffic) {}
 
     // Enlarges the buffer to at least size_bytes. When it has to grow, its contents are lost.

@@ -183,6 +183,11 @@ void UpdateText::write(std::string& text, const scene::SceneUpdate& update) {
         text += 'e';
         if (part > 0) add(text, part);
     }
+    for (std::size_t part = 0; part < update.parts.size(); ++part) {
+        if (update.parts[part].behind == 0) continue;
+        add(text, 'd', update.parts[part].behind);
+        if (part > 0) add(text, 'p', part);
+    }
     text += ';';
     last_ = update;
 }
@@ -208,6 +213,12 @@ std::optional<scene::SceneUpdate> UpdateText::read(std::string_view& text) {
         const auto part = fields.has_digit() ? static_cast<std::size_t>(fields.change(1, kMostParts - 1)) : 0;
         if (part >= update.parts.size()) update.parts.resize(part + 1);
         update.parts[part].background_ended = true;
+    }
+    while (fields.takes('d')) {
+        const auto behind = static_cast<std::size_t>(fields.change(1, kMostChange));
+        const auto part = fields.takes('p') ? static_cast<std::size_t>(fields.change(1, kMostParts - 1)) : 0;
+        if (part >= update.parts.size()) update.parts.resize(part + 1);
+        update.parts[part].behind = behind;
     }
     fields.require(fields.at_end() && in_session(update.time_ns, start_ns_) && update.time_ns >= last_.time_ns);
     if (!fields.ok()) return std::nullopt;

@@ -91,7 +91,7 @@ bool covers(RayEnds whole, RayEnds part) {
 }
 
 CarveStats must_apply(CarvingEngine& engine, std::span<const ToolSweep> sweeps) {
-    const auto stats = apply(engine, sweeps, pool());
+    const auto stats = engine.carve(sweeps);
     EXPECT_TRUE(stats.has_value()) << stats.error().line();
     return stats.value_or(CarveStats{});
 }
@@ -186,7 +186,7 @@ TEST(Apply, ManySweepsAtOnceAreThemOneAfterTheOtherOnAnyNumberOfThreads) {
         }
         WorkerPool five(5);
         const auto all = make_cpu_engine(start, five), each = make_cpu_engine(start, pool());
-        const auto stats = apply(*all, sweeps, five);
+        const auto stats = all->carve(sweeps);
         ASSERT_TRUE(stats.has_value());
         CarveStats sum;
         for (const ToolSweep& sweep : sweeps) sum += must_apply(*each, {&sweep, 1});
@@ -248,13 +248,13 @@ TEST(Apply, RefusesTheWholeRunWhenOneSweepCannotBe) {
     bad[4].smooth_strength = 1.5;
     bad[5].material = 77;
     for (const ToolSweep& sweep : bad) {
-        const auto result = apply(*engine, std::vector{good, sweep}, pool());
+        const auto result = engine->carve(std::vector{good, sweep});
         ASSERT_FALSE(result.has_value());
         EXPECT_FALSE(result.error().remedy.empty());
         EXPECT_TRUE(engine->solid().same_content(before));
     }
     EXPECT_TRUE(engine->take_changes().empty());
-    EXPECT_TRUE(apply(*engine, {}, pool()).has_value());
+    EXPECT_TRUE(engine->carve(std::span<const ToolSweep>{}).has_value());
 }
 
 // Filled up to where the lattice ends, the solid is still closed there: its outermost nodes stay empty.
@@ -268,7 +268,7 @@ TEST(Apply, WhatIsFilledBeyondTheLatticeClosesAtItsBorder) {
             sweep.shape = shape;
             sweep.start = sweep.end = {corner, Quat(1, 0, 0, 0)};
             sweep.operation = Operation::fill;
-            ASSERT_TRUE(apply(*engine, std::span(&sweep, 1), pool()).has_value());
+            ASSERT_TRUE(engine->carve(std::span(&sweep, 1)).has_value());
         }
         ASSERT_TRUE(well_formed(engine->solid()));
         Surface surface(start.lattice);
@@ -288,7 +288,7 @@ TEST(Apply, WhatIsFilledBeyondTheLatticeFacesOutwardsAtItsBorder) {
             sweep.shape = shape;
             sweep.start = sweep.end = {corner, Quat(1, 0, 0, 0)};
             sweep.operation = Operation::fill;
-            ASSERT_TRUE(apply(*engine, std::span(&sweep, 1), pool()).has_value());
+            ASSERT_TRUE(engine->carve(std::span(&sweep, 1)).has_value());
         }
         for (int axis = 0; axis < 3; ++axis) {
             const DexelSet& set = engine->solid().sets[static_cast<std::size_t>(axis)];

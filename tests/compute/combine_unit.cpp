@@ -78,7 +78,7 @@ TEST(Combine, SubtractingAMeshIsCarvingWithIt) {
     const auto engine = make_cpu_engine(box, pool());
     ToolSweep sweep{*prepare_mesh_tool(std::make_shared<geometry::TriangleMesh>(tool)), {}, {}};
     sweep.material = 1;
-    ASSERT_TRUE(apply(*engine, {&sweep, 1}, pool()));
+    ASSERT_TRUE(engine->carve({&sweep, 1}));
     EXPECT_TRUE(engine->solid().same_content(*combine(box, other, Combination::subtract, pool())));
 }
 

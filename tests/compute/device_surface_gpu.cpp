@@ -34,6 +34,7 @@ protected:
     }
     gpu::Capabilities& capabilities() { return device().core()->capabilities; }
     testing::AssertionResult equal(DeviceSurface& surface, const Surface& cpu);
+    WorkerPool pool_{1};
 };
 
 std::unique_ptr<DeviceSurface> surface_of(VulkanEngine& engine, const DeviceSurfaceOptions& options = {}) {
@@ -63,7 +64,7 @@ TEST_F(DeviceSurfaceGpu, NoiseHasTheSameSurfaceWhateverItsRaysSay) {
         for (const double p : {0.02, 0.2, 0.5}) {
             for (int round = 0; round < repeated(2); ++round) {
                 const Solid solid = noise_solid({20, 17, 34}, p, rays, ++seed);
-                auto engine = VulkanEngine::create(Solid(solid), device());
+                auto engine = VulkanEngine::create(Solid(solid), device(), pool_);
                 ASSERT_TRUE(engine);
                 const auto surface = surface_of(**engine);
                 ASSERT_NE(surface, nullptr);

@@ -62,7 +62,7 @@ class EnginePair {
 public:
     EnginePair(const Solid& solid, const gpu::Device& device, const VulkanEngineOptions& options = {})
         : cpu_(make_cpu_engine(solid, pool_)) {
-        auto made = VulkanEngine::create(Solid(solid), device, options);
+        auto made = VulkanEngine::create(Solid(solid), device, pool_, options);
         EXPECT_TRUE(made) << made.error().line();
         if (made) vulkan_ = std::move(*made);
     }

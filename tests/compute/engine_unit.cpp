@@ -81,7 +81,7 @@ TEST(CpuEngine, SweepsThatMissDoNothing) {
     const auto stats = engine->carve(misses);
     ASSERT_TRUE(stats.has_value());
     EXPECT_EQ(stats->rays_changed, 0u);
-    EXPECT_TRUE(engine->carve({}).has_value());
+    EXPECT_TRUE(engine->carve(std::span<const BallSweep>{}).has_value());
     EXPECT_TRUE(engine->solid().same_content(before));
     EXPECT_TRUE(engine->take_changes().empty());
 }

@@ -169,7 +169,7 @@ TEST(MeshTool, AMeshTakesItsOwnScanConversionAwayToTheBit) {
         ASSERT_TRUE(converted) << converted.error().line();
         const auto engine = make_cpu_engine(std::move(converted->solid), tool_pool());
         const ToolSweep sweep{tool_of(mesh), {}, {}};
-        ASSERT_TRUE(apply(*engine, {&sweep, 1}, tool_pool()));
+        ASSERT_TRUE(engine->carve({&sweep, 1}));
         for (const DexelSet& set : engine->solid().sets) {
             for (std::size_t r = 0; r < set.ray_count(); ++r) ASSERT_TRUE(set.ends(r).empty());
         }

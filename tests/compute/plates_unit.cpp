@@ -30,7 +30,7 @@ std::unique_ptr<CarvingEngine> plates(int resolution, double plate_share, Worker
         slot.start.position_m = slot.end.position_m = Vec3(width / 2, width / 2, (i + 1) * pitch);
         slots.push_back(slot);
     }
-    EXPECT_TRUE(apply(*engine, slots, pool).has_value());
+    EXPECT_TRUE(engine->carve(slots).has_value());
     history.record(engine->take_changes());
     history.end_stroke();
     return engine;

@@ -167,7 +167,7 @@ void pass_along(CarvingEngine& engine, const TurnedRim& rim, double radius_m, do
     for (int i = 0; i < pieces; ++i) {
         const auto at = [&](int k) { return Pose{rim.at(kReach * (2.0 * k / pieces - 1.0))}; };
         const ToolSweep sweep{BallTool{radius_m}, at(i), at(i + 1), Operation::smooth};
-        const auto done = apply(engine, {&sweep, 1}, rim_pool());
+        const auto done = engine.carve({&sweep, 1});
         ASSERT_TRUE(done) << done.error().line();
     }
 }
@@ -286,7 +286,7 @@ TEST(SmoothRim, AGrooveFills) {
         double last_m = before_m;
         for (int i = 0; i < 6; ++i) {
             const ToolSweep sweep{BallTool{0.008}, Pose{from}, Pose{to}, Operation::smooth};
-            ASSERT_TRUE(apply(*engine, {&sweep, 1}, rim_pool()));
+            ASSERT_TRUE(engine->carve({&sweep, 1}));
             const double now_m = depth_m();
             std::printf("N = %d: the groove is %.3f mm deep, %.3f mm after pass %d\n", resolution, before_m * 1e3,
                         now_m * 1e3, i + 1);

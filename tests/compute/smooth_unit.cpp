@@ -31,7 +31,7 @@ ToolSweep smoothing(const Vec3& from, const Vec3& to, double radius_m, double st
 
 void apply_to(CarvingEngine& engine, const ToolSweep& sweep, int times = 1) {
     for (int i = 0; i < times; ++i) {
-        const auto done = apply(engine, {&sweep, 1}, smoothing_pool());
+        const auto done = engine.carve({&sweep, 1});
         ASSERT_TRUE(done) << done.error().line();
     }
     ASSERT_TRUE(well_formed(engine.solid()));

@@ -156,7 +156,7 @@ private:
     }
 
     void perform(const ToolSweep& sweep) {
-        const auto stats = apply(*engine_, std::span(&sweep, 1), pool_);
+        const auto stats = engine_->carve(std::span(&sweep, 1));
         if (!stats) {  // too far away or too large: refused, and nothing happened
             ASSERT_FALSE(stats.error().remedy.empty()) << stats.error().line();
             ASSERT_TRUE(engine_->take_changes().empty());
@@ -171,7 +171,7 @@ private:
     void repeat_last() {
         if (last_->operation == Operation::smooth) return;
         perform(*last_);
-        const auto again = apply(*engine_, std::span(&*last_, 1), pool_);
+        const auto again = engine_->carve(std::span(&*last_, 1));
         ASSERT_TRUE(again.has_value());
         ASSERT_EQ(again->rays_changed, 0u);
         ASSERT_TRUE(engine_->take_changes().empty());

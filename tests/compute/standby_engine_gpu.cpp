@@ -3,19 +3,14 @@
 // all that the two have changed is what the processor alone changes.
 #include "compute/vulkan/standby_engine.hpp"
 
-#include <map>
-#include <utility>
-
 #include "compute/rays/history.hpp"
+#include "tests/compute/updates.hpp"
 #include "tests/compute/vulkan_engine_fixture.hpp"
 
 namespace burin::compute::test {
 namespace {
 
-class StandbyEngineGpu : public VulkanEngineGpu {
-protected:
-    WorkerPool pool_{1};
-};
+using StandbyEngineGpu = VulkanEngineGpu;
 
 // The rays of a lattice plane, emptied: what undo and other tools assign.
 RayBatch emptied(const Solid& solid, Random& random) {
@@ -23,19 +18,6 @@ RayBatch emptied(const Solid& solid, Random& random) {
     const int axis = random.small(0, 2), v = random.small(1, solid.lattice.rays_v(axis) - 2);
     for (int u = 1; u < solid.lattice.rays_u(axis) - 1; ++u) batch.add(shared::ray_code(axis, u, v), {});
     return batch;
-}
-
-// Which rays have changed, and what each held before its first change. The processor records each ball's change of a
-// ray, the device the change of all balls of a call.
-std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> first_held(const Changes& changes) {
-    std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> held;
-    for (const shared::ChangedRay& ray : changes.rays) {
-        const auto [at, is_first] = held.try_emplace(ray.ray);
-        if (!is_first) continue;
-        for (const shared::DexelEnd& end : changes.before_of(ray))
-            at->second.emplace_back(end.depth_material, end.normal);
-    }
-    return held;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct Workpiece {
         const Pose middle{{0.5, 0.3, 0.33}, Quat(1.0, 0.0, 0.0, 0.0)};
         const ToolSweep cut{BoxTool{Vec3(0.42, 0.42, 0.2)}, middle, middle};
         if (hollow) {
-            EXPECT_TRUE(apply(*engine, std::span(&cut, 1), pool).has_value());
+            EXPECT_TRUE(engine->carve(std::span(&cut, 1)).has_value());
         }
         (void)engine->take_changes();
         surface.mesh_all(engine->solid(), pool);

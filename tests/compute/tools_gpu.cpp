@@ -38,8 +38,8 @@ TEST_F(ToolsGpu, EveryToolAndOperationGivesTheSolidOfTheCpuEngine) {
                      random.chance(0.7) ? sweep.start.orientation : any_orientation(random)};
         sweep.tolerance_cells = 0.5;
         sweep.material = static_cast<std::uint8_t>(random.small(0, 1));
-        const auto expected = apply(pair.cpu(), {&sweep, 1}, pair.pool());
-        const auto actual = apply(pair.vulkan(), {&sweep, 1}, pair.pool());
+        const auto expected = pair.cpu().carve({&sweep, 1});
+        const auto actual = pair.vulkan().carve({&sweep, 1});
         ASSERT_TRUE(expected) << expected.error().line();
         ASSERT_TRUE(actual) << actual.error().line();
         EXPECT_EQ(actual->rays_changed, expected->rays_changed);

@@ -25,6 +25,8 @@ protected:
     }
     // To play a lesser device.
     gpu::Capabilities& capabilities() { return device().core()->capabilities; }
+
+    WorkerPool pool_{1};
 };
 
 inline Vec3 random_point(Random& random, double lo, double hi) {

@@ -207,7 +207,7 @@ TEST_F(VulkanEngineGpu, ADeviceWithout64BitArithmeticOrAddressesIsRefused) {
     for (bool gpu::Capabilities::* lacking :
          {&gpu::Capabilities::shader_int64, &gpu::Capabilities::shader_float64, &gpu::Capabilities::buffer_address}) {
         capabilities().*lacking = false;
-        const auto engine = VulkanEngine::create(unit_cube(16), device());
+        const auto engine = VulkanEngine::create(unit_cube(16), device(), pool_);
         ASSERT_FALSE(engine);
         EXPECT_NE(engine.error().line().find("--engine cpu"), std::string::npos) << engine.error().line();
         capabilities().*lacking = true;
@@ -220,14 +220,14 @@ TEST_F(VulkanEngineGpu, ASolidTooLargeForTheDevicesBuffersIsRefusedWithAResoluti
     device().core()->max_allocation_bytes = 512 << 10;
     for (const bool unified : {true, false}) {
         if (!unified) capabilities().unified_memory = false;
-        const auto engine = VulkanEngine::create(Solid(solid), device(), {.spare_ends = 0});
+        const auto engine = VulkanEngine::create(Solid(solid), device(), pool_, {.spare_ends = 0});
         ASSERT_FALSE(engine);
         const std::string line = engine.error().line();
         const std::size_t number = line.find("about ");
         ASSERT_NE(number, std::string::npos) << line;
         const int fits = std::stoi(line.substr(number + 6));
         EXPECT_GE(fits, kMinResolution);
-        const auto smaller = VulkanEngine::create(unit_cube(fits), device(), {.spare_ends = 0});
+        const auto smaller = VulkanEngine::create(unit_cube(fits), device(), pool_, {.spare_ends = 0});
         EXPECT_TRUE(smaller) << fits << ": " << smaller.error().line();
     }
 }
@@ -262,7 +262,7 @@ TEST_F(VulkanEngineGpu, ARayWithMoreEndsThanAPassCanHandleIsRefused) {
     for (int i = 0; i < 10'000; ++i) ends.push_back(shared::make_end(1000 + 3 * i, 0, 0));
     counts[100] = static_cast<std::uint32_t>(ends.size());
     solid.sets[2].assign(counts, ends);
-    const auto engine = VulkanEngine::create(Solid(solid), device());
+    const auto engine = VulkanEngine::create(Solid(solid), device(), pool_);
     ASSERT_TRUE(engine);
     const auto refused = (*engine)->carve(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.5, 0}});
     ASSERT_FALSE(refused);

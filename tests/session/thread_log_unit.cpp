@@ -83,7 +83,8 @@ TEST(ThreadLog, UpdatesReadBackWithEveryHandAndPart) {
     std::vector<scene::SceneUpdate> updates{
         {clock.start_ns + 10'000'000, 0, {12, 0, 7}, {{false}, {true}, {false}}},
         {clock.start_ns + 21'000'000, 3, {12, 30, 19}, {{true}, {false}, {true}}},
-        {clock.start_ns + 21'000'000, 0, {40, 30, 19}, {{false}, {false}, {false}}},
+        {clock.start_ns + 21'000'000, 0, {40, 30, 19}, {{false, 2}, {false, 0}, {true, 11}}},
+        {clock.start_ns + 31'000'000, 0, {40, 30, 19}, {{false}, {false, 1}, {false}}},
     };
     UpdateText writer(clock), reader(clock);
     std::string text;
@@ -123,6 +124,7 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
     EXPECT_EQ(complaint("0.1 ticks 1 5;"), "none");
     EXPECT_EQ(complaint("0.1 updates 1 5t1o2e;-7;"), "none");
     EXPECT_EQ(complaint("0.1 updates 1 5t1h2t4o2ee3;-7h2t1;"), "none");
+    EXPECT_EQ(complaint("0.1 updates 1 5t1o2e3d1d2p3;-7d4;"), "none");
     EXPECT_EQ(complaint("0.1 saw 0 0 12"), "none");
     EXPECT_EQ(complaint("0.1 output 0 64 64 -1 3"), "none");
     EXPECT_EQ(complaint("0.1 said \"a word\""), "none");
@@ -143,6 +145,8 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
                                   "updates 1 5h99t1;",
                                   "updates 1 5h1;",
                                   "updates 1 5e99;",
+                                  "updates 1 5d0;",
+                                  "updates 1 5d3p99;",
                                   "saw 1 2",
                                   "saw 1 2 3 restless",
                                   "saw -1 2 3",
