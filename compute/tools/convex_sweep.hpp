@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Closed forms for the section of a lattice ray with a convex tool that moves along a segment without turning.
-//
-// For a ray o + s e and a tool K that moves by t d, the set {(s, t): o + s e - t d in K, 0 <= t <= T} is convex, so the
-// ray runs through the swept tool in one interval of s.
-//   Frustum (cylinder, cone): the set is bounded by a conic (the side), two parallel lines (the caps) and two more
-//   (start and end of the motion). The least and the greatest s of such a set lie where the conic meets one of those
-//   lines or the line on which its own derivative by t vanishes, or where two lines meet. That takes a few quadratic
-//   equations.
-//   Box: swept along a segment it is the sum of four segments, a polytope whose faces are parallel to two of them each:
-//   six pairs of parallel planes.
-// Lattice axes and units; computed in doubles with + - * / and roots only. Rounding moves a border by less than 1e-6
-// units where the ray does not graze it. A candidate counts as feasible within kSweepSlack, so that a corner at which
-// three borders meet is not lost to the rounding of each.
+// Convex tools that move along a segment without turning, and their sections with lattice rays: in closed form, by the
+// text that the device compiles too (shaders/shared/convex_sweep.h). Lattice axes and units.
 #pragma once
 
 #include "base/space.hpp"
+#include "shaders/shared/convex_sweep.h"
 
 namespace burin::compute {
 
 // The part of a ray that lies inside a swept tool.
-struct SweepSpan {
-    double lo = 1.0, hi = 0.0;            // depths, not rounded; empty when lo > hi
-    Vec3 normal_lo{0.0}, normal_hi{0.0};  // pointing out of the tool, of any length
-    // Normals of planes that touch the swept piece at the ends. Those above may be those of another shape (rim_radius).
-    Vec3 plane_lo{0.0}, plane_hi{0.0};
-    [[nodiscard]] bool empty() const { return !(lo <= hi); }
-};
+using SweepSpan = shared::SweepSpan;
 
 // A cylinder or a frustum of a cone along an axis, starting at its tip.
 struct Frustum {
@@ -41,17 +25,18 @@ public:
     FrustumSweep(const Frustum& shape, const Vec3& tip, const Vec3& axis, const Vec3& along);
     [[nodiscard]] SweepSpan span(int axis, double ray_u, double ray_v) const;
     [[nodiscard]] Box bounds() const;
-    [[nodiscard]] const Frustum& shape() const { return shape_; }
-    [[nodiscard]] const Vec3& tip() const { return tip_; }
-    [[nodiscard]] const Vec3& axis() const { return axis_; }
+    [[nodiscard]] Frustum shape() const {
+        return {swept_.tip_radius, swept_.top_radius, swept_.height, swept_.rim_radius, swept_.rim_height};
+    }
+    [[nodiscard]] const Vec3& tip() const { return swept_.tip; }
+    [[nodiscard]] const Vec3& axis() const { return swept_.axis; }
     [[nodiscard]] const Vec3& along() const { return along_; }
+    // Returns what a section takes of it, for the device.
+    [[nodiscard]] const shared::SweptFrustum& swept() const { return swept_; }
 
 private:
-    Frustum shape_;
-    Vec3 tip_, axis_, along_;
-    Vec3 direction_{0.0};  // of the motion; of length 1, or zero for a stamp
-    double distance_;      // length T of the motion
-    double slope_;         // change of the radius per length along the axis
+    shared::SweptFrustum swept_;
+    Vec3 along_;
 };
 
 class BoxSweep {
@@ -60,16 +45,18 @@ public:
     BoxSweep(const Vec3& half_size, const Vec3& center, const Quat& orientation, const Vec3& along);
     [[nodiscard]] SweepSpan span(int axis, double ray_u, double ray_v) const;
     [[nodiscard]] Box bounds() const;
-    [[nodiscard]] Vec3 start() const { return middle_ - 0.5 * along_; }  // of the centre
+    [[nodiscard]] Vec3 start() const { return swept_.middle - 0.5 * along_; }  // of the centre
     [[nodiscard]] const Vec3& along() const { return along_; }
-    [[nodiscard]] const Vec3& half_size() const { return half_size_; }
+    [[nodiscard]] const Vec3& half_size() const { return swept_.half_size; }
     // Returns the direction of a side, in lattice axes.
     [[nodiscard]] Vec3 side(int side) const;
+    // Returns what a section takes of it, for the device.
+    [[nodiscard]] const shared::SweptBox& swept() const { return swept_; }
 
 private:
-    Vec3 half_size_, middle_, along_;
+    shared::SweptBox swept_;
+    Vec3 along_;
     Quat orientation_;
-    Vec3 half_along_tool_;  // half the motion, in the box's axes
 };
 
 }  // namespace burin::compute

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "compute/rays/normal_code.hpp"
 
 namespace burin::compute {
 namespace {
@@ -17,18 +14,23 @@ constexpr double kTilt = 0.02;
 // A single move of no more pieces than this is not compared with: that would cost as much as the sections it saves.
 constexpr std::size_t kFewPieces = 16;
 
-// Appends the part from the lower end of one section to the upper end of another.
-void append_clipped(const SweepSpan& first, const SweepSpan& last, int axis, int deepest, std::uint8_t material,
-                    std::vector<shared::DexelEnd>& ends) {
-    Vec3 e(0.0);
-    e[axis] = 1.0;
-    const double from = std::max(first.lo, 0.0), to = std::min(last.hi, static_cast<double>(deepest));
-    if (!(from < to)) return;
-    const int lo = static_cast<int>(std::ceil(from)), hi = static_cast<int>(std::floor(to));
-    if (lo >= hi) return;
-    ends.push_back(shared::make_end(lo, material, normal_code(first.lo < 0.0 ? -e : first.normal_lo)));
-    ends.push_back(shared::make_end(hi, material, normal_code(last.hi > deepest ? e : last.normal_hi)));
-}
+// The parts of one ray, of any number.
+struct RayParts {
+    std::vector<shared::CoveredPart>& parts;
+    int part_count = 0;
+
+    using CoveredPart = shared::CoveredPart;
+    [[nodiscard]] const CoveredPart& load_part(int i) const { return parts[static_cast<std::size_t>(i)]; }
+    void store_part(int i, const CoveredPart& part) {
+        if (static_cast<std::size_t>(i) == parts.size()) {
+            parts.push_back(part);
+        } else {
+            parts[static_cast<std::size_t>(i)] = part;
+        }
+    }
+    [[nodiscard]] static bool has_room_for_part() { return true; }
+#include "shaders/shared/join_parts.h"
+};
 
 }  // namespace
 
@@ -167,8 +169,9 @@ bool RayUnion::add_section(std::uint32_t piece) {
     seen_on_[piece] = ray_;
     ++sections_;
     const SweepSpan span = span_of(pieces_[piece], axis_, u_, v_);
-    if (!span.empty()) found_.push_back({span, piece});
-    return !span.empty();
+    if (is_empty(span)) return false;
+    found_.push_back({span, piece});
+    return true;
 }
 
 bool RayUnion::add(std::uint32_t piece) {
@@ -208,20 +211,29 @@ RayUnion::End RayUnion::end_at(double depth, const Vec3& plane, std::uint32_t pi
     return end;
 }
 
+// Joins the sections of each move, and then the parts of the moves.
+void RayUnion::join() {
+    std::ranges::sort(found_, {}, &Section::piece);
+    joined_.clear();
+    RayParts ray{joined_};
+    for (std::size_t i = 0; i < found_.size();) {
+        const std::size_t move = found_[i].piece / a_move_;
+        shared::CoveredPart of_move = shared::part_of(found_[i++].span);
+        for (; i < found_.size() && found_[i].piece / a_move_ == move; ++i)
+            of_move = shared::joined(of_move, shared::part_of(found_[i].span));
+        ray.add_part(of_move);
+    }
+    joined_.resize(static_cast<std::size_t>(ray.part_count));
+    std::ranges::sort(joined_, {}, &shared::CoveredPart::lo);
+}
+
 void RayUnion::append(int deepest, std::uint8_t material, std::vector<shared::DexelEnd>& ends) {
-    order_.resize(found_.size());
-    std::iota(order_.begin(), order_.end(), 0u);
-    std::ranges::sort(order_, [this](std::uint32_t i, std::uint32_t k) {
-        const Section &a = found_[i], &b = found_[k];
-        return a.span.lo < b.span.lo || (a.span.lo == b.span.lo && a.piece < b.piece);
-    });
-    for (std::size_t i = 0; i < order_.size();) {
-        const SweepSpan& first = found_[order_[i++]].span;
-        const SweepSpan* last = &first;
-        for (; i < order_.size() && std::ceil(found_[order_[i]].span.lo) <= std::floor(last->hi) + 1.0; ++i) {
-            if (const SweepSpan& next = found_[order_[i]].span; next.hi > last->hi) last = &next;
-        }
-        append_clipped(first, *last, axis_, deepest, material, ends);
+    join();
+    for (const shared::CoveredPart& part : joined_) {
+        const shared::CoveredSpan span = shared::span_of_part(part, axis_, deepest);
+        if (span.lo >= span.hi) continue;
+        ends.push_back(shared::make_end(span.lo, material, span.normal_lo));
+        ends.push_back(shared::make_end(span.hi, material, span.normal_hi));
     }
 }
 

@@ -9,7 +9,8 @@
 //
 // A tool that does not turn is a single move; of few pieces all sections are computed.
 //
-// Gives the union of all sections, equal to the bit. Lattice units; one object for some rows of rays, in order.
+// Gives the union of all sections, equal to the bit, joined by the device's rule (shaders/shared/covered_part.h).
+// Lattice units; one object for some rows of rays, in order.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,7 @@
 
 #include "compute/rays/ray_batch.hpp"
 #include "compute/tools/move_bounds.hpp"
+#include "shaders/shared/covered_part.h"
 
 namespace burin::compute {
 
@@ -66,6 +68,7 @@ private:
     void see_parts(std::size_t move);
     bool add_section(std::uint32_t piece);
     bool add(std::uint32_t piece);
+    void join();
     void include(const SweepSpan& span, std::uint32_t piece);
     [[nodiscard]] End end_at(double depth, const Vec3& plane, std::uint32_t piece) const;
     [[nodiscard]] bool leaves(const Vec3& n, bool is_hi) const { return is_hi ? n[axis_] > 0.0 : n[axis_] < 0.0; }
@@ -100,7 +103,7 @@ private:
     int axis_ = 0;
     double u_ = 0.0, v_ = 0.0;
     std::vector<Section> found_;
-    std::vector<std::uint32_t> order_;  // of the sections by their lower ends
+    std::vector<shared::CoveredPart> joined_;
     std::vector<Part> parts_;
     std::vector<SeenPart> seen_;
     std::vector<std::uint32_t> at_ends_;       // the pieces at the ends on the ray before

@@ -114,4 +114,15 @@ Footprint footprint(const Lattice& lattice, const shared::Capsule& c, int axis) 
     return f;
 }
 
+// Rounding outwards is safe, because the closed form decides.
+Footprint footprint(const Lattice& lattice, const Box& bounds, int axis) {
+    const auto cell = [](double units, int last) {
+        return static_cast<int>(std::clamp(std::floor(units / shared::kUnitsPerCell), -1.0, last + 1.0));
+    };
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3, last_u = lattice.rays_u(axis) - 1,
+              last_v = lattice.rays_v(axis) - 1;
+    return {std::max(0, cell(bounds.lo[u], last_u)), std::min(last_u, cell(bounds.hi[u], last_u) + 1),
+            std::max(0, cell(bounds.lo[v], last_v)), std::min(last_v, cell(bounds.hi[v], last_v) + 1)};
+}
+
 }  // namespace burin::compute

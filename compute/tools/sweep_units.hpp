@@ -18,12 +18,14 @@ namespace burin::compute {
 [[nodiscard]] Result<std::vector<shared::Capsule>> capsules_in_units(const Solid& solid,
                                                                      std::span<const BallSweep> sweeps);
 
-// The rays of one axis that a capsule can touch: u_lo..u_hi, v_lo..v_hi, inclusive; empty when lo > hi.
+// The rays of one axis that a tool can touch: u_lo..u_hi, v_lo..v_hi, inclusive; empty when lo > hi.
 struct Footprint {
     int u_lo, u_hi, v_lo, v_hi;
     [[nodiscard]] bool empty() const { return u_lo > u_hi || v_lo > v_hi; }
     [[nodiscard]] bool holds(int u, int v) const { return u >= u_lo && u <= u_hi && v >= v_lo && v <= v_hi; }
 };
 [[nodiscard]] Footprint footprint(const Lattice& lattice, const shared::Capsule& capsule, int axis);
+// The rays that may meet something within these bounds, in lattice units.
+[[nodiscard]] Footprint footprint(const Lattice& lattice, const Box& bounds, int axis);
 
 }  // namespace burin::compute

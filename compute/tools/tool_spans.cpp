@@ -19,18 +19,6 @@ namespace {
 using shared::DexelEnd;
 using shared::kUnitsPerCell;
 
-// Returns the rays that may meet the bounds. Rays lie at multiples of the cell. Rounding outwards is safe, because the
-// closed form decides.
-Footprint footprint_of(const Lattice& lattice, const Box& bounds, int axis) {
-    const auto cell = [](double units, int last) {
-        return static_cast<int>(std::clamp(std::floor(units / kUnitsPerCell), -1.0, last + 1.0));
-    };
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3, last_u = lattice.rays_u(axis) - 1,
-              last_v = lattice.rays_v(axis) - 1;
-    return {std::max(0, cell(bounds.lo[u], last_u)), std::min(last_u, cell(bounds.hi[u], last_u) + 1),
-            std::max(0, cell(bounds.lo[v], last_v)), std::min(last_v, cell(bounds.hi[v], last_v) + 1)};
-}
-
 // One row of rays of one axis, the pieces that may cover a part of it, and the resulting spans.
 struct RowSpans {
     int axis = 0, v = 0;
@@ -79,7 +67,7 @@ std::vector<std::vector<Footprint>> footprints_of(const Lattice& lattice, const 
             bounds.include(piece.hi);
         }
         for (int axis = 0; axis < 3; ++axis) {
-            footprints[static_cast<std::size_t>(axis)].push_back(footprint_of(lattice, bounds, axis));
+            footprints[static_cast<std::size_t>(axis)].push_back(footprint(lattice, bounds, axis));
         }
     }
     return footprints;

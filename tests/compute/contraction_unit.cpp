@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "shaders/cover_rays.comp.spv.hpp"
 #include "shaders/cut_rays.comp.spv.hpp"
 #include "shaders/export_rays.comp.spv.hpp"
 #include "shaders/gather_ball.comp.spv.hpp"
@@ -27,6 +28,7 @@
 #include "shaders/mesh_tiles.comp.spv.hpp"
 #include "shaders/mesh_vertices.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
+#include "shaders/round_doubles.comp.spv.hpp"
 #include "tests/compute/effort.hpp"
 
 namespace burin::compute {
@@ -36,13 +38,14 @@ using Spirv = std::span<const std::uint32_t>;
 
 const std::vector<std::pair<const char*, Spirv>>& exact_shaders() {
     static const std::vector<std::pair<const char*, Spirv>> all{
-        {"cut_rays", k_cut_rays_comp},       {"export_rays", k_export_rays_comp},
-        {"gather_ball", k_gather_ball_comp}, {"gather_corners", k_gather_corners_comp},
-        {"mesh_edges", k_mesh_edges_comp},   {"mesh_mark", k_mesh_mark_comp},
-        {"mesh_pieces", k_mesh_pieces_comp}, {"mesh_places", k_mesh_places_comp},
-        {"mesh_quads", k_mesh_quads_comp},   {"mesh_sizes", k_mesh_sizes_comp},
-        {"mesh_tiles", k_mesh_tiles_comp},   {"mesh_vertices", k_mesh_vertices_comp},
-        {"patch_rays", k_patch_rays_comp}};
+        {"cover_rays", k_cover_rays_comp},         {"cut_rays", k_cut_rays_comp},
+        {"export_rays", k_export_rays_comp},       {"gather_ball", k_gather_ball_comp},
+        {"gather_corners", k_gather_corners_comp}, {"mesh_edges", k_mesh_edges_comp},
+        {"mesh_mark", k_mesh_mark_comp},           {"mesh_pieces", k_mesh_pieces_comp},
+        {"mesh_places", k_mesh_places_comp},       {"mesh_quads", k_mesh_quads_comp},
+        {"mesh_sizes", k_mesh_sizes_comp},         {"mesh_tiles", k_mesh_tiles_comp},
+        {"mesh_vertices", k_mesh_vertices_comp},   {"patch_rays", k_patch_rays_comp},
+        {"round_doubles", k_round_doubles_comp}};
     return all;
 }
 

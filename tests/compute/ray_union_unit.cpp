@@ -38,7 +38,7 @@ void append_all_sections(const ConvexPieces& sweep, const std::vector<Box>& boxe
             continue;
         }
         const SweepSpan span = span_of(sweep.pieces[i], place.axis, u, v);
-        if (!span.empty()) spans.push_back(span);
+        if (!is_empty(span)) spans.push_back(span);
     }
     std::ranges::stable_sort(spans, {}, &SweepSpan::lo);
     Vec3 e(0.0);
