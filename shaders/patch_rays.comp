@@ -28,7 +28,10 @@ void main() {
     if (patched.count > room_of(ray)) {
         ray.count_room = 0u;  // its present ends need not be moved
         ray = with_larger_room(ray, patched.count);
-        if (patched.count > room_of(ray)) return;
+        if (patched.count > room_of(ray)) {
+            atomicAdd(counters.left[0], 1u);
+            return;
+        }
     }
     for (uint i = 0u; i < patched.count; ++i) store.at[ray.first + i] = patch_ends[patched.first + i];
     ray.count_room = (ray.count_room & 0xff000000u) | patched.count;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compute/vulkan/standby_engine.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/try.hpp"
@@ -55,7 +57,11 @@ Changes StandbyEngine::take_changes() {
     return CarvingEngine::take_changes();
 }
 
-std::vector<std::string> StandbyEngine::take_notices() { return std::exchange(notices_, {}); }
+std::vector<std::string> StandbyEngine::take_notices() {
+    std::vector<std::string> notices = std::exchange(notices_, {});
+    std::ranges::move(engine_->take_notices(), std::back_inserter(notices));
+    return notices;
+}
 
 std::unique_ptr<MeshingDevice> StandbyEngine::mesh_on_device() {
     // A device without this layout still carves, and the host meshes.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/try.hpp"
+#include "shaders/cut_covered.comp.spv.hpp"
 #include "shaders/cut_rays.comp.spv.hpp"
 #include "shaders/export_rays.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
@@ -24,31 +25,8 @@ using shared::DexelEnd;
 using shared::PatchRay;
 using shared::PendingRay;
 
-// Limits of the work of one pass. A software driver stops the loops of a group of up to 16 invocations after 65535
-// iterations in total. Half of these are for testing capsules (16 x 2048), half for cutting.
+// Most capsules that an invocation tests in one pass (cuts_a_pass in flight.cpp).
 constexpr std::uint32_t kLooks = 2048;
-constexpr std::uint32_t kCutTurns = 32000;
-// Upper bound of the iterations in capsule_span and capsule_normal: about 5 x 28 halvings.
-constexpr std::uint32_t kSearchTurns = 140;
-// Most ends of a ray for which one cut, at three iterations an end, and the export fit into kCutTurns.
-constexpr std::uint32_t kLongestRay = 7500;
-constexpr std::uint32_t kMostCuts = 64;
-
-// Returns how many capsules a ray may take in one pass when no ray has more than `longest` ends; each capsule may add
-// two.
-std::uint32_t cuts_a_pass(std::uint32_t longest) {
-    std::uint32_t cuts = kMostCuts;
-    const auto turns = [&] { return cuts * (kSearchTurns + 3 * (longest + 2 * cuts)) + longest + 2 * cuts; };
-    while (cuts > 1 && turns() > kCutTurns) --cuts;
-    return cuts;
-}
-
-template <typename T>
-void copy_to(const SharedBuffer& buffer, std::span<const T> values) {
-    std::ranges::copy(values, buffer.to_device<T>().begin());
-}
-
-std::uint32_t groups_of(std::uint32_t rays) { return (rays + shared::kCutGroup - 1) / shared::kCutGroup; }
 
 }  // namespace
 
@@ -87,6 +65,7 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
         return {};
     };
     auto made = compile(engine->cut_rays_, k_cut_rays_comp, 10, "cut");
+    if (made) made = compile(engine->cut_covered_, k_cut_covered_comp, 10, "cut what is covered");
     if (made) made = compile(engine->patch_rays_, k_patch_rays_comp, 4, "patch");
     if (made) made = compile(engine->export_rays_, k_export_rays_comp, 5, "read back");
     if (made) made = engine->synchronize();
@@ -94,6 +73,11 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
         solid = engine->give_solid();
         return std::unexpected(with_the_other_engine(made.error()));
     }
+    auto covered = CoveredRays::create(engine->device_, {.spans_a_ray = options.spans_a_ray});
+    if (covered)
+        engine->covered_.emplace(std::move(*covered));
+    else
+        engine->notices_.push_back(covered.error().line());
     return engine;
 }
 
@@ -170,38 +154,6 @@ Result<void> VulkanEngine::synchronize() {
     return {};
 }
 
-// Sends as many tasks as one pass takes, and returns their number.
-std::uint32_t VulkanEngine::send_tasks(std::span<const CutTask> tasks) {
-    const auto some = tasks.first(std::min<std::size_t>(options_.tasks_a_pass, tasks.size()));
-    copy_to<CutTask>(tasks_, some);
-    task_bytes_ = some.size_bytes();
-    return static_cast<std::uint32_t>(some.size());
-}
-
-// Reserves the buffers of a cut, for the case that every ray visited in a pass changes or is left pending.
-Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutTasks& tasks, SharedBuffer& changed) {
-    const std::size_t task_count = std::min<std::size_t>(tasks.tasks.size(), options_.tasks_a_pass);
-    const std::size_t rays = task_count * shared::kCutGroup;
-    const std::pair<SharedBuffer*, std::size_t> sizes[] = {
-        {&capsules_, capsules.size_bytes()},
-        {&tasks_, task_count * sizeof(CutTask)},
-        {&order_, tasks.order.size() * sizeof(std::uint32_t)},
-        {&counters_, sizeof(CutCounters)},
-        {&changed, rays * sizeof(ChangedRay)},
-        {&exported_, std::max<std::size_t>(rays * options_.export_per_ray, 1) * sizeof(DexelEnd)},
-        {&pending_buffer_, rays * sizeof(PendingRay)},
-        {&continued_, rays * sizeof(PendingRay)},
-    };
-    for (const auto& [buffer, size] : sizes) {
-        BURIN_TRY_DO(buffer->reserve(device_, size));
-    }
-    copy_to(capsules_, capsules);
-    copy_to<std::uint32_t>(order_, tasks.order);
-    capsule_bytes_ = capsules.size_bytes();
-    order_bytes_ = tasks.order.size() * sizeof(std::uint32_t);
-    return {};
-}
-
 Result<void> VulkanEngine::check_longest() const {
     if (longest_ <= kLongestRay) return {};
     return fail("Vulkan engine",
@@ -224,7 +176,10 @@ CutParameters VulkanEngine::parameters() const {
 }
 
 void VulkanEngine::send_counters(gpu::Commands& commands) {
-    counters_.to_device<CutCounters>()[0] = {used_, 0, 0, 0, 0, 0, 0, stale_count_};
+    CutCounters counters{};
+    counters.used = used_;
+    counters.stale = stale_count_;
+    counters_.to_device<CutCounters>()[0] = counters;
     counters_.send(commands, sizeof(CutCounters));
     commands.barrier();
 }
@@ -237,21 +192,6 @@ Result<CutCounters> VulkanEngine::counted(gpu::Commands commands) {
     ++counts_.submissions;
     BURIN_TRY_DO(submission.wait());
     return counters_.from_device<CutCounters>()[0];
-}
-
-void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t task_count,
-                              const SharedBuffer& changed) {
-    passed_rays_ = parameters.pending > 0 ? parameters.pending : task_count * shared::kCutGroup;
-    std::swap(pending_buffer_, continued_);
-    capsules_.send(commands, capsule_bytes_);
-    tasks_.send(commands, task_bytes_);
-    order_.send(commands, order_bytes_);
-    send_counters(commands);
-    commands.dispatch(
-        cut_rays_,
-        {device_solid_.rays(), stale_.buffer(), capsules_.buffer(), tasks_.buffer(), order_.buffer(),
-         counters_.buffer(), changed.buffer(), exported_.buffer(), continued_.buffer(), pending_buffer_.buffer()},
-        gpu::bytes_of(parameters), {groups_of(passed_rays_), 1, 1});
 }
 
 void VulkanEngine::collect(const CutCounters& counters) {
@@ -270,7 +210,8 @@ void VulkanEngine::collect(const CutCounters& counters) {
 Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
     used_ = std::min(counters.used, device_solid_.store_size());
     if (counters.exported > exported_.size_bytes() / sizeof(DexelEnd)) {
-        const auto reserved = exported_.reserve(device_, counters.exported * sizeof(DexelEnd));
+        const auto reserved =
+            exported_.reserve(device_, std::min<std::uint64_t>(counters.exported, kMostExported) * sizeof(DexelEnd));
         if (!reserved) return reserved;
     }
     if (counters.room_wanted == 0) return {};

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The carving engine on a Vulkan device.
 //
-// Data flow of an update of balls: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> begin() submits work
-// that cuts the rays on the device and writes those that change, with their new ends, into the host's memory -> take()
-// puts these into the host's solid, once the device has done all. Rays that found no space in the store, or used up
-// their share of one pass, are continued in further submissions; usually there are none. One update is under way at a
-// time; those that come meanwhile wait, and are carried out as one if the device is late. So nobody waits for the
-// device, and the host's solid lags behind by as many updates as were not taken.
+// Data flow of an update: sweeps -> stages (flight.hpp): balls as capsules and work groups (vulkan_engine_tasks.hpp),
+// other convex tools as pieces (covered_rays.hpp) -> begin() submits work that cuts the rays on the device and writes
+// those that change, with their new ends, into the host's memory -> take() puts these into the host's solid, once the
+// device has done all. Rays that found no space in the store, or used up their share of one pass, are continued in
+// further submissions; usually there are none. One flight is under way at a time; updates that come meanwhile wait, and
+// are carried out as one if the device is late. So nobody waits for the device, and the host's solid lags behind by as
+// many updates as were not taken.
 // What the device has no shader for, the host does when the update is taken (compute/tools/apply.hpp); so it does with
 // rays that are assigned. The device is sent them before it is used again.
 //
-// The change of a ray is recorded once an update, between the lowest and the highest depth that changed. After an
+// The change of a ray is recorded once a stage, between the lowest and the highest depth that changed. After an
 // Error, the next update sends the host's solid to the device anew.
 //
 // A cut can also be deferred: recorded into the caller's commands, without a wait. The host's solid then lags behind
@@ -23,10 +24,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "compute/rays/engine.hpp"
+#include "compute/vulkan/covered_rays.hpp"
+#include "compute/vulkan/flight.hpp"
 #include "compute/vulkan/vulkan_engine_memory.hpp"
 #include "compute/vulkan/vulkan_engine_tasks.hpp"
 #include "gpu/device.hpp"
@@ -39,12 +43,16 @@ struct VulkanEngineOptions {
     std::size_t spare_ends = 65536;
     std::uint32_t export_per_ray = 4;    // space for the ends of changed rays, per ray visited
     std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
+    std::uint32_t spans_a_ray = 1;       // space for what a tool covers, per ray visited; 0: for one span in all
 };
+
+// Ends of changed rays that one submission brings home; the rays beyond wait for the next.
+constexpr std::uint64_t kMostExported = std::uint64_t{1} << 22;
 
 // Work done since the engine was made.
 struct VulkanEngineCounts {
-    std::uint64_t cuts = 0;            // calls of carve and defer that reached the lattice
-    std::uint64_t submissions = 0;     // each is waited for once
+    std::uint64_t cuts = 0;  // calls of carve and defer that reached the lattice
+    std::uint64_t submissions = 0;
     std::uint64_t store_rebuilds = 0;  // because a ray found no space
 };
 
@@ -66,6 +74,7 @@ public:
     [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
         return burin::compute::add_material(solid_, material);
     }
+    [[nodiscard]] std::vector<std::string> take_notices() override { return std::exchange(notices_, {}); }
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
         return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host,
@@ -103,46 +112,37 @@ private:
     struct Update {
         std::vector<ToolSweep> sweeps;
         RayBatch rays;
-        [[nodiscard]] bool is_for_device() const;
     };
-    // An update, or several as one, that the device carries out.
-    struct Flight {
-        std::size_t updates = 0;
-        std::vector<shared::Capsule> capsules;
-        CutTasks tasks;
-        std::size_t next_task = 0;                  // that was not sent
-        std::uint32_t pending = 0;                  // rays that the last submission left
-        std::optional<gpu::Submission> submission;  // under way
-        CarveStats stats;
-        [[nodiscard]] bool is_done() const { return !submission && pending == 0 && next_task == tasks.tasks.size(); }
-    };
-
     VulkanEngine(Solid solid, const gpu::Device& device, WorkerPool& pool, const VulkanEngineOptions& options);
 
     // ---- Updates (vulkan_engine_updates.cpp)
     void start(Wait alone);
-    [[nodiscard]] Result<void> prepare(std::span<const ToolSweep> sweeps);
+    [[nodiscard]] bool is_for_device(const ToolSweep& sweep) const;
+    [[nodiscard]] std::size_t for_device(std::span<const ToolSweep> sweeps) const;
+    [[nodiscard]] Result<void> prepare(std::vector<ToolSweep> sweeps);
+    [[nodiscard]] Result<bool> add_stage(std::size_t first_sweep, std::size_t end_sweep);
     [[nodiscard]] Result<void> advance(Wait wait);
-    [[nodiscard]] Result<void> submit_pass();
+    [[nodiscard]] Result<void> submit_passes();
+    [[nodiscard]] Result<void> reserve_passes(std::uint64_t rays, std::uint64_t tasks);
+    [[nodiscard]] Result<void> record(gpu::Commands& commands, const Pass& pass, shared::CutParameters parameters);
     [[nodiscard]] Result<void> end_submission();
-    [[nodiscard]] Delta land();
+    [[nodiscard]] Result<Delta> land();
     [[nodiscard]] Result<Delta> carry_out_on_host();
-    [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps, Changes& changes);
-    [[nodiscard]] Result<CarveStats> cut_now(std::span<const ToolSweep> balls, Changes& changes);
+    [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps, bool first_on_host, Changes& changes);
+    [[nodiscard]] Result<CarveStats> cut_now(std::span<const ToolSweep> sweeps, Changes& changes);
+    [[nodiscard]] Result<CarveStats> apply_one(const ToolSweep& sweep, Changes& changes);
     [[nodiscard]] std::uint64_t assign_rays(const RayBatch& rays, Changes& changes);
     [[nodiscard]] Error forgotten(const Error& why);
 
     [[nodiscard]] Result<void> send_assigned();
     [[nodiscard]] Result<void> patch(const RayBatch& rays);
     [[nodiscard]] Result<shared::CutCounters> fetch_stale(std::uint32_t first, std::uint32_t rays);
-    [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks,
-                                       SharedBuffer& changed);
+    [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> check_longest() const;
     [[nodiscard]] shared::CutParameters parameters() const;
     void send_counters(gpu::Commands& commands);
     [[nodiscard]] Result<shared::CutCounters> counted(gpu::Commands commands);
-    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t task_count,
-                    const SharedBuffer& changed);
+    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t task_count);
     [[nodiscard]] std::uint32_t send_tasks(std::span<const shared::CutTask> tasks);
     [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
     void collect(const shared::CutCounters& counters);
@@ -153,7 +153,8 @@ private:
     WorkerPool& pool_;
     VulkanEngineOptions options_;
     VulkanEngineCounts counts_;
-    gpu::ComputePipeline cut_rays_, patch_rays_, export_rays_;
+    gpu::ComputePipeline cut_rays_, cut_covered_, patch_rays_, export_rays_;
+    std::optional<CoveredRays> covered_;  // nothing where the device rounds otherwise than the processor
     DeviceSolid device_solid_;
     // Set while the device holds the same ends as solid_, but for assigned_, or newer ones after deferred cuts.
     bool synchronized_ = false;
@@ -180,6 +181,7 @@ private:
     std::deque<Update> waiting_;
     std::optional<Flight> flight_;
     Ticket begun_ = 0, taken_ = 0;
+    std::vector<std::string> notices_;
     std::optional<Error> failure_;  // of starting an update, for the next take()
     // State of the deferred cut.
     std::vector<shared::CutTask> deferred_tasks_;

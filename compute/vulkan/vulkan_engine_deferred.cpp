@@ -24,10 +24,56 @@ Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
     if (tasks.tasks.empty()) return {};
     BURIN_TRY_DO(synchronize());
     BURIN_TRY_DO(check_longest());
-    BURIN_TRY_DO(reserve(capsules, tasks, deferred_changed_));
+    BURIN_TRY_DO(reserve(capsules, tasks));
     deferred_tasks_ = std::move(tasks.tasks);
     ++counts_.cuts;
     return {};
+}
+
+// Sends as many tasks as one pass takes, and returns their number.
+std::uint32_t VulkanEngine::send_tasks(std::span<const shared::CutTask> tasks) {
+    const auto some = tasks.first(std::min<std::size_t>(options_.tasks_a_pass, tasks.size()));
+    copy_to<shared::CutTask>(tasks_, some);
+    task_bytes_ = some.size_bytes();
+    return static_cast<std::uint32_t>(some.size());
+}
+
+// Reserves the buffers of a cut, for the case that every ray visited in a pass changes or is left pending.
+Result<void> VulkanEngine::reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks) {
+    const std::size_t task_count = std::min<std::size_t>(tasks.tasks.size(), options_.tasks_a_pass);
+    const std::size_t rays = task_count * shared::kCutGroup;
+    const std::pair<SharedBuffer*, std::size_t> sizes[] = {
+        {&capsules_, capsules.size_bytes()},
+        {&tasks_, task_count * sizeof(shared::CutTask)},
+        {&order_, tasks.order.size() * sizeof(std::uint32_t)},
+        {&counters_, sizeof(CutCounters)},
+        {&deferred_changed_, rays * sizeof(ChangedRay)},
+        {&exported_, std::max<std::size_t>(rays * options_.export_per_ray, 1) * sizeof(DexelEnd)},
+        {&pending_buffer_, rays * sizeof(shared::PendingRay)},
+        {&continued_, rays * sizeof(shared::PendingRay)},
+    };
+    for (const auto& [buffer, size] : sizes) {
+        BURIN_TRY_DO(buffer->reserve(device_, size));
+    }
+    copy_to(capsules_, capsules);
+    copy_to<std::uint32_t>(order_, tasks.order);
+    capsule_bytes_ = capsules.size_bytes();
+    order_bytes_ = tasks.order.size() * sizeof(std::uint32_t);
+    return {};
+}
+
+void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t task_count) {
+    passed_rays_ = parameters.pending > 0 ? parameters.pending : task_count * shared::kCutGroup;
+    std::swap(pending_buffer_, continued_);
+    capsules_.send(commands, capsule_bytes_);
+    tasks_.send(commands, task_bytes_);
+    order_.send(commands, order_bytes_);
+    send_counters(commands);
+    commands.dispatch(cut_rays_,
+                      {device_solid_.rays(), stale_.buffer(), capsules_.buffer(), tasks_.buffer(), order_.buffer(),
+                       counters_.buffer(), deferred_changed_.buffer(), exported_.buffer(), continued_.buffer(),
+                       pending_buffer_.buffer()},
+                      gpu::bytes_of(parameters), {groups_of(passed_rays_), 1, 1});
 }
 
 void VulkanEngine::record_pass(gpu::Commands& commands) {
@@ -36,7 +82,7 @@ void VulkanEngine::record_pass(gpu::Commands& commands) {
     parameters.deferred = 1;
     std::uint32_t tasks = 0;
     if (pending_ == 0) next_task_ += tasks = send_tasks(std::span(deferred_tasks_).subspan(next_task_));
-    record_cut(commands, parameters, tasks, deferred_changed_);
+    record_cut(commands, parameters, tasks);
     commands.barrier();
     counters_.fetch(commands, sizeof(CutCounters));
     ++counts_.submissions;

@@ -3,6 +3,7 @@
 // Thread and failure: as gpu::Device and gpu::Buffer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,12 @@ private:
     Traffic traffic_;
     gpu::Buffer device_side_, upload_, readback_;
 };
+
+// Copies values to the front of what the host writes of a buffer.
+template <typename T>
+void copy_to(const SharedBuffer& buffer, std::span<const T> values) {
+    std::ranges::copy(values, buffer.to_device<T>().begin());
+}
 
 // All rays of the three axes in one table (x, then y, then z) and all their ends in one store, so that one dispatch and
 // one counter serve all. The table takes 96 MiB at the finest resolution. The larger store is accessed by its address,

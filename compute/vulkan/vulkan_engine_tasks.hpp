@@ -7,6 +7,7 @@
 // lists are in order.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,11 @@
 #include "shaders/shared/cut_job.h"
 
 namespace burin::compute {
+
+// Work groups that take so many rays.
+[[nodiscard]] constexpr std::uint32_t groups_of(std::uint32_t rays) {
+    return (rays + shared::kCutGroup - 1) / shared::kCutGroup;
+}
 
 struct CutTasks {
     std::vector<shared::CutTask> tasks;

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: MIT
 // Updates of the Vulkan engine: which of them the device carries out, and when.
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
 
 #include "base/try.hpp"
 #include "compute/tools/apply.hpp"
+#include "compute/tools/tool_spans.hpp"
 #include "compute/vulkan/vulkan_engine.hpp"
 
 namespace burin::compute {
+namespace {
 
+using shared::Capsule;
 using shared::ChangedRay;
 using shared::CutCounters;
 using shared::CutParameters;
+using shared::CutTask;
 using shared::DexelEnd;
+using shared::PendingRay;
 
-bool VulkanEngine::Update::is_for_device() const { return !sweeps.empty() && std::ranges::all_of(sweeps, is_ball_cut); }
+// Rays that one pass visits; more of them are left to the host, for which that is work enough.
+constexpr std::uint32_t kMostVisited = 1u << 22;
+
+template <typename T>
+std::span<const T> from(const std::vector<T>& values, std::size_t first) {
+    return std::span(values).subspan(first);
+}
+
+}  // namespace
 
 Result<Ticket> VulkanEngine::begin(std::span<const ToolSweep> sweeps) {
     for (const ToolSweep& sweep : sweeps) BURIN_TRY_DO(check_tool(solid_, sweep));
@@ -31,31 +46,42 @@ Result<Ticket> VulkanEngine::begin(RayBatch rays) {
 
 Result<std::optional<Delta>> VulkanEngine::take(Wait wait) {
     if (failure_) return std::unexpected(forgotten(*std::exchange(failure_, std::nullopt)));
+    if (!flight_ && waiting_.empty()) return std::nullopt;
     if (flight_) {
         if (const auto advanced = advance(wait); !advanced) return std::unexpected(forgotten(advanced.error()));
         if (!flight_->is_done()) return std::nullopt;
-        Delta delta = land();
-        start(wait);
-        return delta;
     }
-    if (waiting_.empty()) return std::nullopt;
-    Result<Delta> delta = carry_out_on_host();
+    Result<Delta> delta = flight_ ? land() : carry_out_on_host();
     if (!delta) return std::unexpected(forgotten(delta.error()));
     start(wait);
     return std::move(*delta);
 }
 
-// Lets the device carry out the updates that come next, as one or the first alone, as far as they are for it.
+bool VulkanEngine::is_for_device(const ToolSweep& sweep) const {
+    if (is_ball_cut(sweep)) return true;
+    return covered_ && sweep.operation != Operation::smooth && !std::holds_alternative<MeshTool>(sweep.shape);
+}
+
+// Returns how many of the sweeps, from the first on, have shaders.
+std::size_t VulkanEngine::for_device(std::span<const ToolSweep> sweeps) const {
+    const auto first = std::ranges::find_if_not(sweeps, [this](const auto& sweep) { return is_for_device(sweep); });
+    return static_cast<std::size_t>(first - sweeps.begin());
+}
+
+// Lets the device begin with what comes next: one update, or several as one, which end with what the host does.
 void VulkanEngine::start(Wait alone) {
-    if (failure_ || waiting_.empty() || !waiting_.front().is_for_device()) return;
+    if (failure_ || waiting_.empty() || for_device(waiting_.front().sweeps) == 0) return;
     std::vector<ToolSweep> sweeps;
     std::size_t updates = 0;
+    bool goes_on = true;
     do {
-        std::ranges::move(waiting_.front().sweeps, std::back_inserter(sweeps));
+        std::vector<ToolSweep>& next = waiting_.front().sweeps;
+        goes_on = alone != Wait::yes && for_device(next) == next.size();
+        std::ranges::move(next, std::back_inserter(sweeps));
         waiting_.pop_front();
         ++updates;
-    } while (alone != Wait::yes && !waiting_.empty() && waiting_.front().is_for_device());
-    auto started = prepare(sweeps);
+    } while (goes_on && !waiting_.empty() && for_device(waiting_.front().sweeps) > 0);
+    auto started = prepare(std::move(sweeps));
     if (started) {
         flight_->updates = updates;
         started = advance(Wait::no);
@@ -65,27 +91,71 @@ void VulkanEngine::start(Wait alone) {
 
 // ---- On the device
 
-Result<void> VulkanEngine::prepare(std::span<const ToolSweep> sweeps) {
-    std::vector<BallSweep> balls;
-    for (const ToolSweep& sweep : sweeps) balls.push_back(ball_sweep(sweep));
+Result<void> VulkanEngine::prepare(std::vector<ToolSweep> sweeps) {
     BURIN_TRY_DO(read_back());
     flight_.emplace();
     changed_rays_.clear();
     new_ends_.clear();
-    BURIN_TRY(capsules, capsules_in_units(solid_, balls));
-    flight_->tasks = cut_tasks(solid_.lattice, capsules);
-    if (flight_->tasks.tasks.empty()) return {};
-    flight_->capsules = std::move(capsules);
+    flight_->sweeps = std::move(sweeps);
+    flight_->on_host = for_device(flight_->sweeps);
+    for (std::size_t i = 0, end = 0; i < flight_->on_host; i = end) {
+        end = i + 1;
+        if (is_ball_cut(flight_->sweeps[i]))
+            while (end < flight_->on_host && is_ball_cut(flight_->sweeps[end])) ++end;
+        BURIN_TRY(fits, add_stage(i, end));
+        if (!fits) flight_->on_host = i;
+    }
+    if (flight_->stages.empty()) return {};
     ++counts_.cuts;
     BURIN_TRY_DO(synchronize());
-    return reserve(flight_->capsules, flight_->tasks, changed_);
+    BURIN_TRY_DO(capsules_.reserve(device_, std::max<std::size_t>(flight_->capsules.size(), 1) * sizeof(Capsule)));
+    BURIN_TRY_DO(
+        order_.reserve(device_, std::max<std::size_t>(flight_->tasks.order.size(), 1) * sizeof(std::uint32_t)));
+    return counters_.reserve(device_, sizeof(CutCounters));
+}
+
+// Adds balls, or one other tool, to the flight. Returns false where that is beyond the device.
+Result<bool> VulkanEngine::add_stage(std::size_t first_sweep, std::size_t end_sweep) {
+    const auto sweeps = std::span(flight_->sweeps).subspan(first_sweep, end_sweep - first_sweep);
+    Stage stage{.first_sweep = first_sweep, .pieces = {}};
+    if (!is_ball_cut(sweeps[0])) {
+        const ToolSweep& sweep = sweeps[0];
+        BURIN_TRY(pieces, convex_pieces(solid_.lattice, sweep));
+        if (pieces.pieces.empty()) return true;  // it comes nowhere near the lattice
+        BURIN_TRY(fits, covered_->prepare(solid_.lattice, pieces));
+        stage.visited = covered_->ray_count();
+        if (!fits || stage.visited > kMostVisited) return false;
+        stage.pieces = std::move(pieces);
+        stage.work = sweep.material | static_cast<std::uint32_t>(sweep.operation) << 8;
+        if (stage.visited > 0) flight_->stages.push_back(std::move(stage));
+        return true;
+    }
+    std::vector<BallSweep> balls;
+    for (const ToolSweep& sweep : sweeps) balls.push_back(ball_sweep(sweep));
+    BURIN_TRY(capsules, capsules_in_units(solid_, balls));
+    const CutTasks tasks = cut_tasks(solid_.lattice, capsules);
+    if (tasks.tasks.empty()) return true;
+    CutTasks& all = flight_->tasks;
+    const auto first_capsule = static_cast<std::uint32_t>(flight_->capsules.size()),
+               first_place = static_cast<std::uint32_t>(all.order.size());
+    stage.next_task = all.tasks.size();
+    for (CutTask task : tasks.tasks) {
+        task.first += first_place;
+        task.end += first_place;
+        all.tasks.push_back(task);
+    }
+    for (const std::uint32_t capsule : tasks.order) all.order.push_back(first_capsule + capsule);
+    std::ranges::copy(capsules, std::back_inserter(flight_->capsules));
+    stage.end_task = all.tasks.size();
+    flight_->stages.push_back(std::move(stage));
+    return true;
 }
 
 // Submits what is left of the flight, as far as that needs no waiting, or all of it.
 Result<void> VulkanEngine::advance(Wait wait) {
     while (!flight_->is_done()) {
         if (!flight_->submission) {
-            BURIN_TRY_DO(submit_pass());
+            BURIN_TRY_DO(submit_passes());
         } else if (wait != Wait::yes && !flight_->submission->done_within(wait == Wait::no ? 0 : kBriefly_ns)) {
             return {};
         } else {
@@ -95,23 +165,36 @@ Result<void> VulkanEngine::advance(Wait wait) {
     return {};
 }
 
-// Submits one pass: over the rays of the next tasks, or over those that the last one left pending.
-Result<void> VulkanEngine::submit_pass() {
+Result<void> VulkanEngine::submit_passes() {
     BURIN_TRY_DO(check_longest());
-    BURIN_TRY(commands, gpu::Commands::begin(device_));
-    CutParameters parameters = this->parameters();
-    parameters.pending = flight_->pending;
-    std::uint32_t tasks = 0;
-    if (flight_->pending == 0) {
-        flight_->next_task += tasks = send_tasks(std::span(flight_->tasks.tasks).subspan(flight_->next_task));
+    flight_->passes = flight_->next_passes(options_.tasks_a_pass, longest_);
+    std::uint64_t rays = 0;
+    std::vector<CutTask> tasks;
+    for (const Pass& pass : flight_->passes) {
+        rays += pass.rays;
+        const auto of_pass = std::span(flight_->tasks.tasks).subspan(pass.first_task, pass.end_task - pass.first_task);
+        std::ranges::copy(of_pass, std::back_inserter(tasks));
     }
-    // The buffer may be larger from an earlier cut, but what the host did not expect it would not look for.
-    const std::uint64_t rays = flight_->pending > 0 ? flight_->pending : std::uint64_t{tasks} * shared::kCutGroup;
-    const std::uint64_t space = exported_.size_bytes() / sizeof(DexelEnd);
-    const std::uint64_t expected = std::max<std::uint64_t>(rays * options_.export_per_ray, 1);
-    parameters.export_size = static_cast<std::uint32_t>(flight_->pending > 0 ? space : std::min(space, expected));
-    record_cut(commands, parameters, tasks, changed_);
-    commands.barrier();
+    BURIN_TRY_DO(reserve_passes(rays, tasks.size()));
+    BURIN_TRY(commands, gpu::Commands::begin(device_));
+    copy_to<Capsule>(capsules_, flight_->capsules);
+    copy_to<std::uint32_t>(order_, flight_->tasks.order);
+    copy_to<CutTask>(tasks_, tasks);
+    capsules_.send(commands, flight_->capsules.size() * sizeof(Capsule));
+    order_.send(commands, flight_->tasks.order.size() * sizeof(std::uint32_t));
+    tasks_.send(commands, tasks.size() * sizeof(CutTask));
+    send_counters(commands);
+    CutParameters parameters = this->parameters();
+    // The buffer may be larger from an earlier cut, but the host does not look for more than it expects.
+    parameters.export_size = static_cast<std::uint32_t>(exported_.size_bytes() / sizeof(DexelEnd));
+    std::swap(pending_buffer_, continued_);
+    for (const Pass& pass : flight_->passes) {
+        BURIN_TRY_DO(record(commands, pass, parameters));
+        ++parameters.pass;
+        parameters.first_task += static_cast<std::uint32_t>(pass.end_task - pass.first_task);
+    }
+    if (flight_->one_pass && !flight_->stages[flight_->passes.front().stage].is_of_balls())
+        covered_->fetch_counters(commands);
     counters_.fetch(commands, sizeof(CutCounters));
     BURIN_TRY(submission, std::move(commands).submit());
     ++counts_.submissions;
@@ -119,23 +202,89 @@ Result<void> VulkanEngine::submit_pass() {
     return {};
 }
 
+// Reserves room for the case that every ray that is looked at changes, or is left pending.
+Result<void> VulkanEngine::reserve_passes(std::uint64_t rays, std::uint64_t tasks) {
+    const std::uint64_t exported = std::clamp<std::uint64_t>(rays * options_.export_per_ray, 1, kMostExported);
+    const std::pair<SharedBuffer*, std::uint64_t> sizes[] = {
+        {&tasks_, std::max<std::uint64_t>(tasks, 1) * sizeof(CutTask)},
+        {&changed_, rays * sizeof(ChangedRay)},
+        {&exported_, exported * sizeof(DexelEnd)},
+        {&pending_buffer_, rays * sizeof(PendingRay)},
+        {&continued_, rays * sizeof(PendingRay)},
+    };
+    for (const auto& [buffer, size] : sizes) {
+        // What waits must stay, and it is in no larger buffer than it was.
+        if (flight_->pending > 0 && buffer == &pending_buffer_) continue;
+        BURIN_TRY_DO(buffer->reserve(device_, size));
+    }
+    return {};
+}
+
+Result<void> VulkanEngine::record(gpu::Commands& commands, const Pass& pass, CutParameters parameters) {
+    const Stage& stage = flight_->stages[pass.stage];
+    parameters.pending = pass.pending;
+    parameters.cuts = pass.cuts;
+    std::array<gpu::BufferRange, 3> work{capsules_.buffer(), tasks_.buffer(), order_.buffer()};
+    const gpu::ComputePipeline* program = &cut_rays_;
+    if (!stage.is_of_balls()) {
+        BURIN_TRY(fits, covered_->prepare(solid_.lattice, stage.pieces));
+        BURIN_CHECK(fits);
+        covered_->record(commands);
+        program = &cut_covered_;
+        work = {covered_->spans(), covered_->rays(), covered_->counters()};
+        parameters.visited = stage.visited;
+        parameters.work = stage.work;
+    }
+    commands.dispatch(*program,
+                      {device_solid_.rays(), stale_.buffer(), work[0], work[1], work[2], counters_.buffer(),
+                       changed_.buffer(), exported_.buffer(), continued_.buffer(), pending_buffer_.buffer()},
+                      gpu::bytes_of(parameters), {groups_of(pass.rays), 1, 1});
+    commands.barrier();
+    return {};
+}
+
+// Takes over what the submission has done, and finds where the flight goes on.
 Result<void> VulkanEngine::end_submission() {
     BURIN_TRY_DO(flight_->submission->wait());
     flight_->submission.reset();
     const CutCounters counters = counters_.from_device<CutCounters>()[0];
-    device_.core()->count_written_home(counters.changed * sizeof(ChangedRay) + counters.exported * sizeof(DexelEnd));
+    device_.core()->count_written_home(
+        counters.changed * sizeof(ChangedRay) +
+        std::min<std::uint64_t>(counters.exported * sizeof(DexelEnd), exported_.size_bytes()));
     flight_->stats.rays_touched += counters.touched;
     collect(counters);
-    flight_->pending = counters.pending;
+    std::size_t done = 0;
+    while (done < flight_->passes.size() && counters.left[done + 1] == 0) ++done;
+    const bool is_uncovered = done < flight_->passes.size() && counters.uncovered[done] != 0;
+    const bool was_alone = std::exchange(flight_->one_pass, is_uncovered);
+    const std::size_t stage = done < flight_->passes.size() ? flight_->passes[done].stage : 0;
+    const std::uint32_t pending = done < flight_->passes.size() ? flight_->passes[done].pending : 0;
+    if (is_uncovered) {
+        flight_->pass(done, 0);
+        flight_->pending = pending;
+        // Its rays wait where they did before: a pass that has not begun leaves none.
+        if (pending > 0) std::swap(pending_buffer_, continued_);
+        if (was_alone) {
+            BURIN_TRY(helps, covered_->make_room(covered_->counted()));
+            if (!helps) flight_->leave_to_host(stage);
+        }
+    } else {
+        flight_->pass(done, done < flight_->passes.size() ? counters.left[done + 1] : 0);
+    }
     return make_room_for(counters);
 }
 
-// Puts what the flight has changed into the host's solid.
-Delta VulkanEngine::land() {
+// Puts what the flight has changed into the host's solid, and lets the host do what is left.
+Result<Delta> VulkanEngine::land() {
     Delta delta{taken_ += flight_->updates, flight_->stats, {}};
     delta.stats.rays_changed = changed_rays_.size();
     apply_changes(delta.changes);
+    const Flight landed = std::move(*flight_);
     flight_.reset();
+    if (landed.on_host < landed.sweeps.size()) {
+        BURIN_TRY(rest, carry_out(from(landed.sweeps, landed.on_host), true, delta.changes));
+        delta.stats += rest;
+    }
     return delta;
 }
 
@@ -158,32 +307,34 @@ Result<Delta> VulkanEngine::carry_out_on_host() {
     if (update.sweeps.empty()) {
         delta.stats = {update.rays.rays.size(), assign_rays(update.rays, delta.changes)};
     } else {
-        BURIN_TRY(stats, carry_out(update.sweeps, delta.changes));
+        BURIN_TRY(stats, carry_out(update.sweeps, true, delta.changes));
         delta.stats = stats;
     }
     return delta;
 }
 
-Result<CarveStats> VulkanEngine::carry_out(std::span<const ToolSweep> sweeps, Changes& changes) {
+// Carries out sweeps among which are some that the device has no shader for, one after the other.
+Result<CarveStats> VulkanEngine::carry_out(std::span<const ToolSweep> sweeps, bool first_on_host, Changes& changes) {
     CarveStats stats;
     for (std::size_t i = 0; i < sweeps.size();) {
-        std::size_t end = i;
-        while (end < sweeps.size() && is_ball_cut(sweeps[end])) ++end;
-        const auto done = end > i ? cut_now(sweeps.subspan(i, end - i), changes)
-                                  : apply_on_host(solid_, sweeps[i], pool_,
-                                                  [&](const RayBatch& rays) { return assign_rays(rays, changes); });
+        const std::size_t together = first_on_host && i == 0 ? 0 : for_device(sweeps.subspan(i));
+        const auto done = together > 0 ? cut_now(sweeps.subspan(i, together), changes) : apply_one(sweeps[i], changes);
         if (!done) return done;
         stats += *done;
-        i = std::max(end, i + 1);
+        i += std::max<std::size_t>(together, 1);
     }
     return stats;
 }
 
-// Cuts with balls between what the host does, and waits for the device.
-Result<CarveStats> VulkanEngine::cut_now(std::span<const ToolSweep> balls, Changes& changes) {
-    BURIN_TRY_DO(prepare(balls));
+Result<CarveStats> VulkanEngine::apply_one(const ToolSweep& sweep, Changes& changes) {
+    return apply_on_host(solid_, sweep, pool_, [&](const RayBatch& rays) { return assign_rays(rays, changes); });
+}
+
+// Lets the device carry out sweeps between what the host does, and waits for it.
+Result<CarveStats> VulkanEngine::cut_now(std::span<const ToolSweep> sweeps, Changes& changes) {
+    BURIN_TRY_DO(prepare({sweeps.begin(), sweeps.end()}));
     BURIN_TRY_DO(advance(Wait::yes));
-    Delta delta = land();
+    BURIN_TRY(delta, land());
     changes.append(delta.changes);
     return delta.stats;
 }
@@ -196,7 +347,7 @@ std::uint64_t VulkanEngine::assign_rays(const RayBatch& rays, Changes& changes) 
         ++changed;
         assigned_.push_back(ray.code);
     }
-    // Undo, smoothing and most tools assign, often many times before the next cut.
+    // Undo, smoothing and mesh tools assign, often many times before the next cut.
     if (assigned_.size() > solid_.rays_held()) keep_each_once(assigned_);
     return changed;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The interface between the host and shaders/cut_rays.comp: which rays to cut by which capsules, which of them changed,
-// and which have to wait for another pass. All fields but those of the push constants are 32-bit words, so the layout
-// is the same everywhere.
+// The interface between the host and shaders/cut_rays.comp and cut_covered.comp: which rays to cut by which capsules, or
+// by what a tool covers of them, which of them changed, and which have to wait for another pass. All fields but those of
+// the push constants are 32-bit words, so the layout is the same everywhere.
+//
+// Several passes may follow each other in one submission, each with its number. One that leaves anything undone keeps
+// all that come after it from beginning, so that the order of the work stays.
 #ifndef BURIN_SHARED_CUT_JOB_H
 #define BURIN_SHARED_CUT_JOB_H
 #include "shaders/shared/capsule.h"
@@ -9,6 +12,9 @@
 BURIN_SHARED_BEGIN
 
 const int kCutGroup = 64;  // invocations in a work group, one ray each
+const int kMostPasses = 16;  // of one submission
+const uint kNotBegun = uint(0x80000000);
+const uint kNoRay = uint(0xffffffff);  // in place of a ray's code
 
 // The rays of one work group: numbers offset .. offset + 63 of a rectangle of rays, row by row. They are cut by the
 // capsules in order[first .. end).
@@ -40,6 +46,7 @@ struct ChangedRay {
 
 // A ray that is not finished; it holds the result of the capsules before order[next]. It waits for space in the store,
 // for space among the exported ends (then next == end), or because it has used up its share of one pass.
+// Of what a tool covers, `next` counts the ray's spans and `end` is its number among the rays that are visited.
 struct PendingRay {
     uint ray;
     uint next;
@@ -58,6 +65,10 @@ struct CutCounters {
     uint room_wanted;  // ends that pending rays could not allocate in the store
     uint longest;      // largest number of ends of a ray that changed or is pending
     uint stale;        // length of the list of rays whose ends the host does not know yet
+    // What a pass before left undone: kNotBegun, or its rays that wait. That of pass i is left[i + 1]; left[0] is what
+    // patch_rays.comp found no room for.
+    uint left[kMostPasses + 1];
+    uint uncovered[kMostPasses];  // 1: what the tool covers in this pass is not known whole
 };
 
 // A ray whose ends the host replaces by patch_ends[first .. first + count).
@@ -80,6 +91,11 @@ struct CutParameters {
     // 1: the ends of changed rays are not exported; the rays are added to the list of stale rays.
     uint deferred;
     uint first_stale;  // index in the list of stale rays to begin with
+    uint pass;         // its number in the submission
+    uint first_task;   // of cut_rays.comp: the task of the first work group
+    // Of cut_covered.comp: rays visited, and what the tool does with its spans (capsule.h).
+    uint visited;
+    uint work;
 };
 
 BURIN_SHARED_END
@@ -87,7 +103,7 @@ BURIN_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(burin::shared::Capsule) == 40 && sizeof(burin::shared::CutTask) == 32 &&
               sizeof(burin::shared::ChangedRay) == 20 && sizeof(burin::shared::PendingRay) == 24 &&
-              sizeof(burin::shared::CutCounters) == 32 && sizeof(burin::shared::PatchRay) == 12 &&
-              sizeof(burin::shared::CutParameters) == 72);
+              sizeof(burin::shared::CutCounters) == 164 && sizeof(burin::shared::PatchRay) == 12 &&
+              sizeof(burin::shared::CutParameters) == 88);
 #endif
 #endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "compute/vulkan/flight.hpp"
+
+#include <algorithm>
+
+#include "shaders/shared/cut_job.h"
+
+namespace burin::compute {
+namespace {
+
+constexpr std::size_t kGroup = shared::kCutGroup;
+
+// A software driver stops the loops of a group of up to 16 invocations after 65535 iterations in total. About half of
+// them are for testing capsules (kLooks in vulkan_engine.cpp), half for cutting.
+constexpr std::uint32_t kCutTurns = 32000;
+// Upper bound of the iterations in capsule_span and capsule_normal: about 5 x 28 halvings.
+constexpr std::uint32_t kSearchTurns = 140;
+constexpr std::uint32_t kMostCuts = 64;
+
+}  // namespace
+
+std::uint32_t cuts_a_pass(std::uint32_t longest) {
+    std::uint32_t cuts = kMostCuts;
+    const auto turns = [&] { return cuts * (kSearchTurns + 3 * (longest + 2 * cuts)) + longest + 2 * cuts; };
+    while (cuts > 1 && turns() > kCutTurns) --cuts;
+    return cuts;
+}
+
+std::vector<Pass> Flight::next_passes(std::size_t most_tasks, std::uint32_t longest) const {
+    std::vector<Pass> next;
+    const std::size_t most = one_pass ? 1 : shared::kMostPasses;
+    std::size_t left = most_tasks;
+    if (pending > 0) {
+        const std::size_t done = stages[next_stage].next_task;
+        next.push_back({next_stage, done, done, pending, pending});
+    }
+    for (std::size_t i = next_stage; i < stages.size() && next.size() < most && left > 0; ++i) {
+        const Stage& stage = stages[i];
+        if (stage.is_of_balls()) {
+            const std::size_t tasks = std::min(left, stage.end_task - stage.next_task);
+            if (tasks == 0) continue;
+            next.push_back(
+                {i, stage.next_task, stage.next_task + tasks, 0, static_cast<std::uint32_t>(tasks * kGroup)});
+            left -= tasks;
+            if (stage.next_task + tasks < stage.end_task) break;
+        } else {
+            if (pending > 0 && i == next_stage) continue;
+            const std::size_t groups = (stage.visited + kGroup - 1) / kGroup;
+            if (groups > left && !next.empty()) break;
+            next.push_back({i, 0, 0, 0, stage.visited});
+            left -= std::min(left, groups);
+        }
+    }
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if (longest > kLongestRay) next.resize(i);
+        if (i == next.size()) break;
+        next[i].cuts = cuts_a_pass(longest);
+        longest += 2 * next[i].cuts;
+    }
+    return next;
+}
+
+void Flight::pass(std::size_t count, std::uint32_t left_pending) {
+    pending = 0;
+    for (std::size_t i = 0; i < std::min(passes.size(), count + (left_pending > 0 ? 1 : 0)); ++i) {
+        Stage& stage = stages[passes[i].stage];
+        if (stage.is_of_balls()) stage.next_task = passes[i].end_task;
+        next_stage = passes[i].stage;
+        const bool is_done = i < count && (!stage.is_of_balls() || stage.next_task == stage.end_task);
+        if (is_done) ++next_stage;
+    }
+    pending = left_pending;
+}
+
+void Flight::leave_to_host(std::size_t stage) {
+    on_host = stages[stage].first_sweep;
+    stages.resize(stage);
+}
+
+}  // namespace burin::compute
