@@ -278,28 +278,14 @@ Result<Submission> Commands::submit(const QueueSync& sync) && {
     if (ended != VK_SUCCESS) return vulkan_failure(c.info.name, "recording failed", ended);
 
     const std::uint64_t serial = c.submitted + 1;
-    const VkSemaphore signals[2] = {c.timeline, sync.signal};
-    const std::uint64_t values[2] = {serial, 0};  // a binary semaphore ignores its value
-    constexpr VkPipelineStageFlags kDrawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    auto timeline = structure<VkTimelineSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO);
-    timeline.signalSemaphoreValueCount = sync.signal == VK_NULL_HANDLE ? 1 : 2;
-    timeline.pSignalSemaphoreValues = values;
-    auto info = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    info.pNext = &timeline;
-    info.commandBufferCount = 1;
-    info.pCommandBuffers = &set_.commands;
-    info.waitSemaphoreCount = sync.wait == VK_NULL_HANDLE ? 0 : 1;
-    info.pWaitSemaphores = &sync.wait;
-    info.pWaitDstStageMask = &kDrawing;
-    info.signalSemaphoreCount = timeline.signalSemaphoreValueCount;
-    info.pSignalSemaphores = signals;
-    if (const VkResult r = c.submit(info); r != VK_SUCCESS) {
+    if (const VkResult r = c.submit(set_.commands, serial, moments_, sync); r != VK_SUCCESS) {
         return vulkan_failure(c.info.name, "the work was refused", r);
     }
     c.submitted = serial;
     large_.clear();  // these three are deferred until this submission is done
     kept_.clear();
     kept_objects_.clear();
+    for (Moment& moment : moments_) set_.waited_for.push_back(std::move(moment.timeline));
     return Submission(std::move(core_), std::move(set_), serial);
 }
 

@@ -11,8 +11,11 @@
 //   auto done = submission->wait();                          // then readback.mapped() holds the result
 //
 // No ordering is implicit: a barrier() belongs between two commands of which the second reads or overwrites what the
-// first wrote. Each submission starts after the ones before it have finished all their writes, and the CPU's writes to
-// mapped buffers before submit() are visible to it; its own writes are visible to the CPU after wait().
+// first wrote. Each submission starts after those before it in its lane have finished all their writes, and the CPU's
+// writes to mapped buffers before submit() are visible to it; its own writes are visible to the CPU after wait().
+// Between lanes there is no order but what wait_for() makes: a submission of one lane that reads a buffer which another
+// lane's submission writes waits for the Moment of that one, and then sees its writes. The buffer's lane must neither
+// write nor destroy it until the reader is done.
 // Failure: recording functions return nothing; the first failure among them (memory for staging or descriptors) is kept
 // and returned by submit(), which then submits nothing. Using buffers beyond their end breaks a contract (BURIN_CHECK).
 // Lifetime: pipelines and buffers named in a command must live until submit(); after that they may be destroyed at any
@@ -21,6 +24,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,6 +48,13 @@ struct QueueSync {
     VkSemaphore signal = VK_NULL_HANDLE;  // when all of it is done
 };
 
+// The end of a submission, for the commands of another lane of the device that go on from there (Commands::wait_for). A
+// plain value, which may be handed to another thread. It keeps the timeline and nothing else of its lane.
+struct Moment {
+    std::shared_ptr<const Timeline> timeline;
+    std::uint64_t serial = 0;
+};
+
 // Work handed to the GPU. Destroying the Submission does not wait; its resources are reused when the GPU no longer uses
 // them.
 class Submission {
@@ -57,6 +68,7 @@ public:
     [[nodiscard]] bool done() const;
     // Waits until the work is done, but no longer than this; returns whether it is. A lost device is done with it.
     [[nodiscard]] bool done_within(std::uint64_t most_ns) const;
+    [[nodiscard]] Moment moment() const { return {core_->timeline, serial_}; }
     // Returns the GPU time between two stamps, after wait(); nothing where capabilities().timestamps is false.
     [[nodiscard]] std::optional<double> seconds_between(Stamp earlier, Stamp later) const;
 
@@ -107,6 +119,8 @@ public:
     void keep_alive(Handle<T, Type> object) {
         kept_objects_.push_back(std::make_shared<Handle<T, Type>>(std::move(object)));
     }
+    // Has all of this work begin after a moment of another lane of the device, without a wait of the CPU.
+    void wait_for(Moment moment) { moments_.push_back(std::move(moment)); }
     // Records the GPU's time when all commands before it are done. At most kMaxStamps in one Commands.
     Stamp stamp();
 
@@ -138,6 +152,7 @@ private:
     std::vector<Buffer> large_;  // staging of more than a chunk
     std::vector<Buffer> kept_;
     std::vector<std::shared_ptr<void>> kept_objects_;
+    std::vector<Moment> moments_;     // after which this work begins
     std::size_t chunks_in_use_ = 0;   // of set_.staging
     std::uint64_t staging_used_ = 0;  // bytes of the last of them
     std::size_t pool_in_use_ = 0;     // index into set_.descriptor_pools

@@ -2,6 +2,10 @@
 #include "gpu/core.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <mutex>
+
+#include "gpu/commands.hpp"
 
 namespace burin::gpu {
 
@@ -16,45 +20,126 @@ T handle_of(std::uint64_t bits) {
 }
 }  // namespace
 
-Core::~Core() {
-    if (device != VK_NULL_HANDLE) {
-        vk.vkDeviceWaitIdle(device);
-        for (const Retired& r : retired_) destroy(r.type, r.handle);
-        for (const auto& [serial, set] : retired_sets_) destroy(set);
-        for (const CommandSet& set : free_sets_) destroy(set);
-        vk.vkDestroySemaphore(device, timeline, nullptr);
-        vk.vkDestroyPipelineCache(device, pipeline_cache, nullptr);
-        vk.vkDestroyDevice(device, nullptr);
-    }
-    if (messenger != VK_NULL_HANDLE) {
-        const auto destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-            vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
-        if (destroy_messenger != nullptr) destroy_messenger(instance, messenger, nullptr);
-    }
-    if (instance != VK_NULL_HANDLE) vkDestroyInstance(instance, nullptr);
+Core::Core(std::shared_ptr<SharedDevice> shared, DeviceQueue& queue)
+    : instance(shared->instance),
+      physical(shared->physical),
+      device(shared->device),
+      queue_family(shared->queue_family),
+      pipeline_cache(shared->pipeline_cache),
+      memory(shared->memory),
+      seconds_per_stamp(shared->seconds_per_stamp),
+      info(shared->info),
+      vk(shared->vk),
+      max_allocation_bytes(shared->max_allocation_bytes),
+      capabilities(shared->capabilities),
+      surface(shared->surface),
+      timeline(std::make_shared<Timeline>(shared)),
+      shared_(std::move(shared)),
+      queue_(queue) {}
+
+Result<std::shared_ptr<Core>> Core::create(std::shared_ptr<SharedDevice> shared, DeviceQueue& queue) {
+    const std::shared_ptr<Core> lane(new Core(std::move(shared), queue));
+    auto type = structure<VkSemaphoreTypeCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO);
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    auto semaphore = structure<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
+    semaphore.pNext = &type;
+    const VkResult r = lane->vk.vkCreateSemaphore(lane->device, &semaphore, nullptr, &lane->timeline->semaphore);
+    if (r != VK_SUCCESS) return vulkan_failure(lane->info.name, "no timeline semaphore", r);
+    return lane;
 }
 
-VkResult Core::submit(const VkSubmitInfo& info) {
-    if (lose_at_next_submit) lost = true;
-    const VkResult result = lost ? VK_ERROR_DEVICE_LOST : vk.vkQueueSubmit(queue, 1, &info, VK_NULL_HANDLE);
-    if (result == VK_ERROR_DEVICE_LOST) lost = true;
+Result<std::shared_ptr<Core>> Core::another_lane() const {
+    if (lost()) return vulkan_failure(info.name, "no further lane", VK_ERROR_DEVICE_LOST);
+    return create(shared_, shared_->queues[shared_->queue_count - 1]);
+}
+
+Core::~Core() {
+    if (timeline->semaphore == VK_NULL_HANDLE) return;
+    if (completed() < submitted) {
+        // Not for the whole device, whose queues other lanes may be using. A lost device answers at once.
+        auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
+        wait.semaphoreCount = 1;
+        wait.pSemaphores = &timeline->semaphore;
+        wait.pValues = &submitted;
+        vk.vkWaitSemaphores(device, &wait, UINT64_MAX);
+    }
+    for (const Retired& r : retired_) destroy(r.type, r.handle);
+    for (const auto& [serial, set] : retired_sets_) destroy(set);
+    for (const CommandSet& set : free_sets_) destroy(set);
+}
+
+VkResult Core::submit(VkCommandBuffer commands, std::uint64_t serial, std::span<const Moment> after,
+                      const QueueSync& sync) {
+    if (lose_at_next_submit) note_loss();
+    if (lost()) return VK_ERROR_DEVICE_LOST;
+    // Binary semaphores ignore their values.
+    std::vector<VkSemaphore> waits, signals{timeline->semaphore};
+    std::vector<std::uint64_t> wait_values, signal_values{serial};
+    std::vector<VkPipelineStageFlags> stages;
+    for (const Moment& moment : after) {
+        waits.push_back(moment.timeline->semaphore);
+        wait_values.push_back(moment.serial);
+        stages.push_back(VK_PIPELINE_STAGE_ALL_COMMANDS_BIT);
+    }
+    if (sync.wait != VK_NULL_HANDLE) {
+        waits.push_back(sync.wait);
+        wait_values.push_back(0);
+        stages.push_back(VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT);
+    }
+    if (sync.signal != VK_NULL_HANDLE) {
+        signals.push_back(sync.signal);
+        signal_values.push_back(0);
+    }
+    auto values = structure<VkTimelineSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO);
+    values.waitSemaphoreValueCount = static_cast<std::uint32_t>(wait_values.size());
+    values.pWaitSemaphoreValues = wait_values.data();
+    values.signalSemaphoreValueCount = static_cast<std::uint32_t>(signal_values.size());
+    values.pSignalSemaphoreValues = signal_values.data();
+    auto submission = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    submission.pNext = &values;
+    submission.commandBufferCount = 1;
+    submission.pCommandBuffers = &commands;
+    submission.waitSemaphoreCount = static_cast<std::uint32_t>(waits.size());
+    submission.pWaitSemaphores = waits.data();
+    submission.pWaitDstStageMask = stages.data();
+    submission.signalSemaphoreCount = static_cast<std::uint32_t>(signals.size());
+    submission.pSignalSemaphores = signals.data();
+    const std::lock_guard lock(queue_.mutex);
+    const VkResult result = vk.vkQueueSubmit(queue_.raw, 1, &submission, VK_NULL_HANDLE);
+    if (result == VK_ERROR_DEVICE_LOST) note_loss();
     return result;
+}
+
+VkResult Core::present(const VkPresentInfoKHR& presentation) {
+    if (lost()) return VK_ERROR_DEVICE_LOST;
+    const std::lock_guard lock(queue_.mutex);
+    return vk.vkQueuePresentKHR(queue_.raw, &presentation);
+}
+
+void Core::wait_for_queue() {
+    const std::lock_guard lock(queue_.mutex);
+    vk.vkQueueWaitIdle(queue_.raw);
 }
 
 std::uint64_t Core::completed() {
     std::uint64_t value = 0;
-    if (vk.vkGetSemaphoreCounterValue(device, timeline, &value) != VK_SUCCESS) return 0;
+    if (vk.vkGetSemaphoreCounterValue(device, timeline->semaphore, &value) != VK_SUCCESS) return 0;
     return value;
 }
 
+// A wait that comes after it for the same work does not block, and is not counted as one that does.
 bool Core::completed_within(std::uint64_t serial, std::uint64_t most_ns) {
-    if (completed() >= serial) return true;
-    if (most_ns == 0) return lost;
-    auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
-    wait.semaphoreCount = 1;
-    wait.pSemaphores = &timeline;
-    wait.pValues = &serial;
-    return lost || vk.vkWaitSemaphores(device, &wait, most_ns) != VK_TIMEOUT;
+    bool done = lost() || completed() >= serial;
+    if (!done && most_ns > 0) {
+        if (serial > waited) ++waits;
+        auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
+        wait.semaphoreCount = 1;
+        wait.pSemaphores = &timeline->semaphore;
+        wait.pValues = &serial;
+        done = vk.vkWaitSemaphores(device, &wait, most_ns) != VK_TIMEOUT;
+    }
+    if (done) waited = std::max(waited, serial);
+    return done;
 }
 
 Result<void> Core::wait_for(std::uint64_t serial) {
@@ -62,13 +147,13 @@ Result<void> Core::wait_for(std::uint64_t serial) {
     waited = std::max(waited, serial);
     auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
     wait.semaphoreCount = 1;
-    wait.pSemaphores = &timeline;
+    wait.pSemaphores = &timeline->semaphore;
     wait.pValues = &serial;
     const VkResult result = vk.vkWaitSemaphores(device, &wait, kWaitLimit_ns);
     if (result == VK_TIMEOUT) {
         return fail(info.name, "the GPU has not finished within 120 s", "lower the resolution");
     }
-    if (result == VK_ERROR_DEVICE_LOST) lost = true;
+    if (result == VK_ERROR_DEVICE_LOST) note_loss();
     if (result != VK_SUCCESS) return vulkan_failure(info.name, "waiting for the GPU failed", result);
     return {};
 }
@@ -94,6 +179,7 @@ void Core::collect() {
     std::erase_if(retired_sets_, [&](auto& entry) {
         if (entry.first > done) return false;
         free_sets_.push_back(std::move(entry.second));
+        free_sets_.back().waited_for.clear();
         return true;
     });
 }
@@ -145,21 +231,23 @@ int Core::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags required
     return best;
 }
 
-VkResult Core::allocate(const VkMemoryAllocateInfo& info, VkDeviceMemory& to) {
+VkResult Core::allocate(const VkMemoryAllocateInfo& wanted, VkDeviceMemory& to) {
     ++allocations;
-    const VkResult result = vk.vkAllocateMemory(device, &info, nullptr, &to);
+    const VkResult result = vk.vkAllocateMemory(device, &wanted, nullptr, &to);
     const bool is_own =
-        (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
+        (memory.memoryTypes[wanted.memoryTypeIndex].propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
     if (result != VK_SUCCESS || !is_own) return result;
-    own_pieces_.emplace(to, info.allocationSize);
-    own_bytes += info.allocationSize;
+    own_pieces_.emplace(to, wanted.allocationSize);
+    own_bytes += wanted.allocationSize;
     most_own_bytes = std::max(most_own_bytes, own_bytes);
+    shared_->note_allocated(wanted.allocationSize);
     return result;
 }
 
 void Core::free(VkDeviceMemory piece) {
     if (const auto own = own_pieces_.find(piece); own != own_pieces_.end()) {
         own_bytes -= own->second;
+        shared_->note_freed(own->second);
         own_pieces_.erase(own);
     }
     vk.vkFreeMemory(device, piece, nullptr);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The internals of a Device, shared by the objects made on it: Vulkan handles, the function table, the timeline of
-// submissions, and the queue of objects to destroy once the GPU no longer uses them. For gpu/ and for code that records
-// Vulkan commands of its own (renderer/). Threads: as Device.
+// The internals of a Device: one lane of an opened device, shared by the objects made in it. A lane has the timeline of
+// its submissions, the objects to destroy once the GPU no longer uses them, the command sets to use again, and what it
+// was asked for; the rest it shares with the device's other lanes (shared_device.hpp). For gpu/ and for code that
+// records Vulkan commands of its own (renderer/). Threads: as Device.
 #pragma once
 
 #include <bit>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "gpu/device.hpp"
+#include "gpu/shared_device.hpp"
 #include "gpu/vulkan.hpp"
 
 namespace burin::gpu {
@@ -24,49 +26,46 @@ struct StagingChunk {
     std::span<std::byte> mapped;
 };
 
+struct Moment;     // commands.hpp
+struct QueueSync;  // commands.hpp
+
 // The Vulkan objects one submission is recorded with; reused by a later submission.
 struct CommandSet {
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkQueryPool stamps = VK_NULL_HANDLE;  // created by the first stamp()
     std::vector<VkDescriptorPool> descriptor_pools;
-    std::vector<StagingChunk> staging;  // all of the usual size (Commands::upload)
-};
-
-// Functions of the instance extensions for windows; null where Device::create was not asked for them. They belong to
-// the instance they were loaded from, hence they are kept here and not in volk's global variables.
-struct SurfaceFunctions {
-    PFN_vkDestroySurfaceKHR destroy = nullptr;
-    PFN_vkGetPhysicalDeviceSurfaceSupportKHR support = nullptr;
-    PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR capabilities = nullptr;
-    PFN_vkGetPhysicalDeviceSurfaceFormatsKHR formats = nullptr;
-    PFN_vkGetPhysicalDeviceSurfaceCapabilities2EXT counters = nullptr;  // also needs VK_EXT_display_control
+    std::vector<StagingChunk> staging;                        // all of the usual size (Commands::upload)
+    std::vector<std::shared_ptr<const Timeline>> waited_for;  // of other lanes
 };
 
 class Core {
 public:
-    Core() = default;
-    ~Core();
+    // Opens a lane that submits to this queue of the device.
+    [[nodiscard]] static Result<std::shared_ptr<Core>> create(std::shared_ptr<SharedDevice> shared, DeviceQueue& queue);
+    ~Core();  // waits for what the lane has submitted
     Core(const Core&) = delete;
     Core& operator=(const Core&) = delete;
 
-    VkInstance instance = VK_NULL_HANDLE;
-    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t queue_family = 0;
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-    VkPhysicalDeviceMemoryProperties memory{};
-    std::uint64_t max_allocation_bytes = 0;
-    double seconds_per_stamp = 0.0;
-    VolkDeviceTable vk{};
-    DeviceInfo info;
-    Capabilities capabilities;
-    SurfaceFunctions surface;
+    // Of the device, for all of its lanes.
+    [[nodiscard]] SharedDevice& shared() const { return *shared_; }
+    [[nodiscard]] Result<std::shared_ptr<Core>> another_lane() const;
+    const VkInstance instance;
+    const VkPhysicalDevice physical;
+    const VkDevice device;
+    const std::uint32_t queue_family;
+    const VkPipelineCache pipeline_cache;
+    const VkPhysicalDeviceMemoryProperties& memory;
+    const double seconds_per_stamp;
+    const DeviceInfo& info;
+    // Changed by tests alone, while the device has one lane.
+    VolkDeviceTable& vk;
+    std::uint64_t& max_allocation_bytes;
+    Capabilities& capabilities;
+    SurfaceFunctions& surface;
 
-    // The timeline: each submission signals the next number.
-    VkSemaphore timeline = VK_NULL_HANDLE;
+    // Each submission of the lane signals the next number.
+    const std::shared_ptr<Timeline> timeline;
     std::uint64_t submitted = 0;
     // `waits` counts waits of the host for a submission newer than all that it had waited for; `waited` is the newest
     // of these.
@@ -79,17 +78,24 @@ public:
     }
     // For tests: how many pieces of memory were asked of the driver.
     std::uint64_t allocations = 0;
-    // Of the device's own memory: held now, and at most so far.
+    // Of the device's own memory: held now by the lane's objects, and at most so far.
     std::uint64_t own_bytes = 0, most_own_bytes = 0;
     // All memory of buffers and images comes from here, and goes back through retire() or destruction.
     [[nodiscard]] VkResult allocate(const VkMemoryAllocateInfo& info, VkDeviceMemory& to);
-    // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
-    bool lost = false;
-    // For tests: makes the next submission fail as if the GPU were gone, or the next acquisition of an image as if the
-    // window's surface were gone.
+    // Set by the first submission, wait or presentation of any lane that reports the device as lost; nothing works
+    // afterwards, in no lane.
+    [[nodiscard]] bool lost() const { return shared_->is_lost(); }
+    void note_loss() { shared_->note_loss(); }
+    // For tests: makes the lane's next submission fail as if the GPU were gone, or the next acquisition of an image as
+    // if the window's surface were gone.
     bool lose_at_next_submit = false;
     bool lose_surface_at_next_acquire = false;
-    [[nodiscard]] VkResult submit(const VkSubmitInfo& info);
+    // Calls of the lane's queue, one thread at a time.
+    [[nodiscard]] VkResult submit(VkCommandBuffer commands, std::uint64_t serial, std::span<const Moment> after,
+                                  const QueueSync& sync);
+    [[nodiscard]] VkResult present(const VkPresentInfoKHR& info);
+    // Waits for all that was submitted to the queue, presentations too, and by other lanes where they share it.
+    void wait_for_queue();
     [[nodiscard]] std::uint64_t completed();
     [[nodiscard]] Result<void> wait_for(std::uint64_t serial);
     // Waits no longer than this; a failure is for wait_for to tell.
@@ -110,6 +116,7 @@ public:
                                   VkMemoryPropertyFlags preferred) const;
 
 private:
+    Core(std::shared_ptr<SharedDevice> shared, DeviceQueue& queue);
     struct Retired {
         std::uint64_t serial;
         VkObjectType type;
@@ -121,6 +128,8 @@ private:
     void destroy(const StagingChunk& chunk);
     void free(VkDeviceMemory piece);
 
+    std::shared_ptr<SharedDevice> shared_;
+    DeviceQueue& queue_;
     std::unordered_map<VkDeviceMemory, std::uint64_t> own_pieces_;  // bytes of each piece of the device's own memory
     std::vector<Retired> retired_;
     std::vector<std::pair<std::uint64_t, CommandSet>> retired_sets_;

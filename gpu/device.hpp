@@ -5,10 +5,18 @@
 // Data flow: list_devices() lists the machine's devices; Device::create() picks one and opens it; buffers, images and
 // pipelines are created on it; work is recorded into Commands (commands.hpp), submitted, and waited for.
 //
-// Lifetime: every object keeps its device's core alive, so the order of destruction is free. A destroyed object that
-// the GPU may still be using is freed when the submissions made so far are done (deferred destruction).
-// Thread: a Device and all its objects belong to one thread at a time. Different Devices may be used by different
-// threads at once: a thread that needs a GPU to itself opens its own Device (30-75 ms with a software driver).
+// Lanes: a Device is a handle of one lane of an opened device, and copies of it are handles of the same lane. lane()
+// opens another one. All lanes have the device's features, limits and loss in common; each has its own submissions, in
+// their own order, its own counts (asked()), and its own objects: what is created with one lane is used in its commands
+// alone and destroyed in it. Work of one lane begins without regard to that of another, unless it waits for it
+// (Commands::wait_for).
+// Lifetime: every object keeps its lane alive, and so the device; the order of destruction is free. A destroyed object
+// that the GPU may still be using is freed when the submissions that its lane has made so far are done (deferred
+// destruction).
+// Thread: a lane and all its objects belong to one thread at a time, different lanes of a device to different threads
+// at once. A session opens one device: one thread draws with its first lane, another carves with a second, which has a
+// queue of its own where the device offers two. Different devices may be opened (30-75 ms with a software driver) and
+// used by different threads at once.
 // Failure: no loader, no driver, no device, out of memory: Error, with the remedy. Wrong use: BURIN_CHECK.
 #pragma once
 
@@ -67,12 +75,12 @@ struct Capabilities {
     std::uint32_t max_image_size = 0;       // width and height of a 2D image
 };
 
-// Counts the work of a device since it was opened, and its memory. Nothing is copied where the host sees that.
+// Counts the work of a lane since it was opened, and its memory. Nothing is copied where the host sees that.
 struct WorkAsked {
     std::uint64_t submissions = 0;
     std::uint64_t blocking_waits = 0;  // for work that no wait before had covered
     std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
-    std::uint64_t most_memory_bytes = 0;  // of the device's own memory, held at once
+    std::uint64_t most_memory_bytes = 0;  // of the device's own memory, held by the lane at once
 };
 
 enum class Prefer { hardware, software };  // a preference: where there is only the other kind, it is taken
@@ -96,21 +104,27 @@ struct DeviceOptions {
 
 class Device {
 public:
+    // Opens a device, and its first lane.
     [[nodiscard]] static Result<Device> create(const DeviceOptions& options = {});
+    // Opens another lane of the same device, for this thread or another. Any thread, while this handle is there. Fails
+    // on a device that is lost, or has no memory left.
+    [[nodiscard]] Result<Device> lane() const;
 
     [[nodiscard]] const DeviceInfo& info() const;
     [[nodiscard]] const Capabilities& capabilities() const;
     [[nodiscard]] const std::shared_ptr<Core>& core() const { return core_; }
 
-    [[nodiscard]] WorkAsked asked() const;
+    [[nodiscard]] WorkAsked asked() const;  // of this lane
+    // Returns how much of the device's own memory all of its lanes hold. Any thread.
+    [[nodiscard]] std::uint64_t memory_bytes() const;
 
-    // Waits for everything submitted, and frees objects whose destruction was deferred.
+    // Waits for everything that the lane has submitted, and frees objects whose destruction was deferred.
     Result<void> wait_idle();
-    // Tells whether the driver has reported the GPU as lost: all objects of this device are then useless, and a new
-    // Device must be opened.
+    // Tells whether the driver has reported the GPU as lost, to any lane: all objects of this device are then useless,
+    // and a new Device must be opened. Any thread.
     [[nodiscard]] bool lost() const;
 
-    explicit Device(std::shared_ptr<Core> core) : core_(std::move(core)) {}  // another handle of an opened device
+    explicit Device(std::shared_ptr<Core> core) : core_(std::move(core)) {}  // another handle of a lane
 
 private:
     std::shared_ptr<Core> core_;

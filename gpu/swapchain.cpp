@@ -91,10 +91,11 @@ void Swapchain::release() {
     core_.reset();
 }
 
-// Waits for all work, since presentations cannot be waited for one by one: this happens at a resize and at the end.
+// Waits for the whole queue, since presentations cannot be waited for one by one: this happens at a resize and at the
+// end.
 void Swapchain::drop_images() {
     if (slots_.empty()) return;
-    core_->vk.vkDeviceWaitIdle(core_->device);
+    core_->wait_for_queue();
     slots_.clear();
     ready_.clear();
 }
@@ -159,7 +160,7 @@ std::optional<std::uint64_t> Swapchain::vblank_count() const {
 
 std::optional<bool> Swapchain::was_shown(std::uint64_t picture) const {
     const bool of_this_chain = picture > presented_before_ && picture <= presented_;
-    if (!core_->capabilities.present_wait || core_->lost || swapchain_ == VK_NULL_HANDLE || !of_this_chain)
+    if (!core_->capabilities.present_wait || core_->lost() || swapchain_ == VK_NULL_HANDLE || !of_this_chain)
         return std::nullopt;
     const VkResult r = core_->vk.vkWaitForPresentKHR(core_->device, swapchain_, picture, 0);
     if (r == VK_SUCCESS || r == VK_SUBOPTIMAL_KHR) return true;
@@ -243,7 +244,7 @@ FrameAnswer Swapchain::answer_of(VkResult result) {
         case VK_NOT_READY: return FrameAnswer::minimised;
         case VK_ERROR_OUT_OF_DATE_KHR:
         case VK_ERROR_FULL_SCREEN_EXCLUSIVE_MODE_LOST_EXT: stale_ = true; return FrameAnswer::resized;
-        case VK_ERROR_DEVICE_LOST: core_->lost = true; return FrameAnswer::device_lost;
+        case VK_ERROR_DEVICE_LOST: core_->note_loss(); return FrameAnswer::device_lost;
         // Includes out of memory: all that can be tried is a new surface and a new swapchain.
         default: return FrameAnswer::surface_lost;
     }
@@ -257,7 +258,7 @@ FrameAnswer Swapchain::rebuilt() {
 
 SwapchainFrame Swapchain::acquire(std::uint32_t window_width, std::uint32_t window_height) {
     SwapchainFrame frame;
-    if (core_->lost) {
+    if (core_->lost()) {
         frame.answer = FrameAnswer::device_lost;
         return frame;
     }
@@ -277,7 +278,7 @@ SwapchainFrame Swapchain::acquire(std::uint32_t window_width, std::uint32_t wind
     }
     Ready& ready = ready_[next_ready_];
     if (const auto waited = core_->wait_for(ready.used_by); !waited) {
-        frame.answer = core_->lost ? FrameAnswer::device_lost : FrameAnswer::surface_lost;
+        frame.answer = core_->lost() ? FrameAnswer::device_lost : FrameAnswer::surface_lost;
         return frame;
     }
     const VkResult r = std::exchange(core_->lose_surface_at_next_acquire, false)
@@ -312,7 +313,7 @@ FrameAnswer Swapchain::present(const SwapchainFrame& frame) {
     numbered.swapchainCount = 1;
     numbered.pPresentIds = &number;
     if (core_->capabilities.present_wait) info.pNext = &numbered;
-    const VkResult r = core_->lost ? VK_ERROR_DEVICE_LOST : core_->vk.vkQueuePresentKHR(core_->queue, &info);
+    const VkResult r = core_->present(info);
     const FrameAnswer answer = answer_of(r);
     if (answer == FrameAnswer::presented) slots_[frame.image].presented_as = ++presented_;
     if (r == VK_SUBOPTIMAL_KHR) {  // some drivers report this for good: only a new size is worth new images
@@ -326,7 +327,7 @@ FrameAnswer Swapchain::present(const SwapchainFrame& frame) {
 
 FrameAnswer Swapchain::abandon(const SwapchainFrame& frame) {
     stale_ = true;
-    if (core_->lost) return FrameAnswer::device_lost;
+    if (core_->lost()) return FrameAnswer::device_lost;
     // Waits for the semaphore that the window system signals, which must happen before it can be destroyed.
     Device device(core_);
     auto commands = Commands::begin(device);

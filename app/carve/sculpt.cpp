@@ -325,7 +325,10 @@ Result<void> sculpt(const session::SculptOptions& options) {
     const ChosenTool& tool = taken_up.chosen;
     const Box bounds_object = taken_up.workpiece.bounds_object;
     BURIN_TRY(pictures, open_pictures(options.pictures, bounds_object));
-    compute::ChosenEngine engine = compute::choose_engine(options.engine, std::move(taken_up.workpiece.solid), pool);
+    // One device draws and carves, where both are asked for.
+    const compute::DeviceSource device = [&pictures] { return pictures ? pictures->lane() : compute::own_device(); };
+    compute::ChosenEngine engine =
+        compute::choose_engine(options.engine, std::move(taken_up.workpiece.solid), pool, device);
     sculpt::Sculpture carving(std::move(engine.engine), pool);
     if (pictures) BURIN_TRY_DO((pictures)->take_before(carving));
     const double cell_m = carving.surface().lattice().spacing_m;

@@ -26,29 +26,33 @@ StandbyEngine::StandbyEngine(Solid solid, const Error& why, WorkerPool& pool) : 
     let_the_processor_carve(std::move(solid), why);
 }
 
+void StandbyEngine::hear_offers(std::shared_ptr<OfferedDevice> offered) {
+    offered_ = std::move(offered);
+    if (offered_) offered_->hear(losses_ < kMostLosses);
+}
+
 Result<Ticket> StandbyEngine::begin(std::span<const ToolSweep> sweeps) {
+    take_an_offer();
     BURIN_TRY_DO(engine_->begin(sweeps));
     if (on_device_ != nullptr) kept_.emplace_back(std::vector(sweeps.begin(), sweeps.end()));
     return ++begun_;
 }
 
 Result<Ticket> StandbyEngine::begin(RayBatch rays) {
+    take_an_offer();
     if (on_device_ != nullptr) kept_.emplace_back(rays);
     BURIN_TRY_DO(engine_->begin(std::move(rays)));
     return ++begun_;
 }
 
 Result<std::optional<Delta>> StandbyEngine::take(Wait wait) {
-    if (on_device_ != nullptr) {
-        auto taken = on_device_->take(wait);
-        if (taken) {
-            while (kept_.size() > on_device_->under_way()) kept_.pop_front();
-            return taken;
-        }
-        give_up_device(taken.error());
-    }
     auto taken = engine_->take(wait);
-    if (taken && *taken) (*taken)->ticket += of_device_;
+    if (!taken && on_device_ != nullptr) {
+        give_up_device(taken.error());
+        taken = engine_->take(wait);
+    }
+    while (kept_.size() > engine_->under_way()) kept_.pop_front();
+    if (taken && *taken) (*taken)->ticket += taken_before_;
     return taken;
 }
 
@@ -75,12 +79,14 @@ std::unique_ptr<MeshingDevice> StandbyEngine::mesh_on_device() {
 void StandbyEngine::give_up_device(const Error& why) {
     if (on_device_ == nullptr) return;
     gather(on_device_->take_changes());
-    last_traffic_ = on_device_->traffic();
+    last_traffic_ = traffic();
+    ++losses_;
+    if (offered_) offered_->hear(losses_ < kMostLosses);
     Solid solid = on_device_->give_solid();
     on_device_ = nullptr;
     engine_.reset();  // frees the device's memory first, which may be the host's
     let_the_processor_carve(std::move(solid), why);
-    of_device_ = begun_ - kept_.size();
+    taken_before_ = begun_ - kept_.size();
     // Cannot fail: the sweeps were checked when they came.
     for (auto& work : std::exchange(kept_, {})) {
         if (auto* const rays = std::get_if<RayBatch>(&work))
@@ -96,6 +102,33 @@ void StandbyEngine::let_the_processor_carve(Solid solid, const Error& why) {
     const bool brings_it_back = !why.remedy.empty() && !why.remedy.contains("--engine cpu");
     notices_.push_back(Error{why.what, why.where, brings_it_back ? why.remedy : ""}.line() +
                        "; the processor carves instead, and nothing is lost");
+}
+
+std::optional<DeviceTraffic> StandbyEngine::traffic() const {
+    if (on_device_ == nullptr) return last_traffic_;
+    const auto now = on_device_->traffic();
+    if (!now || !last_traffic_) return now;
+    return DeviceTraffic{
+        now->submissions + last_traffic_->submissions, now->blocking_waits + last_traffic_->blocking_waits,
+        now->bytes_to_device + last_traffic_->bytes_to_device, now->bytes_to_host + last_traffic_->bytes_to_host,
+        std::max(now->most_memory_bytes, last_traffic_->most_memory_bytes)};
+}
+
+// The device gets a copy of the solid, so that the processor goes on with its own where that fails.
+void StandbyEngine::take_an_offer() {
+    if (!offered_ || on_device_ != nullptr || engine_->under_way() > 0) return;
+    const std::optional<gpu::Device> lane = offered_->take();
+    if (!lane) return;
+    auto made = VulkanEngine::create(Solid(engine_->solid()), *lane, pool_);
+    if (!made) {
+        notices_.push_back(Error{made.error().what, made.error().where, ""}.line() + "; the processor goes on");
+        return;
+    }
+    gather(engine_->take_changes());
+    taken_before_ = begun_;
+    on_device_ = made->get();
+    engine_ = std::move(*made);
+    notices_.push_back(lane->info().name + " carves again");
 }
 
 }  // namespace burin::compute

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] Result<Image> view_of_wall(sculpt::Sculpture& carving, const Staging& staging);
 
     [[nodiscard]] const std::string& device_name() const { return device_name_; }
+    // Opens another lane of the device, for who carves.
+    [[nodiscard]] Result<gpu::Device> lane() const { return device_.lane(); }
     [[nodiscard]] double scene_scale() const { return world_from_object_.scale; }
 
 private:

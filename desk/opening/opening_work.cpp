@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "compute/vulkan/engine_choice.hpp"
 #include "geometry/mesh/coarse_copy.hpp"
 
 namespace burin::session {
@@ -73,15 +72,16 @@ Result<sculpt::MadeWorkpiece> OpeningWork::take() {
     return std::move(made_);
 }
 
-Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece, compute::EngineChoice engine,
-                                            unsigned threads, OpeningSight& sight) {
+Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece,
+                                            const compute::EngineMaker& make_engine, unsigned threads,
+                                            OpeningSight& sight) {
     sculpt::LoadWatch watch{&sight.work()};
     watch.look = [&sight](const geometry::TriangleMesh& mesh) {
         auto drawn = picture::drawn_mesh(geometry::coarse_copy(mesh, kMostLookedAt, kLookCells));
         const Box bounds = drawn->bounds;
         sight.show({std::move(drawn), bounds});
     };
-    return sculpt::make_workpiece(workpiece, compute::engine_maker(engine), threads, watch);
+    return sculpt::make_workpiece(workpiece, make_engine, threads, watch);
 }
 
 }  // namespace burin::session

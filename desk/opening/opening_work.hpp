@@ -73,7 +73,7 @@ private:
 
 // Makes the workpiece of these options, and gives the sight a first look at its mesh.
 [[nodiscard]] Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece,
-                                                          compute::EngineChoice engine, unsigned threads,
+                                                          const compute::EngineMaker& make_engine, unsigned threads,
                                                           OpeningSight& sight);
 
 }  // namespace burin::session

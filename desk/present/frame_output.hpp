@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Where a session's frames go: outputs on screens, of which pictures are drawn. Presenter (presenter.hpp) has a
 // graphics device for it; OffscreenOutput (offscreen_output.hpp) opens one with the first picture that is asked for.
+//
+// The session has this device alone: it draws with one lane of it and carves with another (gpu/device.hpp), where a
+// device is to carve. When it is lost, the processor goes on carving until recover() has opened another, of which the
+// engine is then offered a lane by an order of the scene.
 // Thread: the frame's.
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "compute/vulkan/engine_choice.hpp"
+#include "scene/scene_order.hpp"
 #include "session/input/input_event.hpp"
+#include "session/options/session_options.hpp"
 #include "wall/output_settings.hpp"
 
 namespace burin::session {
@@ -45,6 +54,22 @@ public:
     // Has the session refuse a stereo mode that cannot be shown, in a frame that is not drawn, once has_drawn().
     [[nodiscard]] virtual Result<void> fit_modes(Desk& desk) = 0;
     [[nodiscard]] virtual bool has_drawn() const = 0;
+
+    // Returns what makes the session's engine, on a lane of the outputs' device where one is to carve; the device is
+    // opened for it where there is none yet. Once, before the session is opened; the maker may be called on any thread.
+    [[nodiscard]] compute::EngineMaker engine_maker(compute::EngineChoice choice);
+    // Returns what offers the engine a lane of the device that recover() has opened; nothing where it hears no offers.
+    [[nodiscard]] std::optional<scene::SceneOrder> offer();
+
+protected:
+    // Opens another lane of the outputs' device, and the device where there is none.
+    [[nodiscard]] virtual Result<gpu::Device> lane() = 0;
+
+private:
+    std::shared_ptr<compute::OfferedDevice> offered_;  // null: no device carves. What it holds is the scene's thread's
 };
+
+// Has the session of these options carve with an output's device, unless they have a maker of its engine.
+[[nodiscard]] SculptOptions carving_with(FrameOutput& output, SculptOptions options);
 
 }  // namespace burin::session

@@ -6,6 +6,7 @@
 #include "base/try.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/present/presenter.hpp"
+#include "gpu/driver_threads.hpp"
 
 namespace burin::session {
 
@@ -26,11 +27,22 @@ void OffscreenOutput::put(std::size_t screen, const wall::OutputPlace& place) {
 Result<bool> OffscreenOutput::draw(Desk& desk, Nanoseconds frame_ns) {
     if (!presenter_ && !desk.session().files().wants_pictures()) return false;
     if (!presenter_) {
-        BURIN_TRY(opened, Presenter::open(options_, *wall_));
+        if (device_ && device_->lost()) device_.reset();
+        BURIN_TRY(opened, Presenter::open(options_, *wall_, direct_driver(), std::exchange(device_, std::nullopt)));
         presenter_ = std::make_unique<Presenter>(std::move(opened));
         for (std::size_t screen = 0; screen < places_.size(); ++screen) presenter_->put(screen, places_[screen]);
     }
     return presenter_->draw(desk, frame_ns);
+}
+
+Result<gpu::Device> OffscreenOutput::lane() {
+    if (presenter_) return presenter_->device().lane();
+    if (!device_) {
+        gpu::leave_a_core_to_touch();
+        BURIN_TRY(opened, gpu::Device::create());
+        device_ = std::move(opened);
+    }
+    return device_->lane();
 }
 
 Result<void> OffscreenOutput::recover(Desk& desk, const Error& error) {

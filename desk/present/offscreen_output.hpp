@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The outputs of a session that nobody sees: screens of a size and nothing behind them. A graphics device is opened
-// with the first picture that is asked for; a session that asks for none needs none. Thread: the frame's.
+// The outputs of a session that nobody sees: screens of a size and nothing behind them. A graphics device is opened for
+// the engine, where one is to carve, or with the first picture that is asked for; a session of neither needs none.
+// Thread: the frame's.
 #pragma once
 
 #include <memory>
@@ -35,9 +36,12 @@ public:
     [[nodiscard]] bool has_drawn() const override;
 
 private:
+    [[nodiscard]] Result<gpu::Device> lane() override;
+
     LiveOptions options_;
     const SessionWall* wall_;
     std::vector<wall::OutputPlace> places_;
+    std::optional<gpu::Device> device_;     // the presenter's to be, where it was opened for the engine
     std::unique_ptr<Presenter> presenter_;  // null: no picture has been asked for yet
 };
 

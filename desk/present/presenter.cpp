@@ -84,14 +84,15 @@ std::vector<PlacedWindow> places_of(std::span<const SessionScreen> screens) {
 
 // ---- Opening
 
-Result<Presenter> Presenter::open(const LiveOptions& options, const SessionWall& wall, DirectDriver driver) {
+Result<Presenter> Presenter::open(const LiveOptions& options, const SessionWall& wall, DirectDriver driver,
+                                  std::optional<gpu::Device> opened) {
     gpu::leave_a_core_to_touch();
     Presenter stage(options, wall, std::move(driver));
     for (const SessionScreen& screen : wall.screens) stage.screens_.emplace_back().place.size = screen.size;
     if (!options.offscreen) {
         BURIN_TRY_DO(stage.open_outputs());
     }
-    BURIN_TRY_DO(stage.open_device());
+    BURIN_TRY_DO(stage.open_device(std::move(opened)));
     return stage;
 }
 
@@ -135,8 +136,8 @@ Result<gpu::Device> Presenter::create_device() const {
     return gpu::Device::create(options);
 }
 
-Result<void> Presenter::open_device() {
-    BURIN_TRY(device, create_device());
+Result<void> Presenter::open_device(std::optional<gpu::Device> opened) {
+    BURIN_TRY(device, opened ? Result<gpu::Device>(*std::move(opened)) : create_device());
     device_ = std::move(device);
     surface_.open(*device_);
     for (std::size_t i = 0; i < screens_.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Presents a session's pictures: for each screen in a window (two where each eye has its own), on a display driven
-// directly, or only as screenshots. Uses one graphics device, which may be lost and replaced.
+// directly, or only as screenshots. Draws with one lane of the session's graphics device, which may be lost and
+// replaced.
 //
 // One frame is draw(): it takes the session's surface updates, draws all screens' pictures in one submission, and shows
 // them in the outputs' images, into which only their damaged parts are drawn. It waits for the device once, when all
@@ -43,9 +44,10 @@ struct StillPicture {
 
 class Presenter final : public FrameOutput {
 public:
-    // The wall must outlive it.
+    // The wall must outlive it. opened: a device to begin with, where the session has one and shows no window.
     [[nodiscard]] static Result<Presenter> open(const LiveOptions& options, const SessionWall& wall,
-                                                DirectDriver driver = direct_driver());
+                                                DirectDriver driver = direct_driver(),
+                                                std::optional<gpu::Device> opened = {});
 
     // Reads the outputs' positions and sizes, which hold until the next call; once a frame.
     void look() override;
@@ -137,7 +139,8 @@ private:
     Presenter(const LiveOptions& options, const SessionWall& wall, DirectDriver driver)
         : options_(options), wall_(&wall), driver_(std::move(driver)) {}
     [[nodiscard]] Result<void> open_outputs();
-    [[nodiscard]] Result<void> open_device();
+    [[nodiscard]] Result<void> open_device(std::optional<gpu::Device> opened = {});
+    [[nodiscard]] Result<gpu::Device> lane() override { return device_->lane(); }
     [[nodiscard]] Result<gpu::Device> create_device() const;
     // Returns the outputs of a screen and of its right eye; null where there is none.
     [[nodiscard]] static std::array<SessionOutput*, 2> outputs_of(const ScreenStage& screen) {

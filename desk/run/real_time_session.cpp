@@ -77,7 +77,7 @@ Result<std::optional<sculpt::MadeWorkpiece>> open_workpiece(Presenter& presenter
                                                             const SessionWall& wall) {
     presenter.name_windows(std::filesystem::path(options.workpiece.source).filename().string());
     auto made = open_before_eyes(presenter, options, wall, [&options](OpeningSight& sight) {
-        return make_in_sight(options.workpiece, options.engine, options.threads, sight);
+        return make_in_sight(options.workpiece, options.make_engine, options.threads, sight);
     });
     if (made && !*made && !options.live.record.empty())
         std::fprintf(stderr, "burin: ended while it was opened: %s was not begun\n", options.live.record.c_str());
@@ -165,7 +165,7 @@ Result<SessionRecord> run_unseen(const SculptOptions& options, const SessionWall
     MonotonicClock clock;
     OffscreenOutput output(options.live, wall);
     const Wake wake = [] {};  // its frames come by themselves
-    BURIN_TRY(whole, open_in_real_time(options, wall, clock, std::move(input), run, wake));
+    BURIN_TRY(whole, open_in_real_time(carving_with(output, options), wall, clock, std::move(input), run, wake));
     if (!run.needs.panel) whole.desk->leave_panel_out();
     const std::shared_ptr<SessionRecording> recording = whole.input.recording();
     UnseenFrames frames(*whole.desk, output, std::move(whole.input), clock, whole.tracker.get(), whole.tracker_name);
@@ -185,7 +185,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
         return run_unseen(given, wall, std::move(input), run);
     MonotonicClock clock;
     BURIN_TRY(presenter, Presenter::open(given.live, wall, std::move(run.driver)));
-    const SculptOptions options = as_displayed(given, wall, presenter);
+    const SculptOptions options = carving_with(presenter, as_displayed(given, wall, presenter));
     const Wake wake = [&to = presenter] { to.wake(); };
     std::optional<sculpt::MadeWorkpiece> made;
     // A document is there at once: nothing has to be read, checked and converted.

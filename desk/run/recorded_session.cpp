@@ -145,12 +145,12 @@ Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& w
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
     SimulatedClock clock;
-    BURIN_TRY(opened, Desk::create_as_recorded(options, wall, threads, name, clock));
+    const bool asks_for_pictures = manner.draws && (needs.pictures || manner.picture_every_ns > 0);
+    BURIN_TRY(output, open_output(options.live, wall, asks_for_pictures));
+    BURIN_TRY(opened, Desk::create_as_recorded(carving_with(*output, options), wall, threads, name, clock));
     Desk& desk = *opened;
     Session& session = desk.session();
-    const bool asks_for_pictures = manner.draws && (needs.pictures || manner.picture_every_ns > 0);
     if (options.live.offscreen && !needs.panel && !asks_for_pictures) desk.leave_panel_out();
-    BURIN_TRY(output, open_output(options.live, wall, asks_for_pictures));
     BURIN_TRY_DO(check_screens(*output, threads, name));
 
     BURIN_TRY(ticks, ticks_for(session, threads, name, manner));

@@ -61,18 +61,20 @@ void SessionFrames::tell_of_what_follows() {
 Result<void> SessionFrames::make(Executor& executor) {
     BURIN_TRY_DO(step_frame(desk_, executor, recorder_, frame_, shown_on_.places()));
     stepped();
-    BURIN_TRY(anew, draw());
+    BURIN_TRY(anew, draw(executor));
     finished(frame_, anew);
     return {};
 }
 
-// Returns whether there was anything new. A device that was lost is replaced, and the frame drawn again.
-Result<bool> SessionFrames::draw() {
+// Returns whether there was anything new. A device that was lost is replaced, the new one is offered to the engine, and
+// the frame is drawn again.
+Result<bool> SessionFrames::draw(Executor& executor) {
     while (wants_picture()) {
         Result<bool> anew = shown_on_.draw(desk_, frame_.display_ns);
         if (anew) return anew;
         if (shown_on_.has_lost_display()) return false;  // the next turn ends the session
         BURIN_TRY_DO(shown_on_.recover(desk_, anew.error()));
+        if (auto offer = shown_on_.offer()) executor.order(std::move(*offer));
     }
     return false;
 }
@@ -122,12 +124,12 @@ void ScriptedFrames::stepped() {
 
 Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log) {
     SimulatedClock clock;
-    BURIN_TRY(opened, Desk::create(options, wall, clock));
+    const LogNeeds needs = needs_of(log.events);
+    BURIN_TRY(output, open_output(options.live, wall, needs.pictures));
+    BURIN_TRY(opened, Desk::create(carving_with(*output, options), wall, clock));
     Desk& desk = *opened;
     Session& session = desk.session();
-    const LogNeeds needs = needs_of(log.events);
     if (options.live.offscreen && !needs.panel) desk.leave_panel_out();
-    BURIN_TRY(output, open_output(options.live, wall, needs.pictures));
     ScriptedFrames frames(desk, *output, InputSource::replay(std::move(log)));
     SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });

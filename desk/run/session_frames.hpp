@@ -62,7 +62,7 @@ protected:
     EndSignals end_;
 
 private:
-    [[nodiscard]] Result<bool> draw();
+    [[nodiscard]] Result<bool> draw(Executor& executor);
     void tell_of_late_input();
     void tell_of_what_follows();
 

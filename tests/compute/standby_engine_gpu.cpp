@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A device that is lost, at whichever of its calls, costs nothing that was carved: the processor's engine goes on, and
-// all that the two have changed is what the processor alone changes.
+// another device after it where one is offered, and all that they have changed is what the processor alone changes.
 #include "compute/vulkan/standby_engine.hpp"
+
+#include <memory>
 
 #include "compute/rays/history.hpp"
 #include "tests/compute/updates.hpp"
@@ -74,6 +76,93 @@ TEST_F(StandbyEngineGpu, CarvesWithTheProcessorFromTheBeginningWhereTheDeviceLac
         EXPECT_EQ(engine.take_notices().size(), 1u);
         EXPECT_TRUE(engine.carve(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.2, 1}}));
     }
+}
+
+TEST_F(StandbyEngineGpu, CarvesAgainOnWhatIsOfferedUntilThreeDevicesAreLost) {
+    Random random(5);
+    const Solid solid = unit_cube(24);
+    auto own = gpu::Device::create({.validation = true});
+    ASSERT_TRUE(own);
+    StandbyEngine engine(solid, *own, pool_);
+    const auto offered = std::make_shared<OfferedDevice>();
+    engine.hear_offers(offered);
+    const auto alone = make_cpu_engine(solid, pool_);
+    const auto both = [&](bool assigns) {
+        if (assigns) {
+            const RayBatch batch = emptied(solid, random);
+            ASSERT_TRUE(engine.assign(batch) && alone->assign(batch));
+        }
+        const std::vector<BallSweep> sweeps{random_sweep(random, solid.lattice.spacing_m),
+                                            {Vec3(0.5), random_point(random, 0.0, 1.0), 0.1, 1}};
+        ASSERT_TRUE(engine.carve(sweeps) && alone->carve(sweeps));
+        ASSERT_TRUE(engine.solid().same_content(alone->solid()));
+    };
+    for (int loss = 1; loss <= StandbyEngine::kMostLosses + 1; ++loss) {
+        both(false);
+        EXPECT_STREQ(engine.name(), loss <= StandbyEngine::kMostLosses ? "vulkan" : "cpu");
+        own->core()->shared().note_loss();
+        both(true);
+        EXPECT_STREQ(engine.name(), "cpu");
+        own = gpu::Device::create({.validation = true});
+        ASSERT_TRUE(own);
+        auto lane = own->lane();
+        ASSERT_TRUE(lane);
+        offered->offer(*std::move(lane));
+        if (loss % 2 == 0) {  // else what changed on the processor is taken with what changes on the device after it
+            EXPECT_EQ(first_held(engine.take_changes()), first_held(alone->take_changes()));
+        }
+    }
+    EXPECT_EQ(first_held(engine.take_changes()), first_held(alone->take_changes()));
+    const auto notices = engine.take_notices();
+    ASSERT_EQ(notices.size(), 5u);
+    for (std::size_t i = 0; i < notices.size(); ++i)
+        EXPECT_TRUE(notices[i].ends_with(i % 2 == 0 ? "nothing is lost" : "carves again")) << notices[i];
+    EXPECT_FALSE(offered->take()) << "a device that nobody takes is not held back";
+}
+
+TEST_F(StandbyEngineGpu, GoesOnWithTheProcessorWhereWhatIsOfferedCannotCarve) {
+    const Solid solid = unit_cube(16);
+    auto own = gpu::Device::create({.validation = true});
+    ASSERT_TRUE(own);
+    StandbyEngine engine(solid, *own, pool_);
+    const auto offered = std::make_shared<OfferedDevice>();
+    engine.hear_offers(offered);
+    const auto alone = make_cpu_engine(solid, pool_);
+    own->core()->lose_at_next_submit = true;
+    for (const double x : {0.2, 0.5, 0.8}) {
+        if (x == 0.5) offered->offer(device());
+        capabilities().shader_float64 = false;
+        const std::vector<BallSweep> sweeps{{Vec3(x, 0.5, 1.0), Vec3(x, 0.6, 0.9), 0.1, 1}};
+        const bool carved = engine.carve(sweeps) && alone->carve(sweeps);
+        capabilities().shader_float64 = true;
+        ASSERT_TRUE(carved);
+        EXPECT_STREQ(engine.name(), "cpu");
+        EXPECT_TRUE(engine.solid().same_content(alone->solid()));
+    }
+    const auto notices = engine.take_notices();
+    ASSERT_EQ(notices.size(), 2u);
+    EXPECT_TRUE(notices[1].contains("no doubles in shaders")) << notices[1];
+    EXPECT_TRUE(notices[1].ends_with("the processor goes on")) << notices[1];
+}
+
+TEST_F(StandbyEngineGpu, CountsTheWorkOfAllItsDevices) {
+    auto own = gpu::Device::create({.validation = true});
+    ASSERT_TRUE(own);
+    StandbyEngine engine(unit_cube(16), *own, pool_);
+    const auto offered = std::make_shared<OfferedDevice>();
+    engine.hear_offers(offered);
+    const std::vector<BallSweep> sweeps{{Vec3(0.5, 0.5, 1.0), Vec3(0.5, 0.6, 0.9), 0.1, 1}};
+    ASSERT_TRUE(engine.carve(sweeps));
+    const auto before = engine.traffic();
+    own->core()->lose_at_next_submit = true;
+    ASSERT_TRUE(engine.carve(sweeps));
+    offered->offer(device());
+    ASSERT_TRUE(engine.carve(sweeps));
+    EXPECT_STREQ(engine.name(), "vulkan");
+    const auto after = engine.traffic();
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(after->submissions, before->submissions + device().asked().submissions);
+    EXPECT_EQ(after->blocking_waits, before->blocking_waits + device().asked().blocking_waits);
 }
 
 TEST_F(StandbyEngineGpu, KeepsItsDeviceAfterASweepThatMakesNoSense) {

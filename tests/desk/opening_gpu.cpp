@@ -32,7 +32,7 @@ protected:
     }
     [[nodiscard]] Result<Presenter> present() const { return Presenter::open(options.live, wall); }
     [[nodiscard]] Result<sculpt::MadeWorkpiece> make(OpeningSight& sight) const {
-        return make_in_sight(options.workpiece, options.engine, 1, sight);
+        return make_in_sight(options.workpiece, compute::engine_maker(options.engine), 1, sight);
     }
     static bool can_run(const std::string& program) {
         return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;

@@ -143,10 +143,10 @@ private:
         SimulatedClock clock;
         const Result<SessionWall> wall = session_wall(options.live);
         if (!wall) return std::unexpected(wall.error());
-        auto desk = Desk::create(options, *wall, clock);
-        if (!desk) return std::unexpected(desk.error());
         Result<Presenter> presenter = Presenter::open(options.live, *wall, driver);
         if (!presenter) return std::unexpected(presenter.error());
+        auto desk = Desk::create(carving_with(*presenter, options), *wall, clock);
+        if (!desk) return std::unexpected(desk.error());
         Desk& s = **desk;
         Session& session = s.session();
         MishapFrames frames(s, *presenter, std::move(input), mishap, minimised);

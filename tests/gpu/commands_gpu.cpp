@@ -3,46 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <numeric>
 #include <vector>
 
-#include "add_comp.hpp"
+#include "tests/gpu/add_shader.hpp"
 #include "tests/gpu/test_device.hpp"
 
 namespace burin::gpu {
-
-namespace {
-
-struct AddPush {
-    std::uint32_t count = 0;
-    std::uint32_t factor = 0;
-};
-
-Result<ComputePipeline> make_add(Device& device, std::uint32_t offset) {
-    const std::array constants{offset};
-    return ComputePipeline::create(device, {.spirv = k_add_comp,
-                                            .storage_buffers = 2,
-                                            .push_constant_bytes = sizeof(AddPush),
-                                            .constants = constants,
-                                            .name = "add"});
-}
-
-Buffer make(Device& device, BufferUse use, std::uint64_t words) {
-    auto buffer = Buffer::create(device, use, words * 4, "test");
-    EXPECT_TRUE(buffer) << buffer.error().line();
-    return buffer ? std::move(*buffer) : Buffer{};
-}
-
-std::vector<std::uint32_t> words_of(const std::vector<std::byte>& bytes) {
-    std::vector<std::uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), words.size() * 4);
-    return words;
-}
-
-Groups groups_for(std::uint32_t count) { return {(count + 63) / 64, 1, 1}; }
-
-}  // namespace
 
 using CommandsGpu = DeviceTest;
 

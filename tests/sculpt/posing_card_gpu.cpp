@@ -3,9 +3,12 @@
 // the processor's to the byte, and the user is told once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/json.hpp"
@@ -44,12 +47,28 @@ protected:
                        (how.contains("--resolution") ? "" : " --resolution 64"));
     }
 
+    // How many devices the layer has seen, which adds a line to this file for each.
+    std::size_t devices_in(const std::string& counts) const {
+        const std::string lines = at_.read(counts);
+        return static_cast<std::size_t>(std::ranges::count(lines, '\n'));
+    }
+    // Expects the files of two folders to be alike to the byte.
+    void expect_same_files(const std::string& one, const std::string& other) const {
+        std::size_t files = 0;
+        for (const auto& file : std::filesystem::directory_iterator(at_ / one)) {
+            const std::string name = file.path().filename().string();
+            EXPECT_TRUE(at_.read(one + "/" + name) == at_.read(other + "/" + name)) << name;
+            ++files;
+        }
+        EXPECT_GT(files, 3u);
+    }
+
     Workplace at_;
 };
 
-std::size_t times_told(const std::string& output) {
+std::size_t times_told(const std::string& output, const std::string& what = "the processor carves instead") {
     std::size_t times = 0;
-    for (std::size_t at = 0; (at = output.find("the processor carves instead", at)) != std::string::npos; ++at) ++times;
+    for (std::size_t at = 0; (at = output.find(what, at)) != std::string::npos; ++at) ++times;
     return times;
 }
 
@@ -126,16 +145,55 @@ TEST_F(PosingCard, FeelsAndRecordsWhatTheProcessorFeelsAndEitherReplaysTheOther)
     }
 }
 
-TEST_F(PosingCard, LostInTheMidstOfALiveSessionLosesNothingOfIt) {
+TEST_F(PosingCard, OfALiveSessionWithPicturesIsOneDeviceThatCarvesAndDraws) {
     const std::string live = std::string(kBurinCommand) + " sculpt --input " + kSessionsFolder +
                              "/first-carve.txt --offscreen --workpiece ball:0.05 --resolution 64 ";
-    ASSERT_EQ(at_.run(live + "--engine cpu --outputs cpu").status, 0);
-    for (const std::string failure : {"BURIN_POSE_LOSE_SUBMIT=40", "BURIN_POSE_LOSE_WAIT=60"}) {
-        const auto done = at_.run(posing_as(failure) + live + "--engine vulkan --outputs card");
+    for (const std::string engine : {"cpu", "vulkan"}) {
+        const auto done = at_.run(posing_as("BURIN_POSE_COUNTS=" + engine + ".counts") + "BURIN_VULKAN_VALIDATION=1 " +
+                                  live + "--engine " + engine + " --outputs " + engine);
         ASSERT_EQ(done.status, 0) << done.output;
+        EXPECT_FALSE(done.output.contains("Vulkan validation")) << done.output;
+        EXPECT_EQ(devices_in(engine + ".counts"), 1u) << engine;
+    }
+    EXPECT_GT(Json::parse(at_.read("vulkan.counts"))["dispatches"], 100) << "the device has carved";
+    expect_same_files("cpu", "vulkan");
+}
+
+TEST_F(PosingCard, ThatCarvesAStrokeAndTakesItsPicturesIsOneDevice) {
+    for (const std::string engine : {"cpu", "vulkan", "auto"}) {
+        const auto done = sculpt(posing_as("BURIN_POSE_COUNTS=" + engine + ".counts"), engine,
+                                 "--pictures " + engine + " --engine " + engine);
+        ASSERT_EQ(done.status, 0) << done.output;
+        EXPECT_FALSE(done.output.contains("Vulkan validation")) << done.output;
+        EXPECT_EQ(devices_in(engine + ".counts"), 1u) << engine;
+        EXPECT_EQ(Json::parse(at_.read(engine + ".json"))["engine"]["name"], engine == "cpu" ? "cpu" : "vulkan");
+    }
+    ASSERT_EQ(sculpt(posing_as("BURIN_POSE_COUNTS=none.counts"), "none", "--engine cpu").status, 0);
+    EXPECT_EQ(devices_in("none.counts"), 0u) << "nobody needs one";
+    expect_same_files("cpu", "vulkan");
+    expect_same_files("cpu", "auto");
+}
+
+// What was lost carves on another device, whichever of the two that use it meets the loss first.
+TEST_F(PosingCard, LostInTheMidstOfALiveSessionLosesNothingOfItAndComesBack) {
+    const std::string live = std::string(kBurinCommand) + " sculpt --input " + kSessionsFolder +
+                             "/first-carve.txt --offscreen --workpiece ball:0.05 --resolution 64 ";
+    ASSERT_EQ(at_.run(posing_as() + live + "--engine cpu --outputs cpu").status, 0);
+    const std::vector<std::string> failures{"BURIN_POSE_LOSE_SUBMIT=40 BURIN_POSE_LOSE_DEVICES=1",
+                                            "BURIN_POSE_LOSE_WAIT=60 BURIN_POSE_LOSE_DEVICES=1",
+                                            "BURIN_POSE_LOSE_SUBMIT=20"};  // the last loses every device that is opened
+    for (const std::string& failure : failures) {
+        const bool loses_one = failure.contains("DEVICES");
+        const auto done = at_.run(posing_as(failure + " BURIN_POSE_COUNTS=counts") + "BURIN_VULKAN_VALIDATION=1 " +
+                                  live + "--engine vulkan --outputs card");
+        ASSERT_EQ(done.status, 0) << done.output;
+        EXPECT_FALSE(done.output.contains("Vulkan validation")) << done.output;
         EXPECT_TRUE(at_.read("card/first-carve.stl") == at_.read("cpu/first-carve.stl")) << failure;
-        EXPECT_EQ(times_told(done.output), 1u) << done.output;
+        const std::size_t losses = times_told(done.output), returns = times_told(done.output, "carves again");
+        EXPECT_TRUE(loses_one ? losses == 1 && returns == 1 : losses > 1 && losses <= 3) << done.output;
+        EXPECT_TRUE(loses_one ? devices_in("counts") == 2 : devices_in("counts") > 2) << done.output;
         std::filesystem::remove_all(at_ / "card");
+        std::filesystem::remove(at_ / "counts");
     }
 }
 

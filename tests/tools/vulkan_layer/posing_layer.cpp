@@ -8,6 +8,7 @@
 //   BURIN_POSE_HOST_BYTES=N       the same for the host's, VK_ERROR_OUT_OF_HOST_MEMORY
 //   BURIN_POSE_LOSE_SUBMIT=N      the Nth submission that dispatches a shader is lost, and all that comes after
 //   BURIN_POSE_LOSE_WAIT=N        the Nth wait of a device that has dispatched one, likewise
+//   BURIN_POSE_LOSE_DEVICES=N     only the first N devices that are opened are lost; without it all of them
 //   BURIN_POSE_COUNTS=FILE        a line of JSON for each device, as it is destroyed
 // Threads: any; one lock.
 #include <vulkan/vk_layer.h>
@@ -60,6 +61,7 @@ struct DeviceState {
     std::uint64_t to_device_bytes = 0, to_host_bytes = 0;
     VkDeviceSize devices_bytes = 0, hosts_bytes = 0, most_devices_bytes = 0;
     bool is_lost = false;
+    bool may_be_lost = true;
 };
 
 std::recursive_mutex g_mutex;
@@ -68,6 +70,7 @@ VkInstance g_instance = VK_NULL_HANDLE;
 // Asked for as the instance is made: asked later, another layer in between may answer with this one's own.
 std::map<std::string_view, PFN_vkVoidFunction> g_next_in_instance;
 std::map<void*, std::unique_ptr<DeviceState>> g_devices;  // by the loader's dispatch table
+std::uint64_t g_opened = 0;                               // devices so far
 
 // Device, queue and command buffer begin with a pointer to the table of their device.
 template <typename Handle>
@@ -177,6 +180,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
     auto state = std::make_unique<DeviceState>();
     state->get = of_device;
     state->device = *device;
+    const std::uint64_t to_lose = number_in("BURIN_POSE_LOSE_DEVICES");
+    state->may_be_lost = ++g_opened <= to_lose || to_lose == 0;
     for (const char* name :
          {"vkQueueSubmit", "vkBeginCommandBuffer", "vkCmdDispatch", "vkCmdDispatchIndirect", "vkCmdCopyBuffer"})
         state->next[name] = of_device(*device, name);
@@ -313,7 +318,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, std::uint32_t count, 
     state.dispatches += dispatches;
     if (dispatches > 0) ++state.dispatching;
     const std::uint64_t lost_at = number_in("BURIN_POSE_LOSE_SUBMIT");
-    if (lost_at > 0 && state.dispatching >= lost_at) return lose(state);
+    if (lost_at > 0 && state.may_be_lost && state.dispatching >= lost_at) return lose(state);
     return next_in<PFN_vkQueueSubmit>(state, VK_NULL_HANDLE, "vkQueueSubmit")(queue, count, submits, fence);
 }
 
@@ -330,7 +335,8 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphor
         ++state.waits;
         if (done < info->pValues[0]) ++state.blocking;
         const std::uint64_t lost_at = number_in("BURIN_POSE_LOSE_WAIT");
-        if (state.is_lost || (lost_at > 0 && state.dispatching > 0 && state.waits >= lost_at)) return lose(state);
+        const bool loses = lost_at > 0 && state.may_be_lost && state.dispatching > 0 && state.waits >= lost_at;
+        if (state.is_lost || loses) return lose(state);
     }
     return wait(device, info, most_ns);
 }
