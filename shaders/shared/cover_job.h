@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The interface between the host and shaders/cover_rays.comp: what a sweep's convex pieces are, which rays to visit, and
-// which spans of them the tool covers. The kernel that consumes the spans binds the same structs.
+// The interface between the host and shaders/cover_rays.comp: what a sweep's convex pieces are, which rays to visit,
+// and which spans of them the tool covers. The kernel that consumes the spans binds the same structs.
 #ifndef BURIN_SHARED_COVER_JOB_H
 #define BURIN_SHARED_COVER_JOB_H
 #include "shaders/shared/covered_part.h"

@@ -37,7 +37,8 @@ BURIN_HOT_FN bool touch(CoveredPart a, CoveredPart b) {
     return ceil(a.lo) <= floor(b.hi) + 1.0 && ceil(b.lo) <= floor(a.hi) + 1.0;
 }
 
-// Returns the part from the lesser lo to the greater hi. `first` comes before `second` in the order of moves and pieces.
+// Returns the part from the lesser lo to the greater hi. `first` comes before `second` in the order of moves and
+// pieces.
 BURIN_HOT_FN CoveredPart joined(CoveredPart first, CoveredPart second) {
     if (second.lo < first.lo) {
         first.lo = second.lo;

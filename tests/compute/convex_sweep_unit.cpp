@@ -33,8 +33,8 @@ constexpr double kUnitsACell = 4096.0;
 
 }  // namespace
 
-// The numbers come from the arithmetic as it was when carvings of it were first recorded. A recording is replayed to the
-// bit only as long as they stay.
+// The numbers come from the arithmetic as it was when carvings of it were first recorded. A recording is replayed to
+// the bit only as long as they stay.
 TEST(ConvexSweep, FrustumsHaveTheSectionsThatRecordingsWereMadeWith) {
     struct Case {
         GoldenSection golden;

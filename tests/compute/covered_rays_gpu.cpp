@@ -315,6 +315,23 @@ TEST_F(CoveredRaysGpu, WhatWouldTakeTooLongIsLeftToTheProcessor) {
     EXPECT_FALSE(*covered->prepare(cube_lattice(8), many)) << "more rays than a buffer holds";
 }
 
+// The most turns of loops that a sweep can take: a software driver would end them silently if they were too many.
+TEST_F(CoveredRaysGpu, TheMostPiecesInTheMostPartsAreAllLookedAt) {
+    auto covered = CoveredRays::create(device());
+    ASSERT_TRUE(covered) << covered.error().line();
+    const Lattice lattice = cube_lattice(64);
+    ConvexPieces sweep;
+    for (int i = 0; i < shared::kMostCoverPieces; ++i) {  // each wider than the one before at its place
+        const double x = 4096.0 * (2.0 + 3.0 * (i % shared::kMostParts)), half = 2000.0 + i;
+        sweep.pieces.emplace_back(
+            BoxSweep(Vec3(half, 4096.0, 4096.0), Vec3(x, 83000.0, 83000.0), Quat(1, 0, 0, 0), Vec3(0.0)));
+    }
+    ASSERT_TRUE(*covered->prepare(lattice, sweep));
+    const EndsCompared sum = compared(on_device(*covered).value(), on_processor(lattice, sweep));
+    EXPECT_EQ(sum.differ, 0u) << sum.first;
+    EXPECT_GT(sum.ends, 2u * shared::kMostParts);
+}
+
 // Several sweeps in one submission: what consumes the spans of one comes before the next, whose buffers may be others.
 TEST_F(CoveredRaysGpu, SweepsFollowEachOtherInTheSameCommands) {
     auto covered = CoveredRays::create(device());
