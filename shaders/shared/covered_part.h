@@ -13,27 +13,42 @@
 
 BURIN_SHARED_BEGIN
 
+// A part's normal. In C++ it is that of a section which outlives the part, so that less is copied.
+#ifdef __cplusplus
+using PartNormal = const Double3*;
+using KeptSpan = const SweepSpan&;
+BURIN_HOT_FN PartNormal part_normal(const Double3& kept) { return &kept; }
+BURIN_HOT_FN Double3 vector_of(PartNormal normal) { return *normal; }
+#else
+#define PartNormal dvec3
+#define KeptSpan SweepSpan
+dvec3 part_normal(dvec3 vector) { return vector; }
+dvec3 vector_of(dvec3 normal) { return normal; }
+#endif
+
 // Sections that are joined; lattice units.
 struct CoveredPart {
     double lo;
     double hi;
     double lo_of_hi;  // where the section that ends at hi begins
-    Double3 normal_lo;
-    Double3 normal_hi;
+    PartNormal normal_lo;
+    PartNormal normal_hi;
 };
 
-BURIN_HOT_FN CoveredPart part_of(SweepSpan span) {
+BURIN_HOT_FN CoveredPart part_of(KeptSpan span) {
     CoveredPart part;
     part.lo = span.lo;
     part.hi = span.hi;
     part.lo_of_hi = span.lo;
-    part.normal_lo = span.normal_lo;
-    part.normal_hi = span.normal_hi;
+    part.normal_lo = part_normal(span.normal_lo);
+    part.normal_hi = part_normal(span.normal_hi);
     return part;
 }
 
-// Tells whether parts of two moves join: no whole depth is between them that neither holds.
+// Tells whether parts of two moves join: they overlap, or no whole depth is between them that neither holds. The latter
+// holds of all that overlap too, but costs more.
 BURIN_HOT_FN bool touch(CoveredPart a, CoveredPart b) {
+    if (a.lo <= b.hi && b.lo <= a.hi) return true;
     return ceil(a.lo) <= floor(b.hi) + 1.0 && ceil(b.lo) <= floor(a.hi) + 1.0;
 }
 
@@ -83,8 +98,8 @@ BURIN_HOT_FN CoveredSpan span_of_part(CoveredPart part, int axis, int deepest) {
     CoveredSpan span;
     span.lo = depths.lo;
     span.hi = depths.hi;
-    span.normal_lo = normal_code(part.lo < 0.0 ? -e : part.normal_lo);
-    span.normal_hi = normal_code(part.hi > double(deepest) ? e : part.normal_hi);
+    span.normal_lo = normal_code(part.lo < 0.0 ? -e : vector_of(part.normal_lo));
+    span.normal_hi = normal_code(part.hi > double(deepest) ? e : vector_of(part.normal_hi));
     return span;
 }
 
