@@ -45,8 +45,8 @@ BURIN_HOT_FN CoveredPart part_of(KeptSpan span) {
     return part;
 }
 
-// Tells whether parts of two moves join: they overlap, or no whole depth is between them that neither holds. The latter
-// holds of all that overlap too, but costs more.
+// Tells whether parts of two moves join: no whole depth is between them that neither holds. Of parts that overlap this
+// is always true, and known at less cost.
 BURIN_HOT_FN bool touch(CoveredPart a, CoveredPart b) {
     if (a.lo <= b.hi && b.lo <= a.hi) return true;
     return ceil(a.lo) <= floor(b.hi) + 1.0 && ceil(b.lo) <= floor(a.hi) + 1.0;

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/try.hpp"
@@ -126,6 +127,15 @@ EndsCompared compared(const EndsByRay& actual, const EndsByRay& expected) {
 
 Lattice cube_lattice(int cells) { return {Vec3(0.0), 1.0 / cells, {cells, cells, cells}}; }
 
+// Of the unit cube or a part of it.
+Lattice any_lattice(Random& random, int cells) {
+    Lattice lattice = cube_lattice(cells);
+    if (random.chance(0.5)) {
+        for (int& along : lattice.cells) along = random.small(cells / 3, cells);
+    }
+    return lattice;
+}
+
 // A tool of one of the four kinds, of `size` metres: degenerate ones among them.
 ToolShape any_convex_shape(Random& random, int kind, double size) {
     switch (kind) {
@@ -196,7 +206,7 @@ TEST_F(CoveredRaysGpu, EveryEndIsThatOfTheProcessor) {
     std::size_t of_kind[4] = {};
     for (int i = 0; ends < wanted; ++i) {
         const int cells[] = {24, 40, 64, 128, 256};
-        const Lattice lattice = cube_lattice(cells[random.small(0, soak != nullptr ? 4 : 3)]);
+        const Lattice lattice = any_lattice(random, cells[random.small(0, soak != nullptr ? 4 : 3)]);
         const ToolSweep sweep = any_convex_sweep(random, i % 4, lattice);
         const auto pieces = convex_pieces(lattice, sweep);
         if (!pieces || pieces->pieces.size() > kMostTestPieces) continue;
@@ -273,6 +283,26 @@ TEST_F(CoveredRaysGpu, SpansWithoutSpaceAreCountedAndFoundAgain) {
     const auto again = run(*covered);
     ASSERT_TRUE(again && is_complete(*again));
     EXPECT_EQ(compared(ends_in(*covered, *again), expected).differ, 0u);
+}
+
+// Rounding may leave a gap between two slices of one move. They are one part all the same, and so on the processor.
+TEST_F(CoveredRaysGpu, SlicesOfOneMoveAreOnePart) {
+    auto covered = CoveredRays::create(device());
+    ASSERT_TRUE(covered) << covered.error().line();
+    const Lattice lattice = cube_lattice(32);
+    const auto slice = [](double from, double to) {
+        return FrustumSweep({9000.0, 9000.0, to - from}, Vec3(60000.0, from, 60000.0), Vec3(0.0, 1.0, 0.0), Vec3(0.0));
+    };
+    ConvexPieces one_move{{slice(20000.25, 30000.5), slice(30003.5, 40003.75)}, 2}, two_moves = one_move;
+    two_moves.a_move = 1;
+    for (const auto& [sweep, parts] : {std::pair(&one_move, 1u), std::pair(&two_moves, 2u)}) {
+        ASSERT_TRUE(*covered->prepare(lattice, *sweep));
+        const EndsByRay expected = on_processor(lattice, *sweep), found = on_device(*covered).value();
+        EXPECT_EQ(compared(found, expected).differ, 0u);
+        const auto ray = found.find(shared::ray_code(1, 15, 15));
+        ASSERT_NE(ray, found.end());
+        EXPECT_EQ(ray->second.size(), 2 * parts);
+    }
 }
 
 TEST_F(CoveredRaysGpu, ARayInTooManyPartsIsCounted) {
