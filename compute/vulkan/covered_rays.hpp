@@ -10,7 +10,7 @@
 //   ... submit, wait ...
 //   if (!is_complete(covered->counted())) ...;                    // make_room and record again, or the processor
 //
-// What the buffers hold is in shaders/shared/cover_job.h. record() ends with a barrier, so that the next command may
+// What the buffers hold is in shaders/shared/covered_rays.h. record() ends with a barrier, so that the next command may
 // read them, and begins with one, so that it may follow a consumer of the sweep before it. Of each sweep the device is
 // sent 184 bytes a piece.
 // A consumer that changes anything first looks whether the counters are complete (is_complete) and leaves everything as
@@ -31,6 +31,7 @@
 #include "gpu/device.hpp"
 #include "gpu/pipelines.hpp"
 #include "shaders/shared/cover_job.h"
+#include "shaders/shared/covered_rays.h"
 
 namespace burin::compute {
 
@@ -72,7 +73,7 @@ public:
     [[nodiscard]] Result<bool> make_room(const shared::CoverCounters& counters);
 
     // Sections that one pass may take. At some 400 operations of doubles each, a laptop's card does them in a fifth of
-    // a second; the processor, which leaves most of them out (compute/tools/ray_union.hpp), is then as fast.
+    // a second. The processor leaves most of them out (compute/tools/ray_union.hpp).
     static constexpr std::uint64_t kMostSections = std::uint64_t{1} << 26;
 
 private:

@@ -8,6 +8,7 @@
 #ifndef BURIN_SHARED_COVERED_PART_H
 #define BURIN_SHARED_COVERED_PART_H
 #include "shaders/shared/convex_sweep.h"
+#include "shaders/shared/covered_rays.h"
 #include "shaders/shared/dexel.h"
 #include "shaders/shared/normal_code.h"
 
@@ -67,15 +68,6 @@ BURIN_HOT_FN CoveredPart joined(CoveredPart first, CoveredPart second) {
     return first;
 }
 
-// A span of a ray that a tool covers, lo <= d < hi: 16 bytes. Normals are codes (octahedral.h) and point out of the
-// tool.
-struct CoveredSpan {
-    int lo;
-    int hi;
-    uint normal_lo;
-    uint normal_hi;
-};
-
 // Returns the whole depths of a part within the lattice, whose last depth on this axis is `deepest`; nothing is covered
 // where lo >= hi.
 BURIN_HOT_FN RaySpan depths_of(CoveredPart part, int deepest) {
@@ -105,7 +97,4 @@ BURIN_HOT_FN CoveredSpan span_of_part(CoveredPart part, int axis, int deepest) {
 
 BURIN_SHARED_END
 
-#ifdef __cplusplus
-static_assert(sizeof(burin::shared::CoveredSpan) == 16);
-#endif
 #endif
