@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shaders/cover_rays.comp hands to the kernel that consumes it: which spans of which rays a tool covers. All fields
-// are 32-bit words, so the layout is the same everywhere.
+// What shaders/cover_rays.comp hands to the kernel that consumes it: which spans of which rays a tool covers. All
+// fields are 32-bit words, so the layout is the same everywhere.
 #ifndef BURIN_SHARED_COVERED_RAYS_H
 #define BURIN_SHARED_COVERED_RAYS_H
 #include "shaders/shared/portable.h"
