@@ -83,7 +83,9 @@ CoveredPart take_lowest_part() {
 void main() {
     uint number = parameters.first_ray + gl_GlobalInvocationID.x;
     if (number >= parameters.rays) return;
-    int axis = number >= parameters.rectangles[2].first_ray ? 2 : (number >= parameters.rectangles[1].first_ray ? 1 : 0);
+    int axis = 0;
+    if (number >= parameters.rectangles[1].first_ray) axis = 1;
+    if (number >= parameters.rectangles[2].first_ray) axis = 2;
     CoverRectangle rectangle = parameters.rectangles[axis];
     int place = int(number - rectangle.first_ray);
     int u = rectangle.u + place % rectangle.width;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace burin::compute {
 namespace {
@@ -213,14 +214,16 @@ RayUnion::End RayUnion::end_at(double depth, const Vec3& plane, std::uint32_t pi
 
 // Joins the sections of each move, and then the parts of the moves.
 void RayUnion::join() {
-    std::ranges::sort(found_, {}, &Section::piece);
+    order_.resize(found_.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::ranges::sort(order_, {}, [this](std::uint32_t i) { return found_[i].piece; });
     joined_.clear();
     RayParts ray{joined_};
-    for (std::size_t i = 0; i < found_.size();) {
-        const std::size_t move = found_[i].piece / a_move_;
-        shared::CoveredPart of_move = shared::part_of(found_[i++].span);
-        for (; i < found_.size() && found_[i].piece / a_move_ == move; ++i)
-            of_move = shared::joined(of_move, shared::part_of(found_[i].span));
+    for (std::size_t i = 0; i < order_.size();) {
+        const std::size_t move = found_[order_[i]].piece / a_move_;
+        shared::CoveredPart of_move = shared::part_of(found_[order_[i++]].span);
+        for (; i < order_.size() && found_[order_[i]].piece / a_move_ == move; ++i)
+            of_move = shared::joined(of_move, shared::part_of(found_[order_[i]].span));
         ray.add_part(of_move);
     }
     joined_.resize(static_cast<std::size_t>(ray.part_count));

@@ -103,6 +103,7 @@ private:
     int axis_ = 0;
     double u_ = 0.0, v_ = 0.0;
     std::vector<Section> found_;
+    std::vector<std::uint32_t> order_;  // of the sections by their pieces
     std::vector<shared::CoveredPart> joined_;
     std::vector<Part> parts_;
     std::vector<SeenPart> seen_;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -22,22 +24,35 @@ using shared::CoverRectangle;
 constexpr std::uint32_t kGroupsADispatch = 16384;  // about a million rays; every device takes as many groups
 constexpr std::uint64_t kLooksASection = 16;       // pieces that a ray passes by in the time of one section
 
-CoverPiece packed(const FrustumSweep& frustum) { return shared::packed_frustum({}, frustum.swept()); }
-CoverPiece packed(const BoxSweep& box) { return shared::packed_box({}, box.swept()); }
+// Return a piece as the device takes it; nothing where its kind is the processor's alone.
+template <typename Piece>
+std::optional<CoverPiece> packed(const Piece& /*piece*/) {
+    return {};
+}
+template <>
+std::optional<CoverPiece> packed(const FrustumSweep& frustum) {
+    return shared::packed_frustum({}, frustum.swept());
+}
+template <>
+std::optional<CoverPiece> packed(const BoxSweep& box) {
+    return shared::packed_box({}, box.swept());
+}
 
-std::vector<CoverPiece> cover_pieces(const Lattice& lattice, const ConvexPieces& sweep) {
+// Returns the pieces of a sweep; nothing where the device lacks one of their kinds.
+std::optional<std::vector<CoverPiece>> cover_pieces(const Lattice& lattice, const ConvexPieces& sweep) {
     std::vector<CoverPiece> pieces;
     pieces.reserve(sweep.pieces.size());
     for (std::size_t i = 0; i < sweep.pieces.size(); ++i) {
-        CoverPiece piece = std::visit([](const auto& p) { return packed(p); }, sweep.pieces[i]);
+        std::optional<CoverPiece> piece = std::visit([](const auto& p) { return packed(p); }, sweep.pieces[i]);
+        if (!piece) return {};
         const Box bounds = bounds_of(sweep.pieces[i]);
         for (int axis = 0; axis < 3; ++axis) {
             const Footprint near = footprint(lattice, bounds, axis);
-            piece.lo[(axis + 1) % 3] = near.u_lo;
-            piece.hi[(axis + 1) % 3] = near.u_hi;
+            piece->lo[(axis + 1) % 3] = near.u_lo;
+            piece->hi[(axis + 1) % 3] = near.u_hi;
         }
-        piece.ends_move = (i + 1) % sweep.a_move == 0 ? 1 : 0;
-        pieces.push_back(piece);
+        piece->ends_move = (i + 1) % sweep.a_move == 0 ? 1 : 0;
+        pieces.push_back(*piece);
     }
     return pieces;
 }
@@ -104,17 +119,18 @@ Result<bool> CoveredRays::prepare(const Lattice& lattice, const ConvexPieces& sw
     parameters_ = {};
     pieces_.clear();
     if (sweep.pieces.size() > shared::kMostCoverPieces) return false;
-    std::vector<CoverPiece> pieces = cover_pieces(lattice, sweep);
-    const Visit visit = visit_of(lattice, pieces);
+    std::optional<std::vector<CoverPiece>> pieces = cover_pieces(lattice, sweep);
+    if (!pieces) return false;
+    const Visit visit = visit_of(lattice, *pieces);
     if (visit.sections > kMostSections) return false;
     const std::uint64_t spans = std::max<std::uint64_t>(visit.rays * spans_a_ray_, 1);
     if (visit.rays > most_in_buffer(sizeof(CoveredRay)) || spans > most_in_buffer(sizeof(CoveredSpan))) return false;
     if (visit.rays > 0) {
-        BURIN_TRY_DO(grow(piece_buffer_, pieces.size() * sizeof(CoverPiece), "convex pieces"));
+        BURIN_TRY_DO(grow(piece_buffer_, pieces->size() * sizeof(CoverPiece), "convex pieces"));
         BURIN_TRY_DO(grow(rays_, visit.rays * sizeof(CoveredRay), "covered rays"));
         BURIN_TRY_DO(grow(spans_, spans * sizeof(CoveredSpan), "covered spans"));
     }
-    pieces_ = std::move(pieces);
+    pieces_ = std::move(*pieces);
     std::ranges::copy(visit.rectangles, parameters_.rectangles);
     parameters_.rays = static_cast<std::uint32_t>(visit.rays);
     parameters_.pieces = static_cast<std::uint32_t>(pieces_.size());

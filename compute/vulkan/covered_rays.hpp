@@ -10,7 +10,7 @@
 //   ... submit, wait ...
 //   if (!is_complete(covered->counted())) ...;                    // make_room and record again, or the processor
 //
-// What the buffers hold is in shaders/shared/cover_job.h. record() ends with a barrier, so that the next command may
+// What the buffers hold is in shaders/shared/covered_rays.h. record() ends with a barrier, so that the next command may
 // read them, and begins with one, so that it may follow a consumer of the sweep before it. Of each sweep the device is
 // sent 184 bytes a piece.
 // A consumer that changes anything first looks whether the counters are complete (is_complete) and leaves everything as
@@ -31,6 +31,7 @@
 #include "gpu/device.hpp"
 #include "gpu/pipelines.hpp"
 #include "shaders/shared/cover_job.h"
+#include "shaders/shared/covered_rays.h"
 
 namespace burin::compute {
 
@@ -46,7 +47,8 @@ public:
     [[nodiscard]] static Result<CoveredRays> create(const gpu::Device& device, const CoveredRaysOptions& options = {});
 
     // Makes ready for a sweep. Returns false where it is beyond what the device computes in one pass: more than
-    // kMostCoverPieces pieces, more than kMostSections sections of rays with pieces, or more rays than a buffer holds.
+    // kMostCoverPieces pieces, more than kMostSections sections of rays with pieces, more rays than a buffer holds, or
+    // a kind of piece that the device lacks. Then it visits no ray.
     // Between a record() and the submission of its commands, only the next sweep in the same commands is prepared.
     [[nodiscard]] Result<bool> prepare(const Lattice& lattice, const ConvexPieces& sweep);
 
@@ -70,8 +72,8 @@ public:
     // not help: a ray has too many parts, or no buffer can hold the spans.
     [[nodiscard]] Result<bool> make_room(const shared::CoverCounters& counters);
 
-    // Sections that one pass may take. At some 400 operations of doubles each, a laptop's card does them in a fifth of a
-    // second; the processor, which leaves most of them out (compute/tools/ray_union.hpp), is then as fast.
+    // Sections that one pass may take. At some 400 operations of doubles each, a laptop's card does them in a fifth of
+    // a second. The processor leaves most of them out (compute/tools/ray_union.hpp).
     static constexpr std::uint64_t kMostSections = std::uint64_t{1} << 26;
 
 private:

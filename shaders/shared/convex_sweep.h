@@ -322,8 +322,8 @@ struct BoxCut {
     int planes_hi;
 };
 
-// Returns the normal of one of the six pairs of planes, in the box's axes. They are parallel to two sides of the box, or
-// to one side and the motion.
+// Returns the normal of one of the six pairs of planes, in the box's axes. They are parallel to two sides of the box,
+// or to one side and the motion.
 BURIN_HOT_FN Double3 normal_of_planes(SweptBox k, int planes) {
     if (planes < 3) return axis_vector(planes);
     Double3 d = k.half_along_tool;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The interface between the host and shaders/cover_rays.comp: what a sweep's convex pieces are, which rays to visit, and
-// which spans of them the tool covers. The kernel that consumes the spans binds the same structs.
+// The interface between the host and shaders/cover_rays.comp: what a sweep's convex pieces are and which rays to visit.
+// What comes of it is in covered_rays.h.
 #ifndef BURIN_SHARED_COVER_JOB_H
 #define BURIN_SHARED_COVER_JOB_H
 #include "shaders/shared/covered_part.h"
+#include "shaders/shared/covered_rays.h"
 
 BURIN_SHARED_BEGIN
 
@@ -46,24 +47,6 @@ struct CoverParameters {
     uint spans;      // length of the list of CoveredSpan
     uint first_ray;  // that this dispatch visits
 };
-
-// A ray that was visited: 12 bytes. The tool covers spans[first .. first + count) of it, ascending; no two of them
-// touch.
-struct CoveredRay {
-    uint ray;  // ray_code (cut_job.h)
-    uint first;
-    uint count;
-};
-
-// Where one of `unplaced` and `overfull` is above zero, some rays that the tool covers have a count of zero.
-struct CoverCounters {
-    uint spans;     // that the tool covers, those included that found no space in the list
-    uint unplaced;  // of them, those that found no space
-    uint overfull;  // rays covered in more than kMostParts parts; their spans are not in `spans`
-};
-BURIN_FN bool is_complete(CoverCounters counters) {
-    return counters.unplaced == uint(0) && counters.overfull == uint(0);
-}
 
 BURIN_FN Double3 vector_at(CoverPiece piece, int i) {
     return Double3(piece.numbers[i], piece.numbers[i + 1], piece.numbers[i + 2]);
@@ -131,7 +114,6 @@ BURIN_FN SweepSpan span_of_piece(CoverPiece piece, SweepRay ray) {
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::CoverPiece) == 184 && sizeof(burin::shared::CoverParameters) == 76 &&
-              sizeof(burin::shared::CoveredRay) == 12 && sizeof(burin::shared::CoverCounters) == 12);
+static_assert(sizeof(burin::shared::CoverPiece) == 184 && sizeof(burin::shared::CoverParameters) == 76);
 #endif
 #endif

@@ -8,36 +8,53 @@
 #ifndef BURIN_SHARED_COVERED_PART_H
 #define BURIN_SHARED_COVERED_PART_H
 #include "shaders/shared/convex_sweep.h"
+#include "shaders/shared/covered_rays.h"
 #include "shaders/shared/dexel.h"
 #include "shaders/shared/normal_code.h"
 
 BURIN_SHARED_BEGIN
+
+// A part's normal. In C++ it is that of a section which outlives the part, so that less is copied.
+#ifdef __cplusplus
+using PartNormal = const Double3*;
+using KeptSpan = const SweepSpan&;
+BURIN_HOT_FN PartNormal part_normal(const Double3& kept) { return &kept; }
+BURIN_HOT_FN Double3 vector_of(PartNormal normal) { return *normal; }
+#else
+#define PartNormal dvec3
+#define KeptSpan SweepSpan
+dvec3 part_normal(dvec3 vector) { return vector; }
+dvec3 vector_of(dvec3 normal) { return normal; }
+#endif
 
 // Sections that are joined; lattice units.
 struct CoveredPart {
     double lo;
     double hi;
     double lo_of_hi;  // where the section that ends at hi begins
-    Double3 normal_lo;
-    Double3 normal_hi;
+    PartNormal normal_lo;
+    PartNormal normal_hi;
 };
 
-BURIN_HOT_FN CoveredPart part_of(SweepSpan span) {
+BURIN_HOT_FN CoveredPart part_of(KeptSpan span) {
     CoveredPart part;
     part.lo = span.lo;
     part.hi = span.hi;
     part.lo_of_hi = span.lo;
-    part.normal_lo = span.normal_lo;
-    part.normal_hi = span.normal_hi;
+    part.normal_lo = part_normal(span.normal_lo);
+    part.normal_hi = part_normal(span.normal_hi);
     return part;
 }
 
-// Tells whether parts of two moves join: no whole depth is between them that neither holds.
+// Tells whether parts of two moves join: no whole depth is between them that neither holds. Of parts that overlap this
+// is always true, and known at less cost.
 BURIN_HOT_FN bool touch(CoveredPart a, CoveredPart b) {
+    if (a.lo <= b.hi && b.lo <= a.hi) return true;
     return ceil(a.lo) <= floor(b.hi) + 1.0 && ceil(b.lo) <= floor(a.hi) + 1.0;
 }
 
-// Returns the part from the lesser lo to the greater hi. `first` comes before `second` in the order of moves and pieces.
+// Returns the part from the lesser lo to the greater hi. `first` comes before `second` in the order of moves and
+// pieces.
 BURIN_HOT_FN CoveredPart joined(CoveredPart first, CoveredPart second) {
     if (second.lo < first.lo) {
         first.lo = second.lo;
@@ -50,15 +67,6 @@ BURIN_HOT_FN CoveredPart joined(CoveredPart first, CoveredPart second) {
     }
     return first;
 }
-
-// A span of a ray that a tool covers, lo <= d < hi: 16 bytes. Normals are codes (octahedral.h) and point out of the
-// tool.
-struct CoveredSpan {
-    int lo;
-    int hi;
-    uint normal_lo;
-    uint normal_hi;
-};
 
 // Returns the whole depths of a part within the lattice, whose last depth on this axis is `deepest`; nothing is covered
 // where lo >= hi.
@@ -82,14 +90,11 @@ BURIN_HOT_FN CoveredSpan span_of_part(CoveredPart part, int axis, int deepest) {
     CoveredSpan span;
     span.lo = depths.lo;
     span.hi = depths.hi;
-    span.normal_lo = normal_code(part.lo < 0.0 ? -e : part.normal_lo);
-    span.normal_hi = normal_code(part.hi > double(deepest) ? e : part.normal_hi);
+    span.normal_lo = normal_code(part.lo < 0.0 ? -e : vector_of(part.normal_lo));
+    span.normal_hi = normal_code(part.hi > double(deepest) ? e : vector_of(part.normal_hi));
     return span;
 }
 
 BURIN_SHARED_END
 
-#ifdef __cplusplus
-static_assert(sizeof(burin::shared::CoveredSpan) == 16);
-#endif
 #endif

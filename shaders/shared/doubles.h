@@ -4,9 +4,9 @@
 //
 // Shaders that include this are compiled as EXACT (cmake/BurinShaders.cmake), which keeps every operation apart, so
 // that nothing here needs BURIN_PRECISE. Sums and products of doubles then are those of IEEE 754; for quotients and
-// roots Vulkan promises less, and compute/vulkan/rounding_check.hpp asks the device.
-// A constant stands here as GLSL and C++ both read it: 0.5, 2.0 and other numbers that a float holds are the same double
-// in both languages, since GLSL widens them. Any other number is written twice, with `lf` in GLSL.
+// roots Vulkan promises less, and compute/vulkan/rounding_check.hpp asks the device. A constant stands here as GLSL and
+// C++ both read it: 0.5, 2.0 and other numbers that a float holds are the same double in both languages, since GLSL
+// widens them. Any other number is written twice, with `lf` in GLSL.
 #ifndef BURIN_SHARED_DOUBLES_H
 #define BURIN_SHARED_DOUBLES_H
 #include "shaders/shared/portable.h"

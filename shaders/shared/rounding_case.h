@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The interface between the host and shaders/round_doubles.comp, which computes what a device might round otherwise than
-// the processor.
+// The interface between the host and shaders/round_doubles.comp, which computes what a device might round otherwise
+// than the processor.
 #ifndef BURIN_SHARED_ROUNDING_CASE_H
 #define BURIN_SHARED_ROUNDING_CASE_H
 #include "shaders/shared/doubles.h"

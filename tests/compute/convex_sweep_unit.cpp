@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Sections of rays with swept frustums and boxes, to the last bit.
+// Sections of rays with swept frustums and boxes, to the last bit, also as the device is sent them.
 #include "compute/tools/convex_sweep.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "compute/rays/normal_code.hpp"
+#include "shaders/shared/cover_job.h"
 
 namespace burin::compute::test {
 namespace {
@@ -33,8 +35,8 @@ constexpr double kUnitsACell = 4096.0;
 
 }  // namespace
 
-// The numbers come from the arithmetic as it was when carvings of it were first recorded. A recording is replayed to the
-// bit only as long as they stay.
+// The numbers come from the arithmetic as it was when carvings of it were first recorded. A recording is replayed to
+// the bit only as long as they stay.
 TEST(ConvexSweep, FrustumsHaveTheSectionsThatRecordingsWereMadeWith) {
     struct Case {
         GoldenSection golden;
@@ -135,8 +137,12 @@ TEST(ConvexSweep, FrustumsHaveTheSectionsThatRecordingsWereMadeWith) {
          30500},
         {{"missed", 1.0, 0.0, 0, 0}, cylinder, kSweptFrom, kAslant, kSweptBy, 2, 40 * kUnitsACell, 40 * kUnitsACell},
     };
-    for (const Case& c : cases)
-        expect_section(c.golden, FrustumSweep(c.shape, c.tip, c.axis, c.along).span(c.ray_axis, c.u, c.v));
+    for (const Case& c : cases) {
+        const FrustumSweep sweep(c.shape, c.tip, c.axis, c.along);
+        expect_section(c.golden, sweep.span(c.ray_axis, c.u, c.v));
+        const shared::CoverPiece sent = shared::packed_frustum({}, sweep.swept());
+        expect_section(c.golden, shared::span_of_piece(sent, {c.ray_axis, c.u, c.v}));
+    }
 }
 
 TEST(ConvexSweep, BoxesHaveTheSectionsThatRecordingsWereMadeWith) {
@@ -181,8 +187,12 @@ TEST(ConvexSweep, BoxesHaveTheSectionsThatRecordingsWereMadeWith) {
          7 * kUnitsACell},
         {{"missed", 1.0, 0.0, 0, 0}, half, turned, kSweptBy, 2, 40 * kUnitsACell, 40 * kUnitsACell},
     };
-    for (const Case& c : cases)
-        expect_section(c.golden, BoxSweep(c.half_size, kSweptFrom, c.orientation, c.along).span(c.ray_axis, c.u, c.v));
+    for (const Case& c : cases) {
+        const BoxSweep sweep(c.half_size, kSweptFrom, c.orientation, c.along);
+        expect_section(c.golden, sweep.span(c.ray_axis, c.u, c.v));
+        const shared::CoverPiece sent = shared::packed_box({}, sweep.swept());
+        expect_section(c.golden, shared::span_of_piece(sent, {c.ray_axis, c.u, c.v}));
+    }
 }
 
 }  // namespace burin::compute::test

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/try.hpp"
@@ -126,6 +127,15 @@ EndsCompared compared(const EndsByRay& actual, const EndsByRay& expected) {
 
 Lattice cube_lattice(int cells) { return {Vec3(0.0), 1.0 / cells, {cells, cells, cells}}; }
 
+// Of the unit cube or a part of it.
+Lattice any_lattice(Random& random, int cells) {
+    Lattice lattice = cube_lattice(cells);
+    if (random.chance(0.5)) {
+        for (int& along : lattice.cells) along = random.small(cells / 3, cells);
+    }
+    return lattice;
+}
+
 // A tool of one of the four kinds, of `size` metres: degenerate ones among them.
 ToolShape any_convex_shape(Random& random, int kind, double size) {
     switch (kind) {
@@ -196,7 +206,7 @@ TEST_F(CoveredRaysGpu, EveryEndIsThatOfTheProcessor) {
     std::size_t of_kind[4] = {};
     for (int i = 0; ends < wanted; ++i) {
         const int cells[] = {24, 40, 64, 128, 256};
-        const Lattice lattice = cube_lattice(cells[random.small(0, soak != nullptr ? 4 : 3)]);
+        const Lattice lattice = any_lattice(random, cells[random.small(0, soak != nullptr ? 4 : 3)]);
         const ToolSweep sweep = any_convex_sweep(random, i % 4, lattice);
         const auto pieces = convex_pieces(lattice, sweep);
         if (!pieces || pieces->pieces.size() > kMostTestPieces) continue;
@@ -275,6 +285,26 @@ TEST_F(CoveredRaysGpu, SpansWithoutSpaceAreCountedAndFoundAgain) {
     EXPECT_EQ(compared(ends_in(*covered, *again), expected).differ, 0u);
 }
 
+// Rounding may leave a gap between two slices of one move. They are one part all the same, and so on the processor.
+TEST_F(CoveredRaysGpu, SlicesOfOneMoveAreOnePart) {
+    auto covered = CoveredRays::create(device());
+    ASSERT_TRUE(covered) << covered.error().line();
+    const Lattice lattice = cube_lattice(32);
+    const auto slice = [](double from, double to) {
+        return FrustumSweep({9000.0, 9000.0, to - from}, Vec3(60000.0, from, 60000.0), Vec3(0.0, 1.0, 0.0), Vec3(0.0));
+    };
+    ConvexPieces one_move{{slice(20000.25, 30000.5), slice(30003.5, 40003.75)}, 2}, two_moves = one_move;
+    two_moves.a_move = 1;
+    for (const auto& [sweep, parts] : {std::pair(&one_move, 1u), std::pair(&two_moves, 2u)}) {
+        ASSERT_TRUE(*covered->prepare(lattice, *sweep));
+        const EndsByRay expected = on_processor(lattice, *sweep), found = on_device(*covered).value();
+        EXPECT_EQ(compared(found, expected).differ, 0u);
+        const auto ray = found.find(shared::ray_code(1, 15, 15));
+        ASSERT_NE(ray, found.end());
+        EXPECT_EQ(ray->second.size(), 2 * parts);
+    }
+}
+
 TEST_F(CoveredRaysGpu, ARayInTooManyPartsIsCounted) {
     auto covered = CoveredRays::create(device());
     ASSERT_TRUE(covered) << covered.error().line();
@@ -313,6 +343,23 @@ TEST_F(CoveredRaysGpu, WhatWouldTakeTooLongIsLeftToTheProcessor) {
     EXPECT_FALSE(*covered->prepare(cube_lattice(256), many)) << "too many sections";
     capabilities().max_storage_buffer_bytes = 100 * sizeof(shared::CoveredSpan);
     EXPECT_FALSE(*covered->prepare(cube_lattice(8), many)) << "more rays than a buffer holds";
+}
+
+// The most turns of loops that a sweep can take: a software driver would end them silently if they were too many.
+TEST_F(CoveredRaysGpu, TheMostPiecesInTheMostPartsAreAllLookedAt) {
+    auto covered = CoveredRays::create(device());
+    ASSERT_TRUE(covered) << covered.error().line();
+    const Lattice lattice = cube_lattice(64);
+    ConvexPieces sweep;
+    for (int i = 0; i < shared::kMostCoverPieces; ++i) {  // each wider than the one before at its place
+        const double x = 4096.0 * (2.0 + 3.0 * (i % shared::kMostParts)), half = 2000.0 + i;
+        sweep.pieces.emplace_back(
+            BoxSweep(Vec3(half, 4096.0, 4096.0), Vec3(x, 83000.0, 83000.0), Quat(1, 0, 0, 0), Vec3(0.0)));
+    }
+    ASSERT_TRUE(*covered->prepare(lattice, sweep));
+    const EndsCompared sum = compared(on_device(*covered).value(), on_processor(lattice, sweep));
+    EXPECT_EQ(sum.differ, 0u) << sum.first;
+    EXPECT_GT(sum.ends, 2u * shared::kMostParts);
 }
 
 // Several sweeps in one submission: what consumes the spans of one comes before the next, whose buffers may be others.

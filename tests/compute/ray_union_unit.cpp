@@ -153,6 +153,36 @@ TEST(RayUnion, IsTheUnionOfAllSections) {
 
 namespace {
 
+// Returns the ends, whole units, of what boxes with given extents along x cover of a ray through their middles.
+std::vector<int> joined_depths(const std::vector<Vec2>& extents) {
+    const Lattice lattice{Vec3(0.0), 1.0 / 32, {32, 32, 32}};
+    ConvexPieces sweep;
+    for (const Vec2& x : extents) {
+        const Vec3 half(0.5 * (x.y - x.x), 5000.0, 5000.0), middle(0.5 * (x.x + x.y), 10 * kCell, 10 * kCell);
+        sweep.pieces.emplace_back(BoxSweep(half, middle, Quat(1.0, 0.0, 0.0, 0.0), Vec3(0.0)));
+    }
+    const RayBatch batch = convex_spans(lattice, sweep, 0, union_pool()).batch;
+    std::vector<int> depths;
+    for (const RayBatch::Ray& ray : batch.rays) {
+        if (ray.code != shared::ray_code(0, 10, 10)) continue;
+        for (const shared::DexelEnd& end : batch.ends_of(ray)) depths.push_back(depth_of(end));
+    }
+    return depths;
+}
+
+}  // namespace
+
+TEST(RayUnion, MovesJoinWhereNoWholeDepthIsBetweenThem) {
+    using Depths = std::vector<int>;
+    EXPECT_EQ(joined_depths({{4096.5, 8000.5}, {8001.0, 9000.5}}), Depths({4097, 9000}));
+    EXPECT_EQ(joined_depths({{8001.5, 9000.5}, {4096.5, 8000.5}}), Depths({4097, 8000, 8002, 9000}));
+    // The one in between touches both that were apart.
+    EXPECT_EQ(joined_depths({{4096.5, 6000.5}, {8000.5, 9000.5}, {6000.75, 8000.25}}), Depths({4097, 9000}));
+    EXPECT_EQ(joined_depths({{4096.5, 9000.5}, {5000.5, 6000.5}}), Depths({4097, 9000}));
+}
+
+namespace {
+
 // A bull-nose of 20 cells on a way of 4 cells, at N = 512.
 ToolSweep fine_sweep(const Lattice& lattice, double turn_rad) {
     const double cell_m = lattice.spacing_m;

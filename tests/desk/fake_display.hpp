@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -118,8 +119,11 @@ private:
         auto submit = gpu::structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
         submit.signalSemaphoreCount = 1;
         submit.pSignalSemaphores = &semaphore;
-        return one_->core().vk.vkQueueSubmit(one_->core().queue, 1, &submit, VK_NULL_HANDLE);
+        gpu::DeviceQueue& queue = one_->core().shared().queues.front();  // a presenter's
+        const std::lock_guard lock(queue.mutex);
+        return one_->core().vk.vkQueueSubmit(queue.raw, 1, &submit, VK_NULL_HANDLE);
     }
+    // Under the lock of the queue.
     static VkResult present(VkQueue queue, const VkPresentInfoKHR* info) {
         const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
         auto submit = gpu::structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);

@@ -55,6 +55,7 @@ struct Played {
     Result<void> outcome;
     std::string said;
     std::uint64_t presented = 0;  // of the main screen, since its images were opened at last
+    std::string engine;           // that carved at the end
 };
 
 // The frames of a script with its mishaps, and with some in which the output is minimised.
@@ -112,6 +113,7 @@ protected:
         options.workpiece = {"ball:0.1", 32, false};
         options.tool.shape = "ball:0.012";
         options.live = live;
+        options.engine = engine;
         std::string script = kScript;
         script.replace(script.find("carved.stl"), 10, (place / folder).string() + "/carved.stl");
         testing::internal::CaptureStderr();
@@ -134,6 +136,7 @@ protected:
     }
 
     Workplace place;
+    compute::EngineChoice engine = compute::EngineChoice::automatic;
 
 private:
     std::uint64_t messages_before_ = 0;
@@ -154,6 +157,7 @@ private:
                                  [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
         const Result<void> driven = drive(executor, frames);
         played.presented = presenter->presented();
+        played.engine = session.scene_side().engine()->name();
         return driven;
     }
 };

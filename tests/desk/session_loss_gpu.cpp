@@ -3,17 +3,33 @@
 // happened.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
+#include <span>
+#include <string>
 
 #include "gpu/core.hpp"
 #include "tests/desk/played_session.hpp"
+#include "tests/renderer/output/output_pictures.hpp"
 #include "tests/support/places.hpp"
 #include "tests/window/xvfb.hpp"
 
 namespace burin::session {
 namespace {
 
-class SessionLoss : public PlayedSession {};
+class SessionLoss : public PlayedSession {
+protected:
+    // What the engine says of its losses stands in the lower half of a picture.
+    void expect_same_above_messages(const std::string& one, const std::string& other) {
+        const Image first = renderer::read_png(place / one), second = renderer::read_png(place / other);
+        ASSERT_EQ(first.size, second.size);
+        const std::size_t half = first.rgba.size() / 2;
+        ASSERT_GT(half, 0u);
+        EXPECT_TRUE(std::ranges::equal(std::span(first.rgba).first(half), std::span(second.rgba).first(half)))
+            << other << " is another one";
+    }
+};
 
 LiveOptions desk(bool offscreen) {
     LiveOptions live;
@@ -37,11 +53,13 @@ LiveOptions cave(bool offscreen) {
 // drawn again, and while the tool is taken away.
 const std::set<int> kFrames{0, 20, 24, 25, 32, 50};
 
-Mishap device_lost() {
-    return [left = kFrames](int frame, Presenter& stage) mutable {
+Mishap device_lost_at(const std::set<int>& frames) {
+    return [left = frames](int frame, Presenter& stage) mutable {
         if (left.erase(frame) > 0) stage.device().core()->lose_at_next_submit = true;
     };
 }
+
+Mishap device_lost() { return device_lost_at(kFrames); }
 
 Mishap surface_lost() {
     return [left = kFrames](int frame, Presenter& stage) mutable {
@@ -61,6 +79,29 @@ TEST_F(SessionLoss, OfTheDeviceLosesNothingThatWasCarved) {
     EXPECT_EQ(played.recoveries, static_cast<int>(kFrames.size()));
     EXPECT_NE(played.said.find("the graphics device was lost"), std::string::npos) << played.said;
     expect_same("a", "b", kDeskFiles);
+}
+
+// The engine is on another lane of the device that draws; the processor carves until there is a new one.
+TEST_F(SessionLoss, OfTheDeviceThatCarvesTooTakesBothToTheNewOne) {
+    engine = compute::EngineChoice::cpu;
+    ASSERT_TRUE(play("a", desk(true)).outcome);
+    engine = compute::EngineChoice::vulkan;
+    const Played sound = play("b", desk(true));
+    ASSERT_TRUE(sound.outcome) << sound.outcome.error().line();
+    EXPECT_EQ(sound.engine, "vulkan");
+    expect_same("a", "b", kDeskFiles);
+    const Played twice = play("c", desk(true), device_lost_at({20, 25}));
+    ASSERT_TRUE(twice.outcome) << twice.outcome.error().line();
+    EXPECT_EQ(twice.recoveries, 2);
+    EXPECT_EQ(twice.engine, "vulkan") << twice.said;
+    expect_same("a", "c", {"before.png", "carved.stl"});
+    expect_same_above_messages("a/end.png", "c/end.png");
+    const Played often = play("d", desk(true), device_lost_at({18, 20, 22, 24, 26, 28}));
+    ASSERT_TRUE(often.outcome) << often.outcome.error().line();
+    EXPECT_GT(often.recoveries, 3);
+    EXPECT_EQ(often.engine, "cpu") << "after three losses the processor stays: " << often.said;
+    expect_same("a", "d", {"before.png", "carved.stl"});
+    expect_same_above_messages("a/end.png", "d/end.png");
 }
 
 TEST_F(SessionLoss, InAWindowGoesOnInTheSameWindow) {

@@ -80,8 +80,8 @@ std::map<std::string, std::string> standard_names() {
 }
 
 // Texts that their users include inside a struct, as their first lines say; they mean nothing alone.
-constexpr std::array<std::string_view, 4> kInsideOthers{"shaders/shared/cell_pieces.h",
-                                                        "shaders/shared/feature_point.h",
+constexpr std::array<std::string_view, 5> kInsideOthers{"shaders/shared/cell_pieces.h",
+                                                        "shaders/shared/feature_point.h", "shaders/shared/join_parts.h",
                                                         "shaders/shared/ray_crossing.h", "shaders/shared/span_edit.h"};
 
 // Functions of the system's library whose names functions of the tree have too.
