@@ -72,9 +72,10 @@ public:
     std::uint64_t waits = 0, waited = 0;
     // Copied between buffers that the host sees and those that it does not.
     std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
-    // Counts what a shader has written into the host's memory.
-    void count_written_home(std::uint64_t bytes) {
-        if (!capabilities.unified_memory) bytes_to_host += bytes;
+    // Written by shaders into the host's memory (BufferUse::host_storage), as whoever reads it says.
+    std::uint64_t bytes_written_to_host = 0;
+    void count_written_to_host(std::uint64_t bytes) {
+        if (!capabilities.unified_memory) bytes_written_to_host += bytes;
     }
     // For tests: how many pieces of memory were asked of the driver.
     std::uint64_t allocations = 0;

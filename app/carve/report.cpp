@@ -18,6 +18,7 @@ Json describe_traffic(const compute::DeviceTraffic& traffic) {
             {"blocking_waits", traffic.blocking_waits},
             {"bytes_to_device", traffic.bytes_to_device},
             {"bytes_to_host", traffic.bytes_to_host},
+            {"bytes_written_to_host", traffic.bytes_written_to_host},
             {"most_memory_bytes", traffic.most_memory_bytes}};
 }
 

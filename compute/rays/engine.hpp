@@ -55,6 +55,7 @@ struct CarveStats {
 // was held at once (gpu::WorkAsked).
 struct DeviceTraffic {
     std::uint64_t submissions = 0, blocking_waits = 0, bytes_to_device = 0, bytes_to_host = 0, most_memory_bytes = 0;
+    std::uint64_t bytes_written_to_host = 0;  // by shaders, into the host's memory, without a copy
 };
 
 // An engine's device that carves and meshes by itself, ahead of the host's solid: only the triangles near the tool come

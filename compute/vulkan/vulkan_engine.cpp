@@ -77,7 +77,7 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
     if (covered)
         engine->covered_.emplace(std::move(*covered));
     else
-        engine->notices_.push_back(covered.error().line());
+        engine->no_cover_ = covered.error();
     return engine;
 }
 

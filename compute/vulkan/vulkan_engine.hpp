@@ -78,7 +78,7 @@ public:
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
         return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host,
-                             asked.most_memory_bytes};
+                             asked.most_memory_bytes, asked.bytes_written_to_host};
     }
     // Hands over the host's solid; afterwards the engine may only be destroyed.
     [[nodiscard]] Solid give_solid() { return std::move(solid_); }
@@ -118,6 +118,7 @@ private:
     // ---- Updates (vulkan_engine_updates.cpp)
     void start(Wait alone);
     [[nodiscard]] bool is_for_device(const ToolSweep& sweep) const;
+    void tell_what_is_not_covered(std::span<const ToolSweep> sweeps);
     [[nodiscard]] std::size_t for_device(std::span<const ToolSweep> sweeps) const;
     [[nodiscard]] Result<void> prepare(std::vector<ToolSweep> sweeps);
     [[nodiscard]] Result<bool> add_stage(std::size_t first_sweep, std::size_t end_sweep);
@@ -182,6 +183,7 @@ private:
     std::optional<Flight> flight_;
     Ticket begun_ = 0, taken_ = 0;
     std::vector<std::string> notices_;
+    std::optional<Error> no_cover_;  // why covered_ is nothing, until the first sweep for which that matters
     std::optional<Error> failure_;  // of starting an update, for the next take()
     // State of the deferred cut.
     std::vector<shared::CutTask> deferred_tasks_;

@@ -24,6 +24,11 @@ using shared::PendingRay;
 // Rays that one pass visits; more of them are left to the host, for which that is work enough.
 constexpr std::uint32_t kMostVisited = 1u << 22;
 
+bool is_convex_cut(const ToolSweep& sweep) {
+    return !std::holds_alternative<BallTool>(sweep.shape) && !std::holds_alternative<MeshTool>(sweep.shape) &&
+           sweep.operation != Operation::smooth;
+}
+
 template <typename T>
 std::span<const T> from(const std::vector<T>& values, std::size_t first) {
     return std::span(values).subspan(first);
@@ -33,6 +38,7 @@ std::span<const T> from(const std::vector<T>& values, std::size_t first) {
 
 Result<Ticket> VulkanEngine::begin(std::span<const ToolSweep> sweeps) {
     for (const ToolSweep& sweep : sweeps) BURIN_TRY_DO(check_tool(solid_, sweep));
+    if (no_cover_) tell_what_is_not_covered(sweeps);
     waiting_.push_back({std::vector(sweeps.begin(), sweeps.end()), {}});
     ++begun_;
     if (!flight_) start(Wait::yes);
@@ -58,8 +64,14 @@ Result<std::optional<Delta>> VulkanEngine::take(Wait wait) {
 }
 
 bool VulkanEngine::is_for_device(const ToolSweep& sweep) const {
-    if (is_ball_cut(sweep)) return true;
-    return covered_ && sweep.operation != Operation::smooth && !std::holds_alternative<MeshTool>(sweep.shape);
+    return is_ball_cut(sweep) || (covered_ && is_convex_cut(sweep));
+}
+
+void VulkanEngine::tell_what_is_not_covered(std::span<const ToolSweep> sweeps) {
+    if (std::ranges::none_of(sweeps, is_convex_cut)) return;
+    notices_.push_back(Error{no_cover_->what, no_cover_->where, ""}.line() +
+                       "; the processor computes what cylinders, cones, bull-noses and boxes cover");
+    no_cover_.reset();
 }
 
 // Returns how many of the sweeps, from the first on, have shaders.
@@ -248,7 +260,7 @@ Result<void> VulkanEngine::end_submission() {
     BURIN_TRY_DO(flight_->submission->wait());
     flight_->submission.reset();
     const CutCounters counters = counters_.from_device<CutCounters>()[0];
-    device_.core()->count_written_home(
+    device_.core()->count_written_to_host(
         counters.changed * sizeof(ChangedRay) +
         std::min<std::uint64_t>(counters.exported * sizeof(DexelEnd), exported_.size_bytes()));
     flight_->stats.rays_touched += counters.touched;
