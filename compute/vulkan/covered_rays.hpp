@@ -56,13 +56,15 @@ public:
     void record(gpu::Commands& commands);
 
     // The buffers of the sweep that was prepared last. A ray that is visited has the number under which rays() holds
-    // it; there is one invocation of a consumer for each of the numbers below ray_count().
+    // it; there is one invocation of a consumer for each of the numbers below ray_count(). Where that is 0 there may be
+    // no buffers yet, and there is nothing to consume.
     [[nodiscard]] std::uint32_t ray_count() const { return parameters_.rays; }
     [[nodiscard]] const gpu::Buffer& rays() const { return rays_; }                   // CoveredRay[]
     [[nodiscard]] const gpu::Buffer& spans() const { return spans_; }                 // CoveredSpan[]
     [[nodiscard]] const gpu::Buffer& counters() const { return counters_.buffer(); }  // one CoverCounters
 
-    // Copies the counters home, and returns them when those commands are done.
+    // Copies the counters home, and returns them when those commands are done. record() clears them, so where several
+    // sweeps share the commands, the consumer of each keeps what it needs of them.
     void fetch_counters(gpu::Commands& commands) const { counters_.fetch(commands, sizeof(shared::CoverCounters)); }
     [[nodiscard]] shared::CoverCounters counted() const {
         return counters_.from_device<shared::CoverCounters>().front();
