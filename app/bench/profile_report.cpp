@@ -192,7 +192,8 @@ std::string profile_table(const Json& run) {
             "%.2f MB of its memory\n",
             engine["name"].get<std::string>().c_str(), traffic["submissions"].get<std::size_t>(),
             traffic["blocking_waits"].get<std::size_t>(), 1e-6 * traffic["bytes_to_device"].get<double>(),
-            1e-6 * (traffic["bytes_to_host"].get<double>() + traffic["bytes_written_to_host"].get<double>()), 1e-6 * traffic["most_memory_bytes"].get<double>());
+            1e-6 * (traffic["bytes_to_host"].get<double>() + traffic["bytes_written_to_host"].get<double>()),
+            1e-6 * traffic["most_memory_bytes"].get<double>());
     }
     text += "\n" + heading("when seen, ms") + rows(run["ages_ms"]);
     text += "\n" + heading("1 kHz loop, us") + row("tick", ticks["duration_us"]) + row("late by", ticks["lateness_us"]);

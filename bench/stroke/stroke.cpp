@@ -133,7 +133,7 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
     if (const auto after = sculpture->engine().traffic(); before && after)
         run.traffic = {after->submissions - before->submissions, after->blocking_waits - before->blocking_waits,
                        after->bytes_to_device - before->bytes_to_device, after->bytes_to_host - before->bytes_to_host,
-                       after->most_memory_bytes};
+                       after->most_memory_bytes, after->bytes_written_to_host - before->bytes_written_to_host};
     take_figures(*sculpture, std::move(carved), run);
     check(*sculpture, scene, uncut, pool, run);
     return {};
