@@ -127,7 +127,7 @@ std::uint64_t Core::completed() {
     return value;
 }
 
-// A wait that comes after it for the same work does not block, and is not counted as one that does.
+// However often the same work is waited for, that counts as one wait.
 bool Core::completed_within(std::uint64_t serial, std::uint64_t most_ns) {
     bool done = lost() || completed() >= serial;
     if (!done && most_ns > 0) {
@@ -137,7 +137,9 @@ bool Core::completed_within(std::uint64_t serial, std::uint64_t most_ns) {
         wait.pSemaphores = &timeline->semaphore;
         wait.pValues = &serial;
         done = vk.vkWaitSemaphores(device, &wait, most_ns) != VK_TIMEOUT;
+        waited = std::max(waited, serial);
     }
+    // A wait that comes after it for work that is done does not block.
     if (done) waited = std::max(waited, serial);
     return done;
 }

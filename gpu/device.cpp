@@ -318,8 +318,8 @@ const DeviceInfo& Device::info() const { return core_->info; }
 const Capabilities& Device::capabilities() const { return core_->capabilities; }
 
 WorkAsked Device::asked() const {
-    return {core_->submitted, core_->waits, core_->bytes_to_device, core_->bytes_to_host, core_->most_own_bytes,
-            core_->bytes_written_to_host};
+    return {core_->submitted,     core_->waits,          core_->bytes_to_device,
+            core_->bytes_to_host, core_->most_own_bytes, core_->bytes_written_to_host};
 }
 
 std::uint64_t Device::memory_bytes() const { return core_->shared().own_bytes(); }

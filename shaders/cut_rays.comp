@@ -58,8 +58,17 @@ PendingRay take_job() {
         if (gl_GlobalInvocationID.x < parameters.pending) job = continued[gl_GlobalInvocationID.x];
         return job;
     }
-    CutTask task = tasks[parameters.first_task + gl_WorkGroupID.x];
-    int number = task.offset + int(gl_LocalInvocationID.x);
+    // The last task that begins no later than this group.
+    uint at = parameters.first_task;
+    for (uint beyond = parameters.end_task; beyond - at > 1u;) {
+        uint middle = (at + beyond) / 2u;
+        if (tasks[middle].first_group <= gl_WorkGroupID.x)
+            at = middle;
+        else
+            beyond = middle;
+    }
+    CutTask task = tasks[at];
+    int number = int((gl_WorkGroupID.x - task.first_group) * 64u + gl_LocalInvocationID.x);
     if (number < task.width * task.height)
         job.ray = ray_code(task.axis, task.u + number % task.width, task.v + number / task.width);
     job.next = task.first;

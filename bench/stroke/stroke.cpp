@@ -131,9 +131,12 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
     BURIN_TRY(carved, carve(*sculpture, sweeps));
     BURIN_TRY_DO(check_engine(*sculpture, options));
     if (const auto after = sculpture->engine().traffic(); before && after)
-        run.traffic = {after->submissions - before->submissions, after->blocking_waits - before->blocking_waits,
-                       after->bytes_to_device - before->bytes_to_device, after->bytes_to_host - before->bytes_to_host,
-                       after->most_memory_bytes, after->bytes_written_to_host - before->bytes_written_to_host};
+        run.traffic = {after->submissions - before->submissions,
+                       after->blocking_waits - before->blocking_waits,
+                       after->bytes_to_device - before->bytes_to_device,
+                       after->bytes_to_host - before->bytes_to_host,
+                       after->most_memory_bytes,
+                       after->bytes_written_to_host - before->bytes_written_to_host};
     take_figures(*sculpture, std::move(carved), run);
     check(*sculpture, scene, uncut, pool, run);
     return {};

@@ -26,10 +26,10 @@ std::uint32_t cuts_a_pass(std::uint32_t longest) {
     return cuts;
 }
 
-std::vector<Pass> Flight::next_passes(std::size_t most_tasks, std::uint32_t longest) const {
+std::vector<Pass> Flight::next_passes(std::size_t most_groups, std::uint32_t longest) const {
     std::vector<Pass> next;
     const std::size_t most = one_pass ? 1 : shared::kMostPasses;
-    std::size_t left = most_tasks;
+    std::size_t left = most_groups;
     if (pending > 0) {
         const std::size_t done = stages[next_stage].next_task;
         next.push_back({next_stage, done, done, pending, pending});
@@ -37,12 +37,12 @@ std::vector<Pass> Flight::next_passes(std::size_t most_tasks, std::uint32_t long
     for (std::size_t i = next_stage; i < stages.size() && next.size() < most && left > 0; ++i) {
         const Stage& stage = stages[i];
         if (stage.is_of_balls()) {
-            const std::size_t tasks = std::min(left, stage.end_task - stage.next_task);
-            if (tasks == 0) continue;
-            next.push_back(
-                {i, stage.next_task, stage.next_task + tasks, 0, static_cast<std::uint32_t>(tasks * kGroup)});
-            left -= tasks;
-            if (stage.next_task + tasks < stage.end_task) break;
+            std::size_t end = stage.next_task, groups = 0;
+            while (end < stage.end_task && groups < left) groups += groups_of(tasks.tasks[end++]);
+            if (groups == 0) continue;
+            next.push_back({i, stage.next_task, end, 0, static_cast<std::uint32_t>(groups * kGroup)});
+            left -= std::min(left, groups);
+            if (end < stage.end_task) break;
         } else {
             if (pending > 0 && i == next_stage) continue;
             const std::size_t groups = (stage.visited + kGroup - 1) / kGroup;

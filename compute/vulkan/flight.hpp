@@ -49,6 +49,8 @@ struct Flight {
     std::size_t on_host = 0;  // the first sweep that is left to the host
     std::vector<shared::Capsule> capsules;
     CutTasks tasks;
+    std::vector<shared::PatchRay> patches;  // rays that were assigned, to be sent before the first pass
+    std::vector<shared::DexelEnd> patch_ends;
     std::vector<Stage> stages;
     std::size_t next_stage = 0;
     std::uint32_t pending = 0;  // rays of that stage that the last submission left
@@ -59,9 +61,9 @@ struct Flight {
     CarveStats stats;
 
     [[nodiscard]] bool is_done() const { return !submission && next_stage == stages.size(); }
-    // Returns the passes that come next: of no more tasks than this, but of one at least, and as long as no ray can
+    // Returns the passes that come next: of about so many work groups, one task at least, and as long as no ray can
     // have become too long. `longest` is the number of ends of the longest ray.
-    [[nodiscard]] std::vector<Pass> next_passes(std::size_t most_tasks, std::uint32_t longest) const;
+    [[nodiscard]] std::vector<Pass> next_passes(std::size_t most_groups, std::uint32_t longest) const;
     // Goes on to after the first `count` passes of the submission; the one behind them has left rays pending.
     void pass(std::size_t count, std::uint32_t left_pending);
     // Leaves a stage, and all that follow, to the host.

@@ -108,11 +108,12 @@ std::optional<DeviceTraffic> StandbyEngine::traffic() const {
     if (on_device_ == nullptr) return last_traffic_;
     const auto now = on_device_->traffic();
     if (!now || !last_traffic_) return now;
-    return DeviceTraffic{
-        now->submissions + last_traffic_->submissions, now->blocking_waits + last_traffic_->blocking_waits,
-        now->bytes_to_device + last_traffic_->bytes_to_device, now->bytes_to_host + last_traffic_->bytes_to_host,
-        std::max(now->most_memory_bytes, last_traffic_->most_memory_bytes),
-        now->bytes_written_to_host + last_traffic_->bytes_written_to_host};
+    return DeviceTraffic{now->submissions + last_traffic_->submissions,
+                         now->blocking_waits + last_traffic_->blocking_waits,
+                         now->bytes_to_device + last_traffic_->bytes_to_device,
+                         now->bytes_to_host + last_traffic_->bytes_to_host,
+                         std::max(now->most_memory_bytes, last_traffic_->most_memory_bytes),
+                         now->bytes_written_to_host + last_traffic_->bytes_written_to_host};
 }
 
 // The device gets a copy of the solid, so that the processor goes on with its own where that fails.

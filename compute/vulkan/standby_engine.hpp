@@ -64,7 +64,7 @@ private:
 
     WorkerPool& pool_;
     std::unique_ptr<CarvingEngine> engine_;
-    VulkanEngine* on_device_ = nullptr;          // engine_, while that is the device's
+    VulkanEngine* on_device_ = nullptr;  // engine_, while that is the device's
     // Updates that the device was given and that were not taken.
     std::deque<std::variant<std::vector<ToolSweep>, RayBatch>> kept_;
     Ticket begun_ = 0, taken_before_ = 0;        // in all; of engines before this one

@@ -84,53 +84,43 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
 VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, WorkerPool& pool, const VulkanEngineOptions& options)
     : solid_(std::move(solid)), device_(device), pool_(pool), options_(options) {}
 
-// Sends the rays that were assigned since the device was last used, as they are now.
-Result<void> VulkanEngine::send_assigned() {
-    if (assigned_.empty()) return {};
+// Returns the rays that were assigned since the device was last used, as they are now.
+RayBatch VulkanEngine::take_assigned() {
     keep_each_once(assigned_);
     RayBatch batch;
     for (const std::uint32_t code : std::exchange(assigned_, {})) {
         const RayPlace place = place_of(code);
         batch.add(code, solid_.sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v));
     }
-    const auto patched = patch(batch);
+    return batch;
+}
+
+// Sends the rays that were assigned, and waits.
+Result<void> VulkanEngine::send_assigned() {
+    if (assigned_.empty()) return {};
+    const auto patched = patch(take_assigned());
     if (!patched) synchronized_ = false;
     return patched;
 }
 
 // Sends the ends of the batch in several pieces, so that no buffer grows beyond what a device may bind.
 Result<void> VulkanEngine::patch(const RayBatch& rays) {
-    const std::size_t limit = static_cast<std::size_t>(device_.capabilities().max_storage_buffer_bytes);
-    const std::size_t most_rays = std::min<std::size_t>(std::size_t{options_.tasks_a_pass} * shared::kCutGroup,
-                                                        limit / sizeof(PatchRay)),
-                      most_ends = limit / sizeof(DexelEnd);
     for (std::size_t next = 0; next < rays.rays.size();) {
         std::vector<PatchRay> patches;
         std::vector<DexelEnd> ends;
-        while (next < rays.rays.size() && patches.size() < most_rays) {
+        while (next < rays.rays.size() && patches.size() < most_patches()) {
             const RayBatch::Ray& ray = rays.rays[next];
-            if (!ends.empty() && ends.size() + ray.count > most_ends) break;
+            if (!ends.empty() && ends.size() + ray.count > most_patch_ends()) break;
             patches.push_back({ray.code, static_cast<std::uint32_t>(ends.size()), ray.count});
             const auto of_ray = rays.ends_of(ray);
             ends.insert(ends.end(), of_ray.begin(), of_ray.end());
             ++next;
         }
-        auto reserved = patches_.reserve(device_, patches.size() * sizeof(PatchRay));
-        if (reserved) reserved = patch_ends_.reserve(device_, std::max<std::size_t>(ends.size(), 1) * sizeof(DexelEnd));
-        if (reserved) reserved = counters_.reserve(device_, sizeof(CutCounters));
-        if (!reserved) return reserved;
-        copy_to<PatchRay>(patches_, patches);
-        copy_to<DexelEnd>(patch_ends_, ends);
+        BURIN_TRY_DO(reserve_patches(patches.size(), ends.size()));
         for (bool done = false; !done;) {  // repeated when the store had to grow
             BURIN_TRY(commands, gpu::Commands::begin(device_));
-            CutParameters parameters = this->parameters();
-            parameters.pending = static_cast<std::uint32_t>(patches.size());
-            patches_.send(commands, patches.size() * sizeof(PatchRay));
-            patch_ends_.send(commands, ends.size() * sizeof(DexelEnd));
             send_counters(commands);
-            commands.dispatch(patch_rays_,
-                              {device_solid_.rays(), patches_.buffer(), patch_ends_.buffer(), counters_.buffer()},
-                              gpu::bytes_of(parameters), {groups_of(parameters.pending), 1, 1});
+            record_patches(commands, patches, ends);
             BURIN_TRY(counters, counted(std::move(commands)));
             longest_ = std::max(longest_, counters.longest);
             done = counters.room_wanted == 0;
@@ -138,6 +128,35 @@ Result<void> VulkanEngine::patch(const RayBatch& rays) {
         }
     }
     return {};
+}
+
+std::size_t VulkanEngine::most_patches() const {
+    const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes;
+    return std::min<std::size_t>(std::size_t{options_.tasks_a_pass} * shared::kCutGroup, limit / sizeof(PatchRay));
+}
+
+std::size_t VulkanEngine::most_patch_ends() const {
+    return device_.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd);
+}
+
+Result<void> VulkanEngine::reserve_patches(std::size_t rays, std::size_t ends) {
+    BURIN_TRY_DO(patches_.reserve(device_, rays * sizeof(PatchRay)));
+    BURIN_TRY_DO(patch_ends_.reserve(device_, std::max<std::size_t>(ends, 1) * sizeof(DexelEnd)));
+    return counters_.reserve(device_, sizeof(CutCounters));
+}
+
+void VulkanEngine::record_patches(gpu::Commands& commands, std::span<const PatchRay> rays,
+                                  std::span<const DexelEnd> ends) {
+    copy_to<PatchRay>(patches_, rays);
+    copy_to<DexelEnd>(patch_ends_, ends);
+    patches_.send(commands, rays.size_bytes());
+    patch_ends_.send(commands, ends.size_bytes());
+    commands.barrier();
+    CutParameters parameters = this->parameters();
+    parameters.pending = static_cast<std::uint32_t>(rays.size());
+    commands.dispatch(patch_rays_, {device_solid_.rays(), patches_.buffer(), patch_ends_.buffer(), counters_.buffer()},
+                      gpu::bytes_of(parameters), {groups_of(parameters.pending), 1, 1});
+    commands.barrier();
 }
 
 Result<void> VulkanEngine::synchronize() {

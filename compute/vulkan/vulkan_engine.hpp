@@ -77,8 +77,8 @@ public:
     [[nodiscard]] std::vector<std::string> take_notices() override { return std::exchange(notices_, {}); }
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
-        return DeviceTraffic{asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host,
-                             asked.most_memory_bytes, asked.bytes_written_to_host};
+        return DeviceTraffic{asked.submissions,   asked.blocking_waits,    asked.bytes_to_device,
+                             asked.bytes_to_host, asked.most_memory_bytes, asked.bytes_written_to_host};
     }
     // Hands over the host's solid; afterwards the engine may only be destroyed.
     [[nodiscard]] Solid give_solid() { return std::move(solid_); }
@@ -121,6 +121,7 @@ private:
     void tell_what_is_not_covered(std::span<const ToolSweep> sweeps);
     [[nodiscard]] std::size_t for_device(std::span<const ToolSweep> sweeps) const;
     [[nodiscard]] Result<void> prepare(std::vector<ToolSweep> sweeps);
+    [[nodiscard]] Result<void> prepare_patches();
     [[nodiscard]] Result<bool> add_stage(std::size_t first_sweep, std::size_t end_sweep);
     [[nodiscard]] Result<void> advance(Wait wait);
     [[nodiscard]] Result<void> submit_passes();
@@ -136,15 +137,21 @@ private:
     [[nodiscard]] Error forgotten(const Error& why);
 
     [[nodiscard]] Result<void> send_assigned();
+    [[nodiscard]] RayBatch take_assigned();
     [[nodiscard]] Result<void> patch(const RayBatch& rays);
+    [[nodiscard]] std::size_t most_patches() const;
+    [[nodiscard]] std::size_t most_patch_ends() const;
+    [[nodiscard]] Result<void> reserve_patches(std::size_t rays, std::size_t ends);
+    void record_patches(gpu::Commands& commands, std::span<const shared::PatchRay> rays,
+                        std::span<const shared::DexelEnd> ends);
     [[nodiscard]] Result<shared::CutCounters> fetch_stale(std::uint32_t first, std::uint32_t rays);
     [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> check_longest() const;
     [[nodiscard]] shared::CutParameters parameters() const;
     void send_counters(gpu::Commands& commands);
     [[nodiscard]] Result<shared::CutCounters> counted(gpu::Commands commands);
-    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t task_count);
-    [[nodiscard]] std::uint32_t send_tasks(std::span<const shared::CutTask> tasks);
+    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t groups);
+    [[nodiscard]] std::uint32_t send_tasks();
     [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
     void collect(const shared::CutCounters& counters);
     void apply_changes(Changes& changes);
@@ -165,7 +172,8 @@ private:
     // Upper bound of the number of ends of a ray.
     std::uint32_t longest_ = 0;
     // Bytes in use in the buffers below.
-    std::size_t capsule_bytes_ = 0, task_bytes_ = 0, order_bytes_ = 0;
+    std::size_t capsule_bytes_ = 0, order_bytes_ = 0;
+    std::uint32_t tasks_sent_ = 0;
     SharedBuffer capsules_{"capsules", SharedBuffer::Traffic::to_device};
     SharedBuffer tasks_{"cut tasks", SharedBuffer::Traffic::to_device};
     SharedBuffer order_{"capsule order", SharedBuffer::Traffic::to_device};
@@ -184,7 +192,7 @@ private:
     Ticket begun_ = 0, taken_ = 0;
     std::vector<std::string> notices_;
     std::optional<Error> no_cover_;  // why covered_ is nothing, until the first sweep for which that matters
-    std::optional<Error> failure_;  // of starting an update, for the next take()
+    std::optional<Error> failure_;   // of starting an update, for the next take()
     // State of the deferred cut.
     std::vector<shared::CutTask> deferred_tasks_;
     std::size_t next_task_ = 0;

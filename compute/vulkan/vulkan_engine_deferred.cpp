@@ -11,6 +11,7 @@ namespace burin::compute {
 using shared::ChangedRay;
 using shared::CutCounters;
 using shared::CutParameters;
+using shared::CutTask;
 using shared::DexelEnd;
 
 Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
@@ -20,7 +21,7 @@ Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
     pending_ = 0;
     deferred_stats_ = {};
     BURIN_TRY(capsules, capsules_in_units(solid_, sweeps));
-    CutTasks tasks = cut_tasks(solid_.lattice, capsules);
+    CutTasks tasks = cut_tasks(solid_.lattice, capsules, options_.tasks_a_pass);
     if (tasks.tasks.empty()) return {};
     BURIN_TRY_DO(synchronize());
     BURIN_TRY_DO(check_longest());
@@ -30,21 +31,28 @@ Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
     return {};
 }
 
-// Sends as many tasks as one pass takes, and returns their number.
-std::uint32_t VulkanEngine::send_tasks(std::span<const shared::CutTask> tasks) {
-    const auto some = tasks.first(std::min<std::size_t>(options_.tasks_a_pass, tasks.size()));
-    copy_to<shared::CutTask>(tasks_, some);
-    task_bytes_ = some.size_bytes();
-    return static_cast<std::uint32_t>(some.size());
+// Sends as many tasks as one pass takes, and returns how many work groups they are.
+std::uint32_t VulkanEngine::send_tasks() {
+    std::vector<CutTask> tasks;
+    std::uint32_t groups = 0;
+    const std::size_t first = next_task_;
+    while (next_task_ < deferred_tasks_.size() && groups < options_.tasks_a_pass)
+        groups += groups_of(deferred_tasks_[next_task_++]);
+    append_pass(std::span(deferred_tasks_).subspan(first, next_task_ - first), tasks);
+    copy_to<CutTask>(tasks_, tasks);
+    tasks_sent_ = static_cast<std::uint32_t>(tasks.size());
+    return groups;
 }
 
 // Reserves the buffers of a cut, for the case that every ray visited in a pass changes or is left pending.
 Result<void> VulkanEngine::reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks) {
-    const std::size_t task_count = std::min<std::size_t>(tasks.tasks.size(), options_.tasks_a_pass);
-    const std::size_t rays = task_count * shared::kCutGroup;
+    std::uint64_t groups = 0;
+    for (const CutTask& task : tasks.tasks) groups += groups_of(task);
+    const std::uint64_t rays =
+        std::min<std::uint64_t>(groups, options_.tasks_a_pass + std::uint64_t{kMostTaskGroups}) * shared::kCutGroup;
     const std::pair<SharedBuffer*, std::size_t> sizes[] = {
         {&capsules_, capsules.size_bytes()},
-        {&tasks_, task_count * sizeof(shared::CutTask)},
+        {&tasks_, tasks.tasks.size() * sizeof(CutTask)},
         {&order_, tasks.order.size() * sizeof(std::uint32_t)},
         {&counters_, sizeof(CutCounters)},
         {&deferred_changed_, rays * sizeof(ChangedRay)},
@@ -62,11 +70,12 @@ Result<void> VulkanEngine::reserve(std::span<const shared::Capsule> capsules, co
     return {};
 }
 
-void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t task_count) {
-    passed_rays_ = parameters.pending > 0 ? parameters.pending : task_count * shared::kCutGroup;
+void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t groups) {
+    passed_rays_ = parameters.pending > 0 ? parameters.pending : groups * shared::kCutGroup;
+    parameters.end_task = tasks_sent_;
     std::swap(pending_buffer_, continued_);
     capsules_.send(commands, capsule_bytes_);
-    tasks_.send(commands, task_bytes_);
+    tasks_.send(commands, tasks_sent_ * sizeof(CutTask));
     order_.send(commands, order_bytes_);
     send_counters(commands);
     commands.dispatch(cut_rays_,
@@ -80,9 +89,7 @@ void VulkanEngine::record_pass(gpu::Commands& commands) {
     CutParameters parameters = this->parameters();
     parameters.pending = pending_;
     parameters.deferred = 1;
-    std::uint32_t tasks = 0;
-    if (pending_ == 0) next_task_ += tasks = send_tasks(std::span(deferred_tasks_).subspan(next_task_));
-    record_cut(commands, parameters, tasks);
+    record_cut(commands, parameters, pending_ == 0 ? send_tasks() : 0);
     commands.barrier();
     counters_.fetch(commands, sizeof(CutCounters));
     ++counts_.submissions;

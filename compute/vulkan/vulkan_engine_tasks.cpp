@@ -34,11 +34,12 @@ Footprint rectangle_around(std::span<const Footprint> footprints) {
     return all;
 }
 
-void add_rectangle(int axis, const Footprint& f, std::uint32_t first, std::uint32_t end, std::vector<CutTask>& tasks) {
-    const int width = f.u_hi - f.u_lo + 1, height = f.v_hi - f.v_lo + 1;
-    for (int offset = 0; offset < width * height; offset += shared::kCutGroup) {
-        tasks.push_back({axis, f.u_lo, f.v_lo, width, height, offset, first, end});
-    }
+// Adds the rays of a rectangle, in strips of no more groups than that.
+void add_rectangle(int axis, const Footprint& f, std::uint32_t first, std::uint32_t end, int most_groups,
+                   std::vector<CutTask>& tasks) {
+    const int width = f.u_hi - f.u_lo + 1, rows = std::max(1, most_groups * shared::kCutGroup / width);
+    for (int v = f.v_lo; v <= f.v_hi; v += rows)
+        tasks.push_back({axis, f.u_lo, v, width, std::min(rows, f.v_hi - v + 1), first, end, 0});
 }
 
 // Sorts the capsules by the tiles of a rectangle that they lie above.
@@ -72,7 +73,7 @@ public:
             const int u = (u0_ + static_cast<int>(tile) % wide_) * kTileRays;
             const int v = (v0_ + static_cast<int>(tile) / wide_) * kTileRays;
             to.tasks.push_back({axis, u, v, std::min(kTileRays, lattice.rays_u(axis) - u),
-                                std::min(kTileRays, lattice.rays_v(axis) - v), 0, at[tile], next});
+                                std::min(kTileRays, lattice.rays_v(axis) - v), at[tile], next, 0});
         }
         to.order.resize(next);
         for_each_pair(
@@ -102,7 +103,7 @@ private:
 
 }  // namespace
 
-CutTasks cut_tasks(const Lattice& lattice, std::span<const Capsule> capsules) {
+CutTasks cut_tasks(const Lattice& lattice, std::span<const Capsule> capsules, std::uint32_t most_groups) {
     CutTasks result;
     const auto count = static_cast<std::uint32_t>(capsules.size());
     result.order.resize(count);
@@ -121,9 +122,19 @@ CutTasks cut_tasks(const Lattice& lattice, std::span<const Capsule> capsules) {
                 continue;
             }
         }
-        add_rectangle(axis, all, 0, count, result.tasks);
+        add_rectangle(axis, all, 0, count, static_cast<int>(std::min(most_groups, kMostTaskGroups)), result.tasks);
     }
     return result;
+}
+
+std::uint32_t append_pass(std::span<const CutTask> of_pass, std::vector<CutTask>& tasks) {
+    std::uint32_t groups = 0;
+    for (CutTask task : of_pass) {
+        task.first_group = groups;
+        groups += groups_of(task);
+        tasks.push_back(task);
+    }
+    return groups;
 }
 
 }  // namespace burin::compute

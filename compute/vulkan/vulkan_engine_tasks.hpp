@@ -22,13 +22,20 @@ namespace burin::compute {
     return (rays + shared::kCutGroup - 1) / shared::kCutGroup;
 }
 
+constexpr std::uint32_t kMostTaskGroups = 1024;
+
 struct CutTasks {
     std::vector<shared::CutTask> tasks;
     std::vector<std::uint32_t> order;  // indices of capsules; begins with a list of all of them in order
 };
 
-// Makes the tasks of a cut. Takes time and memory O(capsules + rays visited) and, while its lists stay below 4 million
+// Makes the tasks of a cut, each of no more work groups than this and kMostTaskGroups, or of one row. Their first_group is left to whoever
+// puts them into a pass. Takes time and memory O(capsules + rays visited) and, while its lists stay below 4 million
 // entries, O(capsules x tiles).
-[[nodiscard]] CutTasks cut_tasks(const Lattice& lattice, std::span<const shared::Capsule> capsules);
+[[nodiscard]] CutTasks cut_tasks(const Lattice& lattice, std::span<const shared::Capsule> capsules,
+                                 std::uint32_t most_groups);
+
+// Appends the tasks of one pass, and returns how many work groups they are.
+std::uint32_t append_pass(std::span<const shared::CutTask> of_pass, std::vector<shared::CutTask>& tasks);
 
 }  // namespace burin::compute

@@ -119,11 +119,25 @@ Result<void> VulkanEngine::prepare(std::vector<ToolSweep> sweeps) {
     }
     if (flight_->stages.empty()) return {};
     ++counts_.cuts;
-    BURIN_TRY_DO(synchronize());
+    BURIN_TRY_DO(prepare_patches());
     BURIN_TRY_DO(capsules_.reserve(device_, std::max<std::size_t>(flight_->capsules.size(), 1) * sizeof(Capsule)));
     BURIN_TRY_DO(
         order_.reserve(device_, std::max<std::size_t>(flight_->tasks.order.size(), 1) * sizeof(std::uint32_t)));
     return counters_.reserve(device_, sizeof(CutCounters));
+}
+
+// Has the device hold what the host does: at once where much is to be sent, else with the first submission.
+Result<void> VulkanEngine::prepare_patches() {
+    if (!synchronized_ || assigned_.empty()) return synchronize();
+    RayBatch rays = take_assigned();
+    if (rays.rays.size() > most_patches() || rays.ends.size() > most_patch_ends()) {
+        const auto patched = patch(rays);
+        if (!patched) synchronized_ = false;
+        return patched;
+    }
+    for (const RayBatch::Ray& ray : rays.rays) flight_->patches.push_back({ray.code, ray.first, ray.count});
+    flight_->patch_ends = std::move(rays.ends);
+    return reserve_patches(flight_->patches.size(), flight_->patch_ends.size());
 }
 
 // Adds balls, or one other tool, to the flight. Returns false where that is beyond the device.
@@ -145,7 +159,7 @@ Result<bool> VulkanEngine::add_stage(std::size_t first_sweep, std::size_t end_sw
     std::vector<BallSweep> balls;
     for (const ToolSweep& sweep : sweeps) balls.push_back(ball_sweep(sweep));
     BURIN_TRY(capsules, capsules_in_units(solid_, balls));
-    const CutTasks tasks = cut_tasks(solid_.lattice, capsules);
+    const CutTasks tasks = cut_tasks(solid_.lattice, capsules, options_.tasks_a_pass);
     if (tasks.tasks.empty()) return true;
     CutTasks& all = flight_->tasks;
     const auto first_capsule = static_cast<std::uint32_t>(flight_->capsules.size()),
@@ -184,8 +198,7 @@ Result<void> VulkanEngine::submit_passes() {
     std::vector<CutTask> tasks;
     for (const Pass& pass : flight_->passes) {
         rays += pass.rays;
-        const auto of_pass = std::span(flight_->tasks.tasks).subspan(pass.first_task, pass.end_task - pass.first_task);
-        std::ranges::copy(of_pass, std::back_inserter(tasks));
+        append_pass(std::span(flight_->tasks.tasks).subspan(pass.first_task, pass.end_task - pass.first_task), tasks);
     }
     BURIN_TRY_DO(reserve_passes(rays, tasks.size()));
     BURIN_TRY(commands, gpu::Commands::begin(device_));
@@ -196,14 +209,16 @@ Result<void> VulkanEngine::submit_passes() {
     order_.send(commands, flight_->tasks.order.size() * sizeof(std::uint32_t));
     tasks_.send(commands, tasks.size() * sizeof(CutTask));
     send_counters(commands);
+    if (!flight_->patches.empty()) record_patches(commands, flight_->patches, flight_->patch_ends);
     CutParameters parameters = this->parameters();
     // The buffer may be larger from an earlier cut, but the host does not look for more than it expects.
     parameters.export_size = static_cast<std::uint32_t>(exported_.size_bytes() / sizeof(DexelEnd));
     std::swap(pending_buffer_, continued_);
     for (const Pass& pass : flight_->passes) {
+        parameters.end_task = parameters.first_task + static_cast<std::uint32_t>(pass.end_task - pass.first_task);
         BURIN_TRY_DO(record(commands, pass, parameters));
         ++parameters.pass;
-        parameters.first_task += static_cast<std::uint32_t>(pass.end_task - pass.first_task);
+        parameters.first_task = parameters.end_task;
     }
     if (flight_->one_pass && !flight_->stages[flight_->passes.front().stage].is_of_balls())
         covered_->fetch_counters(commands);
@@ -265,6 +280,8 @@ Result<void> VulkanEngine::end_submission() {
         std::min<std::uint64_t>(counters.exported * sizeof(DexelEnd), exported_.size_bytes()));
     flight_->stats.rays_touched += counters.touched;
     collect(counters);
+    if (counters.left[0] > 0) return make_room_for(counters);  // for what was assigned; nothing else has begun
+    flight_->patches.clear();
     std::size_t done = 0;
     while (done < flight_->passes.size() && counters.left[done + 1] == 0) ++done;
     const bool is_uncovered = done < flight_->passes.size() && counters.uncovered[done] != 0;

@@ -16,18 +16,19 @@ const int kMostPasses = 16;  // of one submission
 const uint kNotBegun = uint(0x80000000);
 const uint kNoRay = uint(0xffffffff);  // in place of a ray's code
 
-// The rays of one work group: numbers offset .. offset + 63 of a rectangle of rays, row by row. They are cut by the
-// capsules in order[first .. end).
+// The rays of some work groups that follow each other, row by row of a rectangle. They are cut by the capsules in
+// order[first .. end).
 struct CutTask {
     int axis;
     int u;  // u and v of the rectangle's lowest ray
     int v;
     int width;
     int height;
-    int offset;
     uint first;
     uint end;
+    uint first_group;  // its number among those of the pass
 };
+BURIN_FN uint groups_of(CutTask task) { return uint((task.width * task.height + kCutGroup - 1) / kCutGroup); }
 
 // Packs a ray into one word; u and v take 12 bits each (kMaxCells).
 BURIN_FN uint ray_code(int axis, int u, int v) { return uint(axis) | (uint(u) << 2) | (uint(v) << 14); }
@@ -92,7 +93,8 @@ struct CutParameters {
     uint deferred;
     uint first_stale;  // index in the list of stale rays to begin with
     uint pass;         // its number in the submission
-    uint first_task;   // of cut_rays.comp: the task of the first work group
+    uint first_task;   // of cut_rays.comp: its tasks
+    uint end_task;
     // Of cut_covered.comp: rays visited, and what the tool does with its spans (capsule.h).
     uint visited;
     uint work;
@@ -104,6 +106,6 @@ BURIN_SHARED_END
 static_assert(sizeof(burin::shared::Capsule) == 40 && sizeof(burin::shared::CutTask) == 32 &&
               sizeof(burin::shared::ChangedRay) == 20 && sizeof(burin::shared::PendingRay) == 24 &&
               sizeof(burin::shared::CutCounters) == 164 && sizeof(burin::shared::PatchRay) == 12 &&
-              sizeof(burin::shared::CutParameters) == 88);
+              sizeof(burin::shared::CutParameters) == 96);
 #endif
 #endif

@@ -15,9 +15,13 @@
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/history.hpp"
 #include "compute/tools/apply.hpp"
+#include "compute/vulkan/vulkan_engine.hpp"
 #include "tests/compute/effort.hpp"
+#include "tests/compute/engine_pair.hpp"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/tool_reference.hpp"
+#include "tests/compute/updates.hpp"
+#include "tests/gpu/test_device.hpp"
 
 namespace burin::compute::test {
 namespace {
@@ -52,13 +56,26 @@ bool same_depths(std::span<const DexelEnd> a, std::span<const DexelEnd> b) {
     return std::ranges::equal(a, b, [](const DexelEnd& x, const DexelEnd& y) { return depth_of(x) == depth_of(y); });
 }
 
+// A device's engine that does whatever the processor's does, with a history of its own.
+struct Beside {
+    explicit Beside(std::unique_ptr<CarvingEngine> made) : engine(std::move(made)) {}
+    std::unique_ptr<CarvingEngine> engine;
+    History history;
+};
+
 // A solid in use: the engine, its surface and its history, and a copy that only learns of what the engine says it
-// changed.
+// changed. Where there is a device, its engine has to report and hold the same.
 class Session {
 public:
-    Session(Random& random, WorkerPool& pool)
+    Session(Random& random, WorkerPool& pool, const gpu::Device* device)
         : random_(random), pool_(pool), shadow_(start(random)), surface_(shadow_.lattice) {
         engine_ = make_cpu_engine(shadow_, pool_);
+        if (device != nullptr) {
+            // Little room, so that all that grows does.
+            auto made = VulkanEngine::create(Solid(shadow_), *device, pool_, {.spare_ends = 64, .export_per_ray = 1});
+            EXPECT_TRUE(made) << made.error().line();
+            if (made) beside_.emplace(std::move(*made));
+        }
         surface_.mesh_all(shadow_, pool_);
         kept_.push_back(shadow_);
     }
@@ -82,6 +99,9 @@ public:
     void look_at_everything() {
         ASSERT_TRUE(engine_->solid().same_content(shadow_)) << "a ray changed without being reported";
         ASSERT_TRUE(well_formed(engine_->solid()));
+        if (beside_) {
+            ASSERT_EQ(first_difference(beside_->engine->solid(), shadow_), "") << "the engines differ";
+        }
         Surface fresh(shadow_.lattice);
         fresh.mesh_all(shadow_, pool_);
         ASSERT_EQ(surface_.triangles(), fresh.triangles());
@@ -97,6 +117,9 @@ public:
         for (;;) {
             const auto undone = history_.undo(*engine_);
             ASSERT_TRUE(undone.has_value());
+            if (beside_) {
+                ASSERT_TRUE(beside_->history.undo(*beside_->engine));
+            }
             follow(std::nullopt);
             if (!*undone) break;
         }
@@ -163,8 +186,16 @@ private:
             return;
         }
         last_ = sweep;
+        if (beside_) {
+            const auto done = beside_->engine->carve(std::span(&sweep, 1));
+            ASSERT_TRUE(done) << done.error().line();
+            ASSERT_EQ(done->rays_touched, stats->rays_touched);
+            ASSERT_EQ(done->rays_changed, stats->rays_changed);
+        }
         follow(sweep.operation);
-        if (random_.chance(0.3)) history_.end_stroke();
+        if (!random_.chance(0.3)) return;
+        history_.end_stroke();
+        if (beside_) beside_->history.end_stroke();
     }
 
     // (A - B) - B = A - B, and so for filling and painting: the second time nothing changes.
@@ -178,14 +209,26 @@ private:
     }
 
     void undo_or_redo() {
-        const auto moved = random_.chance(0.6) ? history_.undo(*engine_) : history_.redo(*engine_);
+        const bool undoes = random_.chance(0.6);
+        const auto moved = undoes ? history_.undo(*engine_) : history_.redo(*engine_);
         ASSERT_TRUE(moved.has_value());
+        if (beside_) {
+            History& history = beside_->history;
+            const auto theirs = undoes ? history.undo(*beside_->engine) : history.redo(*beside_->engine);
+            ASSERT_TRUE(theirs.has_value());
+            ASSERT_EQ(*theirs, *moved);
+        }
         follow(std::nullopt);
     }
 
     // Looks at every ray that changed, and brings shadow, surface and (for a tool's work) history up to date.
     void follow(std::optional<Operation> operation) {
         const Changes changes = engine_->take_changes();
+        if (beside_) {
+            const Changes theirs = beside_->engine->take_changes();
+            ASSERT_EQ(first_held(theirs), first_held(changes)) << "the engines tell of other changes";
+            if (operation) beside_->history.record(theirs);
+        }
         std::set<std::uint32_t> seen;  // a long way of smoothing changes a ray several times
         for (const shared::ChangedRay& change : changes.rays) {
             if (!seen.insert(change.ray).second) continue;
@@ -216,38 +259,54 @@ private:
     Surface surface_;
     History history_;
     std::unique_ptr<CarvingEngine> engine_;
+    std::optional<Beside> beside_;
     std::vector<Solid> kept_;
     std::optional<ToolSweep> last_;
     std::uint64_t steps_ = 0;
 };
 
-}  // namespace
-
-TEST(Soak, RandomUseBreaksNothing) {
-    const std::uint64_t operations =
-        from_environment("BURIN_SOAK_OPERATIONS", static_cast<std::uint64_t>(repeated(6000)));
+// Uses solids at random, with a device's engine beside the processor's or alone.
+void use_at_random(std::uint64_t operations, const gpu::Device* device) {
     const std::uint64_t seed = from_environment("BURIN_TEST_SEED", std::random_device{}());
     std::printf("seed %llu, %llu operations; to replay: BURIN_TEST_SEED=%llu\n", static_cast<unsigned long long>(seed),
                 static_cast<unsigned long long>(operations), static_cast<unsigned long long>(seed));
-    RecordProperty("seed", std::to_string(seed));
+    testing::Test::RecordProperty("seed", std::to_string(seed));
     WorkerPool pool(2);
     constexpr std::uint64_t kOperationsASolid = 250;
     for (std::uint64_t done = 0, solid = 0; done < operations; ++solid) {
         Random random(seed + solid);
-        Session session(random, pool);
+        Session session(random, pool, device);
         for (std::uint64_t i = 0; i < kOperationsASolid && done < operations; ++i, ++done) {
             session.step();
-            ASSERT_FALSE(HasFatalFailure()) << "seed " << seed << ", solid " << solid << ", operation " << i;
+            ASSERT_FALSE(testing::Test::HasFatalFailure())
+                << "seed " << seed << ", solid " << solid << ", operation " << i;
         }
         session.look_at_everything();
-        ASSERT_FALSE(HasFatalFailure()) << "seed " << seed << ", solid " << solid << ", at its end";
+        ASSERT_FALSE(testing::Test::HasFatalFailure()) << "seed " << seed << ", solid " << solid << ", at its end";
         session.undo_everything();
-        ASSERT_FALSE(HasFatalFailure()) << "seed " << seed << ", solid " << solid << ", undoing all";
+        ASSERT_FALSE(testing::Test::HasFatalFailure()) << "seed " << seed << ", solid " << solid << ", undoing all";
         if (operations >= 100'000 && done % 50'000 < kOperationsASolid) {
             std::printf("%llu operations\n", static_cast<unsigned long long>(done));
             std::fflush(stdout);
         }
     }
+}
+
+class SoakOnADevice : public gpu::DeviceTest {};
+
+}  // namespace
+
+TEST(Soak, RandomUseBreaksNothing) {
+    use_at_random(from_environment("BURIN_SOAK_OPERATIONS", static_cast<std::uint64_t>(repeated(6000))), nullptr);
+}
+
+// A device takes some ten times as long for each operation.
+TEST_F(SoakOnADevice, RandomUseGivesWhatItGivesOnTheProcessor) {
+    const gpu::Capabilities& can = device().capabilities();
+    if (!can.shader_int64 || !can.shader_float64 || !can.buffer_address)
+        GTEST_SKIP() << device().info().name << " cannot run the Vulkan engine";
+    use_at_random(from_environment("BURIN_SOAK_OPERATIONS", static_cast<std::uint64_t>(repeated(5000))) / 10,
+                  &device());
 }
 
 // A hundred thousand strokes of a tool much smaller than a cell, all over one place.
