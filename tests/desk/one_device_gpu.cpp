@@ -3,81 +3,163 @@
 // that the processor carves on one thread gives every tick and the solid again, to the bit.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
 #include <string>
+#include <utility>
 
-#include "base/json.hpp"
-#include "gpu/device.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/posing_device.hpp"
+#include "desk/present/presenter.hpp"
+#include "desk/run/session.hpp"
+#include "gpu/core.hpp"
+#include "tests/desk/recorded_session.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
 namespace {
 
-// Carves from 0.3 to 1.8 s. Photographs before and afterwards, so that frames are drawn all along.
-const std::string kCarvedInRealTime = R"(burin-input 1 test
-0.02 mouse 160 180
-0.04 scroll 0 15
-0.1 command screenshot before.png
-0.3 button press left
-0.32 scroll 0 8
-0.4 mouse 166 182
-0.6 mouse 190 190
-0.8 mouse 196 200
-1 mouse 220 190
-1.2 mouse 250 200
-1.4 mouse 300 210
-1.6 mouse 280 190
-1.8 button release left
-1.82 scroll 0 -14
-1.9 command screenshot end.png
-2 command quit
-)";
+// Frames of 10 ms, each with its picture, on a clock that goes on when hand and scene are ready for it.
+class DrawnFrames final : public SessionFrames {
+public:
+    // lost_at: the frame before whose picture the device is lost; none: it is not.
+    DrawnFrames(Desk& desk, Presenter& presenter, InputSource input, PacedClock& clock, ThreadsSeen& threads,
+                std::optional<int> lost_at)
+        : SessionFrames(desk, presenter, std::move(input)),
+          presenter_(presenter),
+          clock_(clock),
+          threads_(threads),
+          lost_at_(lost_at) {}
+
+private:
+    static constexpr Nanoseconds kFrame_ns = 10'000'000;
+
+    [[nodiscard]] std::optional<FrameInput> next_input() override {
+        clock_.sleep_until(clock_.now_ns() + kFrame_ns);
+        threads_.wait(kFrame_ns);
+        recorder_.outside();
+        const Nanoseconds time_ns = clock_.now_ns() - session_.start_ns();
+        return input_.begin_frame(time_ns, time_ns + kFrame_ns);
+    }
+    [[nodiscard]] bool wants_picture() override {
+        if (frame_++ == lost_at_) presenter_.device().core()->lose_at_next_submit = true;
+        return true;
+    }
+    void finished(const FrameInput&, bool) override {
+        if (session_.state().quit) threads_.frames_end();
+    }
+
+    Presenter& presenter_;
+    PacedClock& clock_;
+    ThreadsSeen& threads_;
+    const std::optional<int> lost_at_;
+    int frame_ = 0;
+};
 
 class OneDevice : public testing::Test {
 protected:
     void SetUp() override {
         const auto devices = gpu::list_devices();
         if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
-        at_.write("script.txt", kCarvedInRealTime);
+        setenv("BURIN_VULKAN_VALIDATION", "1", 1);
+        messages_before_ = gpu::validation_messages();
     }
-    // Plays the script with threads, which a recording has it do, and replays it; returns what it said.
-    std::string carve_and_replay(const std::string& posing) {
-        const auto played =
-            at_.run(posing_as(posing + " BURIN_POSE_COUNTS=counts") + "BURIN_VULKAN_VALIDATION=1 " + kBurinCommand +
-                    " sculpt --workpiece ball:0.1 --resolution 48 --tool ball:0.012 --offscreen --width 720 --height "
-                    "360 --input script.txt --record it.session --engine vulkan --outputs files");
-        EXPECT_EQ(played.status, 0) << played.output;
-        EXPECT_FALSE(played.output.contains("Vulkan validation")) << played.output;
-        EXPECT_FALSE(at_.read("files/before.png").empty());
-        EXPECT_FALSE(at_.read("files/end.png").empty());
-        const auto replayed = at_.run(std::string(kBurinCommand) + " replay it.session --set engine=cpu");
-        EXPECT_EQ(replayed.status, 0) << replayed.output;
-        EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
-        return played.output;
-    }
-    [[nodiscard]] std::size_t devices() const {
-        const std::string counts = at_.read("counts");
-        return static_cast<std::size_t>(std::ranges::count(counts, '\n'));
+    void TearDown() override {
+        unsetenv("BURIN_VULKAN_VALIDATION");
+        EXPECT_EQ(gpu::validation_messages(), messages_before_) << "the validation layer complained";
     }
 
-    Workplace at_;
+    struct Carved {
+        std::string engine;  // at the end
+        std::uint64_t submissions_to_carve = 0, submissions_to_draw = 0;
+        std::string said;
+    };
+    // Carves the short script with threads, draws it, and records it.
+    Carved carve(std::optional<int> lost_at = {}) {
+        SculptOptions options = drawn_options();
+        options.engine = compute::EngineChoice::vulkan;
+        testing::internal::CaptureStderr();
+        Carved carved;
+        const Result<void> done = run(options, lost_at, carved);
+        carved.said = testing::internal::GetCapturedStderr();
+        EXPECT_TRUE(done) << done.error().line();
+        return carved;
+    }
+    // Expects that the processor gives what was recorded: ticks, frames, and the solid at the end.
+    void expect_the_processors() const {
+        SculptOptions options = drawn_options();
+        options.engine = compute::EngineChoice::cpu;
+        options.live.record.clear();
+        options.live.input = (place / "it.session").string();
+        auto reader = record::RecordReader::open(options.live.input);
+        ASSERT_TRUE(reader) << reader.error().line();
+        auto log = read_session_log(*reader);
+        ASSERT_TRUE(log) << log.error().line();
+        auto judge = TickComparison::create(*reader, {});
+        ASSERT_TRUE(judge) << judge.error().line();
+        const ReplayManner manner{.witness = &*judge, .ticks = &*reader};
+        const auto done = replay_as_recorded(options, session_wall(options.live).value(), std::move(*log), manner);
+        EXPECT_TRUE(done) << done.error().line();
+        EXPECT_FALSE(judge->found().difference) << judge->found().difference->line();
+        EXPECT_GT(judge->found().ticks, 300u);
+    }
+
+    Workplace place;
+
+private:
+    [[nodiscard]] SculptOptions drawn_options() const {
+        SculptOptions options = short_options((place / "it.session").string());
+        options.live.offscreen = true;
+        options.live.width = static_cast<int>(kShownSize.width);
+        options.live.height = static_cast<int>(kShownSize.height);
+        return options;
+    }
+    static Result<void> run(const SculptOptions& options, std::optional<int> lost_at, Carved& carved) {
+        PacedClock clock(2);  // the hand's thread and the frames
+        const auto wall = session_wall(options.live);
+        if (!wall) return std::unexpected(wall.error());
+        auto presenter = Presenter::open(options.live, *wall);
+        if (!presenter) return std::unexpected(presenter.error());
+        auto desk = Desk::create(carving_with(*presenter, options), *wall, clock);
+        if (!desk) return std::unexpected(desk.error());
+        Session& session = (*desk)->session();
+        auto writer = create_recording(options, {{"program", "a test"}}, session);
+        if (!writer) return std::unexpected(writer.error());
+        ThreadsSeen seen(session, clock, 30);
+        DrawnFrames frames(**desk, *presenter,
+                           InputSource::play(*parse_input_log(kShortScript, "script"), std::move(*writer)), clock, seen,
+                           lost_at);
+        ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), {},
+                                 [&](const auto& ended) { seen.update_ended(ended); });
+        static_cast<void>(threads.start());
+        const Result<void> driven = drive(threads, frames);
+        const Result<void> finished = frames.finish(threads);
+        const compute::CarvingEngine& engine = *session.scene_side().engine();
+        carved.engine = engine.name();
+        if (const auto traffic = engine.traffic()) carved.submissions_to_carve = traffic->submissions;
+        carved.submissions_to_draw = presenter->device().asked().submissions;
+        return driven ? finished : driven;
+    }
+
+    std::uint64_t messages_before_ = 0;
 };
 
 }  // namespace
 
 TEST_F(OneDevice, CarvesOnOneThreadAndDrawsOnAnother) {
-    static_cast<void>(carve_and_replay(""));
-    ASSERT_EQ(devices(), 1u);
-    EXPECT_GT(Json::parse(at_.read("counts"))["dispatches"], 5) << "nothing was carved";
+    const Carved carved = carve();
+    EXPECT_EQ(carved.engine, "vulkan") << carved.said;
+    EXPECT_GT(carved.submissions_to_carve, 5u) << "nothing was carved";
+    EXPECT_GT(carved.submissions_to_draw, 5u) << "nothing was drawn";
+    expect_the_processors();
 }
 
 TEST_F(OneDevice, IsLostInMidStrokeAndPictureAndSolidGoOn) {
-    const std::string said = carve_and_replay("BURIN_POSE_LOSE_SUBMIT=5 BURIN_POSE_LOSE_DEVICES=1");
-    EXPECT_EQ(devices(), 2u);
-    EXPECT_TRUE(said.contains("the graphics device was lost; starting on a new one")) << said;
-    EXPECT_TRUE(said.contains("the processor carves instead, and nothing is lost")) << said;
+    const Carved carved = carve(20);
+    EXPECT_TRUE(carved.said.contains("the graphics device was lost; starting on a new one")) << carved.said;
+    EXPECT_TRUE(carved.said.contains("the processor carves instead, and nothing is lost")) << carved.said;
+    EXPECT_TRUE(carved.said.contains("carves again")) << carved.said;
+    EXPECT_EQ(carved.engine, "vulkan") << carved.said;
+    expect_the_processors();
 }
 
 }  // namespace burin::session

@@ -149,15 +149,22 @@ TEST_F(PosingCard, FeelsAndRecordsWhatTheProcessorFeelsAndEitherReplaysTheOther)
 TEST_F(PosingCard, OfALiveSessionWithPicturesIsOneDeviceThatCarvesAndDraws) {
     const std::string live = std::string(kBurinCommand) + " sculpt --input " + kSessionsFolder +
                              "/first-carve.txt --offscreen --workpiece ball:0.05 --resolution 64 ";
-    for (const std::string engine : {"cpu", "vulkan"}) {
-        const auto done = at_.run(posing_as("BURIN_POSE_COUNTS=" + engine + ".counts") + "BURIN_VULKAN_VALIDATION=1 " +
-                                  live + "--engine " + engine + " --outputs " + engine);
-        ASSERT_EQ(done.status, 0) << done.output;
-        EXPECT_FALSE(done.output.contains("Vulkan validation")) << done.output;
-        EXPECT_EQ(devices_in(engine + ".counts"), 1u) << engine;
-    }
-    EXPECT_GT(Json::parse(at_.read("vulkan.counts"))["dispatches"], 100) << "the device has carved";
-    expect_same_files("cpu", "vulkan");
+    for (const std::string engine : {"cpu", "vulkan"})
+        for (const std::string queues : {"1", "2"}) {
+            const std::string as = engine + queues;
+            const auto done =
+                at_.run(posing_as("BURIN_POSE_QUEUES=" + queues + " BURIN_POSE_COUNTS=" + as + ".counts") +
+                        "BURIN_VULKAN_VALIDATION=1 " + live + "--engine " + engine + " --outputs " + as);
+            ASSERT_EQ(done.status, 0) << done.output;
+            EXPECT_FALSE(done.output.contains("Vulkan validation")) << done.output;
+            EXPECT_EQ(devices_in(as + ".counts"), 1u) << as;
+            const Json counted = Json::parse(at_.read(as + ".counts"));
+            EXPECT_EQ(std::to_string(counted["queues"].get<int>()), queues);
+            if (engine == "vulkan") {
+                EXPECT_GT(counted["dispatches"], 100) << "the device has carved";
+            }
+        }
+    for (const std::string as : {"cpu2", "vulkan1", "vulkan2"}) expect_same_files("cpu1", as);
 }
 
 TEST_F(PosingCard, ThatCarvesAStrokeAndTakesItsPicturesIsOneDevice) {

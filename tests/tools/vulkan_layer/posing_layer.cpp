@@ -3,6 +3,7 @@
 // memory or is lost, and counts what a program asks of each device. Loaded by the Vulkan loader where the environment
 // names it (tests/support/posing_device.hpp):
 //   BURIN_POSE_CARD=1             a discrete device: memory type 0 is its own and cannot be mapped, type 1 the host's
+//   BURIN_POSE_QUEUES=2           a device with two queues in each family, which are both its only one
 //   BURIN_POSE_HIDE=WORD,...      float64, int64, address, scalar: features that it does not have
 //   BURIN_POSE_DEVICE_BYTES=N     most memory of its own held at once; beyond, VK_ERROR_OUT_OF_DEVICE_MEMORY
 //   BURIN_POSE_HOST_BYTES=N       the same for the host's, VK_ERROR_OUT_OF_HOST_MEMORY
@@ -40,6 +41,7 @@ bool is_hidden(const char* feature) {
 }
 
 const bool kPosesAsCard = number_in("BURIN_POSE_CARD") != 0;
+const auto kPosedQueues = static_cast<std::uint32_t>(number_in("BURIN_POSE_QUEUES"));  // 0: as many as there are
 
 struct Allocation {
     bool is_devices = true;
@@ -58,6 +60,7 @@ struct DeviceState {
     std::unordered_map<VkCommandBuffer, Recorded> recorded;
     VkDevice device = VK_NULL_HANDLE;
     std::uint64_t submissions = 0, dispatching = 0, dispatches = 0, waits = 0, blocking = 0;
+    std::uint64_t second_queue = 0;  // how often it was asked for
     std::uint64_t to_device_bytes = 0, to_host_bytes = 0;
     VkDeviceSize devices_bytes = 0, hosts_bytes = 0, most_devices_bytes = 0;
     bool is_lost = false;
@@ -116,8 +119,9 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
     if (result != VK_SUCCESS) return result;
     g_next_of_instance = next;
     g_instance = *instance;
-    for (const char* name : {"vkGetPhysicalDeviceProperties", "vkGetPhysicalDeviceProperties2",
-                             "vkGetPhysicalDeviceFeatures2", "vkGetPhysicalDeviceMemoryProperties"})
+    for (const char* name :
+         {"vkGetPhysicalDeviceProperties", "vkGetPhysicalDeviceProperties2", "vkGetPhysicalDeviceFeatures2",
+          "vkGetPhysicalDeviceMemoryProperties", "vkGetPhysicalDeviceQueueFamilyProperties"})
         g_next_in_instance[name] = next(*instance, name);
     return result;
 }
@@ -142,6 +146,14 @@ VKAPI_ATTR void VKAPI_CALL get_features_2(VkPhysicalDevice device, VkPhysicalDev
         if (is_hidden("address")) newer->bufferDeviceAddress = VK_FALSE;
         if (is_hidden("scalar")) newer->scalarBlockLayout = VK_FALSE;
     }
+}
+
+VKAPI_ATTR void VKAPI_CALL get_queue_families(VkPhysicalDevice device, std::uint32_t* count,
+                                              VkQueueFamilyProperties* families) {
+    next_in_instance<PFN_vkGetPhysicalDeviceQueueFamilyProperties>("vkGetPhysicalDeviceQueueFamilyProperties")(
+        device, count, families);
+    for (std::uint32_t i = 0; kPosedQueues > 0 && families != nullptr && i < *count; ++i)
+        families[i].queueCount = kPosedQueues;
 }
 
 VKAPI_ATTR void VKAPI_CALL get_memory_properties(VkPhysicalDevice device,
@@ -174,7 +186,11 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
     const PFN_vkGetDeviceProcAddr of_device = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
     const auto create = reinterpret_cast<PFN_vkCreateDevice>(of_instance(g_instance, "vkCreateDevice"));
-    const VkResult result = create(physical, info, allocator, device);
+    VkDeviceQueueCreateInfo queue = *info->pQueueCreateInfos;
+    VkDeviceCreateInfo asked = *info;
+    if (kPosedQueues > 0) queue.queueCount = 1;
+    asked.pQueueCreateInfos = &queue;  // of one family, as Burin asks
+    const VkResult result = create(physical, &asked, allocator, device);
     if (result != VK_SUCCESS) return result;
     const Lock lock(g_mutex);
     auto state = std::make_unique<DeviceState>();
@@ -182,8 +198,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
     state->device = *device;
     const std::uint64_t to_lose = number_in("BURIN_POSE_LOSE_DEVICES");
     state->may_be_lost = ++g_opened <= to_lose || to_lose == 0;
-    for (const char* name :
-         {"vkQueueSubmit", "vkBeginCommandBuffer", "vkCmdDispatch", "vkCmdDispatchIndirect", "vkCmdCopyBuffer"})
+    for (const char* name : {"vkQueueSubmit", "vkQueueWaitIdle", "vkBeginCommandBuffer", "vkCmdDispatch",
+                             "vkCmdDispatchIndirect", "vkCmdCopyBuffer"})
         state->next[name] = of_device(*device, name);
     g_devices[*reinterpret_cast<void**>(*device)] = std::move(state);
     return result;
@@ -200,16 +216,24 @@ VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCal
                 file,
                 "{\"submissions\": %ju, \"dispatching_submissions\": %ju, \"dispatches\": %ju, \"waits\": %ju, "
                 "\"blocking_waits\": %ju, \"bytes_to_device\": %ju, \"bytes_to_host\": %ju, "
-                "\"most_device_bytes\": %ju, \"lost\": %s}\n",
+                "\"most_device_bytes\": %ju, \"queues\": %ju, \"lost\": %s}\n",
                 std::uintmax_t{state.submissions}, std::uintmax_t{state.dispatching}, std::uintmax_t{state.dispatches},
                 std::uintmax_t{state.waits}, std::uintmax_t{state.blocking}, std::uintmax_t{state.to_device_bytes},
                 std::uintmax_t{state.to_host_bytes}, std::uintmax_t{state.most_devices_bytes},
-                state.is_lost ? "true" : "false");
+                std::uintmax_t{1 + state.second_queue}, state.is_lost ? "true" : "false");
             std::fclose(file);
         }
     }
     g_devices.erase(table);
     destroy(device, allocator);
+}
+
+VKAPI_ATTR void VKAPI_CALL get_queue(VkDevice device, std::uint32_t family, std::uint32_t index, VkQueue* queue) {
+    const Lock lock(g_mutex);
+    DeviceState& state = state_of(device);
+    if (index > 0) ++state.second_queue;
+    next_in<PFN_vkGetDeviceQueue>(state, device, "vkGetDeviceQueue")(device, family, kPosedQueues > 0 ? 0 : index,
+                                                                     queue);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
@@ -322,6 +346,11 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, std::uint32_t count, 
     return next_in<PFN_vkQueueSubmit>(state, VK_NULL_HANDLE, "vkQueueSubmit")(queue, count, submits, fence);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL queue_wait_idle(VkQueue queue) {
+    const Lock lock(g_mutex);  // of both queues, which are one
+    return next_in<PFN_vkQueueWaitIdle>(state_of(queue), VK_NULL_HANDLE, "vkQueueWaitIdle")(queue);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
                                                std::uint64_t most_ns) {
     PFN_vkWaitSemaphores wait = nullptr;
@@ -369,7 +398,9 @@ PFN_vkVoidFunction own_of_device(std::string_view name) {
                          {"vkCmdDispatch", as_void(dispatch)},
                          {"vkCmdDispatchIndirect", as_void(dispatch_indirect)},
                          {"vkCmdCopyBuffer", as_void(copy_buffer)},
+                         {"vkGetDeviceQueue", as_void(get_queue)},
                          {"vkQueueSubmit", as_void(queue_submit)},
+                         {"vkQueueWaitIdle", as_void(queue_wait_idle)},
                          {"vkWaitSemaphores", as_void(wait_semaphores)}};
     return found_in(all, name);
 }
@@ -380,6 +411,7 @@ PFN_vkVoidFunction own_of_instance(std::string_view name) {
                          {"vkGetPhysicalDeviceProperties", as_void(get_properties)},
                          {"vkGetPhysicalDeviceProperties2", as_void(get_properties_2)},
                          {"vkGetPhysicalDeviceFeatures2", as_void(get_features_2)},
+                         {"vkGetPhysicalDeviceQueueFamilyProperties", as_void(get_queue_families)},
                          {"vkGetPhysicalDeviceMemoryProperties", as_void(get_memory_properties)}};
     return found_in(all, name);
 }
