@@ -73,7 +73,7 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
         solid = engine->give_solid();
         return std::unexpected(with_the_other_engine(made.error()));
     }
-    auto covered = CoveredRays::create(engine->device_, {.spans_a_ray = options.spans_a_ray});
+    auto covered = CoveredRays::create(engine->device_, {.roundings = options.roundings, .spans_a_ray = options.spans_a_ray});
     if (covered)
         engine->covered_.emplace(std::move(*covered));
     else

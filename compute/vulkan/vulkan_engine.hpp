@@ -44,6 +44,8 @@ struct VulkanEngineOptions {
     std::uint32_t export_per_ray = 4;    // space for the ends of changed rays, per ray visited
     std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
     std::uint32_t spans_a_ray = 1;       // space for what a tool covers, per ray visited; 0: for one span in all
+    // The divisions and roots that tell whether the device rounds as the processor does; for tests.
+    std::vector<CheckedRounding> roundings = hard_roundings();
 };
 
 // Ends of changed rays that one submission brings home; the rays beyond wait for the next.

@@ -64,4 +64,28 @@ TEST_F(UpdatesOfADevice, AreCarriedOutByTheProcessorWhereItIsLost) {
     }
 }
 
+// A device that rounds otherwise cuts with balls; the other tools are the processor's, and that is said once.
+TEST_F(UpdatesOfADevice, LeaveToolsToTheProcessorWhereItRoundsOtherwise) {
+    VulkanEngineOptions rounds_otherwise;
+    rounds_otherwise.roundings[7].rounded.quotient += 1e-9;
+    const Solid solid = unit_cube(24);
+    StandbyEngine engine(solid, device(), pool_, rounds_otherwise);
+    const auto alone = make_cpu_engine(solid, pool_);
+    ToolSweep ball{.shape = BallTool{0.2}, .start = {}, .end = {}};
+    ball.end.position_m = Vec3(0.4);
+    ToolSweep cylinder = ball;
+    cylinder.shape = CylinderTool{0.1, 0.3};
+    cylinder.start.position_m = Vec3(0.2, 0.6, 0.5);
+    std::vector<std::size_t> notices;
+    for (const ToolSweep& sweep : {ball, cylinder, ball, cylinder}) {
+        const auto done = engine.carve({&sweep, 1}), expected = alone->carve({&sweep, 1});
+        ASSERT_TRUE(done && expected);
+        EXPECT_EQ(done->rays_changed, expected->rays_changed);
+        notices.push_back(engine.take_notices().size());
+    }
+    EXPECT_EQ(notices, (std::vector<std::size_t>{0, 1, 0, 0})) << "it is said when it first matters";
+    EXPECT_STREQ(engine.name(), "vulkan") << "balls stay the device's";
+    EXPECT_EQ(first_difference(engine.solid(), alone->solid()), "");
+}
+
 }  // namespace burin::compute::test
