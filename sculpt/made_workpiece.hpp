@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/workpiece.hpp"
 

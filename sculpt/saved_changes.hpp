@@ -3,7 +3,7 @@
 //
 //   a change   head, as of the solid (saved_solid.hpp); rays: what they hold from then on; step: a u32, what the change
 //              is the end of (compute::HistoryStep); without it, of a stroke
-//   a step     rays: what undo or redo assigns to them (compute/rays/history.hpp)
+//   a step     rays: what undo or redo assigns to them (compute/engine/history.hpp)
 //   rays       little-endian u32: how many rays there are; the code of each (shaders/shared/cut_job.h); the number of
 //              ends of each; then depths with materials and then normals, as in a page. What is more than kMostRayBytes
 //              goes on in pages "rays 2", "rays 3" ...
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "compute/rays/history.hpp"
+#include "compute/engine/history.hpp"
 #include "compute/rays/solid.hpp"
 #include "scene/pages.hpp"
 

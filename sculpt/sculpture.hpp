@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The solid that is carved, with its surface and, where asked for, its light and its undo history.
 //
-// Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays, at once or while other
-// work is done -> as its Delta is taken, the surface's cells around the changed rays are meshed anew -> the history
-// keeps what the rays held -> the light follows. With
+// Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays, at once or while
+// other work is done -> as its Delta is taken, the surface's cells around the changed rays are meshed anew -> the
+// history keeps what the rays held -> the light follows. With
 // mesh_on_device() the device of a Vulkan engine carves and meshes instead, in one submission that nobody waits for
 // before the next update. A device that fails, in either case, ends nothing: the processor goes on, with one notice
-// (compute/vulkan/standby_engine.hpp). Which engine there is, is not known here (compute/rays/engine.hpp).
+// (compute/vulkan/standby_engine.hpp). Which engine there is, is not known here (compute/engine/engine.hpp).
 // Frame: object, metres. Thread: one; the pool's threads work only within a call.
 #pragma once
 
@@ -18,10 +18,10 @@
 #include <string>
 #include <vector>
 
+#include "compute/engine/engine.hpp"
+#include "compute/engine/history.hpp"
 #include "compute/light/surface_light.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/engine.hpp"
-#include "compute/rays/history.hpp"
 #include "compute/tools/apply.hpp"
 #include "sculpt/mirror.hpp"
 #include "sculpt/saved_changes.hpp"

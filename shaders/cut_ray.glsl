@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How one invocation applies all spans of its work to its ray, in order; the main program of cut_rays.comp and
 // cut_covered.comp. Include after declaring `parameters`, the buffers of a ray's work, `continued` and `counters`, and
-//   PendingRay take_job();                    the ray that this invocation works on; its ray is kNoRay when there is none
+//   PendingRay take_job();                    the ray that this invocation works on; kNoRay where there is none
 //   uint end_of(PendingRay job);              one beyond the last span of the job
 //   uint next_near(PendingRay job, uint stop, int axis, int ray_u, int ray_v);
 //                                             the first from job.next on that may cover the ray, or stop

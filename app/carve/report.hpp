@@ -10,7 +10,7 @@
 #include "base/length_unit.hpp"
 
 namespace burin::compute {
-struct DeviceTraffic;  // compute/rays/engine.hpp
+struct DeviceTraffic;  // compute/engine/engine.hpp
 }  // namespace burin::compute
 namespace burin::geometry {
 struct TriangleMesh;  // geometry/mesh/triangle_mesh.hpp

@@ -2,7 +2,7 @@
 #include "app/cli/live_options.hpp"
 
 #include "base/try.hpp"
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
 #include "sculpt/workpiece.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/cli/command_line.hpp"
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "session/options/session_options.hpp"
 
 namespace burin::app {

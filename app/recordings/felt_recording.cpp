@@ -8,7 +8,7 @@
 #include "base/json.hpp"
 #include "base/temporary_folder.hpp"
 #include "base/try.hpp"
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "session/options/option_bounds.hpp"
 
 namespace burin::app {

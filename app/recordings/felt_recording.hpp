@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "record/compare.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/options/session_options.hpp"

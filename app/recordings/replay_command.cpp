@@ -15,7 +15,7 @@
 #include "app/recordings/live_replay.hpp"
 #include "app/recordings/through_report.hpp"
 #include "base/try.hpp"
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "record/examination.hpp"
 #include "record/motion.hpp"
 #include "session/drive/tick_comparison.hpp"

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 
 namespace burin::bench {
 

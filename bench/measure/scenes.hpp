@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/space.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
 namespace burin::bench {

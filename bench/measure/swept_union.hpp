@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 
 namespace burin::bench {
 

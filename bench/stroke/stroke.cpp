@@ -8,7 +8,7 @@
 
 #include "base/try.hpp"
 #include "bench/measure/timing.hpp"
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/vulkan/engine_choice.hpp"
 #include "picture/frame_setup.hpp"

@@ -20,7 +20,7 @@
 #include "base/error.hpp"
 #include "bench/measure/lost_intervals.hpp"
 #include "bench/measure/scenes.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
 namespace burin::bench {

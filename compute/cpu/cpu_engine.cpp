@@ -16,8 +16,8 @@
 
 #include "base/try.hpp"
 #include "compute/cpu/ball_spans.hpp"
-#include "compute/rays/chosen_engine.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/tools/sweep_units.hpp"
 

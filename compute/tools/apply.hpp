@@ -11,8 +11,12 @@
 #include <cstdint>
 #include <functional>
 
+#include "base/error.hpp"
 #include "base/worker_pool.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/rays/carve_stats.hpp"
+#include "compute/rays/ray_batch.hpp"
+#include "compute/rays/solid.hpp"
+#include "compute/tools/ball_sweep.hpp"
 #include "compute/tools/tool.hpp"
 
 namespace burin::compute {

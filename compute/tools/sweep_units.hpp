@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/rays/solid.hpp"
+#include "compute/tools/ball_sweep.hpp"
 #include "shaders/shared/capsule.h"
 
 namespace burin::compute {

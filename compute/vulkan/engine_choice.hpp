@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "compute/vulkan/offered_device.hpp"
 #include "gpu/device.hpp"
 

@@ -3,9 +3,9 @@
 // on with, from the host's solid.
 //
 // Data flow: an update goes to the Vulkan engine, and is kept until it is taken. When that engine fails, its host's
-// solid is as after the last update that was taken (engine.hpp); the processor's engine takes this solid over and begins
-// the updates again that were kept. Both give the same ends, so nothing shows of it but one notice for the user. Where
-// another device is offered (hear_offers), the next update is begun there, with another notice; after kMostLosses
+// solid is as after the last update that was taken (engine.hpp); the processor's engine takes this solid over and
+// begins the updates again that were kept. Both give the same ends, so nothing shows of it but one notice for the user.
+// Where another device is offered (hear_offers), the next update is begun there, with another notice; after kMostLosses
 // devices the processor stays.
 // The host's solid lacks deferred cuts that were not read back (device_surface.hpp): whoever defers cuts has to do them
 // again after give_up_device().

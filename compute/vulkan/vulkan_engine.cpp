@@ -73,7 +73,8 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
         solid = engine->give_solid();
         return std::unexpected(with_the_other_engine(made.error()));
     }
-    auto covered = CoveredRays::create(engine->device_, {.roundings = options.roundings, .spans_a_ray = options.spans_a_ray});
+    auto covered =
+        CoveredRays::create(engine->device_, {.roundings = options.roundings, .spans_a_ray = options.spans_a_ray});
     if (covered)
         engine->covered_.emplace(std::move(*covered));
     else
@@ -239,9 +240,9 @@ Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
     // in each pass.
     const std::size_t asked = counters.room_wanted;
     const DeviceSolid::Spare spare{asked, std::max<std::size_t>(used_ / 4, 2 * asked + 4096)};
-    BURIN_TRY_DO(device_solid_.make_space(device_, spare));
+    BURIN_TRY_DO(device_solid_.make_space(device_, used_, spare));
     used_ = device_solid_.packed_size();
-    longest_ = device_solid_.longest_ray();
+    longest_ = std::max(longest_, device_solid_.longest_ray());
     return {};
 }
 

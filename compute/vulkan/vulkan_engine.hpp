@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "compute/vulkan/covered_rays.hpp"
 #include "compute/vulkan/flight.hpp"
 #include "compute/vulkan/vulkan_engine_memory.hpp"
@@ -90,8 +90,8 @@ public:
     // A deferred cut, for callers that record commands of their own (device_surface.hpp). Call defer; then, while
     // deferred_left(): record_pass into commands, submit them and wait at any later time, end_pass. After each pass,
     // changed_rays() holds the rays that it finished; `changed` in counters() is their number, at most passed_rays().
-    // Nothing else may be called on the engine in between, and no update be under way. An Error loses the cuts deferred since the last read_back:
-    // the next call sends the host's solid anew.
+    // Nothing else may be called on the engine in between, and no update be under way. An Error loses the cuts deferred
+    // since the last read_back: the next call sends the host's solid anew.
     [[nodiscard]] Result<void> defer(std::span<const BallSweep> sweeps);
     [[nodiscard]] bool deferred_left() const { return pending_ > 0 || next_task_ < deferred_tasks_.size(); }
     void record_pass(gpu::Commands& commands);

@@ -100,7 +100,27 @@ Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, Spare 
     return pack(device, counts[0] + counts[1] + counts[2], ends_of, spare);
 }
 
-Result<void> DeviceSolid::make_space(gpu::Device& device, Spare spare) {
+// Returns the most ends of a store.
+std::size_t DeviceSolid::most_ends(const gpu::Device& device) {
+    return static_cast<std::size_t>(
+        std::min<std::uint64_t>(device.core()->max_allocation_bytes / sizeof(DexelEnd), 1u << 30));
+}
+
+Result<void> DeviceSolid::make_space(gpu::Device& device, std::uint32_t used, Spare spare) {
+    const std::size_t size = std::min(used + std::max(spare.least, spare.wished), most_ends(device));
+    if (size < used + spare.least) return repack(device, spare);
+    auto larger = gpu::Buffer::create(device, gpu::BufferUse::addressed, size * sizeof(DexelEnd), "interval ends");
+    if (!larger) return repack(device, spare);
+    BURIN_TRY(commands, gpu::Commands::begin(device));
+    commands.copy(store_, 0, *larger, 0, std::uint64_t{used} * sizeof(DexelEnd));
+    commands.keep_alive(std::exchange(store_, std::move(*larger)));
+    BURIN_TRY_DO(std::move(commands).submit());
+    store_size_ = static_cast<std::uint32_t>(size);
+    packed_size_ = used;
+    return {};
+}
+
+Result<void> DeviceSolid::repack(gpu::Device& device, Spare spare) {
     BURIN_TRY(rays, fetch_all<RayRef>(device, rays_));
     BURIN_TRY(store, fetch_all<DexelEnd>(device, store_));
     const auto ends_of = [&](std::size_t ray) {
@@ -117,8 +137,7 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::size_t ray_count, EndsO
         longest = std::max(longest, count);
         if (count > 0) room += shared::room_of({0, count_room(static_cast<std::uint32_t>(count))});
     }
-    const std::size_t limit = static_cast<std::size_t>(
-        std::min<std::uint64_t>(device.core()->max_allocation_bytes / sizeof(DexelEnd), 1u << 30));
+    const std::size_t limit = most_ends(device);
     if (room + spare.least > limit) return too_large(device, room + spare.least, resolution_);
     const std::size_t size = std::max<std::size_t>(std::min(room + std::max(spare.least, spare.wished), limit), 1);
 

@@ -69,18 +69,23 @@ public:
     // Packs the solid into new buffers, with spare ends behind those of the last ray. Fails when the device cannot
     // allocate at least spare.least of them at once; the former buffers are then kept.
     [[nodiscard]] Result<void> upload(gpu::Device& device, const Solid& solid, Spare spare);
-    // Fetches the solid from the device, packs it without gaps and sends it back. No other work may be in progress.
-    [[nodiscard]] Result<void> make_space(gpu::Device& device, Spare spare);
+    // Makes space behind the first `used` ends. They move on the device alone, with the gaps that rays have left which
+    // were moved to larger ranges: these are less than what the rays hold now, as each range is twice the one before.
+    // Where the device cannot allocate that, fetches the solid, packs it without gaps and sends it back; no other work
+    // may be in progress.
+    [[nodiscard]] Result<void> make_space(gpu::Device& device, std::uint32_t used, Spare spare);
 
     [[nodiscard]] const gpu::Buffer& rays() const { return rays_; }
     [[nodiscard]] const gpu::Buffer& store() const { return store_; }
     [[nodiscard]] std::uint32_t store_size() const { return store_size_; }    // ends
-    [[nodiscard]] std::uint32_t packed_size() const { return packed_size_; }  // ends in use after packing
+    [[nodiscard]] std::uint32_t packed_size() const { return packed_size_; }  // ends in use after that
     [[nodiscard]] std::uint32_t longest_ray() const { return longest_; }      // most ends of a ray after packing
     [[nodiscard]] const std::array<std::uint32_t, 3>& first_ray() const { return first_ray_; }
     [[nodiscard]] std::uint64_t bytes() const { return rays_.size_bytes() + store_.size_bytes(); }
 
 private:
+    [[nodiscard]] static std::size_t most_ends(const gpu::Device& device);
+    [[nodiscard]] Result<void> repack(gpu::Device& device, Spare spare);
     template <typename EndsOf>
     [[nodiscard]] Result<void> pack(gpu::Device& device, std::size_t ray_count, EndsOf&& ends_of, Spare spare);
 

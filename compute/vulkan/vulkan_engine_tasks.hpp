@@ -29,9 +29,9 @@ struct CutTasks {
     std::vector<std::uint32_t> order;  // indices of capsules; begins with a list of all of them in order
 };
 
-// Makes the tasks of a cut, each of no more work groups than this and kMostTaskGroups, or of one row. Their first_group is left to whoever
-// puts them into a pass. Takes time and memory O(capsules + rays visited) and, while its lists stay below 4 million
-// entries, O(capsules x tiles).
+// Makes the tasks of a cut, each of no more work groups than this and kMostTaskGroups, or of one row. Their first_group
+// is left to whoever puts them into a pass. Takes time and memory O(capsules + rays visited) and, while its lists stay
+// below 4 million entries, O(capsules x tiles).
 [[nodiscard]] CutTasks cut_tasks(const Lattice& lattice, std::span<const shared::Capsule> capsules,
                                  std::uint32_t most_groups);
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <thread>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "picture/drawn_mesh.hpp"
 #include "sculpt/made_workpiece.hpp"
 

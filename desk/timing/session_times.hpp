@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "desk/timing/frame_times.hpp"
 #include "haptics/histogram.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "haptics/tick.hpp"
 
 using namespace burin;

@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "session/held/held_tool.hpp"
 #include "session/state/session_room.hpp"
 

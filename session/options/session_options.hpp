@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "scene/world_reading.hpp"
 #include "sculpt/feel_options.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 
 namespace burin::session {
 

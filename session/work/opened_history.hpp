@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "compute/rays/history.hpp"
+#include "compute/engine/history.hpp"
 #include "document/document_reader.hpp"
 
 namespace burin::session {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/rays/history.hpp"
+#include "compute/engine/history.hpp"
 #include "document/document_reader.hpp"
 #include "scene/world_file.hpp"
 #include "sculpt/workpiece.hpp"

@@ -196,8 +196,9 @@ TEST_F(VisitPlans, KeepTheTimeWithinWhichAnInterruptedStageIsTakenUp) {
     const auto resumed = plan("p01", late, leave);
     ASSERT_TRUE(resumed);
     ASSERT_EQ(resumed->deviations.size(), 1u);
-    EXPECT_EQ(resumed->deviations[0], "test (day 1, stage 2) was begun anew 20 min after its interruption, and the "
-                                      "protocol allows 10 min");
+    EXPECT_EQ(resumed->deviations[0],
+              "test (day 1, stage 2) was begun anew 20 min after its interruption, and the "
+              "protocol allows 10 min");
     // Begun anew and interrupted again: the last one counts.
     stage("begun", late, "p01", 1, 2);
     EXPECT_EQ(places_text(plan("p01", late + 0.1)), "1.2 test ");
@@ -219,8 +220,8 @@ TEST_F(VisitPlans, KnowAStageForAsLongAsItsRecordingWentOn) {
     ASSERT_TRUE(world);
     study::StageSession session(protocol, *protocol.stage("test"), protocol.groups[0], **world);
     fs::create_directories(place_ / "s/data/p01");
-    auto recording = study::StageRecording::create(place_ / "s/data/p01/r.session", session.touch(), {},
-                                                   kNanosecondsPerSecond);
+    auto recording =
+        study::StageRecording::create(place_ / "s/data/p01/r.session", session.touch(), {}, kNanosecondsPerSecond);
     ASSERT_TRUE(recording);
     for (Nanoseconds t = 1; t < 100; ++t)
         (*recording)->take(session.take({}, t * 1'000'000), study::OperatorAct::none, session);

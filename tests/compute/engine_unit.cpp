@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 
 #include <gtest/gtest.h>
 

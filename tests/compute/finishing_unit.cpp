@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/engine.hpp"
 #include "compute/repair/decimate.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"

@@ -7,8 +7,8 @@
 #include <memory>
 #include <set>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/engine.hpp"
 #include "geometry/contact/local_surface_search.hpp"
 #include "tests/compute/random_solids.hpp"
 

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <map>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/engine.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/random_solids.hpp"

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
+#include "compute/engine/history.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/history.hpp"
 #include "compute/repair/slivers.hpp"
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"

@@ -12,8 +12,8 @@
 #include <random>
 #include <set>
 
+#include "compute/engine/history.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/history.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/vulkan/vulkan_engine.hpp"
 #include "tests/compute/effort.hpp"

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "compute/rays/history.hpp"
+#include "compute/engine/history.hpp"
 #include "tests/compute/updates.hpp"
 #include "tests/compute/vulkan_engine_fixture.hpp"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "compute/tools/turning_sweep.hpp"
 #include "shaders/shared/octahedral.h"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "haptics/haptic_loop.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "tests/desk/panel_models.hpp"
 

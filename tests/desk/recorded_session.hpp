@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/drive/driver.hpp"
 #include "session/drive/executors.hpp"

@@ -2,7 +2,7 @@
 // The roles beside a live session: what it watches, logs and queues.
 #include <gtest/gtest.h>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/panel/panel.hpp"
 #include "desk/run/session.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "haptics/channels.hpp"
 #include "session/record/log_export.hpp"
 #include "tests/desk/recorded_session.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/record/tick_source.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "haptics/channels.hpp"

@@ -157,12 +157,8 @@ private:
 // An administrator may open every file: while this lives the process is nobody in particular.
 class AsNobody {
 public:
-    AsNobody() {
-        EXPECT_TRUE(was_ != 0 || ::seteuid(65534) == 0);
-    }
-    ~AsNobody() {
-        EXPECT_TRUE(was_ != 0 || ::seteuid(was_) == 0);
-    }
+    AsNobody() { EXPECT_TRUE(was_ != 0 || ::seteuid(65534) == 0); }
+    ~AsNobody() { EXPECT_TRUE(was_ != 0 || ::seteuid(was_) == 0); }
     AsNobody(const AsNobody&) = delete;
     AsNobody& operator=(const AsNobody&) = delete;
 

@@ -20,8 +20,7 @@ void require(bool condition) {
 void check_accounts(const burin::geometry::ImportedMesh& read) {
     const burin::geometry::ImportReport& r = read.report;
     require(r.faces_in_file == r.triangles_in_file + r.polygons_in_file + r.faces_without_area);
-    require(r.polygons_in_file ==
-            r.polygons_fanned + r.polygons_swept + r.polygons_touching + r.polygons_crossing);
+    require(r.polygons_in_file == r.polygons_fanned + r.polygons_swept + r.polygons_touching + r.polygons_crossing);
     require(read.mesh.triangles.size() >= r.triangles_in_file + 2 * r.polygons_in_file);
     require(read.mesh.triangle_materials.empty() || read.mesh.triangle_materials.size() == read.mesh.triangles.size());
     require(read.mesh.materials.size() <= burin::geometry::kMaxMaterials);

@@ -40,8 +40,8 @@ TEST(SplitPolygon, CoversAPolygonInAnyPlaneAtAnyScaleFarFromTheOriginAndBentALit
     EXPECT_TRUE(rc::check([] {
         auto random = any_randomness();
         const LatticePolygon polygon = any_polygon(random);
-        const Quat turned = glm::normalize(Quat(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1),
-                                                between(random, -1, 1)));
+        const Quat turned = glm::normalize(
+            Quat(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)));
         const double size_m = std::pow(10.0, between(random, -6, 3)), scale = size_m / 1e8;
         // The narrowest gap of an outline is some 1e-4 of its size; the corners are off by less.
         const double bent_m = random() % 2 == 0 ? 0.0 : 1e-6 * size_m;

@@ -161,8 +161,8 @@ LatticePolygon with_corners_on_edges(std::mt19937_64& random, LatticePolygon p) 
 }
 
 LatticePolygon slit_ring(std::size_t corners_on_a_side) {
-    return band(corners_on_a_side, 2 * std::numbers::pi, [](double) { return kRadius; },
-                [](double) { return 0.5 * kRadius; });
+    return band(
+        corners_on_a_side, 2 * std::numbers::pi, [](double) { return kRadius; }, [](double) { return 0.5 * kRadius; });
 }
 
 std::vector<Vec3> in_space(const LatticePolygon& polygon) {

@@ -6,8 +6,8 @@
 
 #include <memory>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/engine.hpp"
 
 namespace burin::haptics::test {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/tick.hpp"
 #include "scene/scene_thread.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/sculpture.hpp"

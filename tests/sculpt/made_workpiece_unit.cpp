@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "sculpt/made_workpiece.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Carving with planes of symmetry: both sides get the same, whatever the tool, and one undo takes back both.
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "sculpt/mirror.hpp"
 
 #include <gtest/gtest.h>

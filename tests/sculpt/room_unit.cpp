@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A solid as pages: what is saved and loaded is the same to the bit and goes on being so; what is lost is made again.
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "sculpt/saved_solid.hpp"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"

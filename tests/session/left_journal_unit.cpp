@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "document/journal.hpp"
 #include "record/database.hpp"
 #include "scene/saved_objects.hpp"

@@ -2,7 +2,7 @@
 // The machine's pace, and that only a session in real time has one of its own.
 #include <gtest/gtest.h>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/tick.hpp"
 #include "session/hands/machine_pace.hpp"

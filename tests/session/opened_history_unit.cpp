@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Undo and redo after a document or a journal was opened: each step gives back the rays that were there, to the bit.
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "session/work/opened_history.hpp"
 
 #include <gtest/gtest.h>

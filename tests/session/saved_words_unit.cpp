@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/chosen_engine.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
+#include "compute/engine/engine.hpp"
 #include "document/document_store.hpp"
 #include "sculpt/sculpture.hpp"
 #include "session/live/session.hpp"

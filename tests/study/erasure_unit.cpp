@@ -51,8 +51,8 @@ TEST(StudyCommands, EraseAllOfAParticipantButCodeGroupAndThatThereWasAWithdrawal
     ASSERT_EQ(place.run(kBurinStudy + "enrol s p02 --codes lefty").status, 0);
     place.write("one.txt", "burin-study-input 1\n0 hand -0.175 0.165 0.11\n0.1 start\n1.5 start\n" +
                                std::string("1.6 note limps a bit\n") +
-                               std::string("2 next\n2.5 start\n4 start\n5.5 start\n7 start\n") +
-                               through_the_tube(7.0) + "12 start\n12.5 hand 0 0.2 0.1\n");
+                               std::string("2 next\n2.5 start\n4 start\n5.5 start\n7 start\n") + through_the_tube(7.0) +
+                               "12 start\n12.5 hand 0 0.2 0.1\n");
     for (const char* id : {"p01", "p02"})
         ASSERT_EQ(place.run(kBurinStudy + "run s --input one.txt --participant " + id).status, 0);
     ASSERT_EQ(place.run(kBurinStudy + "report s").status, 0);

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "compute/rays/chosen_engine.hpp"
+#include "compute/engine/chosen_engine.hpp"
 #include "compute/vulkan/engine_choice.hpp"
 #include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/worker_pool.hpp"
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 
 namespace burin::compute {
 

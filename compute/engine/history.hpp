@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "compute/rays/engine.hpp"
+#include "compute/engine/engine.hpp"
 
 namespace burin::compute {
 

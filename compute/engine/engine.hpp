@@ -19,9 +19,10 @@
 #include <vector>
 
 #include "base/worker_pool.hpp"
-#include "compute/rays/operation.hpp"
+#include "compute/rays/carve_stats.hpp"
 #include "compute/rays/ray_batch.hpp"
 #include "compute/rays/solid.hpp"
+#include "compute/tools/ball_sweep.hpp"
 #include "compute/tools/tool.hpp"
 
 namespace burin::geometry {
@@ -29,27 +30,6 @@ struct LocalSurface;
 }
 
 namespace burin::compute {
-
-// A ball of radius_m that moves from start to end (object frame, metres); start == end is a stamp.
-struct BallSweep {
-    Vec3 start_object_m{0.0};
-    Vec3 end_object_m{0.0};
-    double radius_m = 0.0;
-    // Material of the surface that the sweep leaves; an index into Solid::materials.
-    std::uint8_t material = 0;
-    Operation operation = Operation::cut;  // cut, fill or paint
-};
-
-struct CarveStats {
-    // Number of rays of which the tool covers a part; except when filling, only rays that hold material count.
-    std::uint64_t rays_touched = 0;
-    std::uint64_t rays_changed = 0;  // number of rays whose ends differ afterwards
-    CarveStats& operator+=(const CarveStats& other) {
-        rays_touched += other.rays_touched;
-        rays_changed += other.rays_changed;
-        return *this;
-    }
-};
 
 // Counts submissions, waits and copied bytes of an engine's device since it was opened, and the most of its memory that
 // was held at once (gpu::WorkAsked).

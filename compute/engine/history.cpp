@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/rays/history.hpp"
+#include "compute/engine/history.hpp"
 
 #include "base/try.hpp"
 
