@@ -51,12 +51,13 @@ Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps) {
 }
 
 Result<void> Sculpture::begin(std::span<const compute::ToolSweep> sweeps) {
-    std::vector<compute::ToolSweep> with_images;
-    if (mirror_.mirror().any()) {
-        BURIN_TRY(all, mirror_.with_images(sweeps));
-        with_images = std::move(all);
-        sweeps = with_images;
-    }
+    if (!mirror_.mirror().any()) return begin_all(sweeps);
+    const auto all = mirror_.with_images(sweeps);
+    return all ? begin_all(*all) : std::unexpected(all.error());
+}
+
+// Begins an update with sweeps whose images are among them.
+Result<void> Sculpture::begin_all(std::span<const compute::ToolSweep> sweeps) {
     if (on_device_ && std::ranges::all_of(sweeps, is_for_device)) return update_on_device(sweeps);
     if (on_device_) {
         read_back();
@@ -128,7 +129,7 @@ Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> swe
         BURIN_TRY_DO(compute::check_sweep(engine_->solid(), sweep));
     }
     if (only_on_device_.size() == kMostOnDevice) read_back();
-    if (!on_device_) return begin(sweeps);  // it was lost just now
+    if (!on_device_) return begin_all(sweeps);  // it was lost just now
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
     only_on_device_.emplace_back(sweeps.begin(), sweeps.end());

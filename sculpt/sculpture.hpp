@@ -129,6 +129,7 @@ public:
 private:
     [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, compute::HistoryStep step);
     void follow_engine();
+    [[nodiscard]] Result<void> begin_all(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<bool> follow_next(compute::Wait wait);
     void settle();
     void note_step(compute::HistoryStep step);

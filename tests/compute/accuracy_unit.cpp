@@ -6,6 +6,7 @@
 
 #include "bench/measure/scenes.hpp"
 #include "bench/measure/surface_errors.hpp"
+#include "compute/engine/engine.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/compute/mesh_topology.hpp"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/rays/set_algebra.hpp"

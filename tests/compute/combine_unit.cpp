@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/tools/apply.hpp"

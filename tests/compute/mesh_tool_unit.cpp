@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "compute/engine/engine.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "compute/tools/apply.hpp"

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/tools/apply.hpp"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "compute/engine/engine.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/rays/set_algebra.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/engine/engine.hpp"
 #include "compute/light/surface_light.hpp"
 #include "compute/tools/apply.hpp"
 #include "tests/compute/effort.hpp"

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 
+#include "compute/engine/engine.hpp"
 #include "compute/tools/apply.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/effort.hpp"

@@ -5,6 +5,7 @@
 
 #include "compute/vulkan/standby_engine.hpp"
 #include "gpu/core.hpp"
+#include "sculpt/mirror.hpp"
 #include "sculpt/sculpture.hpp"
 #include "tests/compute/vulkan_engine_fixture.hpp"
 
@@ -88,6 +89,34 @@ TEST_F(LostDeviceGpu, ReadsBackFromTimeToTimeAndMayBeLostJustThen) {
     EXPECT_TRUE(carved.engine().solid().same_content(alone.engine().solid()));
     EXPECT_EQ(carved.figures().updates, alone.figures().updates);
     EXPECT_EQ(carved.figures().rays_changed, alone.figures().rays_changed);
+}
+
+// What a device alone knows of is bounded, so that an update may begin with reading back, and lose the device there.
+TEST_F(LostDeviceGpu, AtTheBeginningOfAnUpdateWithImagesCarvesTheseOnce) {
+    constexpr std::size_t kMostOnDevice = 1024;  // updates; as in sculpture.cpp
+    if (compute::test::kSanitized) GTEST_SKIP() << "a thousand updates take too long";
+    const compute::Solid solid = compute::test::unit_cube(16);
+    auto own = gpu::Device::create();
+    ASSERT_TRUE(own);
+    WorkerPool pool(1);
+    Sculpture carved(std::make_unique<compute::StandbyEngine>(solid, *own, pool), pool);
+    Sculpture alone(compute::make_cpu_engine(solid, pool), pool);
+    carved.mesh_on_device();
+    Random random(3);
+    for (std::size_t i = 0; i <= kMostOnDevice; ++i) {
+        if (i == kMostOnDevice) {
+            own->core()->lose_at_next_submit = true;
+            for (Sculpture* one : {&carved, &alone}) one->mirror(Mirror{.across = {true, false, false}});
+        }
+        compute::ToolSweep sweep{compute::BallTool{0.02}, {compute::test::random_point(random, 0.1, 0.9)}, {}};
+        if (i == kMostOnDevice) sweep.shape = compute::BallTool{0.2};
+        sweep.end = sweep.start;
+        ASSERT_TRUE(carved.update({&sweep, 1}));
+        ASSERT_TRUE(alone.update({&sweep, 1}));
+    }
+    EXPECT_EQ(std::string(carved.engine().name()), "cpu") << "the device is lost";
+    EXPECT_TRUE(carved.engine().solid().same_content(alone.engine().solid()));
+    EXPECT_EQ(carved.figures().sweeps, alone.figures().sweeps) << "an image of an image was carved";
 }
 
 }  // namespace burin::sculpt
