@@ -93,6 +93,8 @@ TEST_F(CardCommand, RecordOfAGpuRunsToItsEndWithTheProgramAlone) {
     EXPECT_EQ(by_processor["engine"]["name"], "cpu");
     EXPECT_FALSE(by_processor["engine"].contains("traffic"));
     EXPECT_TRUE(outcome.output.contains("asked of the device")) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("the worst first")) << outcome.output;
+    EXPECT_TRUE(record["failed"].empty());
 }
 
 }  // namespace burin::bench

@@ -147,6 +147,31 @@ TEST(BenchCommand, SaysWhatIsMissingWhereThereIsNoDeviceToCompare) {
     EXPECT_EQ(place.files(), 0u);
 }
 
+// In place of the program: a difference of the engines, no frames, and empty figures of all else.
+TEST(BenchCommand, RecordOfAGpuNamesWhatFailedAndKeepsAllElse) {
+    const Workplace place;
+    place.write("program",
+                "#!/bin/sh\nfor file; do :; done\n"
+                "case \"$*\" in\n"
+                "  *engines*) printf '{\\n  \"device\": \"A Card (X1)\",\\n  \"driver\": \"d\",\\n'\n"
+                "    printf '  \"machine\": \"m\"\\n}\\n' ;;\n"
+                "  *) echo '{}' ;;\nesac >\"$file\"\n"
+                "case \"$*\" in *engines*) exit 1 ;; *frame*) rm \"$file\"; exit 1 ;; esac\n");
+    place.write("burin", "#!/bin/sh\nif [ \"$1\" = --version ]; then echo burin 1.2.3; else sh '" +
+                             (place / "program").string() + "' \"$@\"; fi\n");
+    const auto outcome = place.run("chmod +x burin && mkdir out && BURIN_PROGRAM=./burin '" +
+                                   std::string(kBenchRecord) + "' gpu --small --into out");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("found a difference: \"bench engines")) << outcome.output;
+    const Json record = Json::parse(place.read("out/gpu-a-card-x1.json"));
+    EXPECT_EQ(record["device"], "A Card (X1)");
+    EXPECT_EQ(record["program"], "burin 1.2.3");
+    EXPECT_EQ(record["engines"]["machine"], "m");
+    EXPECT_TRUE(record["frame"].is_null());
+    EXPECT_EQ(record["failed"].size(), 2u);
+    EXPECT_EQ(record["strokes"].size(), 20u);
+}
+
 TEST(BenchCommand, RecordOfAGpuSaysWhatItCannotDo) {
     const Workplace place;
     const std::string script = " '" + std::string(kBenchRecord) + "' gpu ";
