@@ -225,7 +225,10 @@ Result<EngineCheck> check_device(const EngineCheckOptions& options) {
     BURIN_TRY(device, gpu::Device::create({.index = options.device}));
     const auto make = [&device](compute::Solid solid,
                                 WorkerPool& pool) -> Result<std::unique_ptr<compute::CarvingEngine>> {
-        return compute::VulkanEngine::create(std::move(solid), device, pool);
+        Result<std::unique_ptr<compute::CarvingEngine>> made =
+            compute::VulkanEngine::create(std::move(solid), device, pool);
+        if (!made) made.error().remedy = "choose another device with --device, of those that burin --version lists";
+        return made;
     };
     BURIN_TRY(check, compare_engines(options, make));
     check.device = device.info().name;

@@ -50,6 +50,15 @@ TEST_F(CardCommand, EnginesAreTheSameToTheBitAndTheDeviceCarvesEachConvexTool) {
             }
 }
 
+TEST_F(CardCommand, EnginesOfADeviceThatCannotCarveAreRefusedWithARemedy) {
+    const auto outcome = at_.run(posing_as("BURIN_POSE_HIDE=float64") + kBurinCommand +
+                                 " bench engines --operations 10 --resolution 24 --json engines.json");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("no doubles in shaders; choose another device with --device"))
+        << outcome.output;
+    EXPECT_EQ(at_.files(), 0u);
+}
+
 TEST_F(CardCommand, StrokesOfEachToolCountWhatAnUpdateAsksOfTheDevice) {
     for (const std::string tool : {"ball", "cylinder", "cone", "bullnose", "box --swept"}) {
         const auto outcome = on_card(std::string(kBurinCommand) +
