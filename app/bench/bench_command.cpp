@@ -6,9 +6,10 @@ namespace {
 
 CommandAction add_bench(Command command) {
     command.require_subcommand();
-    return add_commands(command, {bench_stroke_row(), bench_pareto_row(), bench_frame_row(), bench_haptics_row(),
-                                  bench_record_row(), bench_document_row(), bench_study_row(), bench_stability_row(),
-                                  bench_glove_row(), bench_workspace_row(), bench_body_row(), bench_world_row()});
+    return add_commands(
+        command, {bench_stroke_row(), bench_engines_row(), bench_pareto_row(), bench_frame_row(), bench_haptics_row(),
+                  bench_record_row(), bench_document_row(), bench_study_row(), bench_stability_row(), bench_glove_row(),
+                  bench_workspace_row(), bench_body_row(), bench_world_row()});
 }
 
 }  // namespace

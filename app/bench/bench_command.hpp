@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // burin bench: what Burin does in numbers (bench/), as tables, JSON, CSV and a figure.
 //   burin bench stroke     one engine and resolution through STROKE-1000, with every figure
+//   burin bench engines    whether a Vulkan device carves what the processor carves
 //   burin bench pareto     time against error over resolutions, engines and peers
 //   burin bench haptics    what a tick costs, and how true the proxy is
 //   burin bench stability  how stiff a wall may be before a simulated device shakes
@@ -20,6 +21,7 @@ namespace burin::app {
 // ---- Its commands. Places for output are looked at before the first long step.
 
 [[nodiscard]] CommandRow bench_stroke_row();     // bench/stroke/stroke_report.hpp
+[[nodiscard]] CommandRow bench_engines_row();    // bench/engines/engine_check.hpp
 [[nodiscard]] CommandRow bench_pareto_row();     // bench/stroke/pareto.hpp
 [[nodiscard]] CommandRow bench_frame_row();      // bench/frame/frame.hpp
 [[nodiscard]] CommandRow bench_haptics_row();    // bench/haptics/haptics.hpp

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/bench/bench_command.hpp"
 #include "app/bench/bench_limits.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/try.hpp"
+#include "bench/measure/surface_errors.hpp"
 #include "bench/measure/timing.hpp"
 #include "bench/stroke/pareto.hpp"
 #include "bench/stroke/stroke_report.hpp"
@@ -19,17 +22,20 @@
 namespace burin::app {
 namespace {
 
-constexpr int kReferenceRays = 2048;  // a side, for the removed volume of a part of a scene
+constexpr int kReferenceRays = 2048;         // a side, for the removed volume of a part of a scene
+constexpr const char* kCapsule = "capsule";  // a ball that is swept
+constexpr std::array kStrokeTools{bench::StrokeTool::ball, bench::StrokeTool::cylinder, bench::StrokeTool::cone,
+                                  bench::StrokeTool::bullnose, bench::StrokeTool::box};
 constexpr const char *kCubeScene = "cube", *kTurnedCubeScene = "turned-cube", *kMeshScene = "mesh:";
 
 struct StrokeBench {
     bench::StrokeOptions stroke;
     std::string tool = "ball", peer, json, exported;
     std::vector<std::string> scenes{kCubeScene};
-    bool plain = false;
+    bool plain = false, swept = false;
     std::size_t updates = 1000;
 
-    [[nodiscard]] Result<void> run() const;
+    [[nodiscard]] Result<void> run();
 
 private:
     [[nodiscard]] Result<void> check() const;
@@ -37,6 +43,14 @@ private:
     [[nodiscard]] Result<Json> report_of(const std::string& scene_name) const;
     [[nodiscard]] Result<void> add_peer(Json& report, const bench::CarveScene& scene) const;
 };
+
+// Prints what was asked of the device, where there is one.
+void print_counts(const Json& report, bool names_scene) {
+    const std::string counts = bench::counts_table(report);
+    if (counts.empty()) return;
+    const std::string title = names_scene ? report["scene"].get<std::string>() + "\n" : "";
+    std::printf("\n%s%s", title.c_str(), counts.c_str());
+}
 
 Result<void> StrokeBench::check() const {
     session::InputFiles inputs;
@@ -59,8 +73,9 @@ Result<void> StrokeBench::check() const {
     if (!peer.empty() && scenes != std::vector<std::string>{kCubeScene}) {
         return fail("--peer " + peer, "carves only a cube along the lattice", "leave --scene at cube");
     }
-    if (!peer.empty() && tool != "ball") {
-        return fail("--peer " + peer, "carves with a ball at one place after the other", "leave --tool at ball");
+    if (!peer.empty() && (tool != "ball" || swept)) {
+        return fail("--peer " + peer, "carves with a ball at one place after the other",
+                    "leave --tool at ball, without --swept");
     }
     if (!peer.empty() && !bench::has_peers()) {
         return fail("--peer " + peer, "is not built into this program",
@@ -81,7 +96,6 @@ Result<void> StrokeBench::add_peer(Json& report, const bench::CarveScene& scene)
 }
 
 Result<bench::CarveScene> StrokeBench::scene_named(const std::string& name) const {
-    const bool swept = tool == "capsule";
     bench::CarveScene scene;
     if (name.starts_with(kMeshScene)) {
         const std::string file = name.substr(std::string(kMeshScene).size());
@@ -94,7 +108,8 @@ Result<bench::CarveScene> StrokeBench::scene_named(const std::string& name) cons
     } else {
         scene = swept ? bench::stroke_1000_swept_scene() : bench::stroke_1000_scene();
     }
-    if (updates < scene.sweeps.size()) scene = bench::beginning_of(scene, updates, kReferenceRays);
+    const bool is_known = stroke.tool == bench::StrokeTool::ball;  // the volume serves as a reference then
+    if (updates < scene.sweeps.size()) scene = bench::beginning_of(scene, updates, is_known ? kReferenceRays : 1);
     return name == kTurnedCubeScene ? bench::turned(std::move(scene)) : scene;
 }
 
@@ -104,9 +119,11 @@ Result<Json> StrokeBench::report_of(const std::string& scene_name) const {
     bench::StrokeOptions run_options = stroke;
     run_options.with_undo = run_options.with_light = !plain;
     BURIN_TRY(run, bench::run_stroke(scene, run_options));
-    Json report = bench::describe(scene, run, bench::measure(run.mesh, scene, run.cell_m),
-                                  bench::count_self_intersections(run.mesh, stroke.threads));
+    std::optional<bench::SurfaceErrors> errors;
+    if (stroke.tool == bench::StrokeTool::ball) errors = bench::measure(run.mesh, scene, run.cell_m);
+    Json report = bench::describe(scene, run, errors, bench::count_self_intersections(run.mesh, stroke.threads));
     report["tool"] = tool;
+    report["swept"] = swept;
     report["machine"] = on;
     if (!peer.empty()) {
         BURIN_TRY_DO(add_peer(report, scene));
@@ -119,7 +136,12 @@ Result<Json> StrokeBench::report_of(const std::string& scene_name) const {
     return report;
 }
 
-Result<void> StrokeBench::run() const {
+Result<void> StrokeBench::run() {
+    if (tool == kCapsule) {
+        swept = true;
+    } else {
+        stroke.tool = *std::ranges::find(kStrokeTools, tool, [](bench::StrokeTool of) { return bench::name_of(of); });
+    }
     BURIN_TRY_DO(check());
     std::vector<Json> reports;
     for (const std::string& scene : scenes) {
@@ -130,6 +152,7 @@ Result<void> StrokeBench::run() const {
     const bool one = reports.size() == 1;
     if (json != kStandardOutput) {
         std::fputs((one ? bench::table(reports.front()) : bench::scene_table(reports)).c_str(), stdout);
+        for (const Json& report : reports) print_counts(report, !one);
     }
     return write_output(json, json_text(one ? reports.front() : Json(reports)));
 }
@@ -141,9 +164,12 @@ CommandAction add_stroke_bench(Command command) {
         .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     command.choice("--engine", options->stroke.on_vulkan, "cpu or vulkan", {{"cpu", false}, {"vulkan", true}});
-    command.option("--tool", options->tool, "ball: a stamp at each place; capsule: swept from each place to the next")
-        .one_of({"ball", "capsule"})
+    command
+        .option("--tool", options->tool,
+                "A ball, or a tool in its place that removes about as much; capsule: a ball with --swept")
+        .one_of({"ball", kCapsule, "cylinder", "cone", "bullnose", "box"})
         .show_default();
+    command.flag("--swept", options->swept, "Sweep the tool from each place to the next; else a stamp at each place");
     command.option("--scene", options->scenes,
                    "cube: along the lattice; turned-cube: turned by 20 degrees; mesh:FILE: a scan, say, whose holes "
                    "are closed. Several give one table, the worst first, and their figures as a list");

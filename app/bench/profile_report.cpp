@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "app/bench/profile.hpp"
 #include "app/carve/report.hpp"
@@ -132,6 +133,29 @@ std::string doings(const Json& run) {
     return text + "\n";
 }
 
+// Returns what carving and drawing asked of the device, and carving for an update; empty without either.
+std::string asked_of_device(const Json& run) {
+    const Json engine = run["engine"].value("traffic", Json()), picture = run.value("picture", Json());
+    if (engine.is_null() && picture.is_null()) return {};
+    const double updates = run["engine"].value("updates", 0.0), rays = run["engine"].value("rays_changed", 0.0);
+    const auto for_an_update = [updates](double all) { return updates > 0.0 ? line("%.1f", all / updates) : "-"; };
+    const auto cell = [](const Json& traffic, const char* key) {
+        return traffic.is_null() ? std::string("-") : std::to_string(traffic[key].get<std::uint64_t>());
+    };
+    std::string text = line("\n%-24s%12s%16s%12s\n", "asked of the device", "to carve", "for an update", "to draw");
+    for (const auto& [key, title] :
+         {std::pair{"submissions", "submissions"}, std::pair{"blocking_waits", "blocking waits"},
+          std::pair{"bytes_to_device", "bytes to the device"}, std::pair{"bytes_to_host", "bytes to the host"}}) {
+        const std::string an_update = engine.is_null() ? "-" : for_an_update(engine[key].get<double>());
+        text += line("  %-22s%12s%16s%12s\n", title, cell(engine, key).c_str(), an_update.c_str(),
+                     cell(picture, key).c_str());
+    }
+    text += line("  %-22s%12s%16s%12s\n", "most memory, bytes", cell(engine, "most_memory_bytes").c_str(), "",
+                 cell(picture, "most_memory_bytes").c_str());
+    return text + line("  %-22s%12.0f%16s   in %.0f updates, by the engine %s\n", "rays changed", rays,
+                       for_an_update(rays).c_str(), updates, run["engine"]["name"].get<std::string>().c_str());
+}
+
 double number(const Json& figure, const char* key) { return figure.is_null() ? 0.0 : figure[key].get<double>(); }
 
 }  // namespace
@@ -148,8 +172,9 @@ Json describe_run(const ProfiledRun& run) {
                       {"drawn_per_s", wall_s > 0.0 ? static_cast<double>(r.frames.size()) / wall_s : 0.0}};
     json["stages_ms"] = stages_of(r.frames);
     json["carve_update_ms"] = in_ms(r.carve_update);
-    json["engine"] = {{"name", r.engine}};
+    json["engine"] = {{"name", r.engine}, {"updates", r.updates}, {"rays_changed", r.rays_changed}};
     if (r.engine_traffic) json["engine"]["traffic"] = describe_traffic(*r.engine_traffic);
+    if (r.picture_traffic) json["picture"] = describe_traffic(*r.picture_traffic);
     json["processor_ms"] =
         in_ms(summary_of(r.frames, [](const session::TimedFrame& f) { return std::optional(f.processor_ns); }));
     json["cores_busy"] = wall_s > 0.0 ? seconds(r.processor_ns) / wall_s : 0.0;
@@ -185,16 +210,7 @@ std::string profile_table(const Json& run) {
     text += doings(run) + heading("a frame, ms") + rows(run["stages_ms"]) +
             row("processor, all threads", run["processor_ms"]);
     text += row("carving, beside it", run["carve_update_ms"]);
-    if (const Json& engine = run["engine"]; engine.contains("traffic")) {
-        const Json& traffic = engine["traffic"];
-        text += line(
-            "  engine %s: %zu submissions, %zu blocking waits, %.2f MB to the device, %.2f MB to the host, "
-            "%.2f MB of its memory\n",
-            engine["name"].get<std::string>().c_str(), traffic["submissions"].get<std::size_t>(),
-            traffic["blocking_waits"].get<std::size_t>(), 1e-6 * traffic["bytes_to_device"].get<double>(),
-            1e-6 * (traffic["bytes_to_host"].get<double>() + traffic["bytes_written_to_host"].get<double>()),
-            1e-6 * traffic["most_memory_bytes"].get<double>());
-    }
+    text += asked_of_device(run);
     text += "\n" + heading("when seen, ms") + rows(run["ages_ms"]);
     text += "\n" + heading("1 kHz loop, us") + row("tick", ticks["duration_us"]) + row("late by", ticks["lateness_us"]);
     text += line("  %zu ticks, %zu late, %zu deadlines missed\n", ticks["count"].get<std::size_t>(),

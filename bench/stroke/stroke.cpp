@@ -20,20 +20,11 @@ namespace {
 
 constexpr std::uint64_t kCheckedRays = 20000;  // an axis
 
-std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene) {
+std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene, StrokeTool tool) {
     std::vector<compute::ToolSweep> sweeps;
-    for (const compute::BallSweep& in_scene : scene.sweeps) {
-        const compute::BallSweep sweep = in_object(scene, in_scene);
-        sweeps.push_back({compute::BallTool{sweep.radius_m},
-                          {sweep.start_object_m},
-                          {sweep.end_object_m},
-                          sweep.operation,
-                          sweep.material});
-    }
+    for (const compute::BallSweep& sweep : scene.sweeps) sweeps.push_back(tool_sweep(scene, sweep, tool));
     return sweeps;
 }
-
-double radius_of(const compute::ToolSweep& sweep) { return std::get<compute::BallTool>(sweep.shape).radius_m; }
 
 // Fails where the processor has gone on for a device: its times are no device's.
 Result<void> check_engine(sculpt::Sculpture& sculpture, const StrokeOptions& options) {
@@ -57,34 +48,55 @@ Result<std::unique_ptr<sculpt::Sculpture>> start(const compute::Solid& uncut, co
 
 struct Carved {
     UpdateTimes times;
+    UpdateCounts counts;             // empty without a device
     std::vector<double> publish_ms;  // local_surface() alone, with the waiting for a device
     std::uint64_t triangles_published = 0;
     std::size_t tiles_lit = 0;
 };
 
+// Adds what an update has asked of the device. before: what was asked until then.
+void note_asked(UpdateCounts& counts, const sculpt::Sculpture& sculpture,
+                const std::optional<compute::DeviceTraffic>& before, std::uint64_t rays_changed_before) {
+    const std::optional<compute::DeviceTraffic> after = sculpture.engine().traffic();
+    if (!before || !after) return;
+    const auto add = [](std::vector<double>& to, std::uint64_t now, std::uint64_t then) {
+        to.push_back(static_cast<double>(now - then));
+    };
+    add(counts.submissions, after->submissions, before->submissions);
+    add(counts.blocking_waits, after->blocking_waits, before->blocking_waits);
+    add(counts.bytes_to_device, after->bytes_to_device, before->bytes_to_device);
+    add(counts.bytes_to_host, after->bytes_to_host, before->bytes_to_host);
+    add(counts.rays_changed, sculpture.figures().rays_changed, rays_changed_before);
+}
+
 // Carries out an update for each sweep, in the steps of CarvedPart. Ending a stroke and baking light do nothing where
 // there is no history and no light.
-Result<Carved> carve(sculpt::Sculpture& sculpture, std::span<const compute::ToolSweep> sweeps) {
+Result<Carved> carve(sculpt::Sculpture& sculpture, const CarveScene& scene,
+                     std::span<const compute::ToolSweep> sweeps) {
     const auto published = std::make_unique<geometry::LocalSurface>();
-    const auto publish = [&](const compute::ToolSweep& sweep) {
-        sculpture.local_surface(sweep.end.position_m, kPublishedRadii * radius_of(sweep), *published);
+    const auto publish = [&](const compute::BallSweep& ball_scene) {
+        const compute::BallSweep ball = in_object(scene, ball_scene);
+        sculpture.local_surface(ball.end_object_m, kPublishedRadii * ball.radius_m, *published);
     };
     // A session publishes once before its first update; a device then knows which triangles will be asked for.
-    if (!sweeps.empty()) publish(sweeps.front());
+    if (!sweeps.empty()) publish(scene.sweeps.front());
     Carved carved;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        const std::optional<compute::DeviceTraffic> before = sculpture.engine().traffic();
+        const std::uint64_t rays_changed_before = sculpture.figures().rays_changed;
         const double cpu_before_ms = process_cpu_ms();
         Stopwatch watch;
         const Result<void> done = sculpture.update({&sweeps[i], 1});
         if (done && (i + 1) % kUpdatesAStroke == 0) sculpture.end_stroke();
         const double carved_ms = watch.lap_ms();
         if (!done) return std::unexpected(done.error());
-        publish(sweeps[i]);
+        publish(scene.sweeps[i]);
         carved.publish_ms.push_back(watch.lap_ms());
         carved.tiles_lit += sculpture.bake_light(sweeps[i].end.position_m, sculpt::CarvedPart::kLitWorking);
         carved.times.update_ms.push_back(carved_ms + carved.publish_ms.back() + watch.lap_ms());
         carved.times.cpu_ms.push_back(process_cpu_ms() - cpu_before_ms);
         carved.triangles_published += published->triangles();
+        note_asked(carved.counts, sculpture, before, rays_changed_before);
     }
     return carved;
 }
@@ -117,7 +129,8 @@ void check(const sculpt::Sculpture& sculpture, const CarveScene& scene, const co
     run.rays_held = solid.rays_held();
     run.bytes = solid.bytes();
     run.disagreeing_edges = sculpture.surface().disagreeing_edges();
-    run.intervals = check_intervals(solid, scene, kCheckedRays, 1, scene.is_of_cube() ? nullptr : &uncut);
+    if (run.tool == StrokeTool::ball)
+        run.intervals = check_intervals(solid, scene, kCheckedRays, 1, scene.is_of_cube() ? nullptr : &uncut);
     run.mesh = sculpture.surface().welded();
     const compute::RepairReport repair = compute::repair_intersections(run.mesh, sculpture.surface(), solid, pool);
     run.self_intersections_mended = repair.found - repair.left;
@@ -128,7 +141,7 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
     BURIN_TRY(sculpture, start(uncut, options, pool, run));
     run.first_mesh_ms = sculpture->first_mesh_ms();
     const auto before = sculpture->engine().traffic();
-    BURIN_TRY(carved, carve(*sculpture, sweeps));
+    BURIN_TRY(carved, carve(*sculpture, scene, sweeps));
     BURIN_TRY_DO(check_engine(*sculpture, options));
     if (const auto after = sculpture->engine().traffic(); before && after)
         run.traffic = {after->submissions - before->submissions,
@@ -137,6 +150,7 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
                        after->bytes_to_host - before->bytes_to_host,
                        after->most_memory_bytes,
                        after->bytes_written_to_host - before->bytes_written_to_host};
+    run.counts = std::move(carved.counts);
     take_figures(*sculpture, std::move(carved), run);
     check(*sculpture, scene, uncut, pool, run);
     return {};
@@ -151,14 +165,15 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     run.threads = pool.threads();
     run.resolution = options.resolution;
     run.cell_m = uncut.lattice.spacing_m;
-    const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene);
+    run.tool = options.tool;
+    const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene, options.tool);
     if (const auto done = run_plain(scene, uncut, sweeps, options, pool, run); !done) {
         return std::unexpected(done.error());
     }
-    if (options.on_vulkan) {
+    if (options.on_vulkan && options.tool == StrokeTool::ball) {
         BURIN_TRY(sculpture, start(uncut, options, pool, run));
         sculpture->mesh_on_device();
-        BURIN_TRY(carved, carve(*sculpture, sweeps));
+        BURIN_TRY(carved, carve(*sculpture, scene, sweeps));
         sculpture->read_back();
         BURIN_TRY_DO(check_engine(*sculpture, options));
         run.with_device_mesh = std::move(carved.times);
@@ -166,7 +181,7 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     if (options.with_undo) {
         BURIN_TRY(sculpture, start(uncut, options, pool, run));
         sculpture->keep_history(compute::History::kDefaultBudget_bytes);
-        BURIN_TRY(carved, carve(*sculpture, sweeps));
+        BURIN_TRY(carved, carve(*sculpture, scene, sweeps));
         run.with_undo = std::move(carved.times);
         run.strokes_kept = sculpture->history()->undoable();
     }
@@ -174,7 +189,7 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
         BURIN_TRY(sculpture, start(uncut, options, pool, run));
         const compute::Lamp lamp{picture::direction_to_light(), picture::kLightHalfAngleTangent};
         BURIN_TRY_DO(sculpture->keep_light(lamp));
-        BURIN_TRY(carved, carve(*sculpture, sweeps));
+        BURIN_TRY(carved, carve(*sculpture, scene, sweeps));
         run.with_light = std::move(carved.times);
         run.tiles_lit = carved.tiles_lit;
     }

@@ -3,8 +3,8 @@
 // the engine cuts one sweep; the surface is brought up to date, vertices and indices; a local surface is filled with
 // references to the tiles near the tool, ready to be published to the haptic thread. The Vulkan engine cuts on the
 // device, and the host meshes what comes home, as in a session. Beside that, with the Vulkan engine alone, the same
-// updates are timed as a rigid stroke runs them: meshed on the device (compute/vulkan/device_surface.hpp), with the
-// triangles near the tool read back and their search grid built on the host.
+// updates of a ball are timed as a rigid stroke runs them: meshed on the device (compute/vulkan/device_surface.hpp),
+// with the triangles near the tool read back and their search grid built on the host.
 //
 // A session also keeps undo and light. The same updates are timed with each of them, on a sculpture of its own. With
 // undo, a stroke ends every kUpdatesAStroke updates. With light, each update bakes as many tiles as one of a session
@@ -20,6 +20,7 @@
 #include "base/error.hpp"
 #include "bench/measure/lost_intervals.hpp"
 #include "bench/measure/scenes.hpp"
+#include "bench/stroke/stroke_tools.hpp"
 #include "compute/engine/engine.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
@@ -31,6 +32,7 @@ struct StrokeOptions {
     unsigned threads = 0;     // 0: one a core
     bool with_undo = false;   // time the updates with undo as well
     bool with_light = false;  // time the updates with light as well
+    StrokeTool tool = StrokeTool::ball;
 };
 
 // One value an update: wall time, and the process's time on all threads.
@@ -38,7 +40,14 @@ struct UpdateTimes {
     std::vector<double> update_ms, cpu_ms;
 };
 
+// What each update asked of the device, and how many rays it changed. The bytes are those that are copied: none where
+// the host sees the device's memory.
+struct UpdateCounts {
+    std::vector<double> submissions, blocking_waits, bytes_to_device, bytes_to_host, rays_changed;
+};
+
 struct StrokeRun {
+    StrokeTool tool = StrokeTool::ball;
     std::string engine;  // "cpu" or "vulkan"
     std::string device;  // the Vulkan device, or "native"
     bool software_device = false;
@@ -48,8 +57,10 @@ struct StrokeRun {
     // One value an update, wall time: the cut, the surface, the local surface, and all three; cpu_ms is the process's
     // time for all three on all threads. The parts are empty where the device cannot measure them.
     std::vector<double> carve_ms, mesh_ms, publish_ms, update_ms, cpu_ms;
-    UpdateTimes with_undo, with_light;              // empty unless asked for
-    std::optional<compute::DeviceTraffic> traffic;  // of the updates without undo, light or meshing on the device
+    UpdateTimes with_undo, with_light;  // empty unless asked for
+    // Of the updates without undo, light or meshing on the device; nothing without a device.
+    std::optional<compute::DeviceTraffic> traffic;
+    UpdateCounts counts;
     UpdateTimes with_device_mesh;  // with the Vulkan engine, as a rigid stroke of `burin sculpt` without undo runs
     std::size_t strokes_kept = 0;  // by the history of with_undo
     std::size_t tiles_lit = 0;     // baked during the updates of with_light
@@ -59,12 +70,12 @@ struct StrokeRun {
     std::uint64_t rays_held = 0;
     std::size_t bytes = 0;  // of the rays, at the end
     std::uint64_t disagreeing_edges = 0;
-    IntervalCheck intervals;
-    geometry::TriangleMesh mesh;  // at the end, object frame, repaired as for export
+    std::optional<IntervalCheck> intervals;  // nothing for a tool whose rays have no closed form
+    geometry::TriangleMesh mesh;             // at the end, object frame, repaired as for export
     std::uint64_t self_intersections_mended = 0;
 };
 
-// Tool radii within which the surface is published.
+// Radii of the scene's ball within which the surface is published.
 inline constexpr double kPublishedRadii = 1.25;
 // Updates after which a stroke ends: a second of a session.
 inline constexpr std::size_t kUpdatesAStroke = 100;

@@ -10,6 +10,7 @@
 
 #include "base/statistics.hpp"
 #include "compute/repair/self_intersections.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 
 namespace burin::bench {
 namespace {
@@ -19,9 +20,10 @@ constexpr std::size_t kMostTrianglesForCgal = 1'200'000;
 
 Json or_null(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
 
-// cell_m is 0 for a method without cells.
-void add_errors(Json& report, const SurfaceErrors& e, double cell_m) {
+// cell_m is 0 for a method without cells. is_known: whether the exact surface is; only the counts are measured without.
+void add_errors(Json& report, const SurfaceErrors& e, double cell_m, bool is_known = true) {
     const auto add = [&](const std::string& name, const Spread& spread, bool measured) {
+        measured = measured && is_known;
         const bool in_cells = measured && cell_m > 0.0;
         report[name + "_rms_m"] = measured ? Json(spread.rms) : Json(nullptr);
         report[name + "_rms_h"] = in_cells ? Json(spread.rms / cell_m) : Json(nullptr);
@@ -29,7 +31,7 @@ void add_errors(Json& report, const SurfaceErrors& e, double cell_m) {
     };
     const bool has_edges = cell_m > 0.0 && e.of_cube;
     report["triangles"] = e.triangles;
-    report["volume_error_over_removed"] = e.of_cube ? Json(e.volume_over_removed) : Json(nullptr);
+    report["volume_error_over_removed"] = e.of_cube && is_known ? Json(e.volume_over_removed) : Json(nullptr);
     add("surface", e.surface_m, true);
     add("cut", e.cut_m, true);
     add("edge", e.edge_m, has_edges);
@@ -61,11 +63,50 @@ void add_times_with(Json& report, const std::string& what, const UpdateTimes& ti
     report[prefix + "_cpu_ms_median"] = or_null(median(times.cpu_ms));
 }
 
+// Returns the errors of a mesh whose exact surface is not known: its counts alone.
+SurfaceErrors counts_of(const geometry::TriangleMesh& mesh) {
+    const geometry::MeshHealth health = geometry::examine(mesh);
+    SurfaceErrors counts;
+    counts.triangles = health.triangles;
+    counts.bad_edges = health.boundary_edges + health.nonmanifold_edges + health.misoriented_edges;
+    return counts;
+}
+
+Json spread_of(const std::vector<double>& counts) {
+    return {{"median", median(counts)},
+            {"p99", quantile(counts, 0.99)},
+            {"most", quantile(counts, 1.0)},
+            {"all", sum(counts)}};
+}
+
+// Returns the spread of each count over the updates; null without a device.
+Json counts_json(const UpdateCounts& counts) {
+    if (counts.submissions.empty()) return nullptr;
+    return {{"submissions", spread_of(counts.submissions)},
+            {"blocking_waits", spread_of(counts.blocking_waits)},
+            {"bytes_to_device", spread_of(counts.bytes_to_device)},
+            {"bytes_to_host", spread_of(counts.bytes_to_host)},
+            {"rays_changed", spread_of(counts.rays_changed)}};
+}
+
+void add_counts(Json& report, const StrokeRun& run) {
+    const double updates = static_cast<double>(std::max<std::size_t>(1, run.update_ms.size()));
+    for (const auto& [key, of] : {std::pair{"submissions_per_update", &compute::DeviceTraffic::submissions},
+                                  std::pair{"blocking_waits_per_update", &compute::DeviceTraffic::blocking_waits},
+                                  std::pair{"bytes_to_device_per_update", &compute::DeviceTraffic::bytes_to_device},
+                                  std::pair{"bytes_to_host_per_update", &compute::DeviceTraffic::bytes_to_host}})
+        report[key] = run.traffic ? Json(static_cast<double>((*run.traffic).*of) / updates) : Json(nullptr);
+    report["device_memory_bytes"] = run.traffic ? Json(run.traffic->most_memory_bytes) : Json(nullptr);
+    report["counts_per_update"] = counts_json(run.counts);
+}
+
+double number_of(const Json& value) { return value.is_number() ? value.get<double>() : 0.0; }
+
 // Returns the number of faults in the carved solid and its mesh.
 double faults_of(const Json& report) {
     double faults = 0.0;
     for (const char* key : {"disagreeing_edges", "self_intersections", "lost_intervals", "extra_intervals"}) {
-        if (report[key].is_number()) faults += report[key].get<double>();
+        faults += number_of(report[key]);
     }
     return faults;
 }
@@ -97,7 +138,7 @@ Ageing ageing(const std::vector<double>& update_ms) {
             median({update_ms.end() - hundred, update_ms.end()})};
 }
 
-Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors& errors,
+Json describe(const CarveScene& scene, const StrokeRun& run, const std::optional<SurfaceErrors>& errors,
               const SelfIntersections& crossings) {
     Json report = {{"scene", scene.name},    {"engine", run.engine},
                    {"device", run.device},   {"software_device", run.software_device},
@@ -122,20 +163,15 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
     report["cells_per_update"] = static_cast<double>(run.cells_remeshed) / updates;
     report["triangles_per_update"] = static_cast<double>(run.triangles_remeshed) / updates;
     report["triangles_published_per_update"] = static_cast<double>(run.triangles_published) / updates;
-    for (const auto& [key, of] : {std::pair{"submissions_per_update", &compute::DeviceTraffic::submissions},
-                                  std::pair{"blocking_waits_per_update", &compute::DeviceTraffic::blocking_waits},
-                                  std::pair{"bytes_to_device_per_update", &compute::DeviceTraffic::bytes_to_device},
-                                  std::pair{"bytes_to_host_per_update", &compute::DeviceTraffic::bytes_to_host}})
-        report[key] = run.traffic ? Json(static_cast<double>((*run.traffic).*of) / updates) : Json(nullptr);
-    report["device_memory_bytes"] = run.traffic ? Json(run.traffic->most_memory_bytes) : Json(nullptr);
-    add_errors(report, errors, run.cell_m);
+    add_counts(report, run);
+    add_errors(report, errors ? *errors : counts_of(run.mesh), run.cell_m, errors.has_value());
     report["self_intersections"] = or_null(crossings.pairs);
     report["self_intersections_mended"] = run.self_intersections_mended;
     report["self_intersections_by_cgal"] = or_null(crossings.pairs_by_cgal);
     report["disagreeing_edges"] = run.disagreeing_edges;
-    report["rays_checked"] = run.intervals.rays;
-    report["lost_intervals"] = run.intervals.lost;
-    report["extra_intervals"] = run.intervals.extra;
+    report["rays_checked"] = run.intervals ? run.intervals->rays : 0;
+    report["lost_intervals"] = run.intervals ? Json(run.intervals->lost) : Json(nullptr);
+    report["extra_intervals"] = run.intervals ? Json(run.intervals->extra) : Json(nullptr);
     return report;
 }
 
@@ -175,7 +211,30 @@ std::string table(const Json& report) {
     for (const auto& [key, value] : report.items()) width = std::max(width, key.size());
     std::string text;
     for (const auto& [key, value] : report.items()) {
+        if (value.is_structured()) continue;
         text += "  " + key + std::string(width + 2 - key.size(), ' ') + text_of(value) + '\n';
+    }
+    return text;
+}
+
+std::string counts_table(const Json& report) {
+    const Json counts = report.value("counts_per_update", Json());
+    if (counts.is_null()) return {};
+    std::array<char, 128> line{};
+    const auto row = [&](const char* name, const std::array<std::string, 4>& cells) {
+        std::snprintf(line.data(), line.size(), "  %-24s%12s%12s%12s%14s\n", name, cells[0].c_str(), cells[1].c_str(),
+                      cells[2].c_str(), cells[3].c_str());
+        return std::string(line.data());
+    };
+    std::string text = row("asked of an update", {"median", "p99", "most", "all updates"});
+    for (const auto& [key, title] :
+         {std::pair{"submissions", "submissions"}, std::pair{"blocking_waits", "blocking waits"},
+          std::pair{"bytes_to_device", "bytes to the device"}, std::pair{"bytes_to_host", "bytes to the host"},
+          std::pair{"rays_changed", "rays changed"}}) {
+        std::array<std::string, 4> cells;
+        for (std::size_t i = 0; const char* of : {"median", "p99", "most", "all"})
+            cells.at(i++) = std::to_string(std::llround(counts[key][of].get<double>()));
+        text += row(title, cells);
     }
     return text;
 }
@@ -184,7 +243,7 @@ void sort_worst_first(std::vector<Json>& reports) {
     std::ranges::stable_sort(reports, [](const Json& a, const Json& b) {
         const double faults_a = faults_of(a), faults_b = faults_of(b);
         if (faults_a != faults_b) return faults_a > faults_b;
-        return a["cut_rms_h"].get<double>() > b["cut_rms_h"].get<double>();
+        return number_of(a["cut_rms_h"]) > number_of(b["cut_rms_h"]);
     });
 }
 

@@ -29,8 +29,10 @@ struct Ageing {
 
 // update_ms_... and update_cpu_ms_... are an update's cut, surface and local surface, without undo and light;
 // update_with_undo_... and update_with_light_... are the same updates with one of them, null where they were not run,
-// and update_with_device_mesh_... those that a Vulkan device meshes; submissions, waits and bytes are null without one.
-[[nodiscard]] Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors& errors,
+// and update_with_device_mesh_... those that a Vulkan device meshes. submissions_per_update and the like are means of
+// what was asked of a device, and counts_per_update spreads of the same; null without one. Errors, and lost and extra
+// intervals, are null for a tool without closed forms, of which no errors are given.
+[[nodiscard]] Json describe(const CarveScene& scene, const StrokeRun& run, const std::optional<SurfaceErrors>& errors,
                             const SelfIntersections& crossings);
 // Describes a peer's run with the same keys where they mean the same. cell_m is 0 for a method without cells: figures
 // in cells are then null, and so are those of edges, which measure how far the mesh is and not how finely it follows.
@@ -38,8 +40,11 @@ struct Ageing {
 // Adds the peer's keys as openvdb_..., and the ratios of its times to Burin's: openvdb_ratio, openvdb_cpu_ratio.
 void add_openvdb(Json& report, const Json& peer);
 
-// Returns one line a key.
+// Returns one line a key, but for counts_per_update.
 [[nodiscard]] std::string table(const Json& report);
+// Returns counts_per_update as a table: median, 99th percentile, most, and the sum of all updates. Empty without a
+// device.
+[[nodiscard]] std::string counts_table(const Json& report);
 
 // Sorts reports of the same cuts into different workpieces, the worst first: by faults (disagreeing edges, remaining
 // self-intersections, lost and extra intervals), then by the error of the cut region.

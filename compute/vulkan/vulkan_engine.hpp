@@ -79,8 +79,9 @@ public:
     [[nodiscard]] std::vector<std::string> take_notices() override { return std::exchange(notices_, {}); }
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
-        return DeviceTraffic{asked.submissions,   asked.blocking_waits,    asked.bytes_to_device,
-                             asked.bytes_to_host, asked.most_memory_bytes, asked.bytes_written_to_host};
+        return DeviceTraffic{asked.submissions,       asked.blocking_waits,
+                             asked.bytes_to_device,   asked.bytes_to_host + asked.bytes_written_to_host,
+                             asked.most_memory_bytes, asked.bytes_written_to_host};
     }
     // Hands over the host's solid; afterwards the engine may only be destroyed.
     [[nodiscard]] Solid give_solid() { return std::move(solid_); }

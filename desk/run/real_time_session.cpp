@@ -17,6 +17,7 @@
 #include "desk/run/session.hpp"
 #include "desk/view/session_tracker.hpp"
 #include "devices/trackers/tracker.hpp"
+#include "gpu/device.hpp"
 #include "haptics/realtime.hpp"
 #include "session/drive/executors.hpp"
 #include "session/drive/recording_start.hpp"
@@ -37,6 +38,8 @@ void add_threads(SessionRecord& record, Session& session) {
     if (const compute::CarvingEngine* const engine = session.scene_side().engine()) {
         record.engine = engine->name();
         record.engine_traffic = engine->traffic();
+        record.updates = session.scene_side().workpiece()->figures().updates;
+        record.rays_changed = session.scene_side().workpiece()->figures().rays_changed;
     }
     record.machine_pace = session.hands().pace();
     record.lost_targets = session.hands().lost_targets();
@@ -202,7 +205,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     if (options.live.detail == DetailChoice::automatic) presenter.draw_less_in_motion();
     LiveFrames frames(*whole.desk, presenter, std::move(whole.input), clock, whole.tracker.get(), whole.tracker_name);
     auto record = run_to_its_end(whole, frames, presenter, clock, options.live.lsl, run.pace, wake, recording);
-    if (record) record->device = presenter.device_name();
+    if (!record) return record;
+    record->device = presenter.device_name();
+    const gpu::WorkAsked drawn = presenter.device().asked();
+    record->picture_traffic = {drawn.submissions, drawn.blocking_waits, drawn.bytes_to_device, drawn.bytes_to_host,
+                               drawn.most_memory_bytes};
     return record;
 }
 

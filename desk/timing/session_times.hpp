@@ -146,7 +146,9 @@ struct SessionRecord {
     FigureSummary carve_update;
     std::string engine;  // that carved at the end; empty where nothing was carved
     std::optional<compute::DeviceTraffic> engine_traffic;
-    double machine_pace = 1.0;  // that bounded a tick's work (haptics::WorkSettings)
+    std::uint64_t updates = 0, rays_changed = 0;            // of the workpiece
+    std::optional<compute::DeviceTraffic> picture_traffic;  // of the lane that draws, since its device was opened
+    double machine_pace = 1.0;                              // that bounded a tick's work (haptics::WorkSettings)
     std::uint64_t ticks = 0, late_ticks = 0, missed_deadlines = 0;
     std::uint64_t lost_targets = 0;  // of the steered hand
     FigureSummary tick_lateness, tick_duration;

@@ -15,7 +15,7 @@ std::string carved_by(const compute::CarvingEngine& engine) {
     add(traffic->submissions, " submissions, ");
     add(traffic->blocking_waits, " blocking waits, ");
     add(traffic->bytes_to_device, " bytes to the device, ");
-    add(traffic->bytes_to_host + traffic->bytes_written_to_host, " bytes back, at most ");
+    add(traffic->bytes_to_host, " bytes back, at most ");
     add(traffic->most_memory_bytes, " bytes of its memory");
     return text;
 }

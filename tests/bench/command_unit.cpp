@@ -135,14 +135,70 @@ TEST(BenchCommand, WritesTheComparisonWhereAsked) {
     EXPECT_FALSE(Json::parse(place.read("p.json"))["rows"].empty());
 }
 
+TEST(BenchCommand, SaysWhatIsMissingWhereThereIsNoDeviceToCompare) {
+    const Workplace place;
+    const std::string without = "VK_DRIVER_FILES=/nowhere VK_ICD_FILENAMES=/nowhere ";
+    const auto outcome = place.run(without + kBurin + " bench engines --json engines.json");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("; ")) << "a remedy: " << outcome.output;
+    const auto record = place.run(without + "BURIN_PROGRAM=" + kBurin + " '" + kBenchRecord + "' gpu --small --into .");
+    EXPECT_EQ(record.status, 1) << record.output;
+    EXPECT_EQ(place.files(), 0u);
+}
+
+// In place of the program: a difference of the engines, no frames, and empty figures of all else.
+TEST(BenchCommand, RecordOfAGpuNamesWhatFailedAndKeepsAllElse) {
+    const Workplace place;
+    place.write("program",
+                "#!/bin/sh\nfor file; do :; done\n"
+                "case \"$*\" in\n"
+                "  *engines*) printf '{\\n  \"device\": \"A Card (X1)\",\\n  \"driver\": \"d\",\\n'\n"
+                "    printf '  \"machine\": \"m\"\\n}\\n' ;;\n"
+                "  *) echo '{}' ;;\nesac >\"$file\"\n"
+                "case \"$*\" in *engines*) exit 1 ;; *frame*) rm \"$file\"; exit 1 ;; esac\n");
+    place.write("burin", "#!/bin/sh\nif [ \"$1\" = --version ]; then echo burin 1.2.3; else sh '" +
+                             (place / "program").string() + "' \"$@\"; fi\n");
+    const auto outcome = place.run("chmod +x burin && mkdir out && BURIN_PROGRAM=./burin '" +
+                                   std::string(kBenchRecord) + "' gpu --small --into out");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("found a difference: \"bench engines")) << outcome.output;
+    const Json record = Json::parse(place.read("out/gpu-a-card-x1.json"));
+    EXPECT_EQ(record["device"], "A Card (X1)");
+    EXPECT_EQ(record["program"], "burin 1.2.3");
+    EXPECT_EQ(record["engines"]["machine"], "m");
+    EXPECT_TRUE(record["frame"].is_null());
+    EXPECT_EQ(record["failed"].size(), 2u);
+    EXPECT_EQ(record["strokes"].size(), 20u);
+}
+
+TEST(BenchCommand, RecordOfAGpuSaysWhatItCannotDo) {
+    const Workplace place;
+    const std::string script = " '" + std::string(kBenchRecord) + "' gpu ";
+    const auto expect = [&](const std::string& command, int status, const std::string& part) {
+        const auto outcome = place.run(command);
+        EXPECT_EQ(outcome.status, status) << outcome.output;
+        EXPECT_TRUE(outcome.output.contains(part)) << outcome.output;
+    };
+    expect("BURIN_PROGRAM=/nowhere/burin" + script + "--small", 1, "/nowhere/burin: is no program");
+    expect("BURIN_PROGRAM=" + kBurin + script + "--into nowhere", 2, "--into nowhere");
+    expect("BURIN_PROGRAM=" + kBurin + script + "--large", 2, "--large");
+    EXPECT_EQ(place.files(), 0u);
+}
+
 TEST(BenchCommand, RefusesWhatItCannotDo) {
     const Workplace place;
     expect_refused(place, "stroke --resolution 8", 2, {"--resolution", "burin bench stroke --help"});
     expect_refused(place, "stroke --engine auto", 2, {"--engine"});
-    expect_refused(place, "stroke --tool cone", 2, {"--tool"});
+    expect_refused(place, "stroke --tool spoon", 2, {"--tool"});
     expect_refused(place, "stroke --peer blender", 2, {"--peer"});
     expect_refused(place, "stroke --updates 0", 2, {"--updates"});
     expect_refused(place, "stroke --tool capsule --peer openvdb", 1, {"openvdb", "--tool"});
+    expect_refused(place, "stroke --tool cone --peer openvdb", 1, {"openvdb", "--tool"});
+    expect_refused(place, "stroke --swept --peer openvdb", 1, {"openvdb", "--swept"});
+    expect_refused(place, "engines --operations 0", 2, {"--operations"});
+    expect_refused(place, "engines --resolution 8", 2, {"--resolution", "burin bench engines --help"});
+    expect_refused(place, "engines --json nowhere/e.json", 1, {"nowhere/e.json", "make the folder"});
     expect_refused(place, "stroke --scene sphere", 1, {"sphere", "turned-cube"});
     expect_refused(place, "stroke --scene mesh:nowhere.obj", 1, {"nowhere.obj"});
     {

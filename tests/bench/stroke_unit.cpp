@@ -2,9 +2,14 @@
 // burin bench stroke on a small lattice: the run, its report, and that the engines' figures that must agree do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "bench/stroke/stroke_report.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 #include "gpu/device.hpp"
 
 namespace burin::bench {
@@ -87,8 +92,8 @@ TEST(Stroke, CarvesTheSceneAndPublishesIt) {
     }
     EXPECT_GT(run->triangles_published, 0u);
     EXPECT_GT(run->rays_touched, run->rays_changed);
-    EXPECT_EQ(run->intervals.lost, 0u);
-    EXPECT_EQ(run->intervals.extra, 0u);
+    EXPECT_EQ(run->intervals->lost, 0u);
+    EXPECT_EQ(run->intervals->extra, 0u);
     const auto report = report_of(scene, *run);
     EXPECT_EQ(report["bad_edges"], 0);
     EXPECT_LT(report["cut_rms_h"].get<double>(), 0.1);
@@ -103,7 +108,7 @@ TEST(Stroke, SweepsHaveNoBallCreasesAndKeepAllElse) {
     const auto report = report_of(swept, *run);
     EXPECT_TRUE(report["crease_rms_h"].is_null());
     EXPECT_FALSE(report["rim_rms_h"].is_null());
-    EXPECT_EQ(run->intervals.lost + run->intervals.extra, 0u);
+    EXPECT_EQ(run->intervals->lost + run->intervals->extra, 0u);
     EXPECT_NE(table(report).find("crease_rms_h"), std::string::npos);
 }
 
@@ -134,8 +139,8 @@ TEST(Stroke, OfATurnedCubeIsJudgedByTheSameClosedForms) {
     const auto run = run_stroke(scene, {48, false, 1});
     ASSERT_TRUE(run.has_value());
     EXPECT_NEAR(run->cell_m, 1.0 / 48, 0.01 / 48);
-    EXPECT_EQ(run->intervals.lost, 0u);
-    EXPECT_EQ(run->intervals.extra, 0u);
+    EXPECT_EQ(run->intervals->lost, 0u);
+    EXPECT_EQ(run->intervals->extra, 0u);
     const auto report = report_of(scene, *run);
     EXPECT_EQ(report["scene"], "stroke-1000 (first 30)-turned");
     EXPECT_EQ(report["bad_edges"], 0);
@@ -159,8 +164,8 @@ TEST(Stroke, OnAMeshIsMeasuredAsFarAsItsAnswerIsKnown) {
     const auto run = run_stroke(scene, {48, false, 1});
     ASSERT_TRUE(run.has_value());
     EXPECT_GT(run->rays_changed, 100u);
-    EXPECT_EQ(run->intervals.lost, 0u);
-    EXPECT_EQ(run->intervals.extra, 0u);
+    EXPECT_EQ(run->intervals->lost, 0u);
+    EXPECT_EQ(run->intervals->extra, 0u);
     const auto report = report_of(scene, *run);
     EXPECT_EQ(report["disagreeing_edges"], 0);
     EXPECT_LT(report["cut_rms_h"].get<double>(), 0.1);
@@ -182,6 +187,65 @@ TEST(Stroke, ScenesAreSortedByFaultsAndThenByError) {
     const std::string text = scene_table(reports);
     EXPECT_LT(text.find("faulty"), text.find("coarse"));
     EXPECT_LT(text.find("coarse"), text.find("fine"));
+}
+
+// What the ball removes of the cube in a few cuts that do not meet each other, the other tools do too, to a tenth.
+TEST(Stroke, WithAnotherToolRemovesAboutWhatTheBallDoes) {
+    CarveScene scene = stroke_1000_scene();
+    const std::vector<compute::BallSweep> all = scene.sweeps;
+    scene.sweeps.clear();
+    for (std::size_t i = 0; i < all.size(); i += 100) scene.sweeps.push_back(all[i]);
+    const auto removed_m3 = [&](StrokeTool tool) {
+        const auto run = run_stroke(scene, {.resolution = 48, .threads = 1, .tool = tool});
+        EXPECT_TRUE(run.has_value());
+        if (!run) return 0.0;
+        EXPECT_EQ(run->intervals.has_value(), tool == StrokeTool::ball);
+        EXPECT_EQ(run->disagreeing_edges, 0u) << name_of(tool);
+        return 1.0 - geometry::examine(run->mesh).signed_volume_m3;
+    };
+    const double ball_m3 = removed_m3(StrokeTool::ball);
+    EXPECT_GT(ball_m3, 0.004);
+    for (const StrokeTool tool : {StrokeTool::cylinder, StrokeTool::cone, StrokeTool::bullnose, StrokeTool::box})
+        EXPECT_NEAR(removed_m3(tool) / ball_m3, 1.0, 0.1) << name_of(tool);
+}
+
+TEST(Stroke, OfAToolWithoutClosedFormsReportsNoErrorsButAllElse) {
+    const CarveScene scene = beginning_of(stroke_1000_swept_scene(), 10, 1);
+    const auto run = run_stroke(scene, {.resolution = 32, .threads = 1, .tool = StrokeTool::cone});
+    ASSERT_TRUE(run.has_value());
+    const Json report = describe(scene, *run, std::nullopt, count_self_intersections(run->mesh, 1));
+    for (const char* key : {"cut_rms_h", "surface_max_h", "volume_error_over_removed", "lost_intervals"})
+        EXPECT_TRUE(report[key].is_null()) << key;
+    EXPECT_GT(report["triangles"], 1000);
+    EXPECT_EQ(report["bad_edges"], 0);
+    EXPECT_GT(report["rays_changed"], 100);
+    EXPECT_TRUE(report["counts_per_update"].is_null()) << "there is no device";
+    EXPECT_TRUE(counts_table(report).empty());
+    std::vector<Json> both{report, report_of(short_scene(), *run_stroke(short_scene(), {32, false, 1}))};
+    sort_worst_first(both);
+    EXPECT_FALSE(scene_table(both).empty());
+}
+
+TEST(Stroke, TellsTheSpreadOfWhatUpdatesAskOfADevice) {
+    const CarveScene scene = short_scene();
+    auto run = run_stroke(scene, {32, false, 1});
+    ASSERT_TRUE(run.has_value());
+    EXPECT_TRUE(run->counts.submissions.empty()) << "there is no device";
+    for (int i = 1; i <= 100; ++i) {
+        run->counts.submissions.push_back(i == 100 ? 7.0 : 1.0);
+        for (auto* counts : {&run->counts.blocking_waits, &run->counts.bytes_to_device, &run->counts.rays_changed})
+            counts->push_back(i);
+        run->counts.bytes_to_host.push_back(1000.0 * i);
+    }
+    const Json report = report_of(scene, *run);
+    EXPECT_EQ(report["counts_per_update"]["submissions"]["median"], 1.0);
+    EXPECT_EQ(report["counts_per_update"]["submissions"]["most"], 7.0);
+    EXPECT_EQ(report["counts_per_update"]["submissions"]["all"], 106.0);
+    EXPECT_EQ(report["counts_per_update"]["bytes_to_host"]["most"], 100'000.0);
+    const std::string text = counts_table(report);
+    EXPECT_EQ(std::ranges::count(text, '\n'), 6) << text;
+    EXPECT_NE(text.find("all updates"), std::string::npos);
+    EXPECT_EQ(table(report).find("counts_per_update"), std::string::npos);
 }
 
 TEST(Stroke, GivesTheSameSurfaceOnAnyNumberOfThreads) {

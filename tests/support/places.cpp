@@ -8,6 +8,7 @@ const char* const kPosingLayer = POSING_LAYER;
 const char* const kMeshAudit = MESH_AUDIT;
 const char* const kSessionsFolder = BURIN_SOURCES "/assets/sessions";
 const char* const kWallsFolder = BURIN_SOURCES "/assets/walls";
+const char* const kBenchRecord = BURIN_SOURCES "/bench/record";
 const char* const kStudyTests = BURIN_SOURCES "/tests/study";
 
 }  // namespace burin

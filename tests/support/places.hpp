@@ -11,6 +11,7 @@ extern const char* const kPosingLayer;     // the folder of tests/tools/vulkan_l
 extern const char* const kMeshAudit;       // the judge of meshes, tests/tools
 extern const char* const kSessionsFolder;  // assets/sessions
 extern const char* const kWallsFolder;     // assets/walls
+extern const char* const kBenchRecord;     // the script bench/record
 extern const char* const kStudyTests;      // tests/study, with scripts of SciPy and R
 
 }  // namespace burin

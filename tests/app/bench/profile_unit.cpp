@@ -134,6 +134,32 @@ TEST(ProfileReport, RestIsToldByItself) {
     EXPECT_EQ(lines_with(profile_table(describe_run(run)), "at rest for 2.0 s of these, with 0.90 % of a core"), 1u);
 }
 
+TEST(ProfileReport, TellsWhatCarvingAndDrawingAskedOfTheDevice) {
+    ProfiledRun run = hundred_frames();
+    EXPECT_EQ(lines_with(profile_table(describe_run(run)), "asked of the device"), 0u);
+    run.record.engine = "vulkan";
+    run.record.engine_traffic = {300, 200, 5'000, 70'000, 9'000'000};
+    run.record.picture_traffic = {40, 41, 1'000'000, 0, 2'000'000};
+    run.record.updates = 100;
+    run.record.rays_changed = 12'345;
+    const Json described = describe_run(run);
+    EXPECT_EQ(described["engine"]["traffic"]["submissions"], 300);
+    EXPECT_EQ(described["engine"]["updates"], 100);
+    EXPECT_EQ(described["engine"]["rays_changed"], 12'345);
+    EXPECT_EQ(described["picture"]["bytes_to_device"], 1'000'000);
+    const std::string table = profile_table(described);
+    EXPECT_EQ(lines_with(table, "  submissions                    300             3.0          40"), 1u) << table;
+    EXPECT_EQ(lines_with(table, "  bytes to the host            70000           700.0           0"), 1u) << table;
+    EXPECT_EQ(lines_with(table, "  rays changed                 12345           123.5   in 100 updates"), 1u) << table;
+    EXPECT_EQ(lines_with(table, "by the engine vulkan"), 1u) << table;
+    run.record.engine_traffic.reset();  // the processor carves
+    const std::string by_processor = profile_table(describe_run(run));
+    EXPECT_EQ(lines_with(by_processor, "  submissions                      -               -          40"), 1u)
+        << by_processor;
+    run.record.updates = run.record.rays_changed = 0;
+    EXPECT_EQ(lines_with(profile_table(describe_run(run)), "  rays changed                     0               -"), 1u);
+}
+
 TEST(ProfileReport, ASessionWithoutFramesHasATableToo) {
     const auto run = describe_run({});
     EXPECT_TRUE(run["stages_ms"]["draw"].is_null());
