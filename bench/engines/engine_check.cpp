@@ -235,8 +235,9 @@ Result<EngineCheck> check_device(const EngineCheckOptions& options) {
     check.driver = device.info().driver;
     check.software_device = device.info().is_software();
     const gpu::WorkAsked asked = device.asked();
-    check.traffic = {asked.submissions, asked.blocking_waits, asked.bytes_to_device, asked.bytes_to_host,
-                     asked.most_memory_bytes};
+    check.traffic = {asked.submissions,       asked.blocking_waits,
+                     asked.bytes_to_device,   asked.bytes_to_host + asked.bytes_written_to_host,
+                     asked.most_memory_bytes, asked.bytes_written_to_host};
     return std::move(check);
 }
 

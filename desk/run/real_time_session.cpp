@@ -208,8 +208,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     if (!record) return record;
     record->device = presenter.device_name();
     const gpu::WorkAsked drawn = presenter.device().asked();
-    record->picture_traffic = {drawn.submissions, drawn.blocking_waits, drawn.bytes_to_device, drawn.bytes_to_host,
-                               drawn.most_memory_bytes};
+    record->picture_traffic = {drawn.submissions,   drawn.blocking_waits,    drawn.bytes_to_device,
+                               drawn.bytes_to_host, drawn.most_memory_bytes, drawn.bytes_written_to_host};
     return record;
 }
 
