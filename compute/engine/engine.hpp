@@ -31,8 +31,8 @@ struct LocalSurface;
 
 namespace burin::compute {
 
-// Counts submissions, waits and bytes that cross over, of an engine's device since it was opened, and the most of its memory that
-// was held at once (gpu::WorkAsked).
+// Counts submissions, waits and bytes that cross over, of an engine's device since it was opened, and the most of its
+// memory that was held at once (gpu::WorkAsked).
 struct DeviceTraffic {
     std::uint64_t submissions = 0, blocking_waits = 0, bytes_to_device = 0, bytes_to_host = 0, most_memory_bytes = 0;
     std::uint64_t bytes_written_to_host = 0;  // of those to the host: by shaders, without a copy

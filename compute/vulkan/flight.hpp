@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/rays/carve_stats.hpp"
 #include "compute/tools/convex_pieces.hpp"
 #include "compute/tools/tool.hpp"
 #include "compute/vulkan/vulkan_engine_tasks.hpp"
