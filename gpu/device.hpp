@@ -81,6 +81,7 @@ struct WorkAsked {
     std::uint64_t blocking_waits = 0;  // for work that no wait before had covered
     std::uint64_t bytes_to_device = 0, bytes_to_host = 0;
     std::uint64_t most_memory_bytes = 0;  // of the device's own memory, held by the lane at once
+    std::uint64_t bytes_written_to_host = 0;      // by shaders, into the host's memory, without a copy
 };
 
 enum class Prefer { hardware, software };  // a preference: where there is only the other kind, it is taken
