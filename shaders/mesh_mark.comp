@@ -23,24 +23,30 @@ void wait(uint tile) {
 // Returns the tile's row of marked cells; the first to ask for it puts the tile on the list to mesh.
 uint row_of(uint tile) {
     uint at = tile * 0x9e3779b1u >> 8;
-    for (uint probe = 0u; probe < kMostProbes; ++probe, ++at) {
-        uint row = at & (parameters.mask_rows - 1u);
-        uint key = masks[row].key;
-        if (key == 0u) key = atomicCompSwap(masks[row].key, 0u, tile + 1u);
-        if (key == tile + 1u) return row;
-        if (key != 0u) continue;
+    uint row = kNoRow;
+    bool is_first = false;
+    uint probe = 0u;
+    do {
+        uint next = at++ & (parameters.mask_rows - 1u);
+        uint key = masks[next].key;
+        if (key == 0u) {
+            key = atomicCompSwap(masks[next].key, 0u, tile + 1u);
+            is_first = key == 0u;
+        }
+        if (is_first || key == tile + 1u) row = next;
+    } while (row == kNoRow && ++probe < kMostProbes);
+    bool has_slot = row != kNoRow;
+    if (is_first) {
         uint slot = atomicAdd(counters.tiles, 1u);
-        if (slot < parameters.slots) {
+        has_slot = slot < parameters.slots;
+        if (has_slot) {
             dirty[slot] = tile;
             jobs[slot].mask = row;
             atomicAdd(counters.tile_groups[0], 1u);
-        } else {
-            wait(tile);
         }
-        return row;
     }
-    wait(tile);
-    return kNoRow;
+    if (!has_slot) wait(tile);
+    return row;
 }
 
 void main() {
@@ -53,9 +59,11 @@ void main() {
     ivec3 last = ivec3(parameters.nodes[0], parameters.nodes[1], parameters.nodes[2]) - 1;
     ivec3 from = clamp(lo, ivec3(0), last) / kMeshTile;
     ivec3 to = clamp(hi + 1, ivec3(0), last) / kMeshTile;  // the tile above sees the cell too
-    // One loop over all tiles and one over all columns: software drivers turn each loop once more than it needs.
+    // One loop over all tiles and one over all columns, with the conditions at their ends: software drivers turn each
+    // loop as often as the busiest of eight lanes needs, and once more where the condition comes first.
     ivec3 tiles = to - from + 1;
-    for (int i = 0; i < tiles.x * tiles.y * tiles.z; ++i) {
+    int i = 0;
+    do {
         ivec3 at = from + ivec3(i % tiles.x, i / tiles.x % tiles.y, i / (tiles.x * tiles.y));
         uint tile = uint((at.z * parameters.tiles[1] + at.y) * parameters.tiles[0] + at.x);
         if (ranges[tile].marked != 0u) continue;  // it is or will be meshed whole
@@ -63,10 +71,11 @@ void main() {
         CellRange seen = cells_seen(cells, at.x, at.y, at.z);
         int wide = seen.hi[0] - seen.lo[0] + 1;
         int columns = wide * (seen.hi[1] - seen.lo[1] + 1);
-        if (row == kNoRow || wide <= 0 || seen.lo[2] > seen.hi[2]) continue;
+        if (row == kNoRow || wide <= 0 || columns <= 0 || seen.lo[2] > seen.hi[2]) continue;
         uint bits = cells_between(seen.lo[2], seen.hi[2]);
-        for (int c = 0; c < columns; ++c) {
+        int c = 0;
+        do {
             atomicOr(masks[row].columns[cell_column(seen.lo[0] + c % wide, seen.lo[1] + c / wide)], bits);
-        }
-    }
+        } while (++c < columns);
+    } while (++i < tiles.x * tiles.y * tiles.z);
 }

@@ -175,14 +175,17 @@ void main() {
     barrier();
     uint any_of_lane = 0u;
     uint all_of_lane = 0xffffffffu;
-    for (int c = lane; c < kNodeColumns; c += kMeshGroup) {
+    // Each lane has a column at least; a condition at the end saves software drivers a turn.
+    int c = lane;
+    do {
         ray = ray_at(2, node.x + c % kMeshNodes - 1, node.y + c / kMeshNodes - 1);
         uint bits = node_bits(count_of(ray), node.z);
         signs[c] = bits;
         jobs[slot].signs[c] = bits;
         any_of_lane |= bits;
         all_of_lane &= bits;
-    }
+        c += kMeshGroup;
+    } while (c < kNodeColumns);
     atomicOr(any_inside, any_of_lane);
     atomicAnd(all_inside, all_of_lane);
     load_changed(slot, tile, uint(lane));
@@ -191,11 +194,13 @@ void main() {
     bool has_surface = any_inside != 0u && all_inside != (1u << uint(kMeshNodes)) - 1u;
     int cell_columns = has_surface ? kCellColumns : 0;
     int node_columns = has_surface ? kNodeColumns : 0;
-    for (int c = lane; c < kCellColumns; c += kMeshGroup) {
+    c = lane;
+    do {
         uint cells_of_column = has_surface ? needed_cells(c % kMeshCells - 1, c / kMeshCells - 1) : 0u;
         needed[c] = cells_of_column;
         changed[c] &= cells_of_column;
-    }
+        c += kMeshGroup;
+    } while (c < kCellColumns);
     barrier();
     // Each lane counts adjacent columns, so that the lists are in the order of the columns.
     const int kCellShare = (kCellColumns + kMeshGroup - 1) / kMeshGroup;
