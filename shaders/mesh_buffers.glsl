@@ -15,12 +15,20 @@ layout(std430, binding = 6) buffer Cells { MeshCell cells[]; };
 layout(std430, binding = 7) buffer Edges { MeshEdge edges[]; };
 layout(std430, binding = 8) buffer Free { uint free_places[]; };  // counts of both pools' classes, then their lists
 layout(std430, binding = 9) readonly buffer Tables { uvec4 tables[]; };  // rows of cell_row.h
+// Indices into `cells`: those to make from the front on, those to copy from the end on backwards.
+layout(std430, binding = 10) buffer Lists { uint lists[]; };
+// Quads to copy. x: slot, or kNoSlot for a void entry; y: edge_place, and from bit 18 on the quad's number in the tile.
+layout(std430, binding = 11) buffer KeptQuads { uvec2 kept_quads[]; };
+layout(std430, binding = 12) buffer Masks { TileMask masks[]; };
+layout(std430, binding = 13) buffer Hard { uint hard[]; };  // indices into `cells`: those without a closed form
 #include "shaders/dexel_store.glsl"
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Vertices { SurfaceVertex at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Indices { uint at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer KeptCells { uvec4 at[]; };
 Vertices pool_vertices = Vertices(parameters.vertex_address);
 Indices pool_indices = Indices(parameters.index_address);
+KeptCells pool_kept = KeptCells(parameters.kept_address);
 
 ivec3 first_node(uint tile) {
     int i = int(tile);
@@ -58,6 +66,16 @@ uint edge_place(int axis, ivec3 node, uint inside) {
     return uint(axis) | uint(node.x + 1) << 2 | uint(node.y + 1) << 7 | uint(node.z + 1) << 12 | inside << 17;
 }
 bool lower_is_inside(uint place) { return (place >> 17 & 1u) != 0u; }
+
+// Keeps what the tile's next mesh may copy of a cell; `number` is the cell's index in `cells`.
+void keep_cell(uint slot, uint first_vertex, uint number, uint what, uvec4 made) {
+    pool_kept.at[first_vertex + number - jobs[slot].first_cell] =
+        uvec4(made.x, made.y, made.z | what << 16, made.w);
+}
+// Returns the vertex of one of the cell's edges, from MeshCell::made.
+uint vertex_of(uvec4 made, uint edge) {
+    return made.z + ((edge < 8u ? made.x : made.y) >> (4u * (edge & 7u)) & 0xfu);
+}
 
 // Returns the lower node of a cell's edge, relative to the cell's lowest node.
 ivec3 edge_offset(uint edge) {

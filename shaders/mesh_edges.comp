@@ -28,5 +28,8 @@ void main() {
     Direction n = decode_normal(crossing.normal);
     edges[number].crossing = vec4(n.x, n.y, n.z, crossing.along);
     edges[number].what.w = crossing.material << 24 | tables[crossing.material].w;
-    if (crossing.disagrees && what.z != kNotOwn) atomicAdd(jobs[slot].disagreeing, 1u);
+    if (crossing.disagrees && what.z != kNotOwn) {
+        edges[number].what.y = what.y | 1u << 18;
+        atomicAdd(jobs[slot].disagreeing, 1u);
+    }
 }

@@ -3,24 +3,50 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Marks the tiles that the rays changed by a cut can have altered (cells_changed in shaders/shared/mesh_tile.h): one
-// invocation per ray, as many as the cut may have changed. A tile that gets no slot waits for another submission.
+// Marks the cells that the rays changed by a cut can have altered (cells_changed in shaders/shared/mesh_tile.h), and
+// lists the tiles that see them: one invocation per ray, as many as the cut may have changed. A tile that gets no row
+// or no slot waits for another submission, and is then meshed whole.
 #include "shaders/shared/cut_job.h"
 #include "shaders/mesh_buffers.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 10) readonly buffer CutCount { CutCounters cut; };
-layout(std430, binding = 11) readonly buffer Changed { ChangedRay changed[]; };
+layout(std430, binding = 14) readonly buffer CutCount { CutCounters cut; };
+layout(std430, binding = 15) readonly buffer Changed { ChangedRay changed[]; };
 
-void mark(uint tile) {
-    if (atomicExchange(ranges[tile].marked, 1u) != 0u) return;
-    uint slot = atomicAdd(counters.tiles, 1u);
-    if (slot < parameters.slots) {
-        dirty[slot] = tile;
-        atomicAdd(counters.tile_groups[0], 1u);
-    } else {
-        waiting[atomicAdd(counters.waiting, 1u)] = tile;
+const uint kNoRow = 0xffffffffu;
+const uint kMostProbes = 32u;
+
+void wait(uint tile) {
+    if (atomicExchange(ranges[tile].marked, 1u) == 0u) waiting[atomicAdd(counters.waiting, 1u)] = tile;
+}
+
+// Returns the tile's row of marked cells; the first to ask for it puts the tile on the list to mesh.
+uint row_of(uint tile) {
+    uint at = tile * 0x9e3779b1u >> 8;
+    uint row = kNoRow;
+    bool is_first = false;
+    uint probe = 0u;
+    do {
+        uint next = at++ & (parameters.mask_rows - 1u);
+        uint key = masks[next].key;
+        if (key == 0u) {
+            key = atomicCompSwap(masks[next].key, 0u, tile + 1u);
+            is_first = key == 0u;
+        }
+        if (is_first || key == tile + 1u) row = next;
+    } while (row == kNoRow && ++probe < kMostProbes);
+    bool has_slot = row != kNoRow;
+    if (is_first) {
+        uint slot = atomicAdd(counters.tiles, 1u);
+        has_slot = slot < parameters.slots;
+        if (has_slot) {
+            dirty[slot] = tile;
+            jobs[slot].mask = row;
+            atomicAdd(counters.tile_groups[0], 1u);
+        }
     }
+    if (!has_slot) wait(tile);
+    return row;
 }
 
 void main() {
@@ -33,11 +59,23 @@ void main() {
     ivec3 last = ivec3(parameters.nodes[0], parameters.nodes[1], parameters.nodes[2]) - 1;
     ivec3 from = clamp(lo, ivec3(0), last) / kMeshTile;
     ivec3 to = clamp(hi + 1, ivec3(0), last) / kMeshTile;  // the tile above sees the cell too
-    for (int z = from.z; z <= to.z; ++z) {
-        for (int y = from.y; y <= to.y; ++y) {
-            for (int x = from.x; x <= to.x; ++x) {
-                mark(uint((z * parameters.tiles[1] + y) * parameters.tiles[0] + x));
-            }
-        }
-    }
+    // One loop over all tiles and one over all columns, with the conditions at their ends: software drivers turn each
+    // loop as often as the busiest of eight lanes needs, and once more where the condition comes first.
+    ivec3 tiles = to - from + 1;
+    int i = 0;
+    do {
+        ivec3 at = from + ivec3(i % tiles.x, i / tiles.x % tiles.y, i / (tiles.x * tiles.y));
+        uint tile = uint((at.z * parameters.tiles[1] + at.y) * parameters.tiles[0] + at.x);
+        if (ranges[tile].marked != 0u) continue;  // it is or will be meshed whole
+        uint row = row_of(tile);
+        CellRange seen = cells_seen(cells, at.x, at.y, at.z);
+        int wide = seen.hi[0] - seen.lo[0] + 1;
+        int columns = wide * (seen.hi[1] - seen.lo[1] + 1);
+        if (row == kNoRow || wide <= 0 || columns <= 0 || seen.lo[2] > seen.hi[2]) continue;
+        uint bits = cells_between(seen.lo[2], seen.hi[2]);
+        int c = 0;
+        do {
+            atomicOr(masks[row].columns[cell_column(seen.lo[0] + c % wide, seen.lo[1] + c / wide)], bits);
+        } while (++c < columns);
+    } while (++i < tiles.x * tiles.y * tiles.z);
 }

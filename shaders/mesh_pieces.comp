@@ -5,7 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 // Counts the vertices of each cell and assigns them to its crossed edges: one for each smooth piece of each loop of
 // surface (shaders/shared/cell_pieces.h). Also counts the extra vertices of faces that a loop passes twice. One
-// invocation per cell.
+// invocation per cell that is made anew.
 #include "shaders/mesh_buffers.glsl"
 #include "shaders/shared/cell_vertex.h"
 
@@ -25,11 +25,10 @@ uint own_edges_of_face(ivec3 cell, int axis) {
 
 void main() {
     uint number = gl_GlobalInvocationID.x;
-    uint end_of_list = min(counters.cells, parameters.most_cells);
-    if (number >= end_of_list) return;
+    if (number >= counters.made_cells) return;
+    number = lists[number];
     uvec4 what = cells[number].what;
     uint slot = what.x;
-    if (slot == kNoSlot) return;
     ivec3 cell = cell_place(what.y);
     uvec4 row = tables[pattern_of(what.y)];
     uint loops = loops_of(row);

@@ -3,10 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Writes the triangles around each of a tile's own crossed edges, one invocation per edge: two between the vertices of
-// the four cells around it, or a fan through the extra vertices of the faces that a loop passes twice
-// (shaders/shared/cell_quad.h). A fan's first two triangles take the quad's place, the others follow behind all quads.
+// Writes the triangles around each of a tile's own crossed edges beside a cell that is made anew, one invocation per
+// edge: two between the vertices of the four cells around it, or a fan through the extra vertices of the faces that a
+// loop passes twice (shaders/shared/cell_quad.h). A fan's first two triangles take the quad's place, the others follow
+// behind all quads.
 #include "shaders/mesh_buffers.glsl"
+#include "shaders/mesh_triangle.glsl"
 #include "shaders/mesh_vertex.glsl"
 
 layout(local_size_x = 64) in;
@@ -18,17 +20,8 @@ bool inside(uint slot, ivec3 node) {
     return (jobs[slot].signs[node_column(node.x, node.y)] >> uint(node.z + 1) & 1u) != 0u;
 }
 
-// Accessors of MeshCell::made: the vertex of one of the cell's edges, and the faces that a loop passes twice.
-uint vertex_of(uvec4 made, uint edge) {
-    return made.z + ((edge < 8u ? made.x : made.y) >> (4u * (edge & 7u)) & 0xfu);
-}
+// Returns the faces that a loop passes twice, from MeshCell::made.
 uint twice_faces_made(uvec4 made) { return made.w >> 16; }
-
-void write_triangle(uint place, uint a, uint b, uint c, bool flip) {
-    pool_indices.at[place] = a;
-    pool_indices.at[place + 1u] = second_corner(b, c, flip);
-    pool_indices.at[place + 2u] = third_corner(b, c, flip);
-}
 
 // Writes the extra vertex for the join of this edge on the lower face of the cell.
 void write_face_vertex(uint place, uint slot, int axis, ivec3 node, ivec3 cell, int face_axis, uint number) {
@@ -115,8 +108,9 @@ void main() {
     vec4 z = from_first_corner(vec4(p0.z, p1.z, p2.z, p3.z), cells_per_m);
     vec3 upwards = edges[number].crossing.xyz;
     vec3 normal = flip ? -upwards : upwards;
-    uint opening = opening_corner(takes_other_diagonal(facings(x, y, z, normal.x, normal.y, normal.z)));
-    uint third = corners[corner_after(opening, 2u)];
-    write_triangle(place, corners[opening], corners[corner_after(opening, 1u)], third, flip);
-    write_triangle(place + 3u, corners[opening], third, corners[corner_after(opening, 3u)], flip);
+    bool other = takes_other_diagonal(facings(x, y, z, normal.x, normal.y, normal.z));
+    write_quad(place, corners, opening_corner(other), flip);
+    uint kept = (other ? 1u << kOtherDiagonals : 0u) | (what.y >> 18 & 1u) << kDisagreements;
+    uint cell = first_vertex + cell_number(slot, node) - jobs[slot].first_cell;
+    if (kept != 0u) atomicOr(pool_kept.at[cell].w, kept << axis);
 }

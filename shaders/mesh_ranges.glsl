@@ -21,3 +21,15 @@ void give_back(uint pool, uint range_class, uint place) {
         atomicAdd(free_places[list], 0xffffffffu);
     }
 }
+
+const uint kNoPlace = 0xffffffffu;
+
+uint take(uint pool, uint range_class) {
+    uint list = list_of(pool, range_class);
+    int left = int(atomicAdd(free_places[list], 0xffffffffu));
+    if (left > 0) return free_places[places_of(list) + uint(left) - 1u];
+    atomicAdd(free_places[list], 1u);
+    uint size = class_size(range_class);
+    uint place = pool == 0u ? atomicAdd(counters.vertices_used, size) : atomicAdd(counters.indices_used, size);
+    return place + size <= (pool == 0u ? parameters.most_vertices : parameters.most_indices) ? place : kNoPlace;
+}

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Writes the vertices of each cell, one invocation per cell, by the rules of shaders/shared/feature_point.h and
-// cell_vertex.h: bit-identical to the host's.
+// Writes the vertices of each cell that is made anew, one invocation per cell, by the rules of
+// shaders/shared/feature_point.h and cell_vertex.h: bit-identical to the host's.
 #include "shaders/mesh_buffers.glsl"
 #include "shaders/mesh_vertex.glsl"
 #include "shaders/shared/feature_planes.h"
@@ -26,17 +26,18 @@ Float3 crossing_normal(uint i) { return normal[i]; }
 
 void main() {
     uint number = gl_GlobalInvocationID.x;
-    if (number >= (kListed == 1u ? counters.hard_cells : min(counters.cells, parameters.most_cells))) return;
-    if (kListed == 1u) number = cells[number].what.z;
+    if (number >= (kListed == 1u ? counters.hard_cells : counters.made_cells)) return;
+    number = kListed == 1u ? hard[number] : lists[number];
     uvec4 what = cells[number].what;
     uint slot = what.x;
-    if (slot == kNoSlot) return;
     if (jobs[slot].waits != 0u) return;
     uint tile = jobs[slot].tile;
     ivec3 cell = cell_place(what.y);
     ivec3 cell_in_lattice = cell + first_node(tile);
     uvec4 made = cells[number].made;
-    uint first_place = uint(ranges[tile].first_vertex) + made.z;
+    uint first_vertex = uint(ranges[tile].first_vertex);
+    uint first_place = first_vertex + made.z;
+    if (kListed == 0u) keep_cell(slot, first_vertex, number, what.y, made);
     row = tables[pattern_of(what.y)];
     uint loops = loops_of(row);
     uint next_vertex = 0u;
@@ -44,7 +45,7 @@ void main() {
     for (uint loop = 0u; loop < loops; ++loop) {
         uint first = first_listed(row, loop);
         uint last = first_listed(row, loop + 1u);
-        uint end_vertex = loop + 1u < loops ? made.y >> (20u + 4u * loop) & 0xfu : made.w & 0xffffu;
+        uint end_vertex = loop + 1u < loops ? made.y >> (20u + 4u * loop) & 0xfu : vertices_in(made.w);
         precise vec3 place_sum = vec3(0.0);
         for (uint i = first; i < last; ++i) {
             uint crossing = sample_of(slot, cell, listed_edge(row, i));
@@ -75,7 +76,7 @@ void main() {
     }
     if (kListed == 0u && is_hard) {
         uint place = atomicAdd(counters.hard_cells, 1u);
-        cells[place].what.z = number;
+        hard[place] = number;
         atomicMax(counters.hard_groups[0], (place + 64u) / 64u);
     }
 }

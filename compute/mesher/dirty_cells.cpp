@@ -12,7 +12,7 @@ namespace {
 // Marks the cells of a range, given in local coordinates of one tile.
 void mark_cells(const shared::CellRange& range, CellMask& mask) {
     const auto& [lo, hi] = range;
-    const std::uint32_t bits = (2u << (hi[2] + 1)) - (1u << (lo[2] + 1));
+    const std::uint32_t bits = shared::cells_between(lo[2], hi[2]);
     std::uint32_t* row = &mask.columns[CellMask::column(lo[0], lo[1])];
     const int width = hi[0] - lo[0] + 1;
     if (width == 2) {  // beside a ray along y or z
@@ -66,12 +66,7 @@ void DirtyCells::mark(std::span<const shared::ChangedRay> changes, Share& share)
         for (int z = from[2]; z <= to[2]; ++z)
             for (int y = from[1]; y <= to[1]; ++y)
                 for (int x = from[0]; x <= to[0]; ++x) {
-                    const std::array<int, 3> first{x << kTileBits, y << kTileBits, z << kTileBits};
-                    shared::CellRange in_tile;
-                    for (std::size_t a = 0; a < 3; ++a) {
-                        in_tile.lo[a] = std::max(range.lo[a] - first[a], -1);
-                        in_tile.hi[a] = std::min(range.hi[a] - first[a], kTileCells - 1);
-                    }
+                    const shared::CellRange in_tile = shared::cells_seen(range, x, y, z);
                     if (in_tile.lo[2] <= in_tile.hi[2]) mark_cells(in_tile, share.mask_of(grid_.index(x, y, z)));
                 }
     }

@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "base/try.hpp"
 #include "compute/vulkan/device_surface_buffers.hpp"
 #include "shaders/gather_ball.comp.spv.hpp"
 #include "shaders/gather_corners.comp.spv.hpp"
+#include "shaders/mesh_copy_cells.comp.spv.hpp"
+#include "shaders/mesh_copy_quads.comp.spv.hpp"
 #include "shaders/mesh_edges.comp.spv.hpp"
+#include "shaders/mesh_give_back.comp.spv.hpp"
 #include "shaders/mesh_mark.comp.spv.hpp"
 #include "shaders/mesh_pieces.comp.spv.hpp"
-#include "shaders/mesh_places.comp.spv.hpp"
 #include "shaders/mesh_quads.comp.spv.hpp"
 #include "shaders/mesh_sizes.comp.spv.hpp"
 #include "shaders/mesh_tiles.comp.spv.hpp"
@@ -21,6 +24,8 @@
 
 namespace burin::compute {
 namespace {
+
+constexpr std::uint32_t kMostBindings = 16;  // of mesh_mark.comp
 
 using shared::ChangedRay;
 using shared::CutCounters;
@@ -40,12 +45,21 @@ Result<std::unique_ptr<DeviceSurface>> DeviceSurface::create(VulkanEngine& engin
     return surface;
 }
 
+bool DeviceSurface::suits(const gpu::Device& device) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device.core()->physical, &properties);
+    return device.capabilities().scalar_block_layout &&
+           properties.limits.maxPerStageDescriptorStorageBuffers >= kMostBindings;
+}
+
 DeviceSurface::DeviceSurface(VulkanEngine& engine, const DeviceSurfaceOptions& options)
     : engine_(engine), options_(options), lattice_(engine.solid().lattice), grid_(lattice_) {}
 
 Result<void> DeviceSurface::compile() {
-    if (!engine_.device().capabilities().scalar_block_layout) {
-        return fail("Vulkan engine", engine_.device().info().name + " cannot lay out buffers without gaps",
+    if (!suits(engine_.device())) {
+        return fail("Vulkan engine",
+                    engine_.device().info().name + " cannot lay out buffers without gaps, or binds fewer than " +
+                        std::to_string(kMostBindings) + " at once",
                     "use --engine cpu");
     }
     struct Program {
@@ -55,16 +69,18 @@ Result<void> DeviceSurface::compile() {
         std::uint32_t variant = 0;
     };
     const std::uint32_t mesh = sizeof(MeshParameters), gather = sizeof(GatherParameters);
-    const std::array<Program, kStages> programs{{{k_mesh_mark_comp, 12, mesh, "mark tiles"},
-                                                 {k_mesh_tiles_comp, 10, mesh, "list cells"},
-                                                 {k_mesh_edges_comp, 10, mesh, "find crossings"},
-                                                 {k_mesh_pieces_comp, 10, mesh, "count vertices"},
-                                                 {k_mesh_sizes_comp, 10, mesh, "number vertices"},
-                                                 {k_mesh_places_comp, 10, mesh, "place tiles"},
-                                                 {k_mesh_vertices_comp, 10, mesh, "make vertices"},
-                                                 {k_mesh_vertices_comp, 10, mesh, "make hard vertices", 1},
-                                                 {k_mesh_quads_comp, 10, mesh, "make triangles"},
-                                                 {k_mesh_quads_comp, 10, mesh, "make fans", 1},
+    const std::array<Program, kStages> programs{{{k_mesh_mark_comp, 16, mesh, "mark cells"},
+                                                 {k_mesh_tiles_comp, 14, mesh, "list cells"},
+                                                 {k_mesh_edges_comp, 14, mesh, "find crossings"},
+                                                 {k_mesh_pieces_comp, 14, mesh, "count vertices"},
+                                                 {k_mesh_sizes_comp, 14, mesh, "number vertices, place tiles"},
+                                                 {k_mesh_vertices_comp, 14, mesh, "make vertices"},
+                                                 {k_mesh_copy_cells_comp, 14, mesh, "copy vertices"},
+                                                 {k_mesh_vertices_comp, 14, mesh, "make hard vertices", 1},
+                                                 {k_mesh_quads_comp, 14, mesh, "make triangles"},
+                                                 {k_mesh_copy_quads_comp, 14, mesh, "copy triangles"},
+                                                 {k_mesh_quads_comp, 14, mesh, "make fans", 1},
+                                                 {k_mesh_give_back_comp, 14, mesh, "give back ranges"},
                                                  {k_gather_ball_comp, 5, gather, "gather triangles"},
                                                  {k_gather_ball_comp, 5, gather, "gather bound triangles", 1},
                                                  {k_gather_corners_comp, 5, gather, "gather corners"}}};
@@ -107,7 +123,7 @@ Result<void> DeviceSurface::update(const Changes& changes) {
 
 Result<void> DeviceSurface::finish() {
     const auto failed = [&](const Error& error) {
-        all_stale_ = true;
+        all_stale_ = masks_stale_ = true;
         waiting_tiles_.clear();
         under_way_.reset();
         return std::unexpected(error);
@@ -116,12 +132,14 @@ Result<void> DeviceSurface::finish() {
         if (under_way_) {
             if (const auto settled = settle(); !settled) return failed(settled.error());
         }
+        if (waiting_tiles_.empty()) unmarked_ = false;
         if (all_stale_) {
             if (const auto sent = engine_.synchronize(); !sent) return failed(sent.error());
             waiting_tiles_.resize(grid_.count());
             // In descending order, since tiles are taken from the back.
             std::iota(waiting_tiles_.rbegin(), waiting_tiles_.rend(), 0u);
             all_stale_ = false;
+            unmarked_ = true;
         }
         if (waiting_tiles_.empty() && !engine_.deferred_left()) return {};
         if (const auto sent = submit({}); !sent) return failed(sent.error());
@@ -143,10 +161,11 @@ Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
     }
     BURIN_TRY(commands, gpu::Commands::begin(device));
     stamps_[0] = commands.stamp();
-    cut_under_way_ = engine_.deferred_left();
+    cut_under_way_ = engine_.deferred_left() && !unmarked_;
     if (cut_under_way_) engine_.record_pass(commands);
     stamps_[1] = commands.stamp();
     send_counters(commands);
+    if (std::exchange(masks_stale_, false)) commands.fill(masks_, 0, masks_.size_bytes(), 0);
     if (!host_changes.empty()) {
         host_changes_.send(commands, host_changes.size_bytes());
         host_counters_.send(commands, sizeof(CutCounters));
@@ -178,8 +197,9 @@ void DeviceSurface::send_counters(gpu::Commands& commands) {
     waiting_tiles_.resize(waiting_tiles_.size() - sent_tiles_);
     MeshCounters counters{};
     counters.tile_groups[0] = counters.tiles = sent_tiles_;
-    for (std::uint32_t* groups : {counters.tile_groups, counters.edge_groups, counters.cell_groups,
-                                  counters.hard_groups, counters.fan_groups}) {
+    for (std::uint32_t* groups :
+         {counters.tile_groups, counters.edge_groups, counters.cell_groups, counters.hard_groups, counters.fan_groups,
+          counters.copy_groups, counters.quad_groups}) {
         groups[1] = groups[2] = 1;
     }
     counters.vertices_used = vertices_used_;
@@ -194,6 +214,7 @@ MeshParameters DeviceSurface::parameters() const {
     p.store_address = engine_.device_solid().store().address();
     p.vertex_address = vertices_.address();
     p.index_address = indices_.address();
+    p.kept_address = kept_.address();
     p.spacing_m = lattice_.spacing_m;
     for (std::size_t a = 0; a < 3; ++a) {
         p.nodes[a] = lattice_.cells[a] + 1;
@@ -206,6 +227,8 @@ MeshParameters DeviceSurface::parameters() const {
     p.most_vertices = options_.vertices;
     p.most_indices = options_.indices;
     p.most_free = most_free_;
+    p.whole = sent_tiles_;
+    p.mask_rows = mask_rows_;
     return p;
 }
 
@@ -221,7 +244,11 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
                                           cells_,
                                           edges_,
                                           free_,
-                                          tables_};
+                                          tables_,
+                                          lists_,
+                                          kept_quads_,
+                                          masks_,
+                                          hard_};
     if (changed != nullptr) {
         auto with_changes = buffers;
         with_changes.emplace_back(*cut_counters);
@@ -232,13 +259,28 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
     }
     constexpr std::uint64_t kTiles = offsetof(MeshCounters, tile_groups), kEdges = offsetof(MeshCounters, edge_groups),
                             kCells = offsetof(MeshCounters, cell_groups), kHard = offsetof(MeshCounters, hard_groups),
-                            kFans = offsetof(MeshCounters, fan_groups);
-    const std::pair<Stage, std::uint64_t> order[] = {{tiles, kTiles},        {edges, kEdges},  {pieces, kCells},
-                                                     {sizes, kTiles},        {places, kTiles}, {vertex_stage, kCells},
-                                                     {hard_vertices, kHard}, {quads, kEdges},  {fans, kFans}};
-    for (const auto& [stage, groups] : order) {
-        commands.dispatch_indirect(stages_[stage], buffers, gpu::bytes_of(p), counters_.buffer(), groups);
-        commands.barrier();
+                            kFans = offsetof(MeshCounters, fan_groups), kCopies = offsetof(MeshCounters, copy_groups),
+                            kQuads = offsetof(MeshCounters, quad_groups);
+    // Stages of one step do not depend on each other.
+    struct Part {
+        Stage stage;
+        std::uint64_t groups;
+        bool ends_step = true;
+    };
+    constexpr Part kParts[] = {{tiles, kTiles},
+                               {edges, kEdges},
+                               {pieces, kCells},
+                               {sizes, kTiles},
+                               {vertex_stage, kCells, false},
+                               {copied_cells, kCopies, false},
+                               {fans, kFans},
+                               {hard_vertices, kHard},
+                               {quads, kEdges, false},
+                               {copied_quads, kQuads, false},
+                               {given_back, kTiles}};
+    for (const Part& part : kParts) {
+        commands.dispatch_indirect(stages_[part.stage], buffers, gpu::bytes_of(p), counters_.buffer(), part.groups);
+        if (part.ends_step) commands.barrier();
     }
 }
 
@@ -251,15 +293,18 @@ Result<void> DeviceSurface::settle() {
     if (!cut || !mesh || !gather) times_.reset();
     if (times_) times_ = Times{times_->cut_s + *cut, times_->mesh_s + *mesh, times_->gather_s + *gather};
     under_way_.reset();
+    const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
+    // Ranges are taken also in a submission whose cut fails.
+    vertices_used_ = std::min(counters.vertices_used, options_.vertices);
+    indices_used_ = std::min(counters.indices_used, options_.indices);
     if (cut_under_way_) {
         BURIN_TRY_DO(engine_.end_pass());
     }
-    const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
     counts_.tiles += std::min(counters.tiles, options_.slots) - std::min(counters.waiting, counters.tiles);
-    counts_.cells += std::min(counters.cells, options_.cells);
+    counts_.cells += counters.meshed_cells;
     counts_.triangles += counters.triangles;
-    vertices_used_ = std::min(counters.vertices_used, options_.vertices);
-    indices_used_ = std::min(counters.indices_used, options_.indices);
+    // A tile without a slot left its row of marked cells behind.
+    masks_stale_ = masks_stale_ || counters.tiles > options_.slots;
     const auto late = read_buffer<std::uint32_t>(engine_.device(), waiting_, counters.waiting);  // rarely any tiles
     if (!late) return std::unexpected(late.error());
     waiting_tiles_.insert(waiting_tiles_.end(), late->begin(), late->end());

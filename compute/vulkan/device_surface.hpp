@@ -3,20 +3,22 @@
 // drawing.
 //
 // Data flow of a frame, all in one submission without a wait: sweeps -> cut_rays.comp lists the changed rays ->
-// mesh_mark: dirty tiles -> mesh_tiles: signs, cells and edges of each -> mesh_edges: crossings -> mesh_pieces: numbers
-// of vertices -> mesh_sizes, mesh_places: a range of the vertex and the index pool for each tile -> mesh_vertices,
-// mesh_quads -> gather_ball, gather_corners: the triangles near the tool, which are all that is read back. Rules,
-// vertices and triangles of the mesh are those of tile_mesher.hpp; where a device rounds as the host does they are
-// equal bit for bit.
+// mesh_mark: dirty tiles and cells -> mesh_tiles: signs of each tile, cells to make and to keep, edges of the former ->
+// mesh_edges: crossings -> mesh_pieces: numbers of vertices -> mesh_sizes: a new range of the vertex and the index pool
+// for each tile -> mesh_vertices, mesh_copy_cells -> mesh_quads, mesh_copy_quads, mesh_give_back -> gather_ball,
+// gather_corners: the triangles near the tool, which are all that is read back. Rules, vertices and triangles of the
+// mesh are those of tile_mesher.hpp; where a device rounds as the host does they are equal bit for bit.
 //
-// Ranges have sizes that are powers of two; the device keeps lists of free ranges by size. A tile that finds no space,
-// in a pool or in a list of an earlier stage, is put on a list of waiting tiles; finish() or the next frame enlarges
-// what was too small, keeping the contents of the pools, and meshes the waiting tiles. Nothing is lost, only late.
+// Ranges have sizes that are powers of two; the device keeps lists of free ranges by size. Whoever meshes a tile takes
+// new ranges, since cells that did not change are copied from the old ones, and gives those back. A tile that finds no
+// space, in a pool or in a list of an earlier stage, is put on a list of waiting tiles and stays as it was; finish() or
+// the next frame enlarges what was too small, keeping the contents of the pools, and meshes the waiting tiles whole.
+// Nothing is lost, only late.
 //
 // The host's solid lags behind the device's until VulkanEngine::read_back. Thread: that of the engine, which must
 // outlive the surface and must not be called between carve and finish. Frame: the object frame, relative to the
 // lattice's origin, metres. Failure: after an Error the next call meshes everything anew.
-// Memory: 40 bytes a tile of the lattice, 28 bytes a vertex and 4 an index, rounded up to powers of two for each tile.
+// Memory: 48 bytes a tile of the lattice, 44 bytes a vertex and 4 an index, rounded up to powers of two for each tile.
 #pragma once
 
 #include <memory>
@@ -44,6 +46,8 @@ struct DeviceSurfaceOptions {
 
 class DeviceSurface final : public MeshingDevice {
 public:
+    // Says whether a device lays out buffers without gaps, and binds as many at once as the mesher takes.
+    [[nodiscard]] static bool suits(const gpu::Device& device);
     // Makes the surface of the engine's solid and meshes all of it.
     [[nodiscard]] static Result<std::unique_ptr<DeviceSurface>> create(VulkanEngine& engine,
                                                                        const DeviceSurfaceOptions& options = {});
@@ -81,11 +85,13 @@ private:
         edges,
         pieces,
         sizes,
-        places,
         vertex_stage,
+        copied_cells,
         hard_vertices,
         quads,
+        copied_quads,
         fans,
+        given_back,
         ball,
         bound_ball,  // used where all vertices fit into one binding
         corners,
@@ -118,6 +124,7 @@ private:
     Counts counts_;
     std::array<gpu::ComputePipeline, kStages> stages_;
     gpu::Buffer ranges_, jobs_, cells_, edges_, free_, tables_, waiting_, vertices_, indices_, members_;
+    gpu::Buffer lists_, kept_quads_, masks_, hard_, kept_;
     SharedBuffer counters_{"mesh counters", SharedBuffer::Traffic::both};
     SharedBuffer dirty_{"tiles to mesh", SharedBuffer::Traffic::to_device};
     SharedBuffer host_changes_{"changes to mesh", SharedBuffer::Traffic::to_device};
@@ -130,9 +137,11 @@ private:
     std::optional<Times> times_;
     bool cut_under_way_ = false;                // under_way_ contains a pass of the engine
     bool all_stale_ = true;                     // set when everything has to be meshed anew
+    bool unmarked_ = false;                     // tiles wait that the device does not know of: no cut may list them
+    bool masks_stale_ = true;                   // set when marks of cells are left of an earlier submission
     std::vector<std::uint32_t> waiting_tiles_;  // to be meshed by the next submissions
     std::uint32_t sent_tiles_ = 0;              // number of those in the last submission
-    std::uint32_t vertices_used_ = 0, indices_used_ = 0, stamp_ = 0, most_free_ = 0;
+    std::uint32_t vertices_used_ = 0, indices_used_ = 0, stamp_ = 0, most_free_ = 0, mask_rows_ = 0;
     std::optional<Ball> touched_;  // the ball of the last gather
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Capacities of a DeviceSurface's buffers on the device: initial allocation and growth.
 #include <algorithm>
+#include <bit>
 
 #include "base/try.hpp"
 #include "compute/mesher/cell_table.hpp"
@@ -16,7 +17,9 @@ using shared::SurfaceVertex;
 using shared::TileJob;
 using shared::TileRange;
 
-constexpr std::uint32_t kMemberBytes = 8, kTriangleBytes = 12;
+constexpr std::uint32_t kMemberBytes = 8, kTriangleBytes = 12, kKeptBytes = 16;
+constexpr std::uint32_t kQuadBytes = 8;
+constexpr std::uint32_t kListBytes = 4;
 constexpr std::uint32_t kTableWords = 4 * 256;
 constexpr std::uint32_t kMostFree = 65536;
 constexpr std::uint32_t kLists = 2 * shared::kRangeClasses;
@@ -50,16 +53,22 @@ Result<void> DeviceSurface::allocate() {
     const std::size_t tile_count = grid_.count();
     options_.slots = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         {options_.slots, tile_count, device.capabilities().max_storage_buffer_bytes / sizeof(TileJob)}));
+    mask_rows_ = std::bit_ceil(2 * options_.slots);
     most_free_ = static_cast<std::uint32_t>(std::min<std::size_t>(tile_count, kMostFree));
     const std::size_t free_words = kLists + std::size_t{kLists} * most_free_;
     auto done = create_into(ranges_, device, kStorage, tile_count * sizeof(TileRange), "tile ranges");
     if (done) done = create_into(jobs_, device, kStorage, options_.slots * sizeof(TileJob), "tile jobs");
     if (done) done = create_into(cells_, device, kStorage, options_.cells * sizeof(shared::MeshCell), "cells");
     if (done) done = create_into(edges_, device, kStorage, options_.edges * sizeof(shared::MeshEdge), "crossed edges");
+    if (done) done = create_into(lists_, device, kStorage, options_.cells * kListBytes, "lists of cells");
+    if (done) done = create_into(hard_, device, kStorage, options_.cells * kListBytes, "cells without a closed form");
+    if (done) done = create_into(kept_quads_, device, kStorage, options_.edges * kQuadBytes, "quads to copy");
+    if (done) done = create_into(masks_, device, kStorage, mask_rows_ * sizeof(shared::TileMask), "marked cells");
     if (done) done = create_into(free_, device, kStorage, free_words * sizeof(std::uint32_t), "free ranges");
     if (done) done = create_into(tables_, device, kStorage, kTableWords * sizeof(std::uint32_t), "cell table");
     if (done) done = create_into(vertices_, device, kAddressed, options_.vertices * sizeof(SurfaceVertex), "vertices");
     if (done) done = create_into(members_, device, kAddressed, options_.vertices * kMemberBytes, "vertex numbers");
+    if (done) done = create_into(kept_, device, kAddressed, options_.vertices * kKeptBytes, "cells of ranges");
     if (done) done = create_into(indices_, device, kAddressed, options_.indices * sizeof(std::uint32_t), "indices");
     if (done) done = counters_.reserve(device, sizeof(MeshCounters));
     if (done) done = dirty_.reserve(device, options_.slots * sizeof(std::uint32_t));
@@ -90,11 +99,27 @@ Result<void> DeviceSurface::grow(const MeshCounters& counters) {
         held = more;
         return create_into(list, device, gpu::BufferUse::device_storage, more * element_bytes, name);
     };
+    const auto follow = [&](gpu::Buffer& list, std::uint32_t held, std::uint32_t element_bytes, const char* name) {
+        return create_into(list, device, gpu::BufferUse::device_storage, std::uint64_t{held} * element_bytes, name);
+    };
+    const std::uint32_t cells = options_.cells, edges = options_.edges;
     auto done = grow_list(cells_, sizeof(shared::MeshCell), options_.cells, counters.cells, "cells");
-    if (done) done = grow_list(edges_, sizeof(shared::MeshEdge), options_.edges, counters.edges, "crossed edges");
+    if (done && options_.cells > cells) {
+        done = follow(lists_, options_.cells, kListBytes, "lists of cells");
+        if (done) done = follow(hard_, options_.cells, kListBytes, "cells without a closed form");
+    }
+    if (!done) options_.cells = cells;  // which all of these lists still hold
+    const std::uint32_t more_edges = std::max(counters.edges, counters.kept_quads);
+    if (done) {
+        done = grow_list(edges_, sizeof(shared::MeshEdge), options_.edges, more_edges, "crossed edges");
+        if (done && options_.edges > edges) done = follow(kept_quads_, options_.edges, kQuadBytes, "quads to copy");
+        if (!done) options_.edges = edges;
+    }
     if (done && counters.vertices_used > options_.vertices) {
         std::uint32_t members = options_.vertices;
         done = grow_pool(members_, kMemberBytes, members, counters.vertices_used, "vertex numbers");
+        std::uint32_t kept = options_.vertices;
+        if (done) done = grow_pool(kept_, kKeptBytes, kept, counters.vertices_used, "cells of ranges");
         if (done) {
             done = grow_pool(vertices_, sizeof(SurfaceVertex), options_.vertices, counters.vertices_used, "vertices");
         }

@@ -68,8 +68,8 @@ std::vector<std::string> StandbyEngine::take_notices() {
 }
 
 std::unique_ptr<MeshingDevice> StandbyEngine::mesh_on_device() {
-    // A device without this layout still carves, and the host meshes.
-    if (on_device_ == nullptr || !on_device_->device().capabilities().scalar_block_layout) return nullptr;
+    // A device that lacks something still carves, and the host meshes.
+    if (on_device_ == nullptr || !DeviceSurface::suits(on_device_->device())) return nullptr;
     auto made = DeviceSurface::create(*on_device_);
     if (made) return std::move(*made);
     give_up_device(made.error());

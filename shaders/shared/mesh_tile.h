@@ -65,5 +65,18 @@ BURIN_HOT_FN CellRange cells_changed(int axis, int u, int v, int changed_lo, int
     return range;
 }
 
+// Returns the part of a range that a tile sees, in cells from its lowest node; empty where hi < lo along an axis.
+BURIN_FN CellRange cells_seen(CellRange cells, int tile_x, int tile_y, int tile_z) {
+    CellRange seen;
+    for (int a = 0; a < 3; ++a) {
+        int first = kMeshTile * (a == 0 ? tile_x : (a == 1 ? tile_y : tile_z));
+        seen.lo[a] = cells.lo[a] - first < -1 ? -1 : cells.lo[a] - first;
+        seen.hi[a] = cells.hi[a] - first > kMeshTile - 1 ? kMeshTile - 1 : cells.hi[a] - first;
+    }
+    return seen;
+}
+// Returns the bits of the cells from height lo to height hi of a column; lo <= hi.
+BURIN_HOT_FN uint cells_between(int lo, int hi) { return (2u << uint(hi + 1)) - (1u << uint(lo + 1)); }
+
 BURIN_SHARED_END
 #endif

@@ -127,6 +127,65 @@ TEST_F(DeviceSurfaceGpu, RunningOutOfRoomLosesNoSurface) {
     EXPECT_TRUE(engines.read_back());
 }
 
+// What no changed ray reaches is copied: the device makes the cells that the processor makes, and no others.
+TEST_F(DeviceSurfaceGpu, AStrokeMakesTheCellsThatTheProcessorMakes) {
+    const Solid solid = unit_cube(64);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    EXPECT_EQ(surface->counts().cells, cpu.mesh_all(solid, engines.pool()).cells);
+    for (const BallSweep& sweep : stroke_1000(kSanitized ? 64 : 16)) {
+        ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
+        const RemeshStats expected = cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+        const std::uint64_t before = surface->counts().cells;
+        ASSERT_TRUE(surface->carve(std::span(&sweep, 1)));
+        ASSERT_TRUE(surface->finish());
+        ASSERT_EQ(surface->counts().cells - before, expected.cells);
+    }
+    EXPECT_TRUE(equal(*surface, cpu));
+}
+
+// In noise a small ball changes a few cells of a tile full of loops that pass a face twice, whose fans are never
+// copied. Rays that disagree are counted although the quads around them are copied.
+TEST_F(DeviceSurfaceGpu, NoiseWithRandomChangesHasTheSameSurface) {
+    for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
+        const Solid solid = noise_solid({34, 20, 37}, 0.2, rays, 11);
+        EnginePair engines(solid, device());
+        // Too little of everything in the first of the two, so that tiles wait.
+        for (const bool roomy : {false, true}) {
+            const auto surface = surface_of(
+                engines.vulkan(),
+                roomy ? DeviceSurfaceOptions{}
+                      : DeviceSurfaceOptions{.slots = 3, .cells = 64, .edges = 64, .vertices = 64, .indices = 64});
+            ASSERT_NE(surface, nullptr);
+            Surface cpu(solid.lattice);
+            cpu.mesh_all(engines.cpu().solid(), engines.pool());
+            Random random(roomy ? 21 : 22);
+            for (int i = 0; i < repeated(4); ++i) {
+                BallSweep sweep;
+                sweep.start_object_m =
+                    solid.lattice.origin_object +
+                    solid.lattice.spacing_m * Vec3(34 * random.unit(), 20 * random.unit(), 37 * random.unit());
+                sweep.end_object_m = sweep.start_object_m + solid.lattice.spacing_m * Vec3(random.unit());
+                sweep.radius_m = solid.lattice.spacing_m * random.between(0.5, 4.0);
+                sweep.operation = static_cast<Operation>(i % 3);  // cut, fill, paint
+                sweep.material = 1;
+                ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
+                const RemeshStats expected =
+                    cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+                const std::uint64_t before = surface->counts().cells;
+                ASSERT_TRUE(surface->carve(std::span(&sweep, 1)));
+                ASSERT_TRUE(equal(*surface, cpu)) << i;
+                if (roomy) {
+                    ASSERT_EQ(surface->counts().cells - before, expected.cells) << i;
+                }
+            }
+            EXPECT_TRUE(engines.read_back());
+        }
+    }
+}
+
 // Many frames that nobody looks at, cuts that take several passes, and changes that come from the host in between.
 TEST_F(DeviceSurfaceGpu, FramesThatAreNotWaitedForAndChangesFromTheHostGiveTheSameSurface) {
     const Solid solid = unit_cube(48);
