@@ -31,7 +31,7 @@ struct EngineCheckOptions {
     std::optional<unsigned> device = {};  // by its number in burin --version; none: the one that a session takes
 };
 
-// What was compared after one kind of work.
+// Counts what was compared after one kind of work, and how much of it differs.
 struct ComparedWork {
     std::string name;  // "cone"
     std::uint64_t operations = 0;

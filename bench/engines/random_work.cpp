@@ -18,7 +18,7 @@ namespace {
 using compute::ToolShape;
 using compute::ToolSweep;
 
-// How often each kind comes, in hundredths; the last two are undo and redo.
+// Says how often each kind comes, in hundredths; the last two are undo and redo.
 constexpr std::array<int, kRandomKinds> kKindShares{30, 13, 13, 13, 13, 4, 3, 9, 2};
 constexpr std::array<const char*, kRandomKinds> kKindNames{"ball", "cylinder",          "cone", "bullnose", "box",
                                                            "mesh", "ball that smooths", "undo", "redo"};

@@ -40,8 +40,8 @@ struct UpdateTimes {
     std::vector<double> update_ms, cpu_ms;
 };
 
-// What each update asked of the device, and how many rays it changed. The bytes are those that are copied: none where
-// the host sees the device's memory.
+// Counts what each update asked of the device, and how many rays it changed. The bytes are those that cross over: none
+// where the host sees the device's memory.
 struct UpdateCounts {
     std::vector<double> submissions, blocking_waits, bytes_to_device, bytes_to_host, rays_changed;
 };
@@ -58,7 +58,7 @@ struct StrokeRun {
     // time for all three on all threads. The parts are empty where the device cannot measure them.
     std::vector<double> carve_ms, mesh_ms, publish_ms, update_ms, cpu_ms;
     UpdateTimes with_undo, with_light;  // empty unless asked for
-    // Of the updates without undo, light or meshing on the device; nothing without a device.
+    // Sums up the updates without undo, light or meshing on the device; nothing without a device.
     std::optional<compute::DeviceTraffic> traffic;
     UpdateCounts counts;
     UpdateTimes with_device_mesh;  // with the Vulkan engine, as a rigid stroke of `burin sculpt` without undo runs

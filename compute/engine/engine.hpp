@@ -84,14 +84,14 @@ public:
 // Counts the updates of an engine: the first that was begun is 1.
 using Ticket = std::uint64_t;
 
-// What an update has changed, or several that a device has carried out as one.
+// Tells what an update has changed, or several that a device has carried out as one.
 struct Delta {
     Ticket ticket = 0;  // of the last of them
     CarveStats stats;
     Changes changes;  // what the rays held before; solid() has what they hold now
 };
 
-// How long a device is waited for: not at all; for as long as it usually takes, 2 ms at most; until it is done.
+// Says how long a device is waited for: not at all; as long as it usually takes, 2 ms at most; until it is done.
 enum class Wait : std::uint8_t { no, briefly, yes };
 constexpr std::uint64_t kBriefly_ns = 2'000'000;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many rays an update has touched and changed. Plain data.
+// Counts the rays that an update has touched and changed. Plain data.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What sweeps of tools are to an engine: whether they can be carried out, and how the host does those that an engine
-// has no way of its own for.
+// Checks whether sweeps of tools can be carried out, and carries out on the host those that an engine has no way of its
+// own for.
 //
 // Cuts, fills and paint with a ball are an engine's own (sweep_units.hpp). For everything else it is computed here what
 // the tool covers of each ray (tool_spans.hpp) and the set algebra of that ray (set_algebra.hpp), or the smoothed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a convex tool (cylinder, cone, bull-nose or box) covers of rays, computed on a Vulkan device with ends equal to
+// Computes on a Vulkan device what a convex tool (cylinder, cone, bull-nose or box) covers of rays, with ends equal to
 // those of convex_spans() (compute/tools/tool_spans.hpp), to the bit.
 //
 //   auto covered = CoveredRays::create(device);                   // once
@@ -10,7 +10,7 @@
 //   ... submit, wait ...
 //   if (!is_complete(covered->counted())) ...;                    // make_room and record again, or the processor
 //
-// What the buffers hold is in shaders/shared/covered_rays.h. record() ends with a barrier, so that the next command may
+// Buffers are laid out as in shaders/shared/covered_rays.h. record() ends with a barrier, so that the next command may
 // read them, and begins with one, so that it may follow a consumer of the sweep before it. Of each sweep the device is
 // sent 184 bytes a piece.
 // A consumer that changes anything first looks whether the counters are complete (is_complete) and leaves everything as

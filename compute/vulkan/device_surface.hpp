@@ -13,7 +13,7 @@
 // new ranges, since cells that did not change are copied from the old ones, and gives those back. A tile that finds no
 // space, in a pool or in a list of an earlier stage, is put on a list of waiting tiles and stays as it was; finish() or
 // the next frame enlarges what was too small, keeping the contents of the pools, and meshes the waiting tiles whole.
-// Nothing is lost, only late.
+// So a tile that finds no space is late, and not lost.
 //
 // The host's solid lags behind the device's until VulkanEngine::read_back. Thread: that of the engine, which must
 // outlive the surface and must not be called between carve and finish. Frame: the object frame, relative to the

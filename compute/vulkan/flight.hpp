@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the Vulkan engine has under way: sweeps as stages, stages as passes of a submission. Plain data and the rules by
-// which it goes on; the engine records and submits (vulkan_engine_updates.cpp).
+// Holds what the Vulkan engine has under way: sweeps as stages, stages as passes of a submission. Plain data and the
+// rules by which it goes on; the engine records and submits (vulkan_engine_updates.cpp).
 //
 // A stage is what one kind of pass carries out: balls that follow each other, cut together, or one convex tool. A
 // submission holds as many passes as follow each other without the host. A pass that leaves anything undone keeps the

@@ -13,6 +13,7 @@
 #include "desk/run/session.hpp"
 #include "gpu/core.hpp"
 #include "tests/desk/recorded_session.hpp"
+#include "tests/desk/validated_desk.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -55,19 +56,8 @@ private:
     int frame_ = 0;
 };
 
-class OneDevice : public testing::Test {
+class OneDevice : public ValidatedDesk {
 protected:
-    void SetUp() override {
-        const auto devices = gpu::list_devices();
-        if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
-        setenv("BURIN_VULKAN_VALIDATION", "1", 1);
-        messages_before_ = gpu::validation_messages();
-    }
-    void TearDown() override {
-        unsetenv("BURIN_VULKAN_VALIDATION");
-        EXPECT_EQ(gpu::validation_messages(), messages_before_) << "the validation layer complained";
-    }
-
     struct Carved {
         std::string engine;  // at the end
         std::uint64_t submissions_to_carve = 0, submissions_to_draw = 0;
@@ -139,8 +129,6 @@ private:
         carved.submissions_to_draw = presenter->device().asked().submissions;
         return driven ? finished : driven;
     }
-
-    std::uint64_t messages_before_ = 0;
 };
 
 }  // namespace

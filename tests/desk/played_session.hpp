@@ -18,6 +18,7 @@
 #include "desk/run/session_frames.hpp"
 #include "gpu/device.hpp"
 #include "session/drive/executors.hpp"
+#include "tests/desk/validated_desk.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -90,19 +91,8 @@ private:
     wall::OutputPlace place_;  // of the main screen, when it is not minimised
 };
 
-class PlayedSession : public testing::Test {
+class PlayedSession : public ValidatedDesk {
 protected:
-    void SetUp() override {
-        const auto devices = gpu::list_devices();
-        if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
-        setenv("BURIN_VULKAN_VALIDATION", "1", 1);
-        messages_before_ = gpu::validation_messages();
-    }
-    void TearDown() override {
-        unsetenv("BURIN_VULKAN_VALIDATION");
-        EXPECT_EQ(gpu::validation_messages(), messages_before_) << "the validation layer complained";
-    }
-
     // As run_session(), in simulated time. Folders have one letter: their names are on the panel, and lines of one
     // length are broken alike.
     Played play(const std::string& folder, LiveOptions live, const Mishap& mishap = {},
@@ -139,8 +129,6 @@ protected:
     compute::EngineChoice engine = compute::EngineChoice::automatic;
 
 private:
-    std::uint64_t messages_before_ = 0;
-
     static Result<void> run(const SculptOptions& options, InputSource input, const Mishap& mishap,
                             const std::set<int>& minimised, const DirectDriver& driver, Played& played) {
         SimulatedClock clock;
