@@ -7,6 +7,7 @@
 
 #include "compute/mesher/cell_table.hpp"
 #include "compute/mesher/cell_vertices.hpp"
+#include "compute/mesher/made_tile.hpp"
 #include "compute/mesher/tile_copier.hpp"
 #include "compute/mesher/tile_draft.hpp"
 #include "compute/mesher/tile_samples.hpp"
@@ -66,8 +67,14 @@ struct Scratch {
     std::vector<std::uint32_t> new_index;
 };
 
+Scratch& scratch_of_thread() {
+    thread_local Scratch scratch;
+    return scratch;
+}
+
 class Mesher {
 public:
+    // The samples must hold the tile's signs.
     Mesher(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& dirty, const TileMesh& old,
            Scratch& scratch, TileMesh& mesh)
         : solid_(solid),
@@ -80,9 +87,28 @@ public:
         draft_.clear();
     }
 
+    // Computes the cells that are dirty.
     TileWork run() {
         make_vertices();
         make_quads();
+        finish();
+        return work_;
+    }
+
+    // Takes the cells and crossings that a device has made. Returns nothing where they and the clean ones are not all
+    // of the tile's cells, `cells` in number, or do not make whole quads.
+    std::optional<TileWork> run(const MadePart& made, std::size_t cells) {
+        take_vertices(made);
+        if (draft_.cells.count != cells) return {};
+        if (!samples_.take_crossings(made.edges, copier_.dirty_edges())) return {};
+        make_quads();
+        if (!has_all_corners()) return {};
+        finish();
+        return work_;
+    }
+
+private:
+    void finish() {
         draft_.vertices.assign_to(mesh_.vertices);
         draft_.indices.assign_to(mesh_.indices);
         mesh_.longest_edge_m = longest_edge_m(mesh_);
@@ -92,10 +118,8 @@ public:
         draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);
         mesh_.disagreeing_edges += copier_.disagreeing_edges();
         mesh_.signs = samples_.signs();
-        return work_;
     }
 
-private:
     void make_vertices() {
         CellMask anew = samples_.cells_at_own_edges();
         for (std::size_t i = 0; i < anew.columns.size(); ++i) anew.columns[i] &= copier_.dirty().columns[i];
@@ -122,6 +146,24 @@ private:
         draft_.vertices.count += made.count;
         draft_.vertex_of_edge.push_back(made.of_edge);
         mesh_.has_twice_passed_faces |= (made.of_edge & TileMesh::kPassedTwice) != 0;
+    }
+
+    void take_vertices(const MadePart& made) {
+        for (const shared::MadeCell& cell : made.cells) {
+            copier_.copy_cells(number_of(cell));
+            draft_.begin_cell(number_of(cell), draft_.vertices.count);
+            draft_.vertices.append(made.vertices + cell.first_vertex, vertices_of(cell));
+            draft_.vertex_of_edge.push_back(of_edge(cell));
+        }
+        copier_.copy_cells(TileDraft::kCells);
+        work_.cells = static_cast<std::uint32_t>(made.cells.size());
+    }
+
+    // Returns false where a quad has no vertex in one of its cells.
+    [[nodiscard]] bool has_all_corners() const {
+        std::uint32_t highest = 0;
+        for (std::size_t i = 0; i < draft_.indices.count; ++i) highest = std::max(highest, draft_.indices.items[i]);
+        return highest < draft_.vertices.count;
     }
 
     void make_quads() {
@@ -276,11 +318,35 @@ private:
 TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
                    const TileMesh& old, TileMesh& fresh) {
     const std::array<int, 3> first_node = grid.first_node(tile);
-    thread_local Scratch scratch;
+    Scratch& scratch = scratch_of_thread();
     fresh = TileMesh();
     const NodeColumns* const signs_before = old.quads.empty() ? nullptr : &old.signs;
     if (!scratch.samples.collect_signs(solid, first_node, signs_before, dirty)) return {};
     return Mesher(solid, first_node, dirty, old, scratch, fresh).run();
+}
+
+std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made,
+                                     const shared::MadeTile& tile, const TileMesh& old, TileMesh& fresh) {
+    if (tile.left != 0 || old.has_twice_passed_faces) return {};
+    const std::optional<MadePart> part = part_of(made, tile);
+    if (!part) return {};
+    const std::array<int, 3> first_node = grid.first_node(tile.tile);
+    Scratch& scratch = scratch_of_thread();
+    fresh = TileMesh();
+    if (!scratch.samples.take_signs(part->signs)) {
+        return part->cells.empty() && part->edges.empty() ? std::optional(TileWork{}) : std::nullopt;
+    }
+    // The old cells that no crossed edge touches any more are dirty too.
+    const CellMask needed = scratch.samples.cells_at_own_edges();
+    CellMask dirty;
+    std::uint32_t not_needed = 0;
+    for (std::size_t i = 0; i < dirty.columns.size(); ++i) {
+        const std::uint32_t others = CellMask::kAll & ~needed.columns[i];
+        dirty.columns[i] = others | part->mask.columns[i];
+        not_needed |= others & part->mask.columns[i];
+    }
+    if (not_needed != 0) return {};
+    return Mesher(solid, first_node, dirty, old, scratch, fresh).run(*part, needed.count());
 }
 
 std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<int, 3>& first_node,
