@@ -83,7 +83,8 @@ Result<bool> Sculpture::follow_next(compute::Wait wait) {
     BURIN_TRY(delta, engine_->take(wait));
     if (!delta) return false;
     const Nanoseconds cut_ns = clock.now_ns();
-    const compute::RemeshStats remeshed = surface_.update(engine_->solid(), delta->changes, pool_);
+    const compute::RemeshStats remeshed =
+        surface_.update(engine_->solid(), delta->changes, pool_, delta->made ? &*delta->made : nullptr);
     const Nanoseconds meshed_ns = clock.now_ns();
     if (history_) history_->record(delta->changes);
     unsaved_.note(delta->changes);
