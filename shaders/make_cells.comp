@@ -32,7 +32,8 @@ Float3 crossing_normal(uint i) { return normal[i]; }
 // Returns the number of a crossed edge of the cell in the list of edges.
 uint crossing_of(uint slot, ivec3 cell, uint edge) {
     int axis = axis_of_edge(edge);
-    ivec3 node = cell + along_axis((axis + 1) % 3, first_offset(edge)) + along_axis((axis + 2) % 3, second_offset(edge));
+    ivec3 offset = along_axis((axis + 1) % 3, first_offset(edge)) + along_axis((axis + 2) % 3, second_offset(edge));
+    ivec3 node = cell + offset;
     uvec2 column = tiles[slot].edge_columns[axis * kNodeColumns + node_column(node.x, node.y)];
     return column.y + uint(bitCount(column.x & below(node.z)));
 }

@@ -148,9 +148,7 @@ CellParameters CellMaker::parameters(const Solid& host, const DeviceSolid& solid
     return p;
 }
 
-Result<void> CellMaker::record(gpu::Commands& commands, const Solid& host, const DeviceSolid& solid,
-                               const gpu::Buffer& cut_counters, const gpu::Buffer& changed,
-                               std::uint32_t most_changed) {
+Result<void> CellMaker::send(gpu::Commands& commands, const Solid& host) {
     BURIN_TRY_DO(reserve());
     if (materials_ != host.materials.size()) {
         write_tables(host.materials, tables_.to_device<std::uint32_t>());
@@ -164,8 +162,11 @@ Result<void> CellMaker::record(gpu::Commands& commands, const Solid& host, const
     counters_.to_device<CellCounters>()[0] = counters;
     counters_.send(commands, sizeof(CellCounters));
     if (std::exchange(masks_are_stale_, false)) commands.fill(masks_.buffer(), 0, masks_.size_bytes(), 0);
-    commands.barrier();
+    return {};
+}
 
+void CellMaker::record(gpu::Commands& commands, const Solid& host, const DeviceSolid& solid,
+                       const gpu::Buffer& cut_counters, const gpu::Buffer& changed, std::uint32_t most_changed) {
     const CellParameters p = parameters(host, solid);
     std::vector<gpu::BufferRange> buffers{solid.rays(),         counters_.buffer(),   tiles_.buffer(),
                                           masks_.buffer(),      cells_.buffer(),      edges_.buffer(),
@@ -186,7 +187,6 @@ Result<void> CellMaker::record(gpu::Commands& commands, const Solid& host, const
     }
     commands.barrier();
     counters_.fetch(commands, sizeof(CellCounters));
-    return {};
 }
 
 std::optional<MadeCells> CellMaker::take() {

@@ -10,6 +10,7 @@
 // crossings and vertices are written into the host's memory, in the order of the tile's columns. How much there is to
 // do is known only to the device, so stages are dispatched indirectly.
 //
+//   maker->send(commands, host);                                           // before the cut, and a barrier behind it
 //   maker->record(commands, solid, cut_counters, changed, most_changed);   // behind the cut
 //   ... submit, wait ...
 //   std::optional<MadeCells> made = maker->take();
@@ -58,11 +59,12 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<CellMaker>> create(const gpu::Device& device,
                                                                    const CellMakerOptions& options = {});
 
+    // Makes room, and records the sending of what the stages begin with: `host` has the lattice and the materials.
+    [[nodiscard]] Result<void> send(gpu::Commands& commands, const Solid& host);
     // Records the making of cells around the rays listed in `changed`, ChangedRay[], of which `cut_counters`
     // (CutCounters) holds the number: most_changed at most. The cut comes before, with a barrier.
-    [[nodiscard]] Result<void> record(gpu::Commands& commands, const Solid& host, const DeviceSolid& solid,
-                                      const gpu::Buffer& cut_counters, const gpu::Buffer& changed,
-                                      std::uint32_t most_changed);
+    void record(gpu::Commands& commands, const Solid& host, const DeviceSolid& solid, const gpu::Buffer& cut_counters,
+                const gpu::Buffer& changed, std::uint32_t most_changed);
     // Returns what was made, once the commands are done; nothing where tiles found no room.
     [[nodiscard]] std::optional<MadeCells> take();
 

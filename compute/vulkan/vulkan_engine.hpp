@@ -116,7 +116,7 @@ private:
     [[nodiscard]] Result<void> reserve_passes(std::uint64_t rays, std::uint64_t tasks);
     [[nodiscard]] Result<void> record(gpu::Commands& commands, const Pass& pass, shared::CutParameters parameters);
     [[nodiscard]] Result<void> end_submission();
-    void record_cells(gpu::Commands& commands, std::uint64_t most_changed);
+    void send_for_cells(gpu::Commands& commands);
     void take_cells(const shared::CutCounters& counters);
     void leave_cells_to_host(const Error& why);
     [[nodiscard]] Result<Delta> land();

@@ -207,6 +207,7 @@ Result<void> VulkanEngine::submit_passes() {
     capsules_.send(commands, flight_->capsules.size() * sizeof(Capsule));
     order_.send(commands, flight_->tasks.order.size() * sizeof(std::uint32_t));
     tasks_.send(commands, tasks.size() * sizeof(CutTask));
+    send_for_cells(commands);
     send_counters(commands);
     if (!flight_->patches.empty()) record_patches(commands, flight_->patches, flight_->patch_ends);
     CutParameters parameters = this->parameters();
@@ -221,7 +222,9 @@ Result<void> VulkanEngine::submit_passes() {
     }
     if (flight_->one_pass && !flight_->stages[flight_->passes.front().stage].is_of_balls())
         covered_->fetch_counters(commands);
-    record_cells(commands, rays);
+    if (flight_->makes_cells)
+        maker_->record(commands, solid_, device_solid_, counters_.buffer(), changed_.buffer(),
+                       static_cast<std::uint32_t>(rays));
     counters_.fetch(commands, sizeof(CutCounters));
     BURIN_TRY(submission, std::move(commands).submit());
     ++counts_.submissions;
@@ -270,13 +273,11 @@ Result<void> VulkanEngine::record(gpu::Commands& commands, const Pass& pass, Cut
     return {};
 }
 
-// Has the cells made around what the passes change.
-void VulkanEngine::record_cells(gpu::Commands& commands, std::uint64_t most_changed) {
+// Makes ready for the cells around what the passes change, unless the host makes them after work of its own.
+void VulkanEngine::send_for_cells(gpu::Commands& commands) {
     flight_->makes_cells = maker_ != nullptr && flight_->on_host == flight_->sweeps.size() && !flight_->is_between;
     if (!flight_->makes_cells) return;
-    const auto recorded = maker_->record(commands, solid_, device_solid_, counters_.buffer(), changed_.buffer(),
-                                         static_cast<std::uint32_t>(most_changed));
-    if (!recorded) leave_cells_to_host(recorded.error());
+    if (const auto sent = maker_->send(commands, solid_); !sent) leave_cells_to_host(sent.error());
 }
 
 void VulkanEngine::leave_cells_to_host(const Error& why) {

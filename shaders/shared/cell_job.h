@@ -43,8 +43,8 @@ struct ListedCell {
 };
 
 struct ListedEdge {
-    // x: slot, or kNoSlot for a void entry. y: axis, in 5 bits each x + 1, y + 1, z + 1 of the lower node, and in bit 17
-    // whether that node is inside. z: its place in the list of MadeEdges, or kNotOwn when another tile owns the edge.
+    // x: slot, or kNoSlot for a void entry. y: axis, in 5 bits each x + 1, y + 1, z + 1 of the lower node, and whether
+    // that node is inside in bit 17. z: its place in the list of MadeEdges, or kNotOwn when another tile owns the edge.
     // w: colour, and in the high 8 bits material.
     uvec4 what;
     vec4 crossing;  // xyz: normal; w: 0 at the lower node, 1 at the upper

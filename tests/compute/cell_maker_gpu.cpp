@@ -88,7 +88,7 @@ TEST_F(CellMakerGpu, AStrokeMakesTheCellsThatTheHostMakesAndTheTilesAreTheSame) 
     EXPECT_GT(counts.cells, carved.cells() / 100 * 99);
     EXPECT_EQ(counts.updates, carved.made());
     EXPECT_EQ(counts.left_updates, 0u);
-    EXPECT_LT(counts.left_tiles, counts.tiles / 8);
+    EXPECT_LT(counts.left_tiles, counts.tiles / 4);
 }
 
 TEST_F(CellMakerGpu, EveryToolAndOperationWithRaysThatAreAssignedBetweenGivesTheSameTiles) {
