@@ -69,6 +69,16 @@ std::array<std::uint32_t, kSeenCells> dirty_columns(const CellMask& dirty) {
     return rows;
 }
 
+// Pads the mask with a border without cells, which gives the cells at and before each node, -2 .. kTileCells.
+constexpr std::size_t kPadded = kLocalNodes + 1;
+[[gnu::always_inline]] inline std::array<std::uint32_t, kPadded * kPadded> with_border(const CellMask& cells) {
+    std::array<std::uint32_t, kPadded * kPadded> padded{};
+    for (std::size_t y = 0; y < kSeenCells; ++y) {
+        std::copy_n(&cells.columns[y * kSeenCells], kSeenCells, &padded[(y + 1) * kPadded + 1]);
+    }
+    return padded;
+}
+
 }  // namespace
 
 bool TileSamples::collect_signs(const Solid& solid, const std::array<int, 3>& first_node, const NodeColumns* before,
@@ -132,13 +142,22 @@ CellMask TileSamples::cells_at_own_edges() const {
     return cells;
 }
 
-EdgeMask edges_of(const CellMask& cells) {
-    // Pads the mask with a border without cells, which gives the cells at and before each node, -2 .. kTileCells.
-    constexpr std::size_t kPadded = kLocalNodes + 1;
-    std::array<std::uint32_t, kPadded * kPadded> padded{};
-    for (std::size_t y = 0; y < kSeenCells; ++y) {
-        std::copy_n(&cells.columns[y * kSeenCells], kSeenCells, &padded[(y + 1) * kPadded + 1]);
+bool TileSamples::same_signs(const NodeColumns& before, const CellMask& cells) const {
+    const auto padded = with_border(cells);
+    std::uint32_t changed = 0;
+    for (std::size_t y = 0; y < kLocalNodes; ++y) {
+        const std::uint32_t *const at = &padded[(y + 1) * kPadded], *const below = at - kPadded;
+        const std::size_t row = y * kLocalNodes;
+        for (std::size_t x = 0; x < kLocalNodes; ++x) {
+            const std::uint32_t around = at[x] | at[x + 1] | below[x] | below[x + 1];
+            changed |= (before[row + x] ^ columns_[row + x]) & (around | around << 1);
+        }
     }
+    return changed == 0;
+}
+
+EdgeMask edges_of(const CellMask& cells) {
+    const auto padded = with_border(cells);
     EdgeMask edges;
     for (std::size_t y = 0; y < kLocalNodes; ++y) {
         const std::uint32_t *const before = &padded[(y + 1) * kPadded], *const below = before - kPadded;

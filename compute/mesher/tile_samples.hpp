@@ -58,6 +58,8 @@ public:
     // Takes the signs that a device has read, in place of reading them.
     [[nodiscard]] bool take_signs(std::span<const std::uint32_t> signs);
     [[nodiscard]] const NodeColumns& signs() const { return columns_; }
+    // Tells whether the corners of these cells have the signs that they had before.
+    [[nodiscard]] bool same_signs(const NodeColumns& before, const CellMask& cells) const;
     // Returns the cells that touch one of the tile's own crossed edges.
     [[nodiscard]] CellMask cells_at_own_edges() const;
     // Reads the crossings of all edges of these cells; no other edge may be passed to sample().

@@ -236,6 +236,38 @@ TEST(Mesher, ASmoothSurfaceIsTheSameOnTheShortWayAndOnTheGeneralOne) {
     EXPECT_EQ(first_difference(one, two), "");
 }
 
+// Two triangles of a quad are looked at together; they must count as they do one by one.
+TEST(Mesher, TheBoundsOfATileAreThoseOfEachOfItsTriangles) {
+    WorkerPool pool(1);
+    std::size_t with_fans = 0, without = 0;
+    for (int seed = 0; seed < repeated(48); ++seed) {
+        const Solid solid = noise_solid({20, 18, 17}, std::array{0.02, 0.5, 0.98}[static_cast<std::size_t>(seed % 3)],
+                                        Rays::disturbed, static_cast<std::uint64_t>(seed));
+        Surface surface(solid.lattice);
+        mesh_everything(surface, solid, pool);
+        for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
+            const TileMesh& tile = surface.tile(t);
+            if (tile.indices.empty()) continue;
+            (tile.only_quads() ? without : with_fans) += 1;
+            const auto place = [&](std::size_t i) { return geometry::place_of(tile.vertices[tile.indices[i]]); };
+            float longest2 = 0.0f;
+            for (std::size_t i = 0; i < tile.indices.size(); ++i) {
+                const Vec3f edge = place(i % 3 == 2 ? i - 2 : i + 1) - place(i);
+                longest2 = std::max(longest2, glm::dot(edge, edge));
+            }
+            ASSERT_EQ(tile.longest_edge_m, std::sqrt(longest2)) << "seed " << seed << " tile " << t;
+            const geometry::TriangleSlab slab = geometry::slab_around([&](auto&& visit) {
+                for (std::size_t i = 0; i < tile.indices.size(); i += 3)
+                    visit(geometry::Triangle{Vec3(place(i)), Vec3(place(i + 1)), Vec3(place(i + 2))});
+            });
+            ASSERT_EQ(tile.slab.normal, slab.normal) << "seed " << seed << " tile " << t;
+            ASSERT_EQ(tile.slab.top_m, slab.top_m) << "seed " << seed << " tile " << t;
+        }
+    }
+    EXPECT_GT(with_fans, 0u);
+    EXPECT_GT(without, 0u);
+}
+
 TEST(Mesher, RaysThatDisagreeAreCounted) {
     WorkerPool pool(1);
     const auto disagreeing = [&](Rays rays) {
