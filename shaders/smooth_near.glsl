@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The field at a place, as compute/tools/smooth_field.cpp computes it: the same points in the same order. Include after
+// smooth_buffers.glsl; with SMOOTH_GRADIENT defined, the field's gradient is computed too.
+
+// The points near a place are those of some boxes of each of some rows. One loop goes through rows and points alike, so
+// that invocations which run side by side do not wait for each other at the end of each row.
+SmoothBoxes near_grid;
+ivec3 near_from;
+ivec3 near_to;
+int near_y;
+int near_z;
+uint near_next;
+uint near_end;
+
+void begin_near(SmoothTask task, int level, dvec3 place, double width) {
+    near_grid = boxes_of_level(task, level, behind_counts());
+    double box = double(1 << level);
+    ivec3 size = ivec3(near_grid.x, near_grid.y, near_grid.z);
+    for (int a = 0; a < 3; ++a) {
+        double last = double(size[a]) - 1.0;
+        double lo = double(task.box_lo[a]);
+        near_from[a] = int(clamp(floor((place[a] - width - lo) / box), 0.0, last + 1.0));
+        near_to[a] = int(clamp(floor((place[a] + width - lo) / box), -1.0, last));
+    }
+    near_y = near_from.y;
+    near_z = near_from.z;
+    near_next = 0u;
+    near_end = 0u;
+    if (near_from.x > near_to.x || near_from.y > near_to.y) near_z = near_to.z + 1;
+}
+
+bool has_near_row() { return near_z <= near_to.z; }
+void take_near_row() {
+    uint row = uint(near_z * near_grid.y + near_y);
+    if (boxes[near_grid.rows + row] > 0u) {
+        uint box = near_grid.firsts + row * uint(near_grid.x + 1);
+        near_next = boxes[box + uint(near_from.x)];
+        near_end = boxes[box + uint(near_to.x) + 1u];
+    }
+    ++near_y;
+    if (near_y > near_to.y) {
+        near_y = near_from.y;
+        ++near_z;
+    }
+}
+
+int level_for(SmoothTask task, double width) {
+    int level = 0;
+    while (level + 1 < task.levels && width >= kBoxesAWidth * double(2 << level)) ++level;
+    return level;
+}
+
+struct FieldValue {
+    bool known;
+    double distance;
+    dvec3 gradient;
+};
+
+FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
+    FieldValue value;
+    value.known = false;
+    value.distance = 0.0;
+    value.gradient = dvec3(0.0);
+    int level = level_for(task, width.value);
+    double width2 = width.value * width.value;
+    dvec3 mean_normal = dvec3(0.0);
+    int turns = 0;
+    begin_near(task, level, place, width.value);
+    while ((near_next < near_end || has_near_row()) && turns < kMostNear) {
+        ++turns;
+        if (near_next < near_end) {
+            dvec3 off = place_of(sorted[near_next]) - place;
+            double ratio = dot3(off, off) / width2;
+            if (ratio < 1.0)
+                mean_normal =
+                    with_mean_normal(mean_normal, normal_of(sorted[near_next]), sorted[near_next].area, ratio);
+            ++near_next;
+        } else {
+            take_near_row();
+        }
+    }
+    if (near_next < near_end || has_near_row()) stop(kBeyondDevice);
+    double length = length3(mean_normal);
+    if (!(length > 0.0)) return value;
+    KernelSums sums = no_sums();
+#ifdef SMOOTH_GRADIENT
+    KernelSlopes slopes = no_slopes();
+#endif
+    turns = 0;
+    begin_near(task, level, place, width.value);
+    while ((near_next < near_end || has_near_row()) && turns < kMostNear) {
+        ++turns;
+        if (near_next < near_end) {
+            NearPoint near;
+            near.off = place_of(sorted[near_next]) - place;
+            near.ratio = dot3(near.off, near.off) / width2;
+            if (near.ratio < 1.0) {
+                near.normal = normal_of(sorted[near_next]);
+                double facing = facing_weight(dot3(near.normal, mean_normal) / length);
+                if (facing > 0.0) {
+                    near.area = sorted[near_next].area;
+                    near.offset = sorted[near_next].offset;
+                    sums = with_point(sums, near, facing);
+#ifdef SMOOTH_GRADIENT
+                    slopes = with_slope(slopes, near, facing, width);
+#endif
+                }
+            }
+            ++near_next;
+        } else {
+            take_near_row();
+        }
+    }
+    if (!are_known(sums)) return value;
+    value.known = true;
+    value.distance = distance_of(sums);
+#ifdef SMOOTH_GRADIENT
+    value.gradient = gradient_of(sums, slopes);
+#endif
+    return value;
+}
