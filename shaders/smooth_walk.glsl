@@ -11,11 +11,10 @@ void walk_ray(SmoothTask task, uint code, RayRef ray) {
     uint next = 0u;
     // Side of the lower node: by the ray's own ends where the tool does not reach the node, else by the field.
     bool low_inside = false;
-    uint below = nodes[index_of_node(task, 0, 0, 0)].flags;
+    ivec3 lowest = node_on_ray(axis, u_of(code), v_of(code), task.lo[axis] - 1);
+    uint below = nodes[index_of_node(task, lowest.x, lowest.y, lowest.z)].flags;
     for (int k = task.lo[axis] - 1; k <= task.hi[axis]; ++k) {
-        ivec3 low = node_on_ray(axis, u_of(code), v_of(code), k);
         ivec3 high = node_on_ray(axis, u_of(code), v_of(code), k + 1);
-        if (k == task.lo[axis] - 1) below = nodes[index_of_node(task, low.x, low.y, low.z)].flags;
         uint above = nodes[index_of_node(task, high.x, high.y, high.z)].flags;
         if (((below | above) & kWeighs) != 0u) {
             uint kept = next;

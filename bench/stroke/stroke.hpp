@@ -33,6 +33,9 @@ struct StrokeOptions {
     bool with_undo = false;   // time the updates with undo as well
     bool with_light = false;  // time the updates with light as well
     StrokeTool tool = StrokeTool::ball;
+    bool smooths = false;  // the tool smooths where it would cut
+    // Says whether the removed volume and the cut surface have a closed form.
+    [[nodiscard]] bool is_known() const { return tool == StrokeTool::ball && !smooths; }
 };
 
 // One value an update: wall time, and the process's time on all threads.
@@ -48,6 +51,7 @@ struct UpdateCounts {
 
 struct StrokeRun {
     StrokeTool tool = StrokeTool::ball;
+    bool smooths = false;
     std::string engine;  // "cpu" or "vulkan"
     std::string device;  // the Vulkan device, or "native"
     bool software_device = false;

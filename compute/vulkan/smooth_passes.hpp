@@ -70,6 +70,8 @@ public:
     // After a submission in which a ball was not begun: makes the room that it lacked. Returns false where that does not
     // help.
     [[nodiscard]] Result<bool> make_room();
+    // After work that may not have been carried out.
+    void forget() { must_clear_ = true; }
 
 private:
     enum Kernel { begin, gather, rows, order, sort, merge, signs, surface, sides, edges, ends, rays, store, kKernels };

@@ -57,6 +57,7 @@ struct VulkanEngineCounts {
     std::uint64_t cuts = 0;  // calls of carve and defer that reached the lattice
     std::uint64_t submissions = 0;
     std::uint64_t store_rebuilds = 0;  // because a ray found no space
+    std::uint64_t balls_smoothed = 0;  // by the device
 };
 
 class VulkanEngine final : public CarvingEngine {

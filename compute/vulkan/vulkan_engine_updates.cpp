@@ -331,6 +331,8 @@ Result<void> VulkanEngine::end_submission() {
     flight_->patches.clear();
     std::size_t done = 0;
     while (done < flight_->passes.size() && counters.left[done + 1] == 0) ++done;
+    for (std::size_t i = 0; i < done; ++i)
+        counts_.balls_smoothed += flight_->stages[flight_->passes[i].stage].is_smooth() ? 1 : 0;
     const bool is_left = done < flight_->passes.size();
     if (is_left && flight_->stages[flight_->passes[done].stage].is_smooth()) {
         const std::size_t stage = flight_->passes[done].stage;
@@ -380,6 +382,7 @@ Error VulkanEngine::forgotten(const Error& why) {
     waiting_.clear();
     taken_ = begun_;
     synchronized_ = false;
+    if (smooth_) smooth_->forget();
     return with_the_other_engine(why);
 }
 
