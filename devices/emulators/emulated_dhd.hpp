@@ -36,6 +36,8 @@ public:
 
     // Drills.
     void fall_silent(bool is_silent) { drill_->is_silent = is_silent; }
+    // Counts as dead only when it was kept from its steps for so long: tests run on machines that keep it long.
+    void dies_after(Nanoseconds silence_ns) { memory_->dead_ns.store(silence_ns, std::memory_order_relaxed); }
     void lose_its_pose(bool is_nan) { drill_->is_nan = is_nan; }
     // Switches its force off, for a reason as DHD numbers them; 0: on again.
     void switch_force_off(std::int32_t why) { memory_->force_off.store(why, std::memory_order_relaxed); }

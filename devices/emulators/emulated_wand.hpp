@@ -38,6 +38,8 @@ public:
 
     // Drills.
     void fall_silent(bool is_silent) { drill_->is_silent = is_silent; }
+    // Counts as dead only when it was kept from its steps for so long: tests run on machines that keep it long.
+    void dies_after(Nanoseconds silence_ns) { memory_->dead_ns.store(silence_ns, std::memory_order_relaxed); }
     // Has every function of the library return this error; 0: none.
     void raise(std::int32_t error) { memory_->error.store(error, std::memory_order_relaxed); }
     void miscount(double counts) { drill_->miscount = counts; }  // of the first encoder

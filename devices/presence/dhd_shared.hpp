@@ -8,7 +8,7 @@
 namespace burin::devices {
 
 struct DhdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4835;  // "buriddH5": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6464'4836;  // "buriddH6": of this layout
     static constexpr const char* kPrefix = "burin-dhd-";
 
     // ---- The emulator's

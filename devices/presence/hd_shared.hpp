@@ -10,7 +10,7 @@
 namespace burin::devices {
 
 struct HdShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4435;  // "burinHD5": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4436;  // "burinHD6": of this layout
     static constexpr const char* kPrefix = "burin-hd-";
 
     // ---- The emulator's

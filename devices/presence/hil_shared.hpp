@@ -8,7 +8,7 @@
 namespace burin::devices {
 
 struct HilShared : SharedLife {
-    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c35;  // "burinHL5": of this layout
+    static constexpr std::uint64_t kMagic = 0x6275'7269'6e48'4c36;  // "burinHL6": of this layout
     static constexpr const char* kPrefix = "burin-hil-";
 
     // ---- The emulator's

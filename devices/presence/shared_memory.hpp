@@ -68,8 +68,9 @@ inline constexpr Nanoseconds kSharedDead_ns = 1'000'000'000;
 
 // An emulator's sign of life, at the beginning of its layout.
 struct SharedLife {
-    std::atomic<std::uint64_t> magic = 0;  // the layout's word, from the first step on
-    std::atomic<Nanoseconds> beat_ns = 0;  // of the newest step, CLOCK_MONOTONIC; 0: its cable is pulled
+    std::atomic<std::uint64_t> magic = 0;               // the layout's word, from the first step on
+    std::atomic<Nanoseconds> beat_ns = 0;               // of the newest step, CLOCK_MONOTONIC; 0: its cable is pulled
+    std::atomic<Nanoseconds> dead_ns = kSharedDead_ns;  // how long it is silent before it counts as dead
 
     void beat(Nanoseconds now_ns, std::uint64_t word) noexcept {
         beat_ns.store(now_ns, std::memory_order_relaxed);
@@ -80,7 +81,7 @@ struct SharedLife {
     [[nodiscard]] bool is_alive(Nanoseconds now_ns, std::uint64_t word) const noexcept {
         const bool is_made = magic.load(std::memory_order_acquire) == word;
         const Nanoseconds at_ns = beat_ns.load(std::memory_order_relaxed);
-        return is_made && at_ns != 0 && now_ns - at_ns < kSharedDead_ns;
+        return is_made && at_ns != 0 && now_ns - at_ns < dead_ns.load(std::memory_order_relaxed);
     }
 };
 

@@ -15,6 +15,7 @@
 #include "devices/emulators/emulated_omni.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "tests/devices/ticked_arm.hpp"
+#include "tests/devices/tries.hpp"
 
 namespace burin::devices {
 namespace {
@@ -28,6 +29,7 @@ template <typename Emulated>
 class RunningArm {
 public:
     explicit RunningArm(Emulated emulated) : emulated_(std::move(emulated)) {
+        if constexpr (requires { emulated_.dies_after(kEnded_ns); }) emulated_.dies_after(kEnded_ns);
         thread_ = std::thread([this] { emulated_.run([this] { return ends_.load(); }); });
     }
     ~RunningArm() {

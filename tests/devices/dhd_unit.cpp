@@ -35,10 +35,11 @@ public:
     explicit RunningDhd(const std::string& name, std::vector<HandPose> script = dhd_stands_at(Vec3(0.0)),
                         int type = kDhdOmega3)
         : dhd_(EmulatedDhd::create(name, {.script = std::move(script), .silence = {}, .type = type}).value()) {
+        dhd_.dies_after(kEnded_ns);
         thread_ = std::thread([this] { dhd_.run([this] { return ends_.load(); }); });
         // It can be found from its first step on.
         const auto is_found = [&] { return std::ranges::count(emulated_dhds(), name) > 0; };
-        for (int i = 0; i < 5000 && !is_found(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(tried(is_found));
     }
     ~RunningDhd() {
         ends_ = true;

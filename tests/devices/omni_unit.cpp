@@ -48,10 +48,11 @@ class RunningOmni {
 public:
     explicit RunningOmni(const std::string& name, std::vector<HandPose> script = standing_at(Vec3(0.0)))
         : omni_(EmulatedOmni::create(name, {.script = std::move(script), .silence = {}}).value()) {
+        omni_.dies_after(kEnded_ns);
         thread_ = std::thread([this] { omni_.run([this] { return ends_.load(); }); });
         // It can be found from its first step on.
         const auto is_found = [&] { return std::ranges::find(names_ = emulated_omnis(), name) != names_.end(); };
-        for (int i = 0; i < 5000 && !is_found(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(tried(is_found));
     }
     ~RunningOmni() {
         ends_ = true;

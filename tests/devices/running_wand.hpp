@@ -46,10 +46,11 @@ class RunningWand {
 public:
     explicit RunningWand(const std::string& name, std::vector<HandPose> script = out_to(Vec3(0.0)))
         : wand_(EmulatedWand::create(name, {.script = std::move(script), .silence = {}}).value()) {
+        wand_.dies_after(kEnded_ns);
         thread_ = std::thread([this] { wand_.run([this] { return ends_.load(); }); });
         // It can be found from its first step on.
         const auto is_found = [&] { return std::ranges::find(names_ = emulated_wands(), name) != names_.end(); };
-        for (int i = 0; i < 5000 && !is_found(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(tried(is_found));
     }
     ~RunningWand() {
         ends_ = true;
