@@ -17,32 +17,26 @@ const int kDone = 3;
 // Returns the material of the nearest point of the surface, of the first one where there are several. Looks at larger
 // and larger boxes around the place, until no point outside can be nearer.
 uint material_near(SmoothTask task, dvec3 place, double width, uint otherwise) {
-    int turns = 0;
     double reach = min(2.0, width);
     uint material = otherwise;
+    near_left = kMostNearest;
     for (bool is_found = false; !is_found;) {
         double least2 = width * width;
         material = otherwise;
         begin_near(task, 0, place, reach);
-        while ((near_next < near_end || has_near_row()) && turns < kMostNearest) {
-            ++turns;
-            if (near_next < near_end) {
+        while (has_near_row()) {
+            take_near_row();
+            for (; near_next < near_end; ++near_next) {
                 dvec3 off = place_of(sorted[near_next]) - place;
                 if (dot3(off, off) < least2) {
                     least2 = dot3(off, off);
                     material = sorted[near_next].material;
                 }
-                ++near_next;
-            } else {
-                take_near_row();
             }
         }
-        is_found = reach >= width || least2 < 0.75 * reach * reach;
+        check_near();
+        is_found = reach >= width || least2 < 0.75 * reach * reach || near_left < 0;
         reach = min(4.0 * reach, width);
-        if (turns >= kMostNearest) {
-            stop(kBeyondDevice);
-            is_found = true;
-        }
     }
     return material;
 }
@@ -130,6 +124,7 @@ void main() {
             question = kDone;
         }
     }
+    if (question != kDone) stop(kBeyondDevice);  // a software driver has ended the loop
     smooth_ends[number].result = job.result;
     smooth_ends[number].is_gone = job.is_gone;
 }

@@ -2,8 +2,15 @@
 // The field at a place, as compute/tools/smooth_field.cpp computes it: the same points in the same order. Include after
 // smooth_buffers.glsl; with SMOOTH_GRADIENT defined, the field's gradient is computed too.
 
-// The points near a place are those of some boxes of each of some rows. One loop goes through rows and points alike, so
-// that invocations which run side by side do not wait for each other at the end of each row.
+// The points near a place are those of some boxes of each of some rows:
+//   begin_near(task, level, place, width);
+//   while (has_near_row()) {
+//       take_near_row();
+//       for (; near_next < near_end; ++near_next) ... sorted[near_next] ...;
+//   }
+// Rows without points are passed by in take_near_row: software drivers run through both sides of every branch, so that
+// a turn of a loop costs all that stands in it. Where there are more rows and points than may be looked at, or a
+// software driver has ended the loops before they were done, the ball is beyond the device (check_near).
 SmoothBoxes near_grid;
 ivec3 near_from;
 ivec3 near_to;
@@ -11,6 +18,7 @@ int near_y;
 int near_z;
 uint near_next;
 uint near_end;
+int near_left;  // rows and points that may still be looked at
 
 void begin_near(SmoothTask task, int level, dvec3 place, double width) {
     near_grid = boxes_of_level(task, level, behind_counts());
@@ -31,17 +39,31 @@ void begin_near(SmoothTask task, int level, dvec3 place, double width) {
 
 bool has_near_row() { return near_z <= near_to.z; }
 void take_near_row() {
-    uint row = uint(near_z * near_grid.y + near_y);
-    if (boxes[near_grid.rows + row] > 0u) {
-        uint box = near_grid.firsts + row * uint(near_grid.x + 1);
-        near_next = boxes[box + uint(near_from.x)];
-        near_end = boxes[box + uint(near_to.x) + 1u];
+    near_next = 0u;
+    near_end = 0u;
+    do {
+        uint row = uint(near_z * near_grid.y + near_y);
+        if (boxes[near_grid.rows + row] > 0u) {
+            uint box = near_grid.firsts + row * uint(near_grid.x + 1);
+            near_next = boxes[box + uint(near_from.x)];
+            near_end = boxes[box + uint(near_to.x) + 1u];
+        }
+        ++near_y;
+        if (near_y > near_to.y) {
+            near_y = near_from.y;
+            ++near_z;
+        }
+        --near_left;
+    } while (near_next == near_end && has_near_row());
+    near_left -= int(near_end - near_next);
+    if (near_left < 0) {
+        stop(kBeyondDevice);
+        near_next = near_end;
+        near_z = near_to.z + 1;
     }
-    ++near_y;
-    if (near_y > near_to.y) {
-        near_y = near_from.y;
-        ++near_z;
-    }
+}
+void check_near() {
+    if (near_next < near_end || has_near_row()) stop(kBeyondDevice);
 }
 
 int level_for(SmoothTask task, double width) {
@@ -64,33 +86,30 @@ FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
     int level = level_for(task, width.value);
     double width2 = width.value * width.value;
     dvec3 mean_normal = dvec3(0.0);
-    int turns = 0;
+    near_left = kMostNear;
     begin_near(task, level, place, width.value);
-    while ((near_next < near_end || has_near_row()) && turns < kMostNear) {
-        ++turns;
-        if (near_next < near_end) {
+    while (has_near_row()) {
+        take_near_row();
+        for (; near_next < near_end; ++near_next) {
             dvec3 off = place_of(sorted[near_next]) - place;
             double ratio = dot3(off, off) / width2;
             if (ratio < 1.0)
                 mean_normal =
                     with_mean_normal(mean_normal, normal_of(sorted[near_next]), sorted[near_next].area, ratio);
-            ++near_next;
-        } else {
-            take_near_row();
         }
     }
-    if (near_next < near_end || has_near_row()) stop(kBeyondDevice);
+    check_near();
     double length = length3(mean_normal);
     if (!(length > 0.0)) return value;
     KernelSums sums = no_sums();
 #ifdef SMOOTH_GRADIENT
     KernelSlopes slopes = no_slopes();
 #endif
-    turns = 0;
+    near_left = kMostNear;
     begin_near(task, level, place, width.value);
-    while ((near_next < near_end || has_near_row()) && turns < kMostNear) {
-        ++turns;
-        if (near_next < near_end) {
+    while (has_near_row()) {
+        take_near_row();
+        for (; near_next < near_end; ++near_next) {
             NearPoint near;
             near.off = place_of(sorted[near_next]) - place;
             near.ratio = dot3(near.off, near.off) / width2;
@@ -106,11 +125,9 @@ FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
 #endif
                 }
             }
-            ++near_next;
-        } else {
-            take_near_row();
         }
     }
+    check_near();
     if (!are_known(sums)) return value;
     value.known = true;
     value.distance = distance_of(sums);

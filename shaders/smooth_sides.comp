@@ -20,12 +20,14 @@ double distance_before(ivec3 node, bool is_inside) {
             stop(kBeyondDevice);
             count = 0u;
         }
-        for (uint i = 0u; i < count; ++i) {
+        uint i = 0u;
+        for (; i < count; ++i) {
             DexelEnd end = store.at[ray.first + i];
             int depth = depth_of(end);
             if (depth > (at - 1) * kUnitsPerCell && depth <= (at + 1) * kUnitsPerCell)
                 distance = min(distance, distance_of_end(end, axis, at));
         }
+        if (i < count) stop(kBeyondDevice);  // a software driver has ended the loop
     }
     return is_inside ? -distance : distance;
 }

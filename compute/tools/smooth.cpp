@@ -363,7 +363,8 @@ private:
         if (e.below.is_known && e.above.is_known && (e.below.field < 0.0) == e.low_inside &&
             (e.above.field < 0.0) == e.high_inside) {
             share = e.below.field / (e.below.field - e.above.field);
-            const Root root = smoothing_at(place_on_edge(e.at, share)).share < 1.0 ? Root{} : root_from(e, share, field);
+            const Root root =
+                smoothing_at(place_on_edge(e.at, share)).share < 1.0 ? Root{} : root_from(e, share, field);
             if (root.found) share = root.share;
         }
         const Vec3 place = place_on_edge(e.at, std::clamp(share, 0.0, 1.0));

@@ -43,7 +43,7 @@ inline constexpr double kSmoothStretch = 0.25;
 // What a ball smooths, in cells.
 struct SmoothRegion {
     shared::SmoothPath path;
-    double most_width = 0.0;       // of the kernel
+    double most_width = 0.0;        // of the kernel
     std::array<int, 3> lo{}, hi{};  // of the nodes that the tool may reach: none on the lattice's border
     [[nodiscard]] bool is_empty() const {
         return !(path.most_width2 > 0.0) || lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2];

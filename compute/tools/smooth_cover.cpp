@@ -84,8 +84,7 @@ SmoothBalls::SmoothBalls(const ToolSweep& sweep)
     double farthest_m = 0.0;
     for (const Vec3& middle : cover_.middles_m)
         farthest_m = std::max(farthest_m, glm::length(end_ * middle - start_ * middle));
-    stretches_ =
-        static_cast<std::size_t>(std::max(1.0, std::ceil(farthest_m / (kSmoothStretch * cover_.radius_m))));
+    stretches_ = static_cast<std::size_t>(std::max(1.0, std::ceil(farthest_m / (kSmoothStretch * cover_.radius_m))));
 }
 
 Pose SmoothBalls::pose_at(double part) const {
@@ -94,8 +93,7 @@ Pose SmoothBalls::pose_at(double part) const {
 }
 
 SmoothBall SmoothBalls::operator[](std::size_t i) const {
-    const auto stretches = static_cast<double>(stretches_),
-               stretch = static_cast<double>(i / cover_.middles_m.size());
+    const auto stretches = static_cast<double>(stretches_), stretch = static_cast<double>(i / cover_.middles_m.size());
     const Pose from = pose_at(stretch / stretches), to = pose_at((stretch + 1.0) / stretches);
     const Vec3& middle = cover_.middles_m[i % cover_.middles_m.size()];
     return {from * middle, to * middle, cover_.radius_m, strength_, material_};

@@ -92,9 +92,9 @@ std::vector<SurfacePoint> SmoothField::merged(const std::vector<SurfacePoint>& p
     keyed.reserve(points.size());
     for (const SurfacePoint& p : points) {
         const Vec3 at = glm::floor(p.place / box);
-        keyed.push_back({{static_cast<int>(at.z), static_cast<int>(at.y), static_cast<int>(at.x),
-                          shared::facing_of(p.normal)},
-                         &p});
+        keyed.push_back(
+            {{static_cast<int>(at.z), static_cast<int>(at.y), static_cast<int>(at.x), shared::facing_of(p.normal)},
+             &p});
     }
     std::ranges::stable_sort(keyed, {}, &Keyed::key);
     std::vector<SurfacePoint> result;

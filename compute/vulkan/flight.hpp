@@ -34,7 +34,7 @@ struct Stage {
     ConvexPieces pieces;              // of a convex tool that cuts
     std::vector<SmoothStep> smooths;  // of a tool that smooths
     std::uint32_t visited = 0;        // rays that it may cover
-    std::uint32_t work = 0;                   // what it does with what it covers (shaders/shared/capsule.h)
+    std::uint32_t work = 0;           // what it does with what it covers (shaders/shared/capsule.h)
     [[nodiscard]] bool is_smooth() const { return !smooths.empty(); }
     [[nodiscard]] bool is_covered() const { return !pieces.pieces.empty(); }
     [[nodiscard]] bool is_of_balls() const { return !is_smooth() && !is_covered(); }
@@ -45,8 +45,8 @@ struct Pass {
     std::size_t stage = 0;
     std::size_t first_task = 0, end_task = 0;
     std::uint32_t pending = 0;
-    std::uint32_t rays = 0;  // that it looks at
-    std::uint32_t cuts = 0;  // most spans that a ray takes
+    std::uint32_t rays = 0;       // that it looks at
+    std::uint32_t cuts = 0;       // most spans that a ray takes
     std::uint32_t most_ends = 0;  // of a ray behind it
 };
 

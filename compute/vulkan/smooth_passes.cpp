@@ -232,9 +232,9 @@ void SmoothPasses::record(gpu::Commands& commands, const SmoothStep& step, Smoot
     parameters.rays = length(changing);
     parameters.fresh = length(fresh);
     const std::array<gpu::BufferRange, kSmoothBuffers> buffers{
-        engine.rays,    engine.counters,    tasks_.buffer(),     counters_.buffer(), lists_[points],
-        lists_[sorted], lists_[boxes],      lists_[places],      lists_[nodes],      lists_[waves],
-        lists_[moved],  lists_[changing],   lists_[fresh],       engine.changed,     engine.exported};
+        engine.rays,    engine.counters,  tasks_.buffer(), counters_.buffer(), lists_[points],
+        lists_[sorted], lists_[boxes],    lists_[places],  lists_[nodes],      lists_[waves],
+        lists_[moved],  lists_[changing], lists_[fresh],   engine.changed,     engine.exported};
     const auto run = [&](Kernel kernel, std::uint64_t invocations) {
         commands.dispatch(kernels_.at(kernel), buffers, gpu::bytes_of(parameters), {groups_over(invocations), 1, 1});
     };

@@ -194,8 +194,7 @@ Result<bool> VulkanEngine::add_smoothing(std::size_t of_sweep) {
     }
     BURIN_TRY_DO(smooth_->prepare(*steps));
     const std::size_t balls = steps->size();
-    flight_->stages.push_back(
-        {.first_sweep = of_sweep, .end_task = balls, .pieces = {}, .smooths = std::move(*steps)});
+    flight_->stages.push_back({.first_sweep = of_sweep, .end_task = balls, .pieces = {}, .smooths = std::move(*steps)});
     return true;
 }
 

@@ -11,11 +11,12 @@ BURIN_SHARED_BEGIN
 const int kSmoothGroup = 64;  // invocations in a work group
 const int kMostLevels = 6;    // of merged points
 
-// A software driver ends an invocation's loops, silently, after 65535 iterations of all of them. So an invocation
-// evaluates the field five times at most, each time in two loops of no more than kMostNear turns, and looks for a
-// material in kMostNearest turns.
-const int kMostNear = 4500;
-const int kMostNearest = 16000;
+// A software driver ends the loops of some invocations that it runs together, silently, after 65535 iterations of all
+// of them. The field is evaluated up to four times, each time in two loops over kMostNear rows and points at most, and
+// a material looked for among kMostNearest. Invocations that run together may still take more turns than one of them,
+// so each looks whether its loops came to their end.
+const int kMostNear = 4000;
+const int kMostNearest = 6000;
 const uint kMostSmoothEnds = uint(512);  // of a ray near the ball
 const uint kMostInBox = uint(1024);      // points of one box
 

@@ -53,7 +53,8 @@ ToolSweep any_smoothing(Random& random, double cell_m) {
     sweep.end = sweep.start;
     if (random.chance(0.8)) sweep.end.position_m += size * random.between(0.01, 0.6) * random_point(random, -1.0, 1.0);
     if (random.chance(0.2))
-        sweep.end.orientation = glm::normalize(sweep.start.orientation + Quat(0.0, random.between(-0.1, 0.1), 0.0, 0.0));
+        sweep.end.orientation =
+            glm::normalize(sweep.start.orientation + Quat(0.0, random.between(-0.1, 0.1), 0.0, 0.0));
     const double strengths[] = {0.0, 1.0, 0.5, random.unit(), random.unit()};
     sweep.smooth_strength = strengths[random.small(0, 4)];
     sweep.material = static_cast<std::uint8_t>(random.small(0, 2));
@@ -138,6 +139,89 @@ TEST_F(SmoothPassesGpu, ListsThatAreTooShortGrow) {
              {.spare_ends = 0, .export_per_ray = 0, .tasks_a_pass = 2, .spans_a_ray = 0, .smooth_percent = 0}, counts);
     }
     EXPECT_GT(counts.balls_smoothed, 0u);
+}
+
+// A wide kernel: points merge to boxes of eight cells.
+TEST_F(SmoothPassesGpu, AWideBallMergesPointsOverSeveralLevels) {
+    EnginePair engines(unit_cube(96), device());
+    ToolSweep cut{.shape = BallTool{0.2}, .start = {Vec3(0.4, 0.5, 1.0)}, .end = {Vec3(0.4, 0.5, 1.0)}};
+    ToolSweep smooth = cut;
+    smooth.shape = BallTool{0.4};
+    smooth.operation = Operation::smooth;
+    smooth.smooth_strength = 1.0;
+    const auto steps = smooth_steps(engines.cpu().solid().lattice, smooth);
+    ASSERT_TRUE(steps && steps->size() == 1);
+    EXPECT_EQ(steps->front().task.levels, 4);
+    EXPECT_TRUE(engines.carve(std::vector{cut, smooth}));
+    EXPECT_EQ(engines.vulkan().counts().balls_smoothed, 1u);
+    EXPECT_EQ(engines.vulkan().counts().submissions, 1u);
+}
+
+// A cover of many balls, and a long path in stretches: they follow each other without the host, as many as a submission
+// holds.
+TEST_F(SmoothPassesGpu, BallsFollowEachOtherInOneSubmission) {
+    EnginePair engines(unit_cube(32), device());
+    ToolSweep sweep{.shape = CylinderTool{0.08, 0.5}, .start = {Vec3(0.3, 0.2, 0.97)}, .end = {Vec3(0.35, 0.2, 0.97)}};
+    sweep.operation = Operation::smooth;
+    const auto steps = smooth_steps(engines.cpu().solid().lattice, sweep);
+    ASSERT_TRUE(steps);
+    ASSERT_GT(steps->size(), 8u);
+    ASSERT_LE(steps->size(), static_cast<std::size_t>(shared::kMostPasses));
+    ToolSweep cut = sweep;
+    cut.operation = Operation::cut;
+    EXPECT_TRUE(engines.carve(std::vector{sweep, cut}));
+    EXPECT_EQ(engines.vulkan().counts().balls_smoothed, steps->size());
+    EXPECT_LE(engines.vulkan().counts().submissions, 2u);
+}
+
+// The first balls of a sweep are the device's, the rest the host's: a ray near the path has more ends than the device
+// looks at.
+TEST_F(SmoothPassesGpu, WhatIsBeyondTheDeviceIsGoneOnWithByTheHost) {
+    EnginePair engines(unit_cube(32), device());
+    RayBatch plates;
+    std::vector<shared::DexelEnd> ends;
+    for (int i = 0; i < 600; ++i) ends.push_back(shared::make_end(5000 + 200 * i, 1, 0x7fff7fffu));
+    for (int u = 25; u < 27; ++u) plates.add(shared::ray_code(2, u, 16), ends);
+    ASSERT_TRUE(engines.assign(plates));
+    ToolSweep sweep{.shape = BallTool{0.12}, .start = {Vec3(0.1, 0.5, 1.0)}, .end = {Vec3(0.8, 0.5, 1.0)}};
+    sweep.operation = Operation::smooth;
+    ToolSweep cut = sweep;
+    cut.operation = Operation::cut;
+    EXPECT_TRUE(engines.carve(std::vector{cut, sweep, cut}));
+    const std::uint64_t by_device = engines.vulkan().counts().balls_smoothed;
+    EXPECT_GT(by_device, 2u);
+    EXPECT_LT(by_device, SmoothBalls(sweep).size());
+    EXPECT_TRUE(engines.carve(std::vector{sweep}));
+}
+
+// Rays of the three axes that do not fit together, with plates close to each other: all loops take many turns.
+TEST_F(SmoothPassesGpu, CrowdedRaysAreSmoothedAlike) {
+    for (int i = 0; i < repeated(3) && !HasFailure(); ++i) {
+        Random random(static_cast<std::uint64_t>(90 + i));
+        EnginePair engines(plates(16, 4 << (2 * i), static_cast<std::uint64_t>(i)), device());
+        for (int round = 0; round < 3 && !HasFailure(); ++round) {
+            ToolSweep sweep{.shape = BallTool{random.between(0.1, 0.4)}, .start = {Vec3(0.5)}, .end = {Vec3(0.55)}};
+            sweep.operation = Operation::smooth;
+            EXPECT_TRUE(engines.carve(std::vector{sweep}));
+        }
+    }
+}
+
+TEST_F(SmoothPassesGpu, UndoAndCutsInBetweenSeeWhatWasSmoothed) {
+    EnginePair engines(unit_cube(40), device());
+    ToolSweep cut{.shape = BallTool{0.15}, .start = {Vec3(0.5, 0.5, 1.0)}, .end = {Vec3(0.6, 0.5, 1.0)}};
+    ToolSweep smooth = cut;
+    smooth.operation = Operation::smooth;
+    smooth.start.position_m.x = 0.65;
+    for (int round = 0; round < 3; ++round) {
+        ASSERT_TRUE(engines.carve(std::vector{cut, smooth}));
+        const Solid before = engines.cpu().solid();
+        (void)engines.vulkan().take_changes();
+        ASSERT_TRUE(engines.carve(std::vector{smooth, cut, smooth}));
+        ASSERT_TRUE(engines.assign(as_before(engines.vulkan().take_changes())));
+        EXPECT_TRUE(engines.vulkan().solid().same_content(before)) << "undone";
+        ASSERT_TRUE(engines.carve(std::vector{smooth, smooth}));
+    }
 }
 
 }  // namespace burin::compute::test
