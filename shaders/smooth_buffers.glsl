@@ -73,5 +73,11 @@ uint first_of_level(int level) {
 
 uint groups_for(uint count) { return (count + 63u) / 64u; }
 
-dvec3 place_of(SmoothPoint point) { return dvec3(point.place[0], point.place[1], point.place[2]); }
-dvec3 normal_of(SmoothPoint point) { return dvec3(point.normal[0], point.normal[1], point.normal[2]); }
+SmoothPoint point_of(dvec3 place, dvec3 normal, double area, double offset, uint key, uint material) {
+    SmoothPoint point;
+    point.place_area = dvec4(place, area);
+    point.normal_offset = dvec4(normal, offset);
+    point.key_box = uvec4(key, 0u, 0u, material);
+    point.unused = uvec4(0u);
+    return point;
+}

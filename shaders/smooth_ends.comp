@@ -27,10 +27,10 @@ uint material_near(SmoothTask task, dvec3 place, double width, uint otherwise) {
         while (has_near_row()) {
             take_near_row();
             for (; near_next < near_end; ++near_next) {
-                dvec3 off = place_of(sorted[near_next]) - place;
+                dvec3 off = sorted[near_next].place_area.xyz - place;
                 if (dot3(off, off) < least2) {
                     least2 = dot3(off, off);
-                    material = sorted[near_next].material;
+                    material = sorted[near_next].key_box.w;
                 }
             }
         }

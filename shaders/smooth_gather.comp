@@ -33,14 +33,8 @@ void main() {
             if (dot3(off, off) <= task.reach * task.reach) {
                 if (turn == 1) {
                     dvec3 normal = decoded_normal(end.normal);
-                    SmoothPoint point;
-                    point.place = double[3](place.x, place.y, place.z);
-                    point.normal = double[3](normal.x, normal.y, normal.z);
-                    point.area = area_of_end(normal, axis);
-                    point.offset = 0.0;
-                    point.material = material_of(end);
-                    point.key = number;
-                    put_into_box(point, task, 0, first + near);
+                    double area = area_of_end(normal, axis);
+                    put_into_box(point_of(place, normal, area, 0.0, number, material_of(end)), task, 0, first + near);
                 }
                 ++near;
             }

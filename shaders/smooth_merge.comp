@@ -36,15 +36,15 @@ void merge_facing(SmoothTask task, int facing, uint key) {
     bool is_first = true;
     for (int part = 0; part < 4; ++part) {
         for (uint i = part_first[part]; i < part_end[part]; ++i) {
-            dvec3 normal = normal_of(sorted[i]);
-            if (facing_of(normal) == facing) {
-                dvec3 place = place_of(sorted[i]);
+            dvec4 normal_offset = sorted[i].normal_offset;
+            if (facing_of(normal_offset.xyz) == facing) {
+                dvec4 place_area = sorted[i].place_area;
                 if (is_first) {
-                    first = place;
-                    material = sorted[i].material;
+                    first = place_area.xyz;
+                    material = sorted[i].key_box.w;
                     is_first = false;
                 }
-                sums = with_merged(sums, place, normal, sorted[i].area, sorted[i].offset, first);
+                sums = with_merged(sums, place_area.xyz, normal_offset.xyz, place_area.w, normal_offset.w, first);
             }
         }
     }
@@ -57,14 +57,7 @@ void merge_facing(SmoothTask task, int facing, uint key) {
         return;
     }
     atomicMax(smooth_counts.of_points[level].x, groups_for(number + 1u));
-    SmoothPoint point;
-    point.place = double[3](means.place.x, means.place.y, means.place.z);
-    point.normal = double[3](means.normal.x, means.normal.y, means.normal.z);
-    point.area = means.area;
-    point.offset = means.height;
-    point.material = material;
-    point.key = key;
-    put_into_box(point, task, level, number);
+    put_into_box(point_of(means.place, means.normal, means.area, means.height, key, material), task, level, number);
 }
 
 void main() {
@@ -84,7 +77,7 @@ void main() {
     }
     uint ways = 0u;
     for (int part = 0; part < 4; ++part) {
-        for (uint i = part_first[part]; i < part_end[part]; ++i) ways |= 1u << facing_of(normal_of(sorted[i]));
+        for (uint i = part_first[part]; i < part_end[part]; ++i) ways |= 1u << facing_of(sorted[i].normal_offset.xyz);
     }
     for (int facing = 0; facing < 6; ++facing) {
         if ((ways & (1u << facing)) != 0u) merge_facing(task, facing, 6u * number + uint(facing));

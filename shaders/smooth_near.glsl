@@ -91,11 +91,12 @@ FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
     while (has_near_row()) {
         take_near_row();
         for (; near_next < near_end; ++near_next) {
-            dvec3 off = place_of(sorted[near_next]) - place;
+            dvec4 place_area = sorted[near_next].place_area;
+            dvec3 off = place_area.xyz - place;
             double ratio = dot3(off, off) / width2;
             if (ratio < 1.0)
                 mean_normal =
-                    with_mean_normal(mean_normal, normal_of(sorted[near_next]), sorted[near_next].area, ratio);
+                    with_mean_normal(mean_normal, sorted[near_next].normal_offset.xyz, place_area.w, ratio);
         }
     }
     check_near();
@@ -111,14 +112,16 @@ FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
         take_near_row();
         for (; near_next < near_end; ++near_next) {
             NearPoint near;
-            near.off = place_of(sorted[near_next]) - place;
+            dvec4 place_area = sorted[near_next].place_area;
+            near.off = place_area.xyz - place;
             near.ratio = dot3(near.off, near.off) / width2;
             if (near.ratio < 1.0) {
-                near.normal = normal_of(sorted[near_next]);
+                dvec4 normal_offset = sorted[near_next].normal_offset;
+                near.normal = normal_offset.xyz;
                 double facing = facing_weight(dot3(near.normal, mean_normal) / length);
                 if (facing > 0.0) {
-                    near.area = sorted[near_next].area;
-                    near.offset = sorted[near_next].offset;
+                    near.area = place_area.w;
+                    near.offset = normal_offset.w;
                     sums = with_point(sums, near, facing);
 #ifdef SMOOTH_GRADIENT
                     slopes = with_slope(slopes, near, facing, width);

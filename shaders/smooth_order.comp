@@ -11,5 +11,6 @@ void main() {
     uint number = gl_GlobalInvocationID.x;
     if (is_stopped() || number >= smooth_counts.points[level]) return;
     SmoothBoxes grid = boxes_of_level(tasks[parameters.ball], level, behind_counts());
-    order[boxes[grid.firsts + points[number].box] + points[number].slot] = number;
+    uvec4 key_box = points[number].key_box;
+    order[boxes[grid.firsts + key_box.y] + key_box.z] = number;
 }

@@ -12,19 +12,19 @@ void main() {
     uint number = gl_GlobalInvocationID.x;
     if (is_stopped() || number >= smooth_counts.points[level]) return;
     SmoothBoxes grid = boxes_of_level(tasks[parameters.ball], level, behind_counts());
-    uint box = grid.firsts + points[number].box;
+    uvec4 key_box = points[number].key_box;
+    uint box = grid.firsts + key_box.y;
     uint first = boxes[box];
     uint end = boxes[box + 1u];
     if (end - first > kMostInBox) {
         stop(kBeyondDevice);
         return;
     }
-    uint key = points[number].key;
     uint rank = 0u;
     for (uint i = first; i < end; ++i) {
         uint other = order[i];
-        uint other_key = points[other].key;
-        if (other_key < key || (other_key == key && other < number)) ++rank;
+        uint other_key = points[other].key_box.x;
+        if (other_key < key_box.x || (other_key == key_box.x && other < number)) ++rank;
     }
     sorted[first + rank] = points[number];
 }

@@ -17,7 +17,7 @@
 // Hardest to keep: the counts of boxes are zero between passes. A pass that goes through leaves them so; after one that
 // stopped, all of them are cleared by the next submission.
 // Cost: 24 dispatches and four more a level of merged points, of which most wait for the one before. Sent of a ball: 152
-// bytes. Memory: some 80 bytes an end near the path, 14 a cell around it, 16 a node of the ball.
+// bytes. Memory: some 250 bytes an end near the path, 14 a cell around it, 16 a node of the ball.
 // Thread: one, as gpu::Device. Failure: as gpu::Buffer and gpu::ComputePipeline.
 #pragma once
 

@@ -42,16 +42,21 @@ struct SmoothTask {
     int boxes[3];
 };
 
-// A point of the surface: 80 bytes.
+// A point of the surface: 96 bytes. Software drivers load a vector in the time of one number.
+#ifdef __cplusplus
+using Double4 = glm::dvec4;
+using Uint4 = glm::uvec4;
+#else
+#define Double4 dvec4
+#define Uint4 uvec4
+#endif
 struct SmoothPoint {
-    double place[3];
-    double normal[3];
-    double area;
-    double offset;
-    uint material;
-    uint key;   // its rank among the points as the host lists them; equal for those of one ray, which are in order
-    uint box;   // its place in the list of boxes, and its number in the box as it came
-    uint slot;
+    Double4 place_area;
+    Double4 normal_offset;
+    // x: its rank among the points as the host lists them; equal for those of one ray, which are in order. y: its box's
+    // place in the list of boxes; z: its number in the box as it came; w: its material.
+    Uint4 key_box;
+    Uint4 unused;
 };
 
 const uint kWasInside = uint(1);
@@ -172,7 +177,7 @@ BURIN_FN SmoothPath path_of(SmoothTask task) {
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::SmoothTask) == 152 && sizeof(burin::shared::SmoothPoint) == 80 &&
+static_assert(sizeof(burin::shared::SmoothTask) == 152 && sizeof(burin::shared::SmoothPoint) == 96 &&
               sizeof(burin::shared::SmoothNode) == 16 && sizeof(burin::shared::SmoothEnd) == 32 &&
               sizeof(burin::shared::SmoothRay) == 28 && sizeof(burin::shared::SmoothParameters) == 104);
 #endif
