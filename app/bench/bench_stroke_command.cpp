@@ -73,9 +73,9 @@ Result<void> StrokeBench::check() const {
     if (!peer.empty() && scenes != std::vector<std::string>{kCubeScene}) {
         return fail("--peer " + peer, "carves only a cube along the lattice", "leave --scene at cube");
     }
-    if (!peer.empty() && (tool != "ball" || swept)) {
+    if (!peer.empty() && (tool != "ball" || swept || stroke.smooths)) {
         return fail("--peer " + peer, "carves with a ball at one place after the other",
-                    "leave --tool at ball, without --swept");
+                    "leave --tool at ball, without --swept and --operation");
     }
     if (!peer.empty() && !bench::has_peers()) {
         return fail("--peer " + peer, "is not built into this program",
@@ -108,8 +108,9 @@ Result<bench::CarveScene> StrokeBench::scene_named(const std::string& name) cons
     } else {
         scene = swept ? bench::stroke_1000_swept_scene() : bench::stroke_1000_scene();
     }
-    const bool is_known = stroke.tool == bench::StrokeTool::ball;  // the volume serves as a reference then
-    if (updates < scene.sweeps.size()) scene = bench::beginning_of(scene, updates, is_known ? kReferenceRays : 1);
+    // Where it is known, the volume serves as a reference.
+    if (updates < scene.sweeps.size())
+        scene = bench::beginning_of(scene, updates, stroke.is_known() ? kReferenceRays : 1);
     return name == kTurnedCubeScene ? bench::turned(std::move(scene)) : scene;
 }
 
@@ -120,9 +121,10 @@ Result<Json> StrokeBench::report_of(const std::string& scene_name) const {
     run_options.with_undo = run_options.with_light = !plain;
     BURIN_TRY(run, bench::run_stroke(scene, run_options));
     std::optional<bench::SurfaceErrors> errors;
-    if (stroke.tool == bench::StrokeTool::ball) errors = bench::measure(run.mesh, scene, run.cell_m);
+    if (stroke.is_known()) errors = bench::measure(run.mesh, scene, run.cell_m);
     Json report = bench::describe(scene, run, errors, bench::count_self_intersections(run.mesh, stroke.threads));
     report["tool"] = tool;
+    report["operation"] = stroke.smooths ? "smooth" : "cut";
     report["swept"] = swept;
     report["machine"] = on;
     if (!peer.empty()) {
@@ -169,6 +171,8 @@ CommandAction add_stroke_bench(Command command) {
                 "A ball, or a tool in its place that removes about as much; capsule: a ball with --swept")
         .one_of({"ball", kCapsule, "cylinder", "cone", "bullnose", "box"})
         .show_default();
+    command.choice("--operation", options->stroke.smooths, "What the tool does: cut, or smooth",
+                   {{"cut", false}, {"smooth", true}});
     command.flag("--swept", options->swept, "Sweep the tool from each place to the next; else a stamp at each place");
     command.option("--scene", options->scenes,
                    "cube: along the lattice; turned-cube: turned by 20 degrees; mesh:FILE: a scan, say, whose holes "

@@ -20,9 +20,12 @@ namespace {
 
 constexpr std::uint64_t kCheckedRays = 20000;  // an axis
 
-std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene, StrokeTool tool) {
+std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene, const StrokeOptions& options) {
     std::vector<compute::ToolSweep> sweeps;
-    for (const compute::BallSweep& sweep : scene.sweeps) sweeps.push_back(tool_sweep(scene, sweep, tool));
+    for (const compute::BallSweep& sweep : scene.sweeps) {
+        sweeps.push_back(tool_sweep(scene, sweep, options.tool));
+        if (options.smooths) sweeps.back().operation = compute::Operation::smooth;
+    }
     return sweeps;
 }
 
@@ -128,7 +131,7 @@ void check(const sculpt::Sculpture& sculpture, const CarveScene& scene, const co
     run.rays_held = solid.rays_held();
     run.bytes = solid.bytes();
     run.disagreeing_edges = sculpture.surface().disagreeing_edges();
-    if (run.tool == StrokeTool::ball)
+    if (run.tool == StrokeTool::ball && !run.smooths)
         run.intervals = check_intervals(solid, scene, kCheckedRays, 1, scene.is_of_cube() ? nullptr : &uncut);
     run.mesh = sculpture.surface().welded();
     const compute::RepairReport repair = compute::repair_intersections(run.mesh, sculpture.surface(), solid, pool);
@@ -165,7 +168,8 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     run.resolution = options.resolution;
     run.cell_m = uncut.lattice.spacing_m;
     run.tool = options.tool;
-    const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene, options.tool);
+    run.smooths = options.smooths;
+    const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene, options);
     if (const auto done = run_plain(scene, uncut, sweeps, options, pool, run); !done) {
         return std::unexpected(done.error());
     }

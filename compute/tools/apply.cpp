@@ -20,7 +20,7 @@ void append_result(Operation operation, RayEnds held, RayEnds covered, std::vect
         case Operation::cut: return append_difference(held, covered, to);
         case Operation::fill: return append_union(held, covered, to);
         case Operation::paint: return append_painted(held, covered, to);
-        case Operation::smooth: break;  // computed by smooth_on_host
+        case Operation::smooth: break;  // computed by smoothed_rays
     }
 }
 
@@ -73,38 +73,15 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
     return changed;
 }
 
-// Smooths along the sweep in stretches of at most kSmoothStretch radii, one after the other; with a tool that is no
-// ball, in each of its balls (smooth_cover.hpp).
-template <typename Assign>
-void smooth_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool, const Assign& assign) {
-    const SmoothCover cover = smooth_cover(sweep.shape);
-    const bool turns = sweep.start.orientation != sweep.end.orientation;
-    double farthest_m = 0.0;
-    for (const Vec3& middle : cover.middles_m)
-        farthest_m = std::max(farthest_m, glm::length(sweep.end * middle - sweep.start * middle));
-    const double stretches = std::max(1.0, std::ceil(farthest_m / (kSmoothStretch * cover.radius_m)));
-    const auto pose_at = [&](double part) {
-        const Quat orientation =
-            turns ? glm::slerp(sweep.start.orientation, sweep.end.orientation, part) : sweep.start.orientation;
-        return Pose{sweep.start.position_m + (sweep.end.position_m - sweep.start.position_m) * part, orientation};
-    };
-    for (double i = 0.0; i < stretches; i += 1.0) {
-        const Pose from = pose_at(i / stretches), to = pose_at((i + 1.0) / stretches);
-        for (const Vec3& middle : cover.middles_m) {
-            const SmoothBall ball{from * middle, to * middle, cover.radius_m, sweep.smooth_strength, sweep.material};
-            assign(smoothed_rays(solid, ball, pool));
-        }
-    }
-}
-
 }  // namespace
 
-Result<CarveStats> apply_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool,
-                                 const AssignRays& assign) {
+Result<CarveStats> apply_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool, const AssignRays& assign,
+                                 std::size_t first_ball) {
     CarveStats stats;
     const auto counted = [&](const RayBatch& rays) { stats.rays_changed += assign(rays); };
     if (sweep.operation == Operation::smooth) {
-        smooth_on_host(solid, sweep, pool, counted);
+        const SmoothBalls balls(sweep);
+        for (std::size_t i = first_ball; i < balls.size(); ++i) counted(smoothed_rays(solid, balls[i], pool));
         stats.rays_touched = stats.rays_changed;
         return stats;
     }

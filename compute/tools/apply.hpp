@@ -33,8 +33,9 @@ namespace burin::compute {
 using AssignRays = std::function<std::uint64_t(const RayBatch&)>;
 
 // Carries out a sweep that check_tool accepts. `assign` is called once, or once for each ball that smooths, and must
-// change this solid. Touched rays are those of which the tool covers a part; of a sweep that smooths, those changed.
+// change this solid. Touched rays are those of which the tool covers a part; of a sweep that smooths, those changed. Of
+// such a sweep, the balls before `first_ball` have been carried out already (SmoothBalls).
 [[nodiscard]] Result<CarveStats> apply_on_host(const Solid& solid, const ToolSweep& sweep, WorkerPool& pool,
-                                               const AssignRays& assign);
+                                               const AssignRays& assign, std::size_t first_ball = 0);
 
 }  // namespace burin::compute

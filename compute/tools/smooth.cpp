@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "compute/rays/normal_code.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "compute/tools/smooth_field.hpp"
 
@@ -15,17 +14,15 @@ namespace {
 
 using shared::DexelEnd;
 using shared::kUnitsPerCell;
+using shared::SmoothEdge;
+using shared::Smoothing;
+using shared::SmoothPath;
 using Node = std::array<int, 3>;
 
 // The variance of the kernel, in squares of the ball's radius, for a path of one radius past a place at strength 1.
 constexpr double kVarianceAPath = 0.18;
 constexpr double kStampPath = 0.25;        // the path, in radii, for which a stamp counts
 constexpr double kKernelVariances = 10.0;  // width^2 of a kernel over its variance
-// The least width in cells. A kernel that ought to be narrower moves the surface by a share of what this one does.
-constexpr double kLeastWidth = 3.0;
-// In cells: the error after a Newton step is of the order of its square, here less than a unit.
-constexpr double kSmallStep = 0.01;
-constexpr int kMostWaves = 8;  // cells by which the surface may move into a node's neighbours
 
 // State of a lattice node before and after smoothing.
 struct NodeState {
@@ -69,46 +66,21 @@ private:
 }
 [[nodiscard]] Vec3 place_of(const Node& n) { return {n[0], n[1], n[2]}; }
 
-Vec3 decoded(std::uint32_t code) {
-    const shared::Direction d = shared::decode_normal(code);
-    return {d.x, d.y, d.z};
-}
-
-// The share of an area to which the ends along one axis stand for it, the normal given. The shares of the three axes
-// add up to one, and that of an axis falls off smoothly to where its rays graze the surface.
-double share_of_axis(const Vec3& normal, int axis) {
-    const Vec3 n2 = normal * normal;
-    return n2[axis] * n2[axis] / glm::dot(n2, n2);
-}
-
-// Strength of smoothing at a place within the tool.
-struct Smoothing {
-    double share = 0.0;        // of the way to the smoothed surface
-    SmoothField::Width width;  // of the kernel, in cells
-};
-
 class Smoother {
 public:
     Smoother(const Solid& solid, const SmoothBall& ball, WorkerPool& pool)
-        : solid_(solid), lattice_(solid.lattice), ball_(ball), pool_(pool) {
-        start_ = lattice_.units_from_object(ball.start_object_m) / double(kUnitsPerCell);
-        along_ = lattice_.units_from_object(ball.end_object_m) / double(kUnitsPerCell) - start_;
-        radius_ = ball.radius_m / lattice_.spacing_m;
-        const double path = glm::length(along_) > 0.0 ? glm::length(along_) / radius_ : kStampPath;
-        most_width2_ = kKernelVariances * kVarianceAPath * ball.strength * path * radius_ * radius_;
-        const Vec3 lo = glm::min(start_, start_ + along_) - radius_, hi = glm::max(start_, start_ + along_) + radius_;
-        for (int a = 0; a < 3; ++a) {
-            const auto s = static_cast<std::size_t>(a);
-            // Excludes nodes on the lattice's border, which have no weight.
-            lo_[s] = static_cast<int>(std::clamp(std::ceil(lo[a]), 1.0, double(lattice_.cells[s])));
-            hi_[s] = static_cast<int>(std::clamp(std::floor(hi[a]), 0.0, double(lattice_.cells[s] - 1)));
-        }
-    }
+        : solid_(solid),
+          lattice_(solid.lattice),
+          ball_(ball),
+          pool_(pool),
+          region_(smooth_region(solid.lattice, ball)),
+          path_(region_.path),
+          lo_(region_.lo),
+          hi_(region_.hi) {}
 
     RayBatch run() {
-        if (!(most_width2_ > 0.0) || lo_[0] > hi_[0] || lo_[1] > hi_[1] || lo_[2] > hi_[2]) return {};
-        const double most_width = std::max(std::sqrt(most_width2_), kLeastWidth);
-        const SmoothField field(points_within(radius_ + most_width + 1.0), most_width);
+        if (region_.is_empty()) return {};
+        const SmoothField field(points_within(region_.reach()), region_.most_width);
         NodeGrid nodes(grown(lo_, -1), grown(hi_, 1));
         set_signs(nodes);
         move_nodes(field, nodes);
@@ -118,34 +90,7 @@ public:
 private:
     [[nodiscard]] static Node grown(const Node& n, int by) { return {n[0] + by, n[1] + by, n[2] + by}; }
 
-    // Returns the vector from the path of the ball's centre to a place.
-    [[nodiscard]] Vec3 off_path(const Vec3& place) const {
-        const Vec3 p = place - start_;
-        const double length2 = glm::dot(along_, along_);
-        const double t = length2 > 0.0 ? std::clamp(glm::dot(p, along_) / length2, 0.0, 1.0) : 0.0;
-        return p - t * along_;
-    }
-
-    // Returns the smoothing at a place: the mean over the path of (1 - (distance / radius)^2)^3.
-    [[nodiscard]] Smoothing smoothing_at(const Vec3& place) const {
-        constexpr std::array<double, 4> kAt{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
-                                            0.9305681557970263};  // Gauss-Legendre
-        constexpr std::array<double, 4> kWeight{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                                0.1739274225687269};
-        double sum = 0.0;
-        Vec3 by_place(0.0);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Vec3 off = (place - start_ - kAt.at(i) * along_) / radius_;
-            const double inside = 1.0 - glm::dot(off, off);
-            if (inside <= 0.0) continue;
-            sum += kWeight.at(i) * inside * inside * inside;
-            by_place -= kWeight.at(i) * 6.0 * inside * inside / radius_ * off;
-        }
-        const double width2 = most_width2_ * sum;
-        if (width2 < kLeastWidth * kLeastWidth) return {width2 / (kLeastWidth * kLeastWidth), {kLeastWidth, Vec3(0.0)}};
-        const double width = std::sqrt(width2);
-        return {1.0, {width, most_width2_ / (2.0 * width) * by_place}};
-    }
+    [[nodiscard]] Smoothing smoothing_at(const Vec3& place) const { return shared::smoothing_at(path_, place); }
 
     [[nodiscard]] RayEnds ends(int axis, int u, int v) const {
         if (u < 0 || v < 0 || u >= lattice_.rays_u(axis) || v >= lattice_.rays_v(axis)) return {};
@@ -164,28 +109,22 @@ private:
         return all.subspan(from, to - from);
     }
 
-    [[nodiscard]] static Vec3 place_of_end(int axis, int u, int v, const DexelEnd& end) {
-        Vec3 place(0.0);
-        place[axis] = depth_of(end) / double(kUnitsPerCell);
-        place[(axis + 1) % 3] = u;
-        place[(axis + 2) % 3] = v;
-        return place;
-    }
-
     // Returns the ends no farther from the ball's path than `reach`, in the order of their rays.
     [[nodiscard]] std::vector<SurfacePoint> points_within(double reach) const {
         std::vector<SurfacePoint> points;
-        const Vec3 lo = glm::min(start_, start_ + along_) - reach, hi = glm::max(start_, start_ + along_) + reach;
+        const Vec3 end = path_.start + path_.along, lo = glm::min(path_.start, end) - reach,
+                   hi = glm::max(path_.start, end) + reach;
         for (int axis = 0; axis < 3; ++axis) {
             const int u = (axis + 1) % 3, v = (axis + 2) % 3;
             for (int rv = static_cast<int>(std::ceil(lo[v])); rv <= static_cast<int>(std::floor(hi[v])); ++rv) {
                 for (int ru = static_cast<int>(std::ceil(lo[u])); ru <= static_cast<int>(std::floor(hi[u])); ++ru) {
                     for (const DexelEnd& end : ends(axis, ru, rv)) {
-                        const Vec3 place = place_of_end(axis, ru, rv, end), off = off_path(place);
-                        if (glm::dot(off, off) > reach * reach) continue;
-                        const Vec3 normal = decoded(end.normal);
-                        const double area = share_of_axis(normal, axis) / std::max(std::abs(normal[axis]), 1e-6);
-                        points.push_back({place, normal, area, 0.0, static_cast<std::uint8_t>(material_of(end))});
+                        const Vec3 place = shared::place_on_ray(axis, ru, rv, depth_of(end)),
+                                   off = off_path(path_, place);
+                        if (shared::dot3(off, off) > reach * reach) continue;
+                        const Vec3 normal = shared::decoded_normal(end.normal);
+                        points.push_back({place, normal, shared::area_of_end(normal, axis), 0.0,
+                                          static_cast<std::uint8_t>(material_of(end))});
                     }
                 }
             }
@@ -210,8 +149,8 @@ private:
                         const int n = Node{x, y, z}[a];
                         within = within && n >= lo_[a] && n <= hi_[a];
                     }
-                    const Vec3 off = off_path(Vec3(x, y, z));
-                    node.weighs = within && glm::dot(off, off) < radius_ * radius_;
+                    const Vec3 off = off_path(path_, Vec3(x, y, z));
+                    node.weighs = within && shared::dot3(off, off) < path_.radius * path_.radius;
                 }
             }
         });
@@ -221,7 +160,7 @@ private:
     // neighbours of those that have moved, and so on.
     void move_nodes(const SmoothField& field, NodeGrid& nodes) const {
         std::vector<Node> wave = nodes_at_surface(nodes);
-        for (int i = 0; i < kMostWaves && !wave.empty(); ++i) {
+        for (int i = 0; i < shared::kMostWaves && !wave.empty(); ++i) {
             constexpr std::size_t kNodesATask = 64;
             pool_.run((wave.size() + kNodesATask - 1) / kNodesATask, [&](std::size_t task) {
                 const std::size_t end = std::min(wave.size(), (task + 1) * kNodesATask);
@@ -273,7 +212,7 @@ private:
         const SmoothField::Value value = field.at(place_of(n), smoothing.width, false);
         node.field = before(n, node.was_inside);
         if (!value.known) return;
-        node.field += smoothing.share * (value.distance - node.field);
+        node.field = shared::part_of_way(node.field, smoothing.share, value.distance);
         node.is_inside = node.field < 0.0;
     }
 
@@ -284,10 +223,8 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const auto s = static_cast<std::size_t>(axis);
             for (const int by : {-1, 0}) {
-                for (const DexelEnd& end : ends_on_edge(axis, beside(n, s, by))) {
-                    const double along = std::abs(depth_of(end) / double(kUnitsPerCell) - n[s]);
-                    distance = std::min(distance, along * std::abs(decoded(end.normal)[axis]));
-                }
+                for (const DexelEnd& end : ends_on_edge(axis, beside(n, s, by)))
+                    distance = std::min(distance, shared::distance_of_end(end, axis, n[s]));
             }
         }
         return inside ? -distance : distance;
@@ -335,7 +272,7 @@ private:
             while (last < held.size() && depth_of(held[last]) <= (k + 1) * kUnitsPerCell) ++last;
             if (!below.weighs) low_inside = next % 2 != 0;
             const bool high_inside = above.weighs ? above.is_inside : last % 2 != 0;
-            append_edge({axis, low, low_inside, high_inside, below, above}, held.subspan(next, last - next),
+            append_edge({{axis, ru, rv, k}, low_inside, high_inside, below, above}, held.subspan(next, last - next),
                         next % 2 != 0, field, to);
             next = last;
             low_inside = high_inside;
@@ -344,16 +281,9 @@ private:
     }
 
     struct Edge {
-        int axis;
-        Node low;
+        SmoothEdge at;
         bool low_inside, high_inside;
         const NodeState &below, &above;
-
-        [[nodiscard]] Vec3 at(double share) const {
-            Vec3 place = place_of(low);
-            place[axis] += share;
-            return place;
-        }
     };
 
     void append_edge(const Edge& e, RayEnds held, bool held_low_inside, const SmoothField& field,
@@ -388,20 +318,12 @@ private:
     // Tells whether what is between two ends on one edge has vanished: by the field in its middle.
     [[nodiscard]] bool is_gone(const Edge& e, const DexelEnd& from, const DexelEnd& to, bool inside,
                                const SmoothField& field) const {
-        const double bottom = e.low[static_cast<std::size_t>(e.axis)];
-        const double half = 0.5 * (depth_of(to) - depth_of(from)) / kUnitsPerCell;
-        const Vec3 middle = e.at(depth_of(from) / double(kUnitsPerCell) - bottom + half);
+        const double half = half_between(from, to);
+        const Vec3 middle = place_on_edge(e.at, share_of_depth(e.at, depth_of(from)) + half);
         const Smoothing smoothing = smoothing_at(middle);
         if (!(smoothing.share > 0.0)) return false;
         const SmoothField::Value value = field.at(middle, smoothing.width, false);
-        const double sign = inside ? -1.0 : 1.0, was = sign * half * std::abs(decoded(from.normal)[e.axis]);
-        return value.known && sign * (was + smoothing.share * (value.distance - was)) <= 0.0;
-    }
-
-    [[nodiscard]] static DexelEnd end_at(const Edge& e, double share, std::uint32_t material, std::uint32_t normal) {
-        const int bottom = e.low[static_cast<std::size_t>(e.axis)] * kUnitsPerCell;
-        const double units = std::clamp(std::floor(share * kUnitsPerCell + 0.5), 1.0, double(kUnitsPerCell));
-        return shared::make_end(bottom + static_cast<int>(units), material, normal);
+        return value.known && has_vanished(e.at, from, half, inside, smoothing.share, value.distance);
     }
 
     struct Root {
@@ -412,35 +334,27 @@ private:
     // Follows the field from a place on the edge to its zero on the edge's ray, in Newton steps of at most half a cell.
     [[nodiscard]] Root root_from(const Edge& e, double share, const SmoothField& field) const {
         Root root{share, Vec3(0.0), false};
-        for (int step = 0; step < 3; ++step) {
-            const Vec3 place = e.at(root.share);
+        for (int step = 0; step < shared::kNewtonSteps; ++step) {
+            const Vec3 place = place_on_edge(e.at, root.share);
             const SmoothField::Value value = field.at(place, smoothing_at(place).width, true);
             if (!value.known) return root;
             root.normal = value.gradient;
             root.found = true;
-            const double slope = value.gradient[e.axis];
-            const double by =
-                std::clamp(-value.distance / (std::abs(slope) > 1e-3 ? slope : std::copysign(1e-3, slope)), -0.5, 0.5);
-            if (step == 2) break;
+            if (step + 1 == shared::kNewtonSteps) break;
+            const double by = shared::newton_step(value.distance, value.gradient[e.at.axis]);
             root.share += by;
-            if (std::abs(by) < kSmallStep) break;
+            if (std::abs(by) < shared::kSmallStep) break;
         }
         return root;
     }
 
     // Moves an end by a share of its way to the zero of the field.
     [[nodiscard]] DexelEnd moved(const Edge& e, const DexelEnd& old, const SmoothField& field) const {
-        const double was = depth_of(old) / double(kUnitsPerCell) - e.low[static_cast<std::size_t>(e.axis)];
-        const double by_share = smoothing_at(e.at(was)).share;
-        if (by_share * 0.5 * kUnitsPerCell < 0.01) return old;
+        const double was = share_of_depth(e.at, depth_of(old));
+        const double by_share = smoothing_at(place_on_edge(e.at, was)).share;
+        if (shared::is_too_weak(by_share)) return old;
         const Root root = root_from(e, was, field);
-        if (!root.found) return old;
-        const Vec3 before = decoded(old.normal);
-        const double length = glm::length(root.normal);
-        const Vec3 turn = length > 0.0 ? by_share * (root.normal / length - before) : Vec3(0.0);
-        const bool turns = glm::dot(turn, turn) > 1e-9;
-        return end_at(e, was + by_share * (root.share - was), material_of(old),
-                      turns ? normal_code(before + turn) : old.normal);
+        return root.found ? moved_end(old, e.at.low, was, root.share, by_share, root.normal) : old;
     }
 
     // Makes an end on an edge that had none, or several.
@@ -449,29 +363,46 @@ private:
         if (e.below.is_known && e.above.is_known && (e.below.field < 0.0) == e.low_inside &&
             (e.above.field < 0.0) == e.high_inside) {
             share = e.below.field / (e.below.field - e.above.field);
-            const Root root = smoothing_at(e.at(share)).share < 1.0 ? Root{} : root_from(e, share, field);
+            const Root root =
+                smoothing_at(place_on_edge(e.at, share)).share < 1.0 ? Root{} : root_from(e, share, field);
             if (root.found) share = root.share;
         }
-        const Vec3 place = e.at(std::clamp(share, 0.0, 1.0));
+        const Vec3 place = place_on_edge(e.at, std::clamp(share, 0.0, 1.0));
         const Smoothing smoothing = smoothing_at(place);
         const SmoothField::Value value = field.at(place, smoothing.width, true);
-        const bool facing = value.known && value.gradient[e.axis] * (e.low_inside ? 1.0 : -1.0) > 0.0;
-        Vec3 normal(0.0);
-        normal[e.axis] = e.low_inside ? 1.0 : -1.0;
-        return end_at(e, share, field.material_near(place, 2.0 * smoothing.width.value, ball_.material),
-                      normal_code(facing ? value.gradient : normal));
+        const std::uint32_t material = field.material_near(place, 2.0 * smoothing.width.value, ball_.material);
+        return made_end(e.at, share, material, e.low_inside, value.known, value.gradient);
     }
 
     const Solid& solid_;
     const Lattice& lattice_;
     const SmoothBall& ball_;
     WorkerPool& pool_;
-    Vec3 start_{0.0}, along_{0.0};  // in cells
-    double radius_ = 0.0, most_width2_ = 0.0;
-    Node lo_{}, hi_{};  // range of the nodes that the tool may reach
+    const SmoothRegion region_;
+    const SmoothPath& path_;
+    const Node &lo_, &hi_;
 };
 
 }  // namespace
+
+SmoothRegion smooth_region(const Lattice& lattice, const SmoothBall& ball) {
+    SmoothRegion region;
+    SmoothPath& path = region.path;
+    path.start = lattice.units_from_object(ball.start_object_m) / double(kUnitsPerCell);
+    path.along = lattice.units_from_object(ball.end_object_m) / double(kUnitsPerCell) - path.start;
+    path.radius = ball.radius_m / lattice.spacing_m;
+    const double length = glm::length(path.along) > 0.0 ? glm::length(path.along) / path.radius : kStampPath;
+    path.most_width2 = kKernelVariances * kVarianceAPath * ball.strength * length * path.radius * path.radius;
+    region.most_width = std::max(std::sqrt(path.most_width2), shared::kLeastWidth);
+    const Vec3 end = path.start + path.along, lo = glm::min(path.start, end) - path.radius,
+               hi = glm::max(path.start, end) + path.radius;
+    for (int a = 0; a < 3; ++a) {
+        const auto s = static_cast<std::size_t>(a);
+        region.lo[s] = static_cast<int>(std::clamp(std::ceil(lo[a]), 1.0, double(lattice.cells[s])));
+        region.hi[s] = static_cast<int>(std::clamp(std::floor(hi[a]), 0.0, double(lattice.cells[s] - 1)));
+    }
+    return region;
+}
 
 RayBatch smoothed_rays(const Solid& solid, const SmoothBall& ball, WorkerPool& pool) {
     return Smoother(solid, ball, pool).run();

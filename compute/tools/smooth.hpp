@@ -14,12 +14,17 @@
 // with the field's gradient as the normal: so all three directions agree about every node within the tool. Two ends on
 // one edge stay where the field says that there is something between them. What is farther out is unchanged, bit for
 // bit. Nodes on the border of the lattice are never changed.
-// This runs on the host for every engine, which is then given the rays (CarvingEngine::assign).
+// This is the processor's way, and the reference. A device that rounds as the processor does gives the same bits
+// (compute/vulkan/smooth_passes.hpp): what both compute is in shaders/shared/smooth_ball.h and smooth_field.h.
 #pragma once
+
+#include <array>
+#include <cstdint>
 
 #include "base/worker_pool.hpp"
 #include "compute/rays/ray_batch.hpp"
 #include "compute/rays/solid.hpp"
+#include "shaders/shared/smooth_ball.h"
 
 namespace burin::compute {
 
@@ -34,6 +39,19 @@ struct SmoothBall {
 inline constexpr double kLargestSmoothCells = 100.0;
 // The longest path that is smoothed at once, in radii.
 inline constexpr double kSmoothStretch = 0.25;
+
+// What a ball smooths, in cells.
+struct SmoothRegion {
+    shared::SmoothPath path;
+    double most_width = 0.0;        // of the kernel
+    std::array<int, 3> lo{}, hi{};  // of the nodes that the tool may reach: none on the lattice's border
+    [[nodiscard]] bool is_empty() const {
+        return !(path.most_width2 > 0.0) || lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2];
+    }
+    // How far from the path ends count, none of them farther than this.
+    [[nodiscard]] double reach() const { return path.radius + most_width + 1.0; }
+};
+[[nodiscard]] SmoothRegion smooth_region(const Lattice& lattice, const SmoothBall& ball);
 
 // Returns the rays that change, with their new ends. A start that equals the end is a stamp and counts as a path of a
 // quarter of the radius. The path should be no longer than kSmoothStretch radii: what a longer one has smoothed does

@@ -74,4 +74,29 @@ SmoothCover smooth_cover(const ToolShape& shape) {
     return cover;
 }
 
+SmoothBalls::SmoothBalls(const ToolSweep& sweep)
+    : start_(sweep.start),
+      end_(sweep.end),
+      turns_(sweep.start.orientation != sweep.end.orientation),
+      strength_(sweep.smooth_strength),
+      material_(sweep.material),
+      cover_(smooth_cover(sweep.shape)) {
+    double farthest_m = 0.0;
+    for (const Vec3& middle : cover_.middles_m)
+        farthest_m = std::max(farthest_m, glm::length(end_ * middle - start_ * middle));
+    stretches_ = static_cast<std::size_t>(std::max(1.0, std::ceil(farthest_m / (kSmoothStretch * cover_.radius_m))));
+}
+
+Pose SmoothBalls::pose_at(double part) const {
+    const Quat orientation = turns_ ? glm::slerp(start_.orientation, end_.orientation, part) : start_.orientation;
+    return Pose{start_.position_m + (end_.position_m - start_.position_m) * part, orientation};
+}
+
+SmoothBall SmoothBalls::operator[](std::size_t i) const {
+    const auto stretches = static_cast<double>(stretches_), stretch = static_cast<double>(i / cover_.middles_m.size());
+    const Pose from = pose_at(stretch / stretches), to = pose_at((stretch + 1.0) / stretches);
+    const Vec3& middle = cover_.middles_m[i % cover_.middles_m.size()];
+    return {from * middle, to * middle, cover_.radius_m, strength_, material_};
+}
+
 }  // namespace burin::compute

@@ -7,67 +7,18 @@
 #include <utility>
 
 namespace burin::compute {
+
 namespace {
 
-// The shares of the two terms of the field.
-constexpr double kOfPlanes = 0.25, kOfMiddle = 1.0 - kOfPlanes;
-// A level is used for widths of at least this many of its merged boxes.
-constexpr double kBoxesAWidth = 3.0;
+using shared::KernelSlopes;
+using shared::KernelSums;
+using shared::NearPoint;
 
-double facing_weight(double cosine) {
-    const double t = std::clamp((cosine + 0.5) / 0.5, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
-struct NearPoint {
+// A point near a place, as long as it is not known how much it counts.
+struct Near {
     const SurfacePoint* point;
-    Vec3 off;      // from the place to the point
-    double ratio;  // squared distance over squared width
-};
-
-// Sums of the points near a place, each with its weight; the gradients of the sums of scalars by the place.
-struct KernelSums {
-    double weight = 0.0, height = 0.0;
-    Vec3 normal{0.0}, off{0.0};
-    Vec3 weight_by_place{0.0}, height_by_place{0.0};
-    std::array<Vec3, 3> normal_by_place{}, off_by_place{};
-
-    void add(const NearPoint& near, double facing) {
-        const double u = 1.0 - near.ratio, g = near.point->area * facing * u * u * u;
-        weight += g;
-        height += g * (glm::dot(near.point->normal, near.off) + near.point->offset);
-        normal += g * near.point->normal;
-        off += g * near.off;
-    }
-    void add_gradient(const NearPoint& near, double facing, const SmoothField::Width& width) {
-        const double u = 1.0 - near.ratio;
-        const Vec3 by_place = near.point->area * facing * 6.0 * u * u *
-                              (near.off / (width.value * width.value) + near.ratio / width.value * width.gradient);
-        weight_by_place += by_place;
-        height_by_place += (glm::dot(near.point->normal, near.off) + near.point->offset) * by_place;
-        for (int c = 0; c < 3; ++c) {
-            normal_by_place.at(static_cast<std::size_t>(c)) += near.point->normal[c] * by_place;
-            off_by_place.at(static_cast<std::size_t>(c)) += near.off[c] * by_place;
-        }
-    }
-    [[nodiscard]] double distance() const {
-        return -(kOfPlanes * height + kOfMiddle * glm::dot(normal, off) / glm::length(normal)) / weight;
-    }
-    [[nodiscard]] Vec3 gradient() const {
-        const double length = glm::length(normal);
-        const Vec3 m = normal / length;
-        const double along = glm::dot(m, off);
-        Vec3 turning(0.0), m_by_normal(0.0), moving = -weight * m;
-        for (int c = 0; c < 3; ++c) {
-            const auto s = static_cast<std::size_t>(c);
-            m_by_normal += m[c] * normal_by_place.at(s);
-            moving += m[c] * off_by_place.at(s);
-        }
-        for (int c = 0; c < 3; ++c)
-            turning += off[c] / length * (normal_by_place.at(static_cast<std::size_t>(c)) - m[c] * m_by_normal);
-        return -(kOfPlanes * (height_by_place - normal) + kOfMiddle * (turning + moving)) / weight +
-               (kOfPlanes * height + kOfMiddle * along) / (weight * weight) * weight_by_place;
-    }
+    Vec3 off;
+    double ratio;
 };
 
 }  // namespace
@@ -75,7 +26,7 @@ struct KernelSums {
 SmoothField::SmoothField(std::vector<SurfacePoint> points, double most_width) {
     double box = 1.0;
     levels_.push_back(sorted(std::move(points), box));
-    for (; most_width >= kBoxesAWidth * 2.0 * box; box *= 2.0)
+    for (; most_width >= shared::kBoxesAWidth * 2.0 * box; box *= 2.0)
         levels_.push_back(sorted(merged(levels_.back().points, 2.0 * box), 2.0 * box));
 }
 
@@ -140,65 +91,58 @@ std::vector<SurfacePoint> SmoothField::merged(const std::vector<SurfacePoint>& p
     std::vector<Keyed> keyed;
     keyed.reserve(points.size());
     for (const SurfacePoint& p : points) {
-        int axis = 0;
-        for (int a = 1; a < 3; ++a)
-            if (std::abs(p.normal[a]) > std::abs(p.normal[axis])) axis = a;
         const Vec3 at = glm::floor(p.place / box);
-        keyed.push_back({{static_cast<int>(at.z), static_cast<int>(at.y), static_cast<int>(at.x),
-                          2 * axis + (p.normal[axis] < 0.0 ? 1 : 0)},
-                         &p});
+        keyed.push_back(
+            {{static_cast<int>(at.z), static_cast<int>(at.y), static_cast<int>(at.x), shared::facing_of(p.normal)},
+             &p});
     }
     std::ranges::stable_sort(keyed, {}, &Keyed::key);
     std::vector<SurfacePoint> result;
     for (std::size_t from = 0, to = 0; from < keyed.size(); from = to) {
-        SurfacePoint sum{Vec3(0.0), Vec3(0.0), 0.0, 0.0, keyed[from].point->material};
-        double height = 0.0;
+        shared::MergedSums sums = shared::nothing_merged();
+        const SurfacePoint& first = *keyed[from].point;
         for (; to < keyed.size() && keyed[to].key == keyed[from].key; ++to) {
             const SurfacePoint& p = *keyed[to].point;
-            sum.place += p.area * p.place;
-            sum.normal += p.area * p.normal;
-            sum.area += p.area;
-            height += p.area * (glm::dot(p.normal, p.place - keyed[from].point->place) + p.offset);
+            sums = with_merged(sums, p.place, p.normal, p.area, p.offset, first.place);
         }
-        if (!(sum.area > 0.0)) continue;
-        sum.place /= sum.area;
-        sum.normal /= sum.area;
-        sum.offset = height / sum.area - glm::dot(sum.normal, sum.place - keyed[from].point->place);
-        result.push_back(sum);
+        if (!(sums.area > 0.0)) continue;
+        const shared::MergedSums means = means_of(sums, first.place);
+        result.push_back({means.place, means.normal, means.area, means.height, first.material});
     }
     return result;
 }
 
 const SmoothField::Level& SmoothField::level_for(double width) const {
     std::size_t level = 0;
-    while (level + 1 < levels_.size() && width >= kBoxesAWidth * levels_[level + 1].box) ++level;
+    while (level + 1 < levels_.size() && width >= shared::kBoxesAWidth * levels_[level + 1].box) ++level;
     return levels_[level];
 }
 
 SmoothField::Value SmoothField::at(const Vec3& place, const Width& width, bool with_gradient) const {
-    thread_local std::vector<NearPoint> near;
+    thread_local std::vector<Near> near;
     near.clear();
     const double width2 = width.value * width.value;
     Vec3 mean_normal(0.0);
     level_for(width.value).for_near(place, width.value, [&](const SurfacePoint& p) {
         const Vec3 off = p.place - place;
-        const double ratio = glm::dot(off, off) / width2;
+        const double ratio = shared::dot3(off, off) / width2;
         if (ratio >= 1.0) return;
-        const double u = 1.0 - ratio;
-        mean_normal += p.area * u * u * u * p.normal;
+        mean_normal = shared::with_mean_normal(mean_normal, p.normal, p.area, ratio);
         near.push_back({&p, off, ratio});
     });
-    const double length = glm::length(mean_normal);
+    const double length = shared::length3(mean_normal);
     if (!(length > 0.0)) return {};
-    KernelSums sums;
-    for (const NearPoint& p : near) {
-        const double facing = facing_weight(glm::dot(p.point->normal, mean_normal) / length);
+    KernelSums sums = shared::no_sums();
+    KernelSlopes slopes = shared::no_slopes();
+    for (const Near& n : near) {
+        const double facing = shared::facing_weight(shared::dot3(n.point->normal, mean_normal) / length);
         if (!(facing > 0.0)) continue;
-        sums.add(p, facing);
-        if (with_gradient) sums.add_gradient(p, facing, width);
+        const NearPoint p{n.point->normal, n.off, n.ratio, n.point->area, n.point->offset};
+        sums = with_point(sums, p, facing);
+        if (with_gradient) slopes = with_slope(slopes, p, facing, width);
     }
-    if (!(sums.weight > 0.0) || !(glm::length(sums.normal) > 0.0)) return {};
-    return {true, sums.distance(), with_gradient ? sums.gradient() : Vec3(0.0)};
+    if (!are_known(sums)) return {};
+    return {true, distance_of(sums), with_gradient ? gradient_of(sums, slopes) : Vec3(0.0)};
 }
 
 std::uint8_t SmoothField::material_near(const Vec3& place, double width, std::uint8_t otherwise) const {

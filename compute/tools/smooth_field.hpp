@@ -16,7 +16,8 @@
 //
 // Points whose normals are turned by more than 120 degrees from m belong to another side of the material and count
 // nothing, those turned by 90 degrees or less count fully: a thin wall keeps its thickness.
-// Lengths in cells. Immutable after it is made; any thread. The order of the points fixes every bit of the result.
+// The arithmetic is a text that the device compiles too (shaders/shared/smooth_field.h); the order of the points fixes
+// every bit of the result. Lengths in cells. Immutable after it is made; any thread.
 #pragma once
 
 #include <array>
@@ -24,6 +25,7 @@
 #include <vector>
 
 #include "base/space.hpp"
+#include "shaders/shared/smooth_field.h"
 
 namespace burin::compute {
 
@@ -40,10 +42,7 @@ public:
     // `most_width` is the largest width that will be asked for.
     SmoothField(std::vector<SurfacePoint> points, double most_width);
 
-    struct Width {
-        double value = 0.0;
-        Vec3 gradient{0.0};  // how it changes with the place
-    };
+    using Width = shared::KernelWidth;
     struct Value {
         bool known = false;  // false where no point is near enough
         double distance = 0.0;

@@ -2,17 +2,17 @@
 // The carving engine on a Vulkan device.
 //
 // Data flow of an update: sweeps -> stages (flight.hpp): balls as capsules and work groups (vulkan_engine_tasks.hpp),
-// other convex tools as pieces (covered_rays.hpp) -> begin() submits work that cuts the rays on the device and writes
-// those that change, with their new ends, into the host's memory -> take() puts these into the host's solid, once the
-// device has done all. Rays that found no space in the store, or used up their share of one pass, are continued in
+// other convex tools as pieces (covered_rays.hpp), what smooths as balls (smooth_passes.hpp) -> begin() submits work
+// that changes the rays on the device and writes those that change, with their new ends, into the host's memory ->
+// take() puts these into the host's solid, once the device has done all. Rays that found no space in the store, or used up their share of one pass, are continued in
 // further submissions; usually there are none. One flight is under way at a time; updates that come meanwhile wait, and
 // are carried out as one if the device is late. So nobody waits for the device, and the host's solid lags behind by as
 // many updates as were not taken.
 // What the device has no shader for, the host does when the update is taken (compute/tools/apply.hpp); so it does with
 // rays that are assigned. The device is sent them before it is used again.
 //
-// The change of a ray is recorded once a stage, between the lowest and the highest depth that changed. After an
-// Error, the next update sends the host's solid to the device anew.
+// The change of a ray is recorded once a stage, and once a ball that smooths, between the lowest and the highest depth
+// that changed. After an Error, the next update sends the host's solid to the device anew.
 //
 // Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp.
 // Thread: one, as gpu::Device.
@@ -44,6 +44,7 @@ struct VulkanEngineOptions {
     std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
     std::uint32_t spans_a_ray = 1;       // space for what a tool covers, per ray visited; 0: for one span in all
     CellMakerOptions cells = {};
+    std::uint32_t smooth_percent = 100;  // space for what smooths, of what a ball usually takes
     // The divisions and roots that tell whether the device rounds as the processor does; for tests.
     std::vector<CheckedRounding> roundings = hard_roundings();
 };
@@ -56,6 +57,7 @@ struct VulkanEngineCounts {
     std::uint64_t cuts = 0;  // flights that reached the lattice
     std::uint64_t submissions = 0;
     std::uint64_t store_rebuilds = 0;  // because a ray found no space
+    std::uint64_t balls_smoothed = 0;  // by the device
 };
 
 class VulkanEngine final : public CarvingEngine {
@@ -111,19 +113,24 @@ private:
     [[nodiscard]] Result<void> prepare(std::vector<ToolSweep> sweeps);
     [[nodiscard]] Result<void> prepare_patches();
     [[nodiscard]] Result<bool> add_stage(std::size_t first_sweep, std::size_t end_sweep);
+    [[nodiscard]] Result<bool> add_smoothing(std::size_t of_sweep);
     [[nodiscard]] Result<void> advance(Wait wait);
     [[nodiscard]] Result<void> submit_passes();
     [[nodiscard]] Result<void> reserve_passes(std::uint64_t rays, std::uint64_t tasks);
     [[nodiscard]] Result<void> record(gpu::Commands& commands, const Pass& pass, shared::CutParameters parameters);
+    void record_smoothing(gpu::Commands& commands, const Pass& pass, std::uint32_t ball,
+                          const shared::CutParameters& parameters);
     [[nodiscard]] Result<void> end_submission();
     void send_for_cells(gpu::Commands& commands);
     void take_cells(const shared::CutCounters& counters);
     void leave_cells_to_host(const Error& why);
+    [[nodiscard]] Result<void> end_uncovered(std::size_t done);
     [[nodiscard]] Result<Delta> land();
     [[nodiscard]] Result<Delta> carry_out_on_host();
-    [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps, bool first_on_host, Changes& changes);
+    [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps, std::size_t first_ball,
+                                               Changes& changes);
     [[nodiscard]] Result<CarveStats> cut_now(std::span<const ToolSweep> sweeps, Changes& changes);
-    [[nodiscard]] Result<CarveStats> apply_one(const ToolSweep& sweep, Changes& changes);
+    [[nodiscard]] Result<CarveStats> apply_one(const ToolSweep& sweep, std::size_t first_ball, Changes& changes);
     [[nodiscard]] std::uint64_t assign_rays(const RayBatch& rays, Changes& changes);
     [[nodiscard]] Error forgotten(const Error& why);
 
@@ -151,6 +158,7 @@ private:
     gpu::ComputePipeline cut_rays_, cut_covered_, patch_rays_;
     std::optional<CoveredRays> covered_;  // nothing where the device rounds otherwise than the processor
     std::unique_ptr<CellMaker> maker_;    // null where the host makes all cells
+    std::optional<SmoothPasses> smooth_;  // made by the first sweep that smooths
     DeviceSolid device_solid_;
     // Set while the device holds the same ends as solid_, but for assigned_ and what is under way.
     bool synchronized_ = false;

@@ -20,6 +20,8 @@ using shared::CutParameters;
 using shared::CutTask;
 using shared::DexelEnd;
 using shared::PendingRay;
+using shared::SmoothParameters;
+using shared::SmoothTask;
 
 // Rays that one pass visits; more of them are left to the host, for which that is work enough.
 constexpr std::uint32_t kMostVisited = 1u << 22;
@@ -28,6 +30,8 @@ bool is_convex_cut(const ToolSweep& sweep) {
     return !std::holds_alternative<BallTool>(sweep.shape) && !std::holds_alternative<MeshTool>(sweep.shape) &&
            sweep.operation != Operation::smooth;
 }
+
+bool is_smoothing(const ToolSweep& sweep) { return sweep.operation == Operation::smooth; }
 
 template <typename T>
 std::span<const T> from(const std::vector<T>& values, std::size_t first) {
@@ -64,13 +68,14 @@ Result<std::optional<Delta>> VulkanEngine::take(Wait wait) {
 }
 
 bool VulkanEngine::is_for_device(const ToolSweep& sweep) const {
-    return is_ball_cut(sweep) || (covered_ && is_convex_cut(sweep));
+    return is_ball_cut(sweep) || (covered_ && (is_convex_cut(sweep) || is_smoothing(sweep)));
 }
 
 void VulkanEngine::tell_what_is_not_covered(std::span<const ToolSweep> sweeps) {
-    if (std::ranges::none_of(sweeps, is_convex_cut)) return;
+    if (std::ranges::none_of(sweeps, [](const auto& sweep) { return is_convex_cut(sweep) || is_smoothing(sweep); }))
+        return;
     notices_.push_back(Error{no_cover_->what, no_cover_->where, ""}.line() +
-                       "; the processor computes what cylinders, cones, bull-noses and boxes cover");
+                       "; the processor smooths, and computes what cylinders, cones, bull-noses and boxes cover");
     no_cover_.reset();
 }
 
@@ -142,7 +147,8 @@ Result<void> VulkanEngine::prepare_patches() {
 // Adds balls, or one other tool, to the flight. Returns false where that is beyond the device.
 Result<bool> VulkanEngine::add_stage(std::size_t first_sweep, std::size_t end_sweep) {
     const auto sweeps = std::span(flight_->sweeps).subspan(first_sweep, end_sweep - first_sweep);
-    Stage stage{.first_sweep = first_sweep, .pieces = {}};
+    if (is_smoothing(sweeps[0])) return add_smoothing(first_sweep);
+    Stage stage{.first_sweep = first_sweep, .pieces = {}, .smooths = {}};
     if (!is_ball_cut(sweeps[0])) {
         const ToolSweep& sweep = sweeps[0];
         BURIN_TRY(pieces, convex_pieces(solid_.lattice, sweep));
@@ -176,6 +182,21 @@ Result<bool> VulkanEngine::add_stage(std::size_t first_sweep, std::size_t end_sw
     return true;
 }
 
+// Adds a sweep that smooths to the flight. Returns false where that is beyond the device.
+Result<bool> VulkanEngine::add_smoothing(std::size_t of_sweep) {
+    auto steps = smooth_steps(solid_.lattice, flight_->sweeps[of_sweep]);
+    if (!steps) return false;
+    if (steps->empty()) return true;
+    if (!smooth_) {
+        BURIN_TRY(made, SmoothPasses::create(device_, options_.smooth_percent));
+        smooth_.emplace(std::move(made));
+    }
+    BURIN_TRY_DO(smooth_->prepare(*steps));
+    const std::size_t balls = steps->size();
+    flight_->stages.push_back({.first_sweep = of_sweep, .end_task = balls, .pieces = {}, .smooths = std::move(*steps)});
+    return true;
+}
+
 // Submits what is left of the flight, as far as that needs no waiting, or all of it.
 Result<void> VulkanEngine::advance(Wait wait) {
     while (!flight_->is_done()) {
@@ -195,9 +216,12 @@ Result<void> VulkanEngine::submit_passes() {
     flight_->passes = flight_->next_passes(options_.tasks_a_pass, longest_);
     std::uint64_t rays = 0;
     std::vector<CutTask> tasks;
+    std::vector<SmoothTask> smooths;
     for (const Pass& pass : flight_->passes) {
         rays += pass.rays;
-        append_pass(std::span(flight_->tasks.tasks).subspan(pass.first_task, pass.end_task - pass.first_task), tasks);
+        append_pass(flight_->tasks_of(pass), tasks);
+        const Stage& stage = flight_->stages[pass.stage];
+        if (stage.is_smooth()) smooths.push_back(stage.smooths[pass.first_task].task);
     }
     BURIN_TRY_DO(reserve_passes(rays, tasks.size()));
     BURIN_TRY(commands, gpu::Commands::begin(device_));
@@ -208,23 +232,29 @@ Result<void> VulkanEngine::submit_passes() {
     order_.send(commands, flight_->tasks.order.size() * sizeof(std::uint32_t));
     tasks_.send(commands, tasks.size() * sizeof(CutTask));
     send_for_cells(commands);
+    if (!smooths.empty()) BURIN_TRY_DO(smooth_->send(commands, smooths));
     send_counters(commands);
     if (!flight_->patches.empty()) record_patches(commands, flight_->patches, flight_->patch_ends);
     CutParameters parameters = this->parameters();
     // The buffer may be larger from an earlier cut, but the host does not look for more than it expects.
     parameters.export_size = static_cast<std::uint32_t>(exported_.size_bytes() / sizeof(DexelEnd));
     std::swap(pending_buffer_, continued_);
+    std::uint32_t ball = 0;
     for (const Pass& pass : flight_->passes) {
-        parameters.end_task = parameters.first_task + static_cast<std::uint32_t>(pass.end_task - pass.first_task);
-        BURIN_TRY_DO(record(commands, pass, parameters));
+        parameters.end_task = parameters.first_task + static_cast<std::uint32_t>(flight_->tasks_of(pass).size());
+        if (flight_->stages[pass.stage].is_smooth())
+            record_smoothing(commands, pass, ball++, parameters);
+        else
+            BURIN_TRY_DO(record(commands, pass, parameters));
         ++parameters.pass;
         parameters.first_task = parameters.end_task;
     }
-    if (flight_->one_pass && !flight_->stages[flight_->passes.front().stage].is_of_balls())
+    if (flight_->one_pass && flight_->stages[flight_->passes.front().stage].is_covered())
         covered_->fetch_counters(commands);
     if (flight_->makes_cells)
         maker_->record(commands, solid_, device_solid_, counters_.buffer(), changed_.buffer(),
                        static_cast<std::uint32_t>(rays));
+    if (!smooths.empty()) smooth_->fetch(commands);
     counters_.fetch(commands, sizeof(CutCounters));
     BURIN_TRY(submission, std::move(commands).submit());
     ++counts_.submissions;
@@ -256,7 +286,7 @@ Result<void> VulkanEngine::record(gpu::Commands& commands, const Pass& pass, Cut
     parameters.cuts = pass.cuts;
     std::array<gpu::BufferRange, 3> work{capsules_.buffer(), tasks_.buffer(), order_.buffer()};
     const gpu::ComputePipeline* program = &cut_rays_;
-    if (!stage.is_of_balls()) {
+    if (stage.is_covered()) {
         BURIN_TRY(fits, covered_->prepare(solid_.lattice, stage.pieces));
         BURIN_CHECK(fits);
         covered_->record(commands);
@@ -293,6 +323,22 @@ void VulkanEngine::take_cells(const CutCounters& counters) {
     flight_->made = flight_->changing_submissions++ == 0 ? std::move(made) : std::nullopt;
 }
 
+void VulkanEngine::record_smoothing(gpu::Commands& commands, const Pass& pass, std::uint32_t ball,
+                                    const CutParameters& parameters) {
+    SmoothParameters smooths{};
+    smooths.store_address = parameters.store_address;
+    std::ranges::copy(parameters.rays_u, smooths.rays_u);
+    std::ranges::copy(parameters.rays_v, smooths.rays_v);
+    std::ranges::copy(parameters.first_ray, smooths.first_ray);
+    smooths.store_size = parameters.store_size;
+    smooths.export_size = parameters.export_size;
+    smooths.pass = parameters.pass;
+    smooths.ball = ball;
+    smooths.most_ends = pass.most_ends;
+    smooth_->record(commands, flight_->stages[pass.stage].smooths[pass.first_task], smooths,
+                    {device_solid_.rays(), counters_.buffer(), changed_.buffer(), exported_.buffer()});
+}
+
 // Takes over what the submission has done, and finds where the flight goes on.
 Result<void> VulkanEngine::end_submission() {
     BURIN_TRY_DO(flight_->submission->wait());
@@ -308,23 +354,35 @@ Result<void> VulkanEngine::end_submission() {
     flight_->patches.clear();
     std::size_t done = 0;
     while (done < flight_->passes.size() && counters.left[done + 1] == 0) ++done;
-    const bool is_uncovered = done < flight_->passes.size() && counters.uncovered[done] != 0;
-    const bool was_alone = std::exchange(flight_->one_pass, is_uncovered);
-    const std::size_t stage = done < flight_->passes.size() ? flight_->passes[done].stage : 0;
-    const std::uint32_t pending = done < flight_->passes.size() ? flight_->passes[done].pending : 0;
-    if (is_uncovered) {
+    for (std::size_t i = 0; i < done; ++i)
+        counts_.balls_smoothed += flight_->stages[flight_->passes[i].stage].is_smooth() ? 1 : 0;
+    const bool is_left = done < flight_->passes.size();
+    if (is_left && flight_->stages[flight_->passes[done].stage].is_smooth()) {
+        const std::size_t stage = flight_->passes[done].stage;
         flight_->pass(done, 0);
-        flight_->pending = pending;
-        // Its rays wait where they did before: a pass that has not begun leaves none.
-        if (pending > 0) std::swap(pending_buffer_, continued_);
-        if (was_alone) {
-            BURIN_TRY(helps, covered_->make_room(covered_->counted()));
-            if (!helps) flight_->leave_to_host(stage);
-        }
+        BURIN_TRY(helps, smooth_->make_room());
+        // Alone, it has all the exported ends that there may be.
+        if (!helps || (done == 0 && counters.exported > kMostExported)) flight_->leave_to_host(stage);
+    } else if (is_left && counters.uncovered[done] != 0) {
+        BURIN_TRY_DO(end_uncovered(done));
     } else {
-        flight_->pass(done, done < flight_->passes.size() ? counters.left[done + 1] : 0);
+        flight_->one_pass = false;
+        flight_->pass(done, is_left ? counters.left[done + 1] : 0);
     }
     return make_room_for(counters);
+}
+
+// Goes back to a pass that has not begun since it is not known what its tool covers.
+Result<void> VulkanEngine::end_uncovered(std::size_t done) {
+    const Pass pass = flight_->passes[done];
+    flight_->pass(done, 0);
+    flight_->pending = pass.pending;
+    // Its rays wait where they did before: a pass that has not begun leaves none.
+    if (pass.pending > 0) std::swap(pending_buffer_, continued_);
+    if (!std::exchange(flight_->one_pass, true)) return {};
+    BURIN_TRY(helps, covered_->make_room(covered_->counted()));
+    if (!helps) flight_->leave_to_host(pass.stage);
+    return {};
 }
 
 // Puts what the flight has changed into the host's solid, and lets the host do what is left.
@@ -336,7 +394,7 @@ Result<Delta> VulkanEngine::land() {
     flight_.reset();
     delta.made = std::move(landed.made);
     if (landed.on_host < landed.sweeps.size()) {
-        BURIN_TRY(rest, carry_out(from(landed.sweeps, landed.on_host), true, delta.changes));
+        BURIN_TRY(rest, carry_out(from(landed.sweeps, landed.on_host), landed.first_ball, delta.changes));
         delta.stats += rest;
     }
     return delta;
@@ -348,6 +406,7 @@ Error VulkanEngine::forgotten(const Error& why) {
     waiting_.clear();
     taken_ = begun_;
     synchronized_ = false;
+    if (smooth_) smooth_->forget();
     return with_the_other_engine(why);
 }
 
@@ -360,18 +419,20 @@ Result<Delta> VulkanEngine::carry_out_on_host() {
     if (update.sweeps.empty()) {
         delta.stats = {update.rays.rays.size(), assign_rays(update.rays, delta.changes)};
     } else {
-        BURIN_TRY(stats, carry_out(update.sweeps, true, delta.changes));
+        BURIN_TRY(stats, carry_out(update.sweeps, 0, delta.changes));
         delta.stats = stats;
     }
     return delta;
 }
 
-// Carries out sweeps among which are some that the device has no shader for, one after the other.
-Result<CarveStats> VulkanEngine::carry_out(std::span<const ToolSweep> sweeps, bool first_on_host, Changes& changes) {
+// Carries out sweeps of which the first is the host's, from a ball on, and others too may be, one after the other.
+Result<CarveStats> VulkanEngine::carry_out(std::span<const ToolSweep> sweeps, std::size_t first_ball,
+                                           Changes& changes) {
     CarveStats stats;
     for (std::size_t i = 0; i < sweeps.size();) {
-        const std::size_t together = first_on_host && i == 0 ? 0 : for_device(sweeps.subspan(i));
-        const auto done = together > 0 ? cut_now(sweeps.subspan(i, together), changes) : apply_one(sweeps[i], changes);
+        const std::size_t together = i == 0 ? 0 : for_device(sweeps.subspan(i));
+        const auto done = together > 0 ? cut_now(sweeps.subspan(i, together), changes)
+                                       : apply_one(sweeps[i], i == 0 ? first_ball : 0, changes);
         if (!done) return done;
         stats += *done;
         i += std::max<std::size_t>(together, 1);
@@ -379,8 +440,9 @@ Result<CarveStats> VulkanEngine::carry_out(std::span<const ToolSweep> sweeps, bo
     return stats;
 }
 
-Result<CarveStats> VulkanEngine::apply_one(const ToolSweep& sweep, Changes& changes) {
-    return apply_on_host(solid_, sweep, pool_, [&](const RayBatch& rays) { return assign_rays(rays, changes); });
+Result<CarveStats> VulkanEngine::apply_one(const ToolSweep& sweep, std::size_t first_ball, Changes& changes) {
+    return apply_on_host(
+        solid_, sweep, pool_, [&](const RayBatch& rays) { return assign_rays(rays, changes); }, first_ball);
 }
 
 // Lets the device carry out sweeps between what the host does, and waits for it.

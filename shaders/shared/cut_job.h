@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The interface between the host and shaders/cut_rays.comp and cut_covered.comp: which rays to cut by which capsules,
-// or by what a tool covers of them, which of them changed, and which have to wait for another pass. All fields but
+// or by what a tool covers of them, which of them changed, and which have to wait for another pass. Passes that smooth
+// (smooth_job.h) share the counters. All fields but
 // those of the push constants are 32-bit words, so the layout is the same everywhere.
 //
 // Several passes may follow each other in one submission, each with its number. One that leaves anything undone keeps
@@ -12,7 +13,7 @@
 BURIN_SHARED_BEGIN
 
 const int kCutGroup = 64;  // invocations in a work group, one ray each
-const int kMostPasses = 16;  // of one submission
+const int kMostPasses = 32;  // of one submission
 const uint kNotBegun = uint(0x80000000);
 const uint kNoRay = uint(0xffffffff);  // in place of a ray's code
 
@@ -105,7 +106,7 @@ BURIN_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(burin::shared::Capsule) == 40 && sizeof(burin::shared::CutTask) == 32 &&
               sizeof(burin::shared::ChangedRay) == 20 && sizeof(burin::shared::PendingRay) == 24 &&
-              sizeof(burin::shared::CutCounters) == 164 && sizeof(burin::shared::PatchRay) == 12 &&
+              sizeof(burin::shared::CutCounters) == 292 && sizeof(burin::shared::PatchRay) == 12 &&
               sizeof(burin::shared::CutParameters) == 96);
 #endif
 #endif

@@ -34,6 +34,13 @@ BURIN_HOT_FN double dot3(Double3 a, Double3 b) {
 BURIN_HOT_FN Double3 cross3(Double3 a, Double3 b) {
     return Double3(a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]);
 }
+BURIN_HOT_FN double length3(Double3 a) { return sqrt(dot3(a, a)); }
+// Tells whether a number is below zero, or is the zero with a minus sign.
+#ifdef __cplusplus
+BURIN_HOT_FN bool has_minus(double a) { return std::signbit(a); }
+#else
+bool has_minus(double a) { return (unpackDouble2x32(a).y & 0x80000000u) != 0u; }
+#endif
 BURIN_HOT_FN bool is_zero(Double3 a) { return a[0] == 0.0 && a[1] == 0.0 && a[2] == 0.0; }
 
 // Returns the direction of a lattice axis.

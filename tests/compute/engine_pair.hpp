@@ -83,6 +83,18 @@ public:
     }
     bool cut(const BallSweep& sweep) { return cut(std::span(&sweep, 1)); }
 
+    bool carve(std::span<const ToolSweep> sweeps) {
+        if (vulkan_ == nullptr) return false;
+        const auto expected = cpu_->carve(sweeps), actual = vulkan_->carve(sweeps);
+        EXPECT_TRUE(expected) << expected.error().line();
+        EXPECT_TRUE(actual) << actual.error().line();
+        if (!expected || !actual) return false;
+        EXPECT_EQ(actual->rays_touched, expected->rays_touched);
+        EXPECT_EQ(actual->rays_changed, expected->rays_changed);
+        EXPECT_EQ(first_difference(vulkan_->solid(), cpu_->solid()), "");
+        return !testing::Test::HasFailure();
+    }
+
     bool assign(const RayBatch& rays) {
         if (vulkan_ == nullptr) return false;
         const auto expected = cpu_->assign(rays);
