@@ -17,11 +17,10 @@
 // work that runs for seconds, and a software driver ends an invocation's loops, silently, after 65535 iterations of all
 // of them.
 layout(std430, binding = 0) buffer Rays { RayRef rays[]; };
-layout(std430, binding = 1) writeonly buffer Stale { uint stale[]; };
+layout(std430, binding = 1) writeonly buffer Pending { PendingRay pending[]; };
 #include "shaders/dexel_store.glsl"
 layout(std430, binding = 6) writeonly buffer Changed { ChangedRay changed[]; };
 layout(std430, binding = 7) writeonly buffer Exported { DexelEnd exported[]; };
-layout(std430, binding = 9) writeonly buffer Pending { PendingRay pending[]; };
 #include "shaders/dexel_rooms.glsl"
 
 uint first_end = 0u;  // index of the current ray's first end
@@ -130,14 +129,8 @@ void cut_ray() {
     if (job.changed_lo <= job.changed_hi) {
         uint count = count_of(ray);
         atomicMax(counters.longest, count);
-        if (parameters.deferred != 0u) {
-            if ((ray.count_room & kStale) == 0u) stale[atomicAdd(counters.stale, 1u)] = job.ray;
-            ray.count_room |= kStale;
-        }
         rays[index] = ray;
-        if (!waits && parameters.deferred != 0u) {
-            changed[atomicAdd(counters.changed, 1u)] = ChangedRay(job.ray, 0u, count, job.changed_lo, job.changed_hi);
-        } else if (!waits) {
+        if (!waits) {
             uint first = atomicAdd(counters.exported, count);
             if (first + count <= parameters.export_size) {
                 for (uint i = 0u; i < count; ++i) exported[first + i] = store.at[ray.first + i];

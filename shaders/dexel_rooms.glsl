@@ -17,6 +17,6 @@ RayRef with_larger_room(RayRef ray, uint needed) {
     uint count = count_of(ray);
     for (uint i = 0u; i < count; ++i) store.at[place + i] = store.at[ray.first + i];
     ray.first = place;
-    ray.count_room = larger | (ray.count_room & kStale) | count;
+    ray.count_room = larger | count;
     return ray;
 }

@@ -63,8 +63,8 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
         to = std::move(made);
         return {};
     };
-    auto made = compile(engine->cut_rays_, k_cut_rays_comp, 10, "cut");
-    if (made) made = compile(engine->cut_covered_, k_cut_covered_comp, 10, "cut what is covered");
+    auto made = compile(engine->cut_rays_, k_cut_rays_comp, 9, "cut");
+    if (made) made = compile(engine->cut_covered_, k_cut_covered_comp, 9, "cut what is covered");
     if (made) made = compile(engine->patch_rays_, k_patch_rays_comp, 4, "patch");
     if (made) made = engine->synchronize();
     if (!made) {
@@ -170,10 +170,8 @@ void VulkanEngine::record_patches(gpu::Commands& commands, std::span<const Patch
 Result<void> VulkanEngine::synchronize() {
     if (synchronized_) return send_assigned();
     assigned_.clear();
-    const std::size_t rays = solid_.rays_held();
-    BURIN_TRY_DO(stale_.reserve(device_, rays * sizeof(std::uint32_t)));
     // The first cuts of a fine solid need more free ends than those of a coarse one: one for every eighth ray.
-    const std::size_t spare = options_.spare_ends > 0 ? std::max(options_.spare_ends, rays / 8) : 0;
+    const std::size_t spare = options_.spare_ends > 0 ? std::max(options_.spare_ends, solid_.rays_held() / 8) : 0;
     BURIN_TRY_DO(device_solid_.upload(device_, solid_, {0, spare}));
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();

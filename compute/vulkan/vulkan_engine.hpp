@@ -175,7 +175,6 @@ private:
     SharedBuffer exported_{"changed ends", SharedBuffer::Traffic::in_place};
     SharedBuffer pending_buffer_{"pending rays", SharedBuffer::Traffic::none};
     SharedBuffer continued_{"continued rays", SharedBuffer::Traffic::none};
-    SharedBuffer stale_{"stale rays", SharedBuffer::Traffic::none};
     SharedBuffer patches_{"patched rays", SharedBuffer::Traffic::to_device};
     SharedBuffer patch_ends_{"patch ends", SharedBuffer::Traffic::to_device};
     // Updates that were begun and not taken: one on the device, then those that wait.

@@ -296,8 +296,8 @@ Result<void> VulkanEngine::record(gpu::Commands& commands, const Pass& pass, Cut
         parameters.work = stage.work;
     }
     commands.dispatch(*program,
-                      {device_solid_.rays(), stale_.buffer(), work[0], work[1], work[2], counters_.buffer(),
-                       changed_.buffer(), exported_.buffer(), continued_.buffer(), pending_buffer_.buffer()},
+                      {device_solid_.rays(), pending_buffer_.buffer(), work[0], work[1], work[2], counters_.buffer(),
+                       changed_.buffer(), exported_.buffer(), continued_.buffer()},
                       gpu::bytes_of(parameters), {groups_of(pass.rays), 1, 1});
     commands.barrier();
     return {};

@@ -66,7 +66,6 @@ struct CutCounters {
     uint pending;      // length of the list of PendingRay
     uint room_wanted;  // ends that pending rays could not allocate in the store
     uint longest;      // largest number of ends of a ray that changed or is pending
-    uint stale;        // length of the list of rays whose ends the host does not know yet
     // What a pass before left undone: kNotBegun, or its rays that wait. That of pass i is left[i + 1]; left[0] is what
     // patch_rays.comp found no room for.
     uint left[kMostPasses + 1];
@@ -90,11 +89,8 @@ struct CutParameters {
     uint cuts;          // most capsules that are applied to a ray in one pass
     uint looks;         // most capsules that are tested for a ray in one pass, near or far
     uint pending;       // 0: process new tasks; otherwise continue this number of pending rays instead
-    // 1: the ends of changed rays are not exported; the rays are added to the list of stale rays.
-    uint deferred;
-    uint first_stale;  // index in the list of stale rays to begin with
-    uint pass;         // its number in the submission
-    uint first_task;   // of cut_rays.comp: its tasks
+    uint pass;          // its number in the submission
+    uint first_task;    // of cut_rays.comp: its tasks
     uint end_task;
     // Of cut_covered.comp: rays visited, and what the tool does with its spans (capsule.h).
     uint visited;
@@ -106,7 +102,7 @@ BURIN_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(burin::shared::Capsule) == 40 && sizeof(burin::shared::CutTask) == 32 &&
               sizeof(burin::shared::ChangedRay) == 20 && sizeof(burin::shared::PendingRay) == 24 &&
-              sizeof(burin::shared::CutCounters) == 292 && sizeof(burin::shared::PatchRay) == 12 &&
-              sizeof(burin::shared::CutParameters) == 96);
+              sizeof(burin::shared::CutCounters) == 288 && sizeof(burin::shared::PatchRay) == 12 &&
+              sizeof(burin::shared::CutParameters) == 88);
 #endif
 #endif

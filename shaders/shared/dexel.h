@@ -29,11 +29,9 @@ struct DexelEnd {
 // The location of a ray's ends in its set's store: 8 bytes.
 struct RayRef {
     uint first;
-    // Low 24 bits: number of ends; the 5 above: log2 of the number of ends allocated for them; highest bit: kStale.
+    // Low 24 bits: number of ends; the 8 above: log2 of the number of ends allocated for them.
     uint count_room;
 };
-// Set while the ray is on the device's list of rays whose ends the host does not know yet.
-const uint kStale = 0x80000000u;
 
 BURIN_FN DexelEnd make_end(int depth, uint material, uint normal) {
     DexelEnd end;
@@ -45,7 +43,7 @@ BURIN_FN DexelEnd make_end(int depth, uint material, uint normal) {
 BURIN_FN int depth_of(DexelEnd end) { return int(end.depth_material & uint(0xffffff)); }
 BURIN_FN uint material_of(DexelEnd end) { return end.depth_material >> 24; }
 BURIN_FN uint count_of(RayRef ray) { return ray.count_room & uint(0xffffff); }
-BURIN_FN uint room_of(RayRef ray) { return uint(1) << ((ray.count_room >> 24) & uint(31)); }
+BURIN_FN uint room_of(RayRef ray) { return uint(1) << (ray.count_room >> 24); }
 
 // The whole depths lo..hi of a ray that a tool covers; empty when lo > hi.
 struct RaySpan {

@@ -23,6 +23,19 @@
 #include "shaders/mark_cells.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
 #include "shaders/round_doubles.comp.spv.hpp"
+#include "shaders/smooth_begin.comp.spv.hpp"
+#include "shaders/smooth_edges.comp.spv.hpp"
+#include "shaders/smooth_ends.comp.spv.hpp"
+#include "shaders/smooth_gather.comp.spv.hpp"
+#include "shaders/smooth_merge.comp.spv.hpp"
+#include "shaders/smooth_order.comp.spv.hpp"
+#include "shaders/smooth_rays.comp.spv.hpp"
+#include "shaders/smooth_rows.comp.spv.hpp"
+#include "shaders/smooth_sides.comp.spv.hpp"
+#include "shaders/smooth_signs.comp.spv.hpp"
+#include "shaders/smooth_sort.comp.spv.hpp"
+#include "shaders/smooth_store.comp.spv.hpp"
+#include "shaders/smooth_surface.comp.spv.hpp"
 #include "tests/compute/effort.hpp"
 
 namespace burin::compute {
@@ -32,11 +45,17 @@ using Spirv = std::span<const std::uint32_t>;
 
 const std::vector<std::pair<const char*, Spirv>>& exact_shaders() {
     static const std::vector<std::pair<const char*, Spirv>> all{
-        {"cover_rays", k_cover_rays_comp},         {"cut_covered", k_cut_covered_comp},
-        {"cut_rays", k_cut_rays_comp},             {"find_crossings", k_find_crossings_comp},
-        {"list_cells", k_list_cells_comp},         {"make_cells", k_make_cells_comp},
-        {"mark_cells", k_mark_cells_comp},         {"patch_rays", k_patch_rays_comp},
-        {"round_doubles", k_round_doubles_comp}};
+        {"cover_rays", k_cover_rays_comp},       {"cut_covered", k_cut_covered_comp},
+        {"cut_rays", k_cut_rays_comp},           {"find_crossings", k_find_crossings_comp},
+        {"list_cells", k_list_cells_comp},       {"make_cells", k_make_cells_comp},
+        {"mark_cells", k_mark_cells_comp},       {"patch_rays", k_patch_rays_comp},
+        {"round_doubles", k_round_doubles_comp}, {"smooth_begin", k_smooth_begin_comp},
+        {"smooth_edges", k_smooth_edges_comp},   {"smooth_ends", k_smooth_ends_comp},
+        {"smooth_gather", k_smooth_gather_comp}, {"smooth_merge", k_smooth_merge_comp},
+        {"smooth_order", k_smooth_order_comp},   {"smooth_rays", k_smooth_rays_comp},
+        {"smooth_rows", k_smooth_rows_comp},     {"smooth_sides", k_smooth_sides_comp},
+        {"smooth_signs", k_smooth_signs_comp},   {"smooth_sort", k_smooth_sort_comp},
+        {"smooth_store", k_smooth_store_comp},   {"smooth_surface", k_smooth_surface_comp}};
     return all;
 }
 
