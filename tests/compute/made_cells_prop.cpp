@@ -325,25 +325,27 @@ TEST(MadeCells, WrongNumbersAreMetByTheHostItself) {
     EXPECT_GT(spoilt, repeated(1000));
 }
 
-// Such a surface may be wrong, as no one can tell a wrong place from the right one, but it can be drawn and felt.
+// Such a surface may be wrong, as no one can tell a wrong place from the right one, but it can be drawn and felt. So it
+// stays in the updates that follow, as long as no tile was missed.
 TEST(MadeCells, AnyBitMayBeWrongWithoutACrash) {
     WorkerPool pool(2);
-    for (int seed = 0; seed < repeated(16); ++seed) {
+    for (int seed = 0; seed < repeated(32); ++seed) {
         Random random(static_cast<std::uint64_t>(200 + seed));
         Pair pair(some_solid(seed), pool);
         for (int step = 0; step < 10; ++step) {
             const Changes changes = pair.change(random);
             const MadeCells made = device_cells(pair.solid(), changes, pool);
             const Surface before = pair.composed;
-            for (int i = 0; i < 24; ++i) {
+            for (int i = 0; i < 12; ++i) {
                 pair.composed = before;
                 MadeCells wrong = made;
                 for (int bits = random.small(1, 4); bits > 0; --bits) turn_bit(wrong, random);
+                if (i == 11) {  // goes on from here
+                    for (std::size_t t = 0; t < made.tiles.size(); ++t) wrong.tiles[t].tile = made.tiles[t].tile;
+                }
                 pair.composed.update(pair.solid(), changes, pool, &wrong);
                 ASSERT_TRUE(is_whole(pair.composed)) << "seed " << seed << " step " << step;
             }
-            pair.composed = before;
-            ASSERT_EQ(pair.update(changes, made), "") << "seed " << seed << " step " << step;
         }
     }
 }
