@@ -16,6 +16,7 @@ void Surface::subtract_changed() {
         disagreeing_edges_ -= tile(t).disagreeing_edges;
     }
     work_.resize(changed_tiles_.size());
+    composed_tiles_ = 0;
 }
 
 RemeshStats Surface::add_changed() {
@@ -100,6 +101,7 @@ RemeshStats Surface::compose_tiles(const Solid& solid, const Changes& changes, c
     for (std::size_t i = 0; i < composed.size(); ++i) {
         if (composed[i] == 0) left.push_back(i);
     }
+    composed_tiles_ = composed.size() - left.size();
     if (!left.empty()) {
         dirty_.sort(changes, pool);
         pool.run(left.size(), [&](std::size_t k) { mesh(left[k], solid, dirty_.mask(changed_tiles_[left[k]])); });

@@ -40,6 +40,8 @@ public:
     RemeshStats update(const Solid& solid, const Changes& changes, WorkerPool& pool, const MadeCells* made = nullptr);
     // Returns the tiles that the last mesh_all or update re-meshed, in increasing order.
     [[nodiscard]] std::span<const std::uint32_t> changed_tiles() const { return changed_tiles_; }
+    // Returns how many of them the last update made of a device's cells. The result does not tell.
+    [[nodiscard]] std::size_t composed_tiles() const { return composed_tiles_; }
 
     [[nodiscard]] const Lattice& lattice() const { return lattice_; }
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
@@ -85,6 +87,7 @@ private:
     std::vector<std::uint32_t> changed_tiles_;
     std::vector<TileWork> work_;
     std::vector<std::uint64_t> made_order_;  // the tile's number, then its index in MadeCells::tiles in the lower half
+    std::size_t composed_tiles_ = 0;
     std::uint64_t triangles_ = 0, disagreeing_edges_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/space.hpp"
 #include "geometry/contact/surface_tile.hpp"
 
 namespace burin::compute {
@@ -14,7 +15,7 @@ struct TileBounds {
     geometry::TriangleSlab slab;
 };
 
-// Equals geometry::slab_around and the longest edge of each triangle. Uses `heights` as scratch memory.
-[[nodiscard]] TileBounds bounds_of(const geometry::SurfaceTile& tile, std::vector<double>& heights);
+// Equals geometry::slab_around and the longest edge of each triangle. Uses `places` as scratch memory.
+[[nodiscard]] TileBounds bounds_of(const geometry::SurfaceTile& tile, std::vector<Vec3>& places);
 
 }  // namespace burin::compute

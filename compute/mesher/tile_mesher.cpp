@@ -48,7 +48,7 @@ struct Scratch {
     TileSamples samples;
     TileDraft draft;
     std::vector<std::uint32_t> new_index;
-    std::vector<double> heights;
+    std::vector<Vec3> places;
 };
 
 Scratch& scratch_of_thread() {
@@ -65,7 +65,7 @@ public:
           first_node_(first_node),
           samples_(scratch.samples),
           draft_(scratch.draft),
-          heights_(scratch.heights),
+          places_(scratch.places),
           mesh_(mesh),
           cells_per_m_(static_cast<float>(1.0 / solid.lattice.spacing_m)),
           copier_(old, dirty, scratch.draft, scratch.new_index) {
@@ -96,7 +96,7 @@ private:
         draft_.vertices.assign_to(mesh_.vertices);
         draft_.indices.assign_to(mesh_.indices);
         draft_.quads.assign_to(mesh_.quads);
-        const TileBounds bounds = bounds_of(mesh_, heights_);
+        const TileBounds bounds = bounds_of(mesh_, places_);
         mesh_.longest_edge_m = bounds.longest_edge_m;
         mesh_.slab = bounds.slab;
         draft_.cells.assign_to(mesh_.cells);
@@ -279,7 +279,7 @@ private:
     const std::array<int, 3>& first_node_;
     TileSamples& samples_;
     TileDraft& draft_;
-    std::vector<double>& heights_;
+    std::vector<Vec3>& places_;
     TileMesh& mesh_;
     float cells_per_m_;
     TileCopier copier_;

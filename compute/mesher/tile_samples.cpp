@@ -235,16 +235,18 @@ std::size_t TileSamples::own_crossed(const EdgeMask& edges) const {
 bool TileSamples::take_crossings(std::span<const shared::MadeEdge> crossings, const EdgeMask& edges) {
     if (crossings.size() != own_crossed(edges)) return false;
     count_ = 0;
+    constexpr std::uint32_t kInside = 1u << 16;
+    constexpr std::uint32_t kKnown = geometry::SurfaceTile::kQuadEdge | geometry::SurfaceTile::kDisagrees | kInside;
     std::uint32_t least = 0;
     for (const shared::MadeEdge& crossing : crossings) {
         const std::uint32_t number = crossing.what & geometry::SurfaceTile::kQuadEdge;
         const std::uint32_t axis = number / kTileCells / kTileCells / kTileCells,
                             y = number / kTileCells / kTileCells % kTileCells, x = number / kTileCells % kTileCells,
                             z = number % kTileCells;
-        if (number < least || axis > 2) return false;
+        if (number < least || axis > 2 || (crossing.what & ~kKnown) != 0) return false;
         least = number + 1;
         const std::size_t at = column(static_cast<int>(x), static_cast<int>(y));
-        const bool lower_inside = (crossing.what >> 16 & 1u) != 0;
+        const bool lower_inside = (crossing.what & kInside) != 0;
         if (((crossed_[axis][at] & edges[axis][at]) >> (z + 1) & 1u) == 0) return false;
         if ((columns_[at] >> (z + 1) & 1u) != (lower_inside ? 1u : 0u)) return false;
         const shared::Direction n = shared::decode_normal(crossing.normal);

@@ -103,8 +103,11 @@ struct Pair {
     // change, so it must do without.
     [[nodiscard]] std::string update(const Changes& changes, const MadeCells& made) {
         const RemeshStats by_host = host.update(solid(), changes, pool);
-        const bool any_left = std::ranges::any_of(made.tiles, [&](const auto& tile) { return is_left(tile); });
-        return update_composed(any_left ? solid() : hollow, any_left ? changes : Changes{}, made, by_host);
+        const auto left = std::ranges::count_if(made.tiles, [&](const auto& tile) { return is_left(tile); });
+        const auto expected = made.tiles.size() - static_cast<std::size_t>(left);
+        const std::string differs =
+            update_composed(left > 0 ? solid() : hollow, left > 0 ? changes : Changes{}, made, by_host);
+        return composed.composed_tiles() == expected ? differs : "not all tiles were composed; " + differs;
     }
 
     [[nodiscard]] std::string update_composed(const Solid& from, const Changes& changes, const MadeCells& made,
@@ -198,10 +201,6 @@ constexpr Fault kFaults[] = {
      [](MadeCells& made, auto& tile) { last_cell(made, tile) = made.cells[tile.first_cell + tile.cells - 2]; }},
     {"cells out of order",
      [](MadeCells& made, auto& tile) { std::swap(last_cell(made, tile), made.cells[tile.first_cell]); }},
-    {"a cell without surface",
-     [](MadeCells& made, auto& tile) {
-         last_cell(made, tile).what = (last_cell(made, tile).what & 0xffff0000u) | 4912u;
-     }},
     {"a cell without vertices", [](MadeCells& made, auto& tile) { last_cell(made, tile).what &= 0xffffu; }},
     {"a cell with 13 vertices",
      [](MadeCells& made, auto& tile) {
@@ -217,7 +216,11 @@ constexpr Fault kFaults[] = {
     {"an edge without vertex", [](MadeCells& made, auto& tile) { use_vertex(made, tile, 15); }},
     {"an edge with another cell's vertex",
      [](MadeCells& made, auto& tile) { use_vertex(made, tile, last_cell(made, tile).what >> 16); }},
-    {"no vertex at all", [](MadeCells& made, auto& tile) { last_cell(made, tile).of_edge_low = kHuge; }},
+    {"no vertex at all",
+     [](MadeCells& made, auto& tile) {
+         last_cell(made, tile).of_edge_low = kHuge;
+         last_cell(made, tile).of_edge_high = kHuge & ~(1u << 16);
+     }},
     {"vertices where nothing is crossed",
      [](MadeCells& made, auto& tile) { last_cell(made, tile).of_edge_low = last_cell(made, tile).of_edge_high = 0; }},
     {"an edge along a fourth axis", [](MadeCells& made, auto& tile) { last_edge(made, tile).what |= 0x3000u; }},
@@ -311,6 +314,7 @@ TEST(MadeCells, WrongNumbersAreMetByTheHostItself) {
                     pair.composed = before;
                     ASSERT_EQ(pair.update_composed(pair.solid(), changes, wrong, by_host), "")
                         << fault.name << ", seed " << seed << " step " << step;
+                    ASSERT_LT(pair.composed.composed_tiles(), made.tiles.size()) << fault.name;
                     ++spoilt;
                 }
                 break;
@@ -321,25 +325,27 @@ TEST(MadeCells, WrongNumbersAreMetByTheHostItself) {
     EXPECT_GT(spoilt, repeated(1000));
 }
 
-// Such a surface may be wrong, as no one can tell a wrong place from the right one, but it can be drawn and felt.
+// Such a surface may be wrong, as no one can tell a wrong place from the right one, but it can be drawn and felt. So it
+// stays in the updates that follow, as long as no tile was missed.
 TEST(MadeCells, AnyBitMayBeWrongWithoutACrash) {
     WorkerPool pool(2);
-    for (int seed = 0; seed < repeated(16); ++seed) {
+    for (int seed = 0; seed < repeated(32); ++seed) {
         Random random(static_cast<std::uint64_t>(200 + seed));
         Pair pair(some_solid(seed), pool);
         for (int step = 0; step < 10; ++step) {
             const Changes changes = pair.change(random);
             const MadeCells made = device_cells(pair.solid(), changes, pool);
             const Surface before = pair.composed;
-            for (int i = 0; i < 40; ++i) {
+            for (int i = 0; i < 12; ++i) {
                 pair.composed = before;
                 MadeCells wrong = made;
                 for (int bits = random.small(1, 4); bits > 0; --bits) turn_bit(wrong, random);
+                if (i == 11) {  // goes on from here
+                    for (std::size_t t = 0; t < made.tiles.size(); ++t) wrong.tiles[t].tile = made.tiles[t].tile;
+                }
                 pair.composed.update(pair.solid(), changes, pool, &wrong);
                 ASSERT_TRUE(is_whole(pair.composed)) << "seed " << seed << " step " << step;
             }
-            pair.composed = before;
-            ASSERT_EQ(pair.update(changes, made), "") << "seed " << seed << " step " << step;
         }
     }
 }
