@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "compute/mesher/made_cells.hpp"
 #include "geometry/mesh/distinct_positions.hpp"
 
 namespace burin::compute {
@@ -46,9 +47,9 @@ void Surface::mesh(std::size_t i, const Solid& solid, const CellMask& dirty) {
 }
 
 bool Surface::compose(std::size_t i, const Solid& solid, const MadeCells& made) {
-    const shared::MadeTile& part = made.tiles[made_order_[i] & 0xffffffffu];
+    const std::size_t which = made_order_[i] & 0xffffffffu;
     auto fresh = std::make_shared<TileMesh>();
-    const std::optional<TileWork> work = compose_tile(solid, grid_, made, part, tile(part.tile), *fresh);
+    const std::optional<TileWork> work = compose_tile(solid, grid_, made, which, tile(changed_tiles_[i]), *fresh);
     if (!work) return false;
     replace(i, *work, std::move(fresh));
     return true;

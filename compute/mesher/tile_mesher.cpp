@@ -298,8 +298,9 @@ TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile,
     return Mesher(solid, first_node, dirty, old, scratch, fresh).run();
 }
 
-std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made,
-                                     const shared::MadeTile& tile, const TileMesh& old, TileMesh& fresh) {
+std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made, std::size_t which,
+                                     const TileMesh& old, TileMesh& fresh) {
+    const shared::MadeTile& tile = made.tiles[which];
     if (tile.left != 0 || old.has_twice_passed_faces) return {};
     const std::optional<MadePart> part = part_of(made, tile);
     if (!part) return {};

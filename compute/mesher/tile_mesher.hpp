@@ -20,13 +20,14 @@
 #include <optional>
 #include <vector>
 
-#include "compute/mesher/made_cells.hpp"
 #include "compute/mesher/tile_grid.hpp"
 #include "compute/mesher/tile_samples.hpp"
 #include "compute/rays/solid.hpp"
 #include "geometry/contact/surface_tile.hpp"
 
 namespace burin::compute {
+
+struct MadeCells;
 
 struct TileMesh : geometry::SurfaceTile {
     std::uint32_t disagreeing_edges = 0;  // among this tile's own edges
@@ -62,14 +63,14 @@ struct TileWork {
 TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
                    const TileMesh& old, TileMesh& fresh);
 
-// Makes the same mesh from the previous one and the cells that a device has made, without reading a ray. Returns
-// nothing, and leaves `fresh` undefined, where the tile is to be meshed as above: the device has left it to the host,
-// or a loop passes a face twice, before or after. So it does where the numbers of a faulty device lie beyond their
-// lists or the tile, are out of order, or do not make a whole mesh together with what is kept. It cannot tell wrong
-// places, normals and colours, nor that a device should have made more cells. Thread-safe. `fresh` and `old` must be
-// different objects.
+// Makes the same mesh, that of made.tiles[which], from the previous one and the cells that a device has made
+// (made_cells.hpp), without reading a ray. Returns nothing, and leaves `fresh` undefined, where the tile is to be
+// meshed as above: the device has left it to the host, or a loop passes a face twice, before or after. So it does where
+// the numbers of a faulty device lie beyond their lists or the tile, are out of order, or do not make a whole mesh
+// together with what is kept. It cannot tell wrong places, normals and colours, nor that a device should have made more
+// cells. Thread-safe. `fresh` and `old` must be different objects.
 [[nodiscard]] std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made,
-                                                   const shared::MadeTile& tile, const TileMesh& old, TileMesh& fresh);
+                                                   std::size_t which, const TileMesh& old, TileMesh& fresh);
 
 // Returns the key of each vertex, which is the same in all tiles for one point of the surface: (cell index in the
 // lattice) * 16 + slot. Slots 0 to 3 are the cell's loops; slot 4 + 2 * axis + pair is the extra vertex on the cell's

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "shaders/shared/made_cells.h"
 #include "shaders/shared/octahedral.h"
 
 namespace burin::shared {

@@ -12,9 +12,12 @@
 #include "base/space.hpp"
 #include "compute/mesher/tile_grid.hpp"
 #include "compute/rays/solid.hpp"
-#include "shaders/shared/made_cells.h"
 #include "shaders/shared/mesh_tile.h"
 #include "shaders/shared/vectors.h"
+
+namespace burin::shared {
+struct MadeEdge;
+}
 
 namespace burin::compute {
 
