@@ -7,7 +7,7 @@ TileCopier::TileCopier(const TileMesh& old, const CellMask& dirty, TileDraft& dr
                        std::vector<std::uint32_t>& new_index)
     : old_(old), draft_(draft), new_index_(new_index), dirty_(dirty) {
     new_index_.resize(old.vertices.size());
-    if (old.has_twice_passed_faces) {
+    if (!old.face_keys.empty()) {
         for (std::size_t i = 0; i < old.cells.size(); ++i) {
             if ((old.vertex_of_edge[i] & TileMesh::kPassedTwice) != 0) {
                 dirty_.columns[old.cells[i].cell / kSeenCells] |= 1u << (old.cells[i].cell % kSeenCells);

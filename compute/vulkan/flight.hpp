@@ -2,9 +2,10 @@
 // Holds what the Vulkan engine has under way: sweeps as stages, stages as passes of a submission. Plain data and the
 // rules by which it goes on; the engine records and submits (vulkan_engine_updates.cpp).
 //
-// A stage is what one kind of pass carries out: balls that follow each other, cut together; one convex tool; or one tool
-// that smooths, a ball a pass. A submission holds as many passes as follow each other without the host. A pass that leaves anything undone keeps the
-// later ones from beginning (shaders/shared/cut_job.h), and the next submission goes on from there.
+// A stage is what one kind of pass carries out: balls that follow each other, cut together; one convex tool; or one
+// tool that smooths, a ball a pass. A submission holds as many passes as follow each other without the host. A pass
+// that leaves anything undone keeps the later ones from beginning (shaders/shared/cut_job.h), and the next submission
+// goes on from there.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Smooths within balls on a Vulkan device, with ends equal to those of smoothed_rays() (compute/tools/smooth.hpp), to the
-// bit.
+// Smooths within balls on a Vulkan device, with ends equal to those of smoothed_rays() (compute/tools/smooth.hpp), to
+// the bit.
 //
 // Data flow of one ball, whose order is the host's because every sum is taken in an order that no atomic decides:
 //   begin           nothing, if anything before it in the submission is undone
@@ -13,11 +13,12 @@
 // Nothing in the solid changes before store, and store does nothing where anything is missing: then the pass has not
 // begun (shaders/shared/cut_job.h), make_room() grows what was too small, and the ball is done again.
 //
-// How a list grows: each has a count in SmoothCounters, which is right even where the list is too short.
+// How a list grows: each has a count in SmoothCounters, which goes on where the list is too short. Kernels that begin
+// after that add nothing to it, so a list may grow several times.
 // Hardest to keep: the counts of boxes are zero between passes. A pass that goes through leaves them so; after one that
 // stopped, all of them are cleared by the next submission.
-// Cost: 24 dispatches and four more a level of merged points, of which most wait for the one before. Sent of a ball: 152
-// bytes. Memory: some 250 bytes an end near the path, 14 a cell around it, 16 a node of the ball.
+// Cost: 19 dispatches and four more a level of merged points, of which most wait for the one before. Sent of a ball:
+// 152 bytes. Memory: some 250 bytes an end near the path, 14 a cell around it, 16 a node of the ball.
 // Thread: one, as gpu::Device. Failure: as gpu::Buffer and gpu::ComputePipeline.
 #pragma once
 
@@ -67,8 +68,8 @@ public:
                 const Engine& engine);
     // Copies the counters home.
     void fetch(gpu::Commands& commands) const { counters_.fetch(commands, sizeof(shared::SmoothCounters)); }
-    // After a submission in which a ball was not begun: makes the room that it lacked. Returns false where that does not
-    // help.
+    // After a submission in which a ball was not begun: makes the room that it lacked. Returns false where that does
+    // not help.
     [[nodiscard]] Result<bool> make_room();
     // After work that may not have been carried out.
     void forget() { must_clear_ = true; }

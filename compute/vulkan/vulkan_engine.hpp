@@ -4,10 +4,10 @@
 // Data flow of an update: sweeps -> stages (flight.hpp): balls as capsules and work groups (vulkan_engine_tasks.hpp),
 // other convex tools as pieces (covered_rays.hpp), what smooths as balls (smooth_passes.hpp) -> begin() submits work
 // that changes the rays on the device and writes those that change, with their new ends, into the host's memory ->
-// take() puts these into the host's solid, once the device has done all. Rays that found no space in the store, or used up their share of one pass, are continued in
-// further submissions; usually there are none. One flight is under way at a time; updates that come meanwhile wait, and
-// are carried out as one if the device is late. So nobody waits for the device, and the host's solid lags behind by as
-// many updates as were not taken.
+// take() puts these into the host's solid, once the device has done all. Rays that found no space in the store, or used
+// up their share of one pass, are continued in further submissions; usually there are none. One flight is under way at
+// a time; updates that come meanwhile wait, and are carried out as one if the device is late. So nobody waits for the
+// device, and the host's solid lags behind by as many updates as were not taken.
 // What the device has no shader for, the host does when the update is taken (compute/tools/apply.hpp); so it does with
 // rays that are assigned. The device is sent them before it is used again.
 //
