@@ -5,7 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 // Makes the vertices of each listed cell, one invocation per cell: one for each smooth piece of each loop of surface
 // (shaders/shared/cell_pieces.h), by the rules of feature_point.h and cell_vertex.h there, bit-identical to the host's.
-// Cells with a face that a loop passes twice leave their tile to the host.
+// Whether loops pass a face twice on both sides, which the host makes fans for, it finds out itself.
 #include "shaders/cell_buffers.glsl"
 #include "shaders/shared/cell_quad.h"
 #include "shaders/shared/cell_vertex.h"
@@ -49,7 +49,7 @@ uint vertices;
 
 void number_vertices(uint slot, ivec3 cell, uint loops) {
     of_edge_low = 0xffffffffu;
-    of_edge_high = 0xfffeffffu;  // no loop passes a face twice
+    of_edge_high = twice_faces_of(row) == 0u ? 0xfffeffffu : 0xffffffffu;  // as TileMesh::kPassedTwice
     vertices = 0u;
     for (uint loop = 0u; loop < loops; ++loop) {
         uint last = first_listed(row, loop + 1u);
@@ -92,7 +92,7 @@ void main() {
         first_vertex = atomicAdd(counters.vertices, vertices);
         made_cells[number] =
             MadeCell((what.y & 0xffffu) | vertices << 16, first_vertex, of_edge_low, of_edge_high);
-        if (first_vertex + vertices > parameters.most_vertices || twice_faces_of(row) != 0u) {
+        if (first_vertex + vertices > parameters.most_vertices) {
             made_tiles[slot].left = 1u;
             return;
         }

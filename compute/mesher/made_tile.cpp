@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compute/mesher/made_tile.hpp"
 
+#include <array>
+
 #include "compute/mesher/cell_table.hpp"
 #include "compute/mesher/cell_vertices.hpp"
 #include "compute/mesher/tile_mesher.hpp"
@@ -27,19 +29,38 @@ bool uses_vertices(std::uint64_t of_edge, std::size_t count, const CellCase& cel
     return (((even + add) | (odd + add)) & (0x10 * kEach)) == 0;
 }
 
+unsigned pattern_of(std::size_t number, std::span<const std::uint32_t> signs) {
+    const std::size_t column = number / kSeenCells;
+    const std::uint32_t* const corner = &signs[column / kSeenCells * kLocalNodes + column % kSeenCells];
+    return TileSamples::cell_pattern({corner[0], corner[1], corner[kLocalNodes], corner[kLocalNodes + 1]},
+                                     static_cast<int>(number % kSeenCells) - 1);
+}
+
+// Tells whether a face that a loop passes twice in this cell is passed twice in the cell beyond it, too.
+bool has_fan(std::size_t number, const CellCase& cell_case, std::span<const std::uint32_t> signs) {
+    // Of x, y and z: how far apart neighbours' numbers are, and how often that goes into a cell's number.
+    constexpr std::array<std::size_t, 3> kStep{kSeenCells, std::size_t{kSeenCells} * kSeenCells, 1};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t place = number / kStep[axis] % kSeenCells;
+        for (std::size_t side = 0; side < 2; ++side) {
+            if ((cell_case.twice_faces >> (2 * axis + side) & 1u) == 0) continue;
+            if (place == (side == 0 ? 0 : kSeenCells - 1)) continue;  // its edges are another tile's
+            const std::size_t next = side == 0 ? number - kStep[axis] : number + kStep[axis];
+            if ((cell_table()[pattern_of(next, signs)].twice_faces >> (2 * axis + 1 - side) & 1u) != 0) return true;
+        }
+    }
+    return false;
+}
+
 bool is_good(const shared::MadeCell& cell, std::span<const std::uint32_t> signs,
              const std::vector<shared::SurfaceVertex>& vertices) {
     const std::size_t number = number_of(cell), count = vertices_of(cell);
     if (number >= kCells || count == 0 || count > CellVertexMaker::kMost) return false;
     if (!holds(vertices, cell.first_vertex, count)) return false;
-    const std::size_t column = number / kSeenCells;
-    const std::uint32_t* const corner = &signs[column / kSeenCells * kLocalNodes + column % kSeenCells];
-    const unsigned pattern =
-        TileSamples::cell_pattern({corner[0], corner[1], corner[kLocalNodes], corner[kLocalNodes + 1]},
-                                  static_cast<int>(number % kSeenCells) - 1);
-    const CellCase& cell_case = cell_table()[pattern];
-    return cell_case.twice_faces == 0 && (of_edge(cell) & TileMesh::kPassedTwice) == 0 &&
-           uses_vertices(of_edge(cell), count, cell_case);
+    const CellCase& cell_case = cell_table()[pattern_of(number, signs)];
+    const bool is_said = (of_edge(cell) & TileMesh::kPassedTwice) != 0;
+    if (is_said != (cell_case.twice_faces != 0) || !uses_vertices(of_edge(cell), count, cell_case)) return false;
+    return !is_said || !has_fan(number, cell_case, signs);
 }
 
 bool are_nodes(std::span<const std::uint32_t> signs) {

@@ -20,7 +20,8 @@ struct MadePart {
     CellMask mask;                                    // the made cells
 };
 
-// Returns nothing where a number is out of its range or order, or a loop passes a face of a made cell twice.
+// Returns nothing where a number is out of its range or order, or a loop passes the face between a made cell and its
+// neighbour twice in both: a fan is needed there, whose vertices the device does not make.
 [[nodiscard]] std::optional<MadePart> part_of(const MadeCells& made, const shared::MadeTile& tile);
 
 [[nodiscard]] inline std::size_t number_of(const shared::MadeCell& cell) { return cell.what & 0xffffu; }

@@ -36,6 +36,10 @@ void TileCopier::copy_cells(std::size_t before) {
 
 void TileCopier::copy_cell_run(std::size_t first, std::size_t end) {
     draft_.vertex_of_edge.append(&old_.vertex_of_edge[first], end - first);
+    if (old_.has_twice_passed_faces) {
+        for (std::size_t i = first; i < end; ++i)
+            has_copied_twice_passed_faces_ |= (old_.vertex_of_edge[i] & TileMesh::kPassedTwice) != 0;
+    }
     const std::size_t old_vertex = old_.cells[first].first_vertex, new_vertex = draft_.vertices.count;
     const std::size_t vertices =
         (end < old_.cells.size() ? old_.cells[end].first_vertex : old_.cell_vertices()) - old_vertex;

@@ -13,11 +13,13 @@ namespace burin::compute {
 
 class TileCopier {
 public:
-    // Uses new_index as scratch memory. Where a loop passes a face twice, vertices and fans depend on the cells on both
-    // sides: these cells are always treated as dirty, so fans are never copied.
+    // Uses new_index as scratch memory. Fans depend on the cells on both sides of a face that a loop passes twice:
+    // where the old mesh has any, all cells with such a face are treated as dirty, so fans are never copied.
     TileCopier(const TileMesh& old, const CellMask& dirty, TileDraft& draft, std::vector<std::uint32_t>& new_index);
 
     [[nodiscard]] const CellMask& dirty() const { return dirty_; }
+    // Tells whether a loop passes a face of one of the copied cells twice.
+    [[nodiscard]] bool has_copied_twice_passed_faces() const { return has_copied_twice_passed_faces_; }
     [[nodiscard]] const EdgeMask& dirty_edges() const { return dirty_edges_; }  // all edges of the dirty cells
 
     // Copies the clean cells with an id below `before` that have not been copied yet. All cells come before the first
@@ -36,6 +38,7 @@ private:
     TileDraft& draft_;
     std::vector<std::uint32_t>& new_index_;  // new index of each vertex of the old mesh
     CellMask dirty_;
+    bool has_copied_twice_passed_faces_ = false;
     EdgeMask dirty_edges_;
     std::size_t cell_ = 0, quad_ = 0, index_ = 0;  // next cell, quad and index of the old mesh to copy or skip
     std::uint32_t disagreeing_edges_ = 0;

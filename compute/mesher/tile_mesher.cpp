@@ -122,6 +122,7 @@ private:
             }
         }
         copier_.copy_cells(TileDraft::kCells);
+        mesh_.has_twice_passed_faces |= copier_.has_copied_twice_passed_faces();
     }
 
     void make_cell(const CellVertexMaker& maker, const Local& cell) {
@@ -139,8 +140,10 @@ private:
             draft_.begin_cell(number_of(cell), draft_.vertices.count);
             draft_.vertices.append(made.vertices + cell.first_vertex, vertices_of(cell));
             draft_.vertex_of_edge.push_back(of_edge(cell));
+            mesh_.has_twice_passed_faces |= (of_edge(cell) & TileMesh::kPassedTwice) != 0;
         }
         copier_.copy_cells(TileDraft::kCells);
+        mesh_.has_twice_passed_faces |= copier_.has_copied_twice_passed_faces();
         work_.cells = static_cast<std::uint32_t>(made.cells.size());
     }
 
@@ -301,7 +304,7 @@ TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile,
 std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made, std::size_t which,
                                      const TileMesh& old, TileMesh& fresh) {
     const shared::MadeTile& tile = made.tiles[which];
-    if (tile.left != 0 || old.has_twice_passed_faces) return {};
+    if (tile.left != 0 || !old.face_keys.empty()) return {};
     const std::optional<MadePart> part = part_of(made, tile);
     if (!part) return {};
     const std::array<int, 3> first_node = grid.first_node(tile.tile);

@@ -65,10 +65,10 @@ TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile,
 
 // Makes the same mesh, that of made.tiles[which], from the previous one and the cells that a device has made
 // (made_cells.hpp), without reading a ray. Returns nothing, and leaves `fresh` undefined, where the tile is to be
-// meshed as above: the device has left it to the host, or a loop passes a face twice, before or after. So it does where
-// the numbers of a faulty device lie beyond their lists or the tile, are out of order, or do not make a whole mesh
-// together with what is kept. It cannot tell wrong places, normals and colours, nor that a device should have made more
-// cells. Thread-safe. `fresh` and `old` must be different objects.
+// meshed as above: the device has left it to the host, or the mesh has fans (face_keys), before or after. So it does
+// where the numbers of a faulty device lie beyond their lists or the tile, are out of order, or do not make a whole
+// mesh together with what is kept. It cannot tell wrong places, normals and colours, nor that a device should have made
+// more cells. Thread-safe. `fresh` and `old` must be different objects.
 [[nodiscard]] std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made,
                                                    std::size_t which, const TileMesh& old, TileMesh& fresh);
 

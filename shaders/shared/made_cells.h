@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a device tells the host of the cells that it has made anew after a cut (shaders/make_*.comp), tile by tile. The
+// What a device tells the host of the cells that it has made anew after a cut (shaders/make_cells.comp), tile by tile. The
 // host puts them into its tiles (compute/mesher/made_cells.hpp). A cell, its vertices and the crossings of its edges
 // are those of compute/mesher/tile_mesher.hpp, bit for bit. All fields are 32-bit words, so the layout is the same
 // everywhere.
@@ -11,7 +11,7 @@ BURIN_SHARED_BEGIN
 
 struct MadeTile {
     uint tile;
-    uint left;  // 1: the host is to mesh it: a list had no room for it, or a loop passes a face of its cells twice
+    uint left;  // 1: the host is to mesh it: a list had no room for it
     uint first_cell;  // of the list of made cells; in increasing order of their numbers
     uint cells;
     uint first_edge;  // of the list of crossings; in increasing order of their numbers

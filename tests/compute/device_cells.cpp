@@ -39,12 +39,6 @@ public:
         made.first_edge = static_cast<std::uint32_t>(made_.edges.size());
         const CellMask reached = add_cells(dirty);
         add_edges(reached);
-        for (std::size_t i = made.first_cell; i < made_.cells.size(); ++i)
-            made.left |= made_.cells[i].of_edge_high >> 16 & 1u;  // TileMesh::kPassedTwice
-        if (made.left != 0) {
-            made_.cells.resize(made.first_cell);
-            made_.edges.resize(made.first_edge);
-        }
         made.cells = static_cast<std::uint32_t>(made_.cells.size()) - made.first_cell;
         made.edges = static_cast<std::uint32_t>(made_.edges.size()) - made.first_edge;
         made_.tiles.push_back(made);

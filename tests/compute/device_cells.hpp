@@ -10,8 +10,7 @@
 
 namespace burin::compute::test {
 
-// Every tile is meshed whole, and what the changes reach is taken from it. Tiles where a loop passes a face of a made
-// cell twice are left; their lists are empty.
+// Every tile is meshed whole, and what the changes reach is taken from it.
 [[nodiscard]] MadeCells device_cells(const Solid& solid, const Changes& changes, WorkerPool& pool);
 
 }  // namespace burin::compute::test
