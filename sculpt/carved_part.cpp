@@ -285,7 +285,6 @@ void CarvedPart::carry_out(const ExportSurface& wanted) {
     if (export_.valid()) return refuse({"an export is under way", "", "wait for it to end"});
     if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok) return refuse(ok.error());
     sculpture_.end_stroke();
-    sculpture_.read_back();
     export_ = std::async(std::launch::async, [surface = sculpture_.surface(), solid = sculpture_.engine().solid(),
                                               wanted] { return export_surface(surface, solid, wanted); });
 }

@@ -7,14 +7,9 @@
 
 #include "base/clock.hpp"
 #include "base/try.hpp"
-#include "compute/tools/tool_spans.hpp"
 
 namespace burin::sculpt {
 namespace {
-
-bool is_for_device(const compute::ToolSweep& sweep) {
-    return std::holds_alternative<compute::BallTool>(sweep.shape) && sweep.operation != compute::Operation::smooth;
-}
 
 Vec3 middle_of(const compute::Lattice& lattice) {
     const Vec3 cells(lattice.cells[0], lattice.cells[1], lattice.cells[2]);
@@ -23,9 +18,6 @@ Vec3 middle_of(const compute::Lattice& lattice) {
 
 // A copy is a journal's beginning, which is written each time that a session begins.
 constexpr std::size_t kMostCopiedSteps_bytes = std::size_t{64} << 20;
-
-// Updates that the device alone knows of: they bound what has to be done again where it is lost.
-constexpr std::size_t kMostOnDevice = 1024;
 
 double milliseconds(Nanoseconds from_ns, Nanoseconds to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
 
@@ -40,6 +32,7 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
       unsaved_(engine_->solid().lattice) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
+    engine_->make_cells();
     surface_.mesh_all(engine_->solid(), pool_, watch);
     first_mesh_ms_ = milliseconds(start_ns, clock.now_ns());
     initial_volume_m3_ = surface_.volume_m3();
@@ -58,11 +51,6 @@ Result<void> Sculpture::begin(std::span<const compute::ToolSweep> sweeps) {
 
 // Begins an update with sweeps whose images are among them.
 Result<void> Sculpture::begin_all(std::span<const compute::ToolSweep> sweeps) {
-    if (on_device_ && std::ranges::all_of(sweeps, is_for_device)) return update_on_device(sweeps);
-    if (on_device_) {
-        read_back();
-        on_device_.reset();
-    }
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
     BURIN_TRY_DO(engine_->begin(sweeps));
@@ -95,7 +83,8 @@ Result<bool> Sculpture::follow_next(compute::Wait wait) {
     BURIN_TRY(delta, engine_->take(wait));
     if (!delta) return false;
     const Nanoseconds cut_ns = clock.now_ns();
-    const compute::RemeshStats remeshed = surface_.update(engine_->solid(), delta->changes, pool_);
+    const compute::RemeshStats remeshed =
+        surface_.update(engine_->solid(), delta->changes, pool_, delta->made ? &*delta->made : nullptr);
     const Nanoseconds meshed_ns = clock.now_ns();
     if (history_) history_->record(delta->changes);
     unsaved_.note(delta->changes);
@@ -117,101 +106,7 @@ Result<bool> Sculpture::follow_next(compute::Wait wait) {
 // one with a device goes on with the processor, so that there is nothing to hand on.
 void Sculpture::settle() { static_cast<void>(follow_until(0)); }
 
-// ---- On the device
-
-void Sculpture::mesh_on_device() {
-    settle();
-    if (!history_ && !noted_) on_device_ = engine_->mesh_on_device();
-}
-
-Result<void> Sculpture::update_on_device(std::span<const compute::ToolSweep> sweeps) {
-    for (const compute::ToolSweep& sweep : sweeps) {
-        BURIN_TRY_DO(compute::check_sweep(engine_->solid(), sweep));
-    }
-    if (only_on_device_.size() == kMostOnDevice) read_back();
-    if (!on_device_) return begin_all(sweeps);  // it was lost just now
-    MonotonicClock clock;
-    const Nanoseconds start_ns = clock.now_ns();
-    only_on_device_.emplace_back(sweeps.begin(), sweeps.end());
-    if (const auto begun = begin_on_device(sweeps); !begun) go_on_without_the_device(begun.error());
-    ++figures_.updates;
-    figures_.sweeps += sweeps.size();
-    figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
-    return {};
-}
-
-// Submits the cut together with the triangles near the tool: local_surface() will be asked for them with the radius of
-// the last time.
-Result<void> Sculpture::begin_on_device(std::span<const compute::ToolSweep> sweeps) {
-    std::vector<compute::BallSweep> balls;
-    for (const compute::ToolSweep& sweep : sweeps) {
-        balls.push_back({sweep.start.position_m, sweep.end.position_m,
-                         std::get<compute::BallTool>(sweep.shape).radius_m, sweep.material, sweep.operation});
-    }
-    BURIN_TRY_DO(finish_on_device());
-    std::optional<compute::MeshingDevice::Ball> touched;
-    if (asked_radius_m_ > 0.0 && !balls.empty()) touched = {balls.back().end_object_m, asked_radius_m_};
-    counts_before_ = on_device_->counts();
-    under_way_ = true;
-    return on_device_->carve(balls, touched);
-}
-
-Result<void> Sculpture::finish_on_device() {
-    BURIN_TRY_DO(on_device_->finish());
-    if (!under_way_) return {};
-    under_way_ = false;
-    figures_.rays_touched += on_device_->carved().rays_touched;
-    figures_.rays_changed += on_device_->carved().rays_changed;
-    figures_.tiles_remeshed += on_device_->counts().tiles - counts_before_.tiles;
-    figures_.cells_remeshed += on_device_->counts().cells - counts_before_.cells;
-    figures_.triangles_remeshed += on_device_->counts().triangles - counts_before_.triangles;
-    if (const auto& times = on_device_->times()) {
-        figures_.carve_ms.push_back(1e3 * times->cut_s);
-        figures_.mesh_ms.push_back(1e3 * times->mesh_s);
-    }
-    return {};
-}
-
-void Sculpture::read_back() {
-    settle();
-    if (!on_device_) return;
-    if (const auto fetched = fetch_from_device(); !fetched) return go_on_without_the_device(fetched.error());
-    only_on_device_.clear();
-    read_back_ = {figures_.rays_touched, figures_.rays_changed};
-}
-
-Result<void> Sculpture::fetch_from_device() {
-    BURIN_TRY_DO(finish_on_device());
-    BURIN_TRY_DO(on_device_->read_back());
-    follow_engine();
-    return {};
-}
-
-// The host's solid is that of the last read_back(): the processor carves anew what the device has carved since.
-void Sculpture::go_on_without_the_device(const Error& why) {
-    on_device_.reset();
-    under_way_ = false;
-    engine_->give_up_device(why);
-    figures_.rays_touched = read_back_.rays_touched;
-    figures_.rays_changed = read_back_.rays_changed;
-    for (const std::vector<compute::ToolSweep>& sweeps : std::exchange(only_on_device_, {})) {
-        // Cannot fail: the sweeps were checked when they came, and the processor's engine needs no device.
-        if (const auto cut = engine_->carve(sweeps)) {
-            figures_.rays_touched += cut->rays_touched;
-            figures_.rays_changed += cut->rays_changed;
-        }
-    }
-    follow_engine();
-}
-
-void Sculpture::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) {
-    if (on_device_) {
-        asked_radius_m_ = radius_m;
-        auto gathered = finish_on_device();
-        if (gathered) gathered = on_device_->local_surface(center_object, radius_m, out);
-        if (gathered) return;
-        go_on_without_the_device(gathered.error());
-    }
+void Sculpture::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) const {
     compute::gather_local_surface(surface_, center_object, radius_m, out);
 }
 
@@ -279,8 +174,6 @@ void Sculpture::is_saved() {
 
 Result<void> Sculpture::save(scene::Pages& pages) {
     end_stroke();
-    if (on_device_) unsaved_.note_all();  // the device tells of no single rays
-    read_back();
     if (pages.whole) unsaved_.note_all();
     save_solid(engine_->solid(), unsaved_, pages);
     if (history_) save_steps(*history_, pages);

@@ -2,10 +2,9 @@
 // The solid that is carved, with its surface and, where asked for, its light and its undo history.
 //
 // Data flow of an update: sweeps of the tool, and their mirror images -> the engine changes rays, at once or while
-// other work is done -> as its Delta is taken, the surface's cells around the changed rays are meshed anew -> the
-// history keeps what the rays held -> the light follows. With
-// mesh_on_device() the device of a Vulkan engine carves and meshes instead, in one submission that nobody waits for
-// before the next update. A device that fails, in either case, ends nothing: the processor goes on, with one notice
+// other work is done -> as its Delta is taken, the surface's cells around the changed rays are made anew, or taken over
+// from the engine's device, which has made them behind the cut -> the history keeps what the rays held -> the light
+// follows. A device that fails ends nothing: the processor goes on, with one notice
 // (compute/vulkan/standby_engine.hpp). Which engine there is, is not known here (compute/engine/engine.hpp).
 // Frame: object, metres. Thread: one; the pool's threads work only within a call.
 #pragma once
@@ -38,10 +37,9 @@ struct SculptFigures {
     std::uint64_t tiles_remeshed = 0;
     std::uint64_t cells_remeshed = 0;
     std::uint64_t triangles_remeshed = 0;  // of whole tiles
-    // Wall time of each update. While the device meshes, an update waits for the one before it and not for itself.
-    std::vector<double> update_ms;
-    // Parts of each update's time: changing the rays, and meshing. The rest is history and light. While the device
-    // meshes these are the device's own times, known once the update has finished; empty where it cannot measure them.
+    std::vector<double> update_ms;  // wall time of each update
+    // Parts of each update's time: changing the rays, with the making of cells where a device makes them, and meshing.
+    // The rest is history and light.
     std::vector<double> carve_ms, mesh_ms;
 };
 
@@ -54,8 +52,7 @@ public:
     // on an invalid sweep, and then changes nothing (compute/tools/apply.hpp).
     [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps);
     // The same in two: begins an update without waiting for a device, and follows those that it has done, for which it
-    // is waited briefly. The end of
-    // a stroke, undo, redo, save() and read_back() wait for all of them first.
+    // is waited briefly. The end of a stroke, undo, redo and save() wait for all of them first.
     [[nodiscard]] Result<void> begin(std::span<const compute::ToolSweep> sweeps);
     [[nodiscard]] Result<void> follow_done();
     // Follows the updates, one by one, until only so many are left: as a recording says (scene::PartSeen).
@@ -65,16 +62,8 @@ public:
     // the workpiece as it was made. An update with its images is undone as one.
     void mirror(const Mirror& mirror) { mirror_.set(mirror); }
     // Sets `out` to the surface within a ball, ready for contact; leaves its sequence and time as they are.
-    void local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
+    void local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) const;
 
-    // Lets the device of a Vulkan engine mesh as well, from the next update on. Only what local_surface() asks for
-    // comes back; surface() and engine().solid() are those of the last read_back(). Has no effect with another engine,
-    // on a device that cannot mesh, or with a history, which needs the rays of each update at once. Ends, with a
-    // read_back(), at the first sweep of a tool other than a cutting, filling or painting ball. Not for a stroke that
-    // is felt: the triangles of local_surface() come in no order then, and touch depends on it.
-    void mesh_on_device();
-    // Brings the host's solid and surface up to date with the device's.
-    void read_back();
     // Returns what the user should know of, since the last call: of strokes that cannot be undone any more, and of a
     // device that the processor goes on for.
     [[nodiscard]] std::vector<std::string> take_notices();
@@ -96,7 +85,7 @@ public:
     // Puts all of the solid and the newest steps of its history into the pages; what save() gives next is the same as
     // without.
     void copy(scene::Pages& pages) const;
-    // Notes which rays change, for a journal, from the next update on. Has the host mesh.
+    // Notes which rays change, for a journal, from the next update on.
     void note_changes() { noted_.emplace(engine_->solid().lattice); }
     // Puts the next change since the last call into the pages: each stroke, undo and redo is one of its own. Returns
     // whether there was any.
@@ -108,7 +97,7 @@ public:
     // carving does no work for the light.
     [[nodiscard]] Result<void> keep_light(const compute::Lamp& lamp_object);
     void drop_light() { light_.reset(); }
-    // Returns null without keep_light(). Not to be called while the device meshes: read_back() first.
+    // Returns null without keep_light().
     [[nodiscard]] const compute::SurfaceLight* light() const { return light_ ? &*light_ : nullptr; }
     // Bakes up to `most_tiles` of the tiles whose light has to be computed anew, those near `near_object` first;
     // returns how many it baked.
@@ -134,11 +123,6 @@ private:
     void settle();
     void note_step(compute::HistoryStep step);
     void note_changed_tiles();
-    [[nodiscard]] Result<void> update_on_device(std::span<const compute::ToolSweep> sweeps);
-    [[nodiscard]] Result<void> begin_on_device(std::span<const compute::ToolSweep> sweeps);
-    [[nodiscard]] Result<void> finish_on_device();
-    [[nodiscard]] Result<void> fetch_from_device();
-    void go_on_without_the_device(const Error& why);
 
     std::unique_ptr<compute::CarvingEngine> engine_;
     WorkerPool& pool_;
@@ -154,15 +138,6 @@ private:
     double initial_volume_m3_ = 0.0;
     double first_mesh_ms_ = 0.0;
     double begun_ms_ = 0.0;  // that it took to begin the last update, for its figures
-    // State of mesh_on_device().
-    std::unique_ptr<compute::MeshingDevice> on_device_;  // null while the host meshes
-    // Sweeps of the updates since the last read_back(), and the figures as of then: where the device is lost, the
-    // processor carves these updates again.
-    std::vector<std::vector<compute::ToolSweep>> only_on_device_;
-    compute::CarveStats read_back_;
-    bool under_way_ = false;                        // an update whose figures have not been counted yet
-    compute::MeshingDevice::Counts counts_before_;  // that update
-    double asked_radius_m_ = 0.0;                   // of the last local surface; 0 before the first
 };
 
 }  // namespace burin::sculpt

@@ -19,7 +19,7 @@ struct EnginesBench {
     std::string json;
 };
 
-// Returns the exit status: 1 where any end differs.
+// Returns the exit status: 1 where anything differs.
 Result<int> run_engines_bench(const EnginesBench& options) {
     BURIN_TRY_DO(check_place(options.json));
     const std::string on = bench::machine();
@@ -28,7 +28,7 @@ Result<int> run_engines_bench(const EnginesBench& options) {
     Json json = bench::engine_check_json(check);
     json["machine"] = on;
     BURIN_TRY_DO(write_output(options.json, json_text(json)));
-    return check.all.ends_that_differ == 0 ? 0 : 1;
+    return check.all.ends_that_differ + check.all.elements_that_differ == 0 ? 0 : 1;
 }
 
 CommandAction add_engines_bench(Command command) {

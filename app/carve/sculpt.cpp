@@ -235,9 +235,6 @@ Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carvi
     const sculpt::Tool& tool = chosen.tool;
     if (inputs.stroke.empty()) return std::optional<session::FeltFigures>();
     if (options.hand == session::HandChoice::rigid) {
-        // Only the surface after the stroke is read, so the device may keep it until then.
-        if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth)
-            carving.mesh_on_device();
         BURIN_TRY_DO(sculpt::carve_rigidly(carving, inputs.stroke, tool, options.merge_rows));
         return std::optional<session::FeltFigures>();
     }
@@ -262,7 +259,6 @@ Result<CarvedStroke> carve(sculpt::Sculpture& carving, const session::SculptOpti
     carving.mirror(options.mirror);
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
     BURIN_TRY(felt, carve_along(carving, options, inputs, chosen));
-    carving.read_back();
     CarvedStroke carved{std::move(felt), tell_notices(carving), {}};
     if (options.undo == 0) return carved;
     BURIN_TRY(taken_back, take_back(carving, options.undo));

@@ -11,6 +11,7 @@
 
 #include "base/try.hpp"
 #include "base/worker_pool.hpp"
+#include "bench/engines/followed_surface.hpp"
 #include "bench/engines/random_work.hpp"
 #include "compute/engine/history.hpp"
 #include "compute/vulkan/vulkan_engine.hpp"
@@ -52,8 +53,14 @@ std::string text_of_ends(std::span<const DexelEnd> ends) {
 class SideBySide {
 public:
     SideBySide(std::unique_ptr<compute::CarvingEngine> cpu, std::unique_ptr<compute::CarvingEngine> other,
-               EngineCheck& check)
-        : cpu_(std::move(cpu)), other_(std::move(other)), check_(check), start_(cpu_->solid()) {}
+               WorkerPool& pool, EngineCheck& check)
+        : cpu_(std::move(cpu)),
+          other_(std::move(other)),
+          surface_(cpu_->solid(), pool),
+          check_(check),
+          start_(cpu_->solid()) {
+        other_->make_cells();
+    }
 
     [[nodiscard]] const compute::Lattice& lattice() const { return start_.lattice; }
 
@@ -106,6 +113,7 @@ private:
             const std::size_t until = updates.size() - static_cast<std::size_t>(last - taken->ticket);
             for (; done < until; ++done) BURIN_TRY_DO(cpu_->carve(updates[done]));
             compare_changed(taken->changes, work, true);
+            compare_surface(*taken, work);
         }
         work.operations += updates.size();
         return mend(true);
@@ -118,8 +126,19 @@ private:
               {&other_history_, &*other_}})
             BURIN_TRY_DO(back ? history->undo(*engine) : history->redo(*engine));
         ++work.operations;
-        compare_changed(other_->take_changes(), work, false);
+        const compute::Changes walked = other_->take_changes();
+        surface_.follow(other_->solid(), walked);
+        compare_changed(walked, work, false);
         return mend(false);
+    }
+
+    void compare_surface(const compute::Delta& delta, ComparedWork& work) {
+        const ComparedSurface compared = surface_.follow(other_->solid(), delta);
+        work.elements += compared.elements;
+        work.elements_that_differ += compared.differ;
+        if (check_.first_element_that_differs.empty() && compared.differ > 0)
+            check_.first_element_that_differs =
+                work.name + ", solid " + std::to_string(check_.solids) + ", " + compared.first;
     }
 
     // Compares the rays that either engine has changed.
@@ -144,6 +163,7 @@ private:
         if (right.rays.empty()) return {};
         BURIN_TRY_DO(other_->assign(right));
         const compute::Changes mended = other_->take_changes();
+        surface_.follow(other_->solid(), mended);
         if (record) other_history_.record(mended);
         return {};
     }
@@ -177,6 +197,7 @@ private:
     std::unique_ptr<compute::CarvingEngine> cpu_;
     std::unique_ptr<compute::CarvingEngine> other_;
     compute::History cpu_history_, other_history_;
+    FollowedSurface surface_;
     EngineCheck& check_;
     compute::Solid start_;
     std::set<std::uint32_t> wrong_;  // codes of rays that differed and were not mended
@@ -190,6 +211,8 @@ ComparedWork& ComparedWork::operator+=(const ComparedWork& other) {
     rays += other.rays;
     ends += other.ends;
     ends_that_differ += other.ends_that_differ;
+    elements += other.elements;
+    elements_that_differ += other.elements_that_differ;
     return *this;
 }
 
@@ -204,7 +227,7 @@ Result<EngineCheck> compare_engines(const EngineCheckOptions& options, const Mak
     for (std::size_t left = options.operations; left > 0;) {
         BURIN_TRY(solid, random.solid(options.resolution));
         BURIN_TRY(other, make(solid, pool));
-        SideBySide both(compute::make_cpu_engine(std::move(solid), pool), std::move(other), check);
+        SideBySide both(compute::make_cpu_engine(std::move(solid), pool), std::move(other), pool, check);
         ++check.solids;
         std::size_t now = std::min(left, kOperationsASolid);
         left -= now;
@@ -217,7 +240,9 @@ Result<EngineCheck> compare_engines(const EngineCheckOptions& options, const Mak
         BURIN_TRY_DO(both.finish());
     }
     for (const ComparedWork& work : check.work) check.all += work;
-    std::ranges::stable_sort(check.work, std::greater(), &ComparedWork::ends_that_differ);
+    std::ranges::stable_sort(check.work, std::greater(), [](const ComparedWork& work) {
+        return std::pair(work.ends_that_differ, work.elements_that_differ);
+    });
     return check;
 }
 

@@ -6,6 +6,8 @@
 // at once, so that it carries them out as one. After each update the rays that either engine has changed are compared;
 // each solid ends with a comparison of all rays, and again when every stroke is undone. The device's rays that differ
 // are then given the processor's ends, so that a fault counts for the tool that made it and not for those that follow.
+// So are vertices and triangles of the surface that the device's cells make, with those of the processor's cells of the
+// same rays (followed_surface.hpp).
 // Thread: the caller's; the processor's engine carves on all cores.
 #pragma once
 
@@ -38,6 +40,7 @@ struct ComparedWork {
     std::uint64_t submissions = 0;  // to the device; none where the host does this work for it
     std::uint64_t rays = 0, ends = 0;
     std::uint64_t ends_that_differ = 0;  // in depth, material or normal; each end that one engine alone has
+    std::uint64_t elements = 0, elements_that_differ = 0;  // vertices and triangles of the tiles that changed
     ComparedWork& operator+=(const ComparedWork& other);
 };
 
@@ -46,12 +49,13 @@ struct EngineCheck {
     std::string device, driver;
     bool software_device = false;
     unsigned threads = 0;
-    std::size_t solids = 0;            // blocks and balls that were carved, one after the other
-    std::vector<ComparedWork> work;    // the most differing ends first
-    ComparedWork all;                  // sum of work
-    std::string first_difference;      // empty: there is none
-    std::vector<std::string> notices;  // of the device's engine, each once
-    compute::DeviceTraffic traffic;    // of the whole run
+    std::size_t solids = 0;                  // blocks and balls that were carved, one after the other
+    std::vector<ComparedWork> work;          // the most differing ends, then elements, first
+    ComparedWork all;                        // sum of work
+    std::string first_difference;            // of ends; empty: there is none
+    std::string first_element_that_differs;  // likewise
+    std::vector<std::string> notices;        // of the device's engine, each once
+    compute::DeviceTraffic traffic;          // of the whole run
 };
 
 // Makes the engine that is compared with the processor's, for each solid anew.

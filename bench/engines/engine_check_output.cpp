@@ -14,9 +14,10 @@ std::string check_line(const char* format, auto... values) {
 }
 
 std::string work_row(const ComparedWork& work) {
-    return check_line("  %-20s%12s%14s%14s%14s%14s\n", work.name.c_str(), std::to_string(work.operations).c_str(),
+    return check_line("  %-20s%12s%13s%13s%13s%9s%13s%9s\n", work.name.c_str(), std::to_string(work.operations).c_str(),
                       std::to_string(work.submissions).c_str(), std::to_string(work.rays).c_str(),
-                      std::to_string(work.ends).c_str(), std::to_string(work.ends_that_differ).c_str());
+                      std::to_string(work.ends).c_str(), std::to_string(work.ends_that_differ).c_str(),
+                      std::to_string(work.elements).c_str(), std::to_string(work.elements_that_differ).c_str());
 }
 
 Json work_json(const ComparedWork& work) {
@@ -24,7 +25,9 @@ Json work_json(const ComparedWork& work) {
             {"submissions", work.submissions},
             {"rays_compared", work.rays},
             {"ends_compared", work.ends},
-            {"ends_that_differ", work.ends_that_differ}};
+            {"ends_that_differ", work.ends_that_differ},
+            {"surface_elements_compared", work.elements},
+            {"surface_elements_that_differ", work.elements_that_differ}};
 }
 
 }  // namespace
@@ -34,16 +37,22 @@ std::string engine_check_table(const EngineCheck& check) {
                        (check.software_device ? ", a software device" : "") + ", " + check.driver + "\nseed " +
                        std::to_string(check.options.seed) + ", " + std::to_string(check.options.resolution) +
                        " cells, solids: " + std::to_string(check.solids) + "\n\n";
-    text += check_line("  %-20s%12s%14s%14s%14s%14s\n", "", "operations", "submissions", "rays", "ends", "differ");
+    text += check_line("  %-20s%12s%13s%13s%13s%9s%13s%9s\n", "", "operations", "submissions", "rays", "ends", "differ",
+                       "surface", "differ");
     for (const ComparedWork& work : check.work)
         if (work.operations > 0) text += work_row(work);
     ComparedWork all = check.all;
     all.name = "together";
     text += work_row(all) + "\n";
     for (const std::string& notice : check.notices) text += notice + "\n";
-    if (check.all.ends_that_differ == 0) return text + "no end differs\n";
-    return text + std::to_string(check.all.ends_that_differ) +
-           " ends differ, the first of them: " + check.first_difference + "\n";
+    text += check.all.ends_that_differ == 0 ? "no end differs\n"
+                                            : std::to_string(check.all.ends_that_differ) +
+                                                  " ends differ, the first of them: " + check.first_difference + "\n";
+    return text + (check.all.elements_that_differ == 0
+                       ? "no vertex and no triangle of the surface differs\n"
+                       : std::to_string(check.all.elements_that_differ) +
+                             " vertices and triangles of the surface differ, the first of them: " +
+                             check.first_element_that_differs + "\n");
 }
 
 Json engine_check_json(const EngineCheck& check) {
@@ -56,6 +65,8 @@ Json engine_check_json(const EngineCheck& check) {
                  {"solids", check.solids},
                  {"all", work_json(check.all)},
                  {"first_difference", check.first_difference.empty() ? Json(nullptr) : Json(check.first_difference)},
+                 {"first_surface_difference",
+                  check.first_element_that_differs.empty() ? Json(nullptr) : Json(check.first_element_that_differs)},
                  {"notices", check.notices},
                  {"submissions", check.traffic.submissions},
                  {"blocking_waits", check.traffic.blocking_waits},

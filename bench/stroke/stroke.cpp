@@ -52,7 +52,7 @@ Result<std::unique_ptr<sculpt::Sculpture>> start(const compute::Solid& uncut, co
 struct Carved {
     UpdateTimes times;
     UpdateCounts counts;             // empty without a device
-    std::vector<double> publish_ms;  // local_surface() alone, with the waiting for a device
+    std::vector<double> publish_ms;  // local_surface() alone
     std::uint64_t triangles_published = 0;
     std::size_t tiles_lit = 0;
 };
@@ -81,7 +81,7 @@ Result<Carved> carve(sculpt::Sculpture& sculpture, const CarveScene& scene,
         const compute::BallSweep ball = in_object(scene, ball_scene);
         sculpture.local_surface(ball.end_object_m, kPublishedRadii * ball.radius_m, *published);
     };
-    // A session publishes once before its first update; a device then knows which triangles will be asked for.
+    // A session publishes once before its first update.
     if (!sweeps.empty()) publish(scene.sweeps.front());
     Carved carved;
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
@@ -104,8 +104,7 @@ Result<Carved> carve(sculpt::Sculpture& sculpture, const CarveScene& scene,
     return carved;
 }
 
-// Divides each update into its parts. Publishing is what local_surface() took, without the device's cutting and meshing
-// that it waited for; what is left besides the cut counts as surface.
+// Divides each update into its parts. What is left besides the cut and what local_surface() took counts as surface.
 void take_figures(const sculpt::Sculpture& sculpture, Carved carved, StrokeRun& run) {
     const sculpt::SculptFigures& figures = sculpture.figures();
     run.update_ms = std::move(carved.times.update_ms);
@@ -173,14 +172,6 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene, options);
     if (const auto done = run_plain(scene, uncut, sweeps, options, pool, run); !done) {
         return std::unexpected(done.error());
-    }
-    if (options.on_vulkan && options.is_known()) {
-        BURIN_TRY(sculpture, start(uncut, options, pool, run));
-        sculpture->mesh_on_device();
-        BURIN_TRY(carved, carve(*sculpture, scene, sweeps));
-        sculpture->read_back();
-        BURIN_TRY_DO(check_engine(*sculpture, options));
-        run.with_device_mesh = std::move(carved.times);
     }
     if (options.with_undo) {
         BURIN_TRY(sculpture, start(uncut, options, pool, run));

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Carves a scene update by update with the sculpture of a session (sculpt/sculpture.hpp), and times it. In one update
 // the engine cuts one sweep; the surface is brought up to date, vertices and indices; a local surface is filled with
-// references to the tiles near the tool, ready to be published to the haptic thread. The Vulkan engine cuts on the
-// device, and the host meshes what comes home, as in a session. Beside that, with the Vulkan engine alone, the same
-// updates of a ball are timed as a rigid stroke runs them: meshed on the device (compute/vulkan/device_surface.hpp),
-// with the triangles near the tool read back and their search grid built on the host.
+// references to the tiles near the tool, ready to be published to the haptic thread. The Vulkan engine cuts and
+// makes the surface's cells on the device, and the host puts what comes home into the solid and the tiles, as in a
+// session.
 //
 // A session also keeps undo and light. The same updates are timed with each of them, on a sculpture of its own. With
 // undo, a stroke ends every kUpdatesAStroke updates. With light, each update bakes as many tiles as one of a session
@@ -59,13 +58,12 @@ struct StrokeRun {
     int resolution = 0;
     double cell_m = 0.0;
     // One value an update, wall time: the cut, the surface, the local surface, and all three; cpu_ms is the process's
-    // time for all three on all threads. The parts are empty where the device cannot measure them.
+    // time for all three on all threads. The cut is that of the device's too, with the making of cells.
     std::vector<double> carve_ms, mesh_ms, publish_ms, update_ms, cpu_ms;
     UpdateTimes with_undo, with_light;  // empty unless asked for
-    // Sums up the updates without undo, light or meshing on the device; nothing without a device.
+    // Sums up the updates without undo or light; nothing without a device.
     std::optional<compute::DeviceTraffic> traffic;
     UpdateCounts counts;
-    UpdateTimes with_device_mesh;  // with the Vulkan engine, as a rigid stroke of `burin sculpt` without undo runs
     std::size_t strokes_kept = 0;  // by the history of with_undo
     std::size_t tiles_lit = 0;     // baked during the updates of with_light
     std::uint64_t rays_touched = 0, rays_changed = 0;                                   // summed over the updates

@@ -146,7 +146,6 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const std::optional
     add_update_times(report, run.update_ms, run.cpu_ms);
     add_times_with(report, "undo", run.with_undo);
     add_times_with(report, "light", run.with_light);
-    add_times_with(report, "device_mesh", run.with_device_mesh);
     const bool has_parts = !run.carve_ms.empty();
     report["carve_ms_median"] = has_parts ? Json(median(run.carve_ms)) : Json(nullptr);
     report["mesh_ms_median"] = has_parts ? Json(median(run.mesh_ms)) : Json(nullptr);
@@ -254,7 +253,6 @@ std::string scene_table(const std::vector<Json>& reports) {
                                   std::pair{"update_ms_p99", "p99 ms"},
                                   std::pair{"update_with_undo_ms_median", "with undo"},
                                   std::pair{"update_with_light_ms_median", "with light"},
-                                  std::pair{"update_with_device_mesh_ms_median", "meshed on the device"},
                                   std::pair{"submissions_per_update", "submissions"},
                                   std::pair{"blocking_waits_per_update", "waits"},
                                   std::pair{"bytes_to_device_per_update", "B to device"},

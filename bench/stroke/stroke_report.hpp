@@ -28,10 +28,10 @@ struct Ageing {
 [[nodiscard]] Ageing ageing(const std::vector<double>& update_ms);
 
 // update_ms_... and update_cpu_ms_... are an update's cut, surface and local surface, without undo and light;
-// update_with_undo_... and update_with_light_... are the same updates with one of them, null where they were not run,
-// and update_with_device_mesh_... those that a Vulkan device meshes. submissions_per_update and the like are means of
-// what was asked of a device, and counts_per_update spreads of the same; null without one. Errors, and lost and extra
-// intervals, are null for a tool without closed forms, of which no errors are given.
+// update_with_undo_... and update_with_light_... are the same updates with one of them, null where they were not run.
+// submissions_per_update and the like are means of what was asked of a device, and counts_per_update spreads of the
+// same; null without one. Errors, and lost and extra intervals, are null for a tool without closed forms, of which no
+// errors are given.
 [[nodiscard]] Json describe(const CarveScene& scene, const StrokeRun& run, const std::optional<SurfaceErrors>& errors,
                             const SelfIntersections& crossings);
 // Describes a peer's run with the same keys where they mean the same. cell_m is 0 for a method without cells: figures

@@ -129,7 +129,7 @@ public:
     // The work is done here, where its result is asked for.
     [[nodiscard]] Result<std::optional<Delta>> take(Wait) override {
         if (waiting_.empty()) return std::nullopt;
-        Delta delta{begun_ - waiting_.size() + 1, {}, {}};
+        Delta delta{begun_ - waiting_.size() + 1, {}, {}, {}};
         const auto work = std::move(waiting_.front());
         waiting_.pop_front();
         if (const RayBatch* const rays = std::get_if<RayBatch>(&work)) {

@@ -19,15 +19,12 @@
 #include <vector>
 
 #include "base/worker_pool.hpp"
+#include "compute/mesher/made_cells.hpp"
 #include "compute/rays/carve_stats.hpp"
 #include "compute/rays/ray_batch.hpp"
 #include "compute/rays/solid.hpp"
 #include "compute/tools/ball_sweep.hpp"
 #include "compute/tools/tool.hpp"
-
-namespace burin::geometry {
-struct LocalSurface;
-}
 
 namespace burin::compute {
 
@@ -38,49 +35,6 @@ struct DeviceTraffic {
     std::uint64_t bytes_written_to_host = 0;  // of those to the host: by shaders, without a copy
 };
 
-// An engine's device that carves and meshes by itself, ahead of the host's solid: only the triangles near the tool come
-// back with each cut (compute/vulkan/device_surface.hpp). After an Error of any call the device is to be given up, and
-// what it has carved since the last read_back() to be carved again. Thread: that of the engine, which must outlive it
-// and must not be called between carve() and finish().
-class MeshingDevice {
-public:
-    // The ball around the tool whose triangles are gathered.
-    struct Ball {
-        Vec3 center_object{0.0};
-        double radius_m = 0.0;
-    };
-    // Work done since the device began to mesh.
-    struct Counts {
-        std::uint64_t submissions = 0;
-        std::uint64_t tiles = 0;      // tiles meshed
-        std::uint64_t cells = 0;      // cells whose vertices were computed
-        std::uint64_t triangles = 0;  // triangles made
-        std::uint64_t growths = 0;    // enlarged buffers, because a tile had to wait
-    };
-    // Time spent on the device since the last carve, in seconds.
-    struct Times {
-        double cut_s = 0.0, mesh_s = 0.0, gather_s = 0.0;
-    };
-
-    virtual ~MeshingDevice() = default;
-    // Carves and meshes, without waiting for the device, and gathers the triangles in `touched` in the same
-    // submission: local_surface() will be called for them. Waits for the previous cut, if that is not finished.
-    [[nodiscard]] virtual Result<void> carve(std::span<const BallSweep> sweeps, const std::optional<Ball>& touched) = 0;
-    // Waits until the surface matches the device's solid.
-    [[nodiscard]] virtual Result<void> finish() = 0;
-    // Sets `out` to the triangles of the ball as loose triangles, ready for contact; finishes first. `sequence` and
-    // `made_ns` of `out` are left unchanged.
-    [[nodiscard]] virtual Result<void> local_surface(const Vec3& center_object, double radius_m,
-                                                     geometry::LocalSurface& out) = 0;
-    // Brings the engine's solid on the host up to date with the device's.
-    [[nodiscard]] virtual Result<void> read_back() = 0;
-    [[nodiscard]] virtual const Counts& counts() const = 0;
-    // Returns nothing where the device cannot measure time.
-    [[nodiscard]] virtual const std::optional<Times>& times() const = 0;
-    // Returns the statistics of the last carve, once that is finished.
-    [[nodiscard]] virtual const CarveStats& carved() const = 0;
-};
-
 // Counts the updates of an engine: the first that was begun is 1.
 using Ticket = std::uint64_t;
 
@@ -89,6 +43,8 @@ struct Delta {
     Ticket ticket = 0;  // of the last of them
     CarveStats stats;
     Changes changes;  // what the rays held before; solid() has what they hold now
+    // The cells of the surface around these rays, where a device has made them (make_cells).
+    std::optional<MadeCells> made;
 };
 
 // Says how long a device is waited for: not at all; as long as it usually takes, 2 ms at most; until it is done.
@@ -125,17 +81,14 @@ public:
     [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays);
     [[nodiscard]] virtual Changes take_changes() { return gathered_.take(); }
 
-    // Adds a material to the engine's solid, as add_material in solid.hpp does. A MeshingDevice knows only the
-    // materials that existed when it was made.
+    // Adds a material to the engine's solid, as add_material in solid.hpp does.
     [[nodiscard]] virtual Result<std::uint8_t> add_material(const geometry::Material& material) = 0;
+    // Has the engine's device make the cells of the surface as well that updates can have altered, from the next one
+    // on, where it can: take() gives them. Without a device whoever follows the updates makes them.
+    virtual void make_cells() {}
     // Returns what the user should know of, since the last call: that the processor goes on for a device
     // (compute/vulkan/standby_engine.hpp).
     [[nodiscard]] virtual std::vector<std::string> take_notices() { return {}; }
-    // Lets the engine's device mesh as well. Null where it has none, or one that cannot.
-    [[nodiscard]] virtual std::unique_ptr<MeshingDevice> mesh_on_device() { return nullptr; }
-    // Lets the processor go on from the host's solid where a device has carved so far, with a notice of why. The
-    // MeshingDevice must be gone.
-    virtual void give_up_device(const Error&) {}
     // Returns the work of the engine's device; nothing for an engine that never had one.
     [[nodiscard]] virtual std::optional<DeviceTraffic> traffic() const { return std::nullopt; }
 

@@ -10,23 +10,15 @@
 
 namespace burin::compute {
 
-template <typename MaskOf>
-RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool, WorkWatch* watch) {
+void Surface::subtract_changed() {
     for (const std::uint32_t t : changed_tiles_) {
         triangles_ -= tile(t).triangles();
         disagreeing_edges_ -= tile(t).disagreeing_edges;
     }
     work_.resize(changed_tiles_.size());
-    std::atomic<std::size_t> done{0};
-    pool.run(changed_tiles_.size(), [&](std::size_t i) {
-        const double count = static_cast<double>(changed_tiles_.size());
-        if (watch != nullptr && !watch->go_on(static_cast<double>(++done) / count)) return;
-        const std::uint32_t t = changed_tiles_[i];
-        auto fresh = std::make_shared<TileMesh>();
-        work_[i] = mesh_tile(solid, grid_, t, mask_of(t), tile(t), *fresh);
-        if (fresh->indices.empty()) fresh.reset();
-        tiles_[t] = std::move(fresh);
-    });
+}
+
+RemeshStats Surface::add_changed() {
     RemeshStats stats;
     stats.tiles = changed_tiles_.size();
     for (std::size_t i = 0; i < changed_tiles_.size(); ++i) {
@@ -39,6 +31,40 @@ RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool
     return stats;
 }
 
+void Surface::replace(std::size_t i, TileWork work, std::shared_ptr<TileMesh> fresh) {
+    work_[i] = work;
+    if (fresh->indices.empty()) fresh.reset();
+    tiles_[changed_tiles_[i]] = std::move(fresh);
+}
+
+void Surface::mesh(std::size_t i, const Solid& solid, const CellMask& dirty) {
+    const std::uint32_t t = changed_tiles_[i];
+    auto fresh = std::make_shared<TileMesh>();
+    const TileWork work = mesh_tile(solid, grid_, t, dirty, tile(t), *fresh);
+    replace(i, work, std::move(fresh));
+}
+
+bool Surface::compose(std::size_t i, const Solid& solid, const MadeCells& made) {
+    const shared::MadeTile& part = made.tiles[made_order_[i] & 0xffffffffu];
+    auto fresh = std::make_shared<TileMesh>();
+    const std::optional<TileWork> work = compose_tile(solid, grid_, made, part, tile(part.tile), *fresh);
+    if (!work) return false;
+    replace(i, *work, std::move(fresh));
+    return true;
+}
+
+template <typename MaskOf>
+RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool, WorkWatch* watch) {
+    subtract_changed();
+    std::atomic<std::size_t> done{0};
+    pool.run(changed_tiles_.size(), [&](std::size_t i) {
+        const double count = static_cast<double>(changed_tiles_.size());
+        if (watch != nullptr && !watch->go_on(static_cast<double>(++done) / count)) return;
+        mesh(i, solid, mask_of(changed_tiles_[i]));
+    });
+    return add_changed();
+}
+
 RemeshStats Surface::mesh_all(const Solid& solid, WorkerPool& pool, WorkWatch* watch) {
     changed_tiles_.resize(tiles_.size());
     std::iota(changed_tiles_.begin(), changed_tiles_.end(), 0u);
@@ -47,10 +73,38 @@ RemeshStats Surface::mesh_all(const Solid& solid, WorkerPool& pool, WorkWatch* w
     return mesh_tiles(solid, [&](std::uint32_t) -> const CellMask& { return all; }, pool, watch);
 }
 
-RemeshStats Surface::update(const Solid& solid, const Changes& changes, WorkerPool& pool) {
+RemeshStats Surface::update(const Solid& solid, const Changes& changes, WorkerPool& pool, const MadeCells* made) {
+    if (made != nullptr && list_tiles(*made)) return compose_tiles(solid, changes, *made, pool);
     dirty_.sort(changes, pool);
     changed_tiles_.assign(dirty_.tiles().begin(), dirty_.tiles().end());
     return mesh_tiles(solid, [&](std::uint32_t tile) { return dirty_.mask(tile); }, pool);
+}
+
+bool Surface::list_tiles(const MadeCells& made) {
+    made_order_.clear();
+    for (std::size_t i = 0; i < made.tiles.size(); ++i)
+        made_order_.push_back(std::uint64_t{made.tiles[i].tile} << 32 | i);
+    std::ranges::sort(made_order_);
+    changed_tiles_.clear();
+    for (const std::uint64_t tile : made_order_) changed_tiles_.push_back(static_cast<std::uint32_t>(tile >> 32));
+    return (changed_tiles_.empty() || changed_tiles_.back() < tiles_.size()) &&
+           std::ranges::adjacent_find(changed_tiles_) == changed_tiles_.end();
+}
+
+RemeshStats Surface::compose_tiles(const Solid& solid, const Changes& changes, const MadeCells& made,
+                                   WorkerPool& pool) {
+    subtract_changed();
+    std::vector<char> composed(changed_tiles_.size());
+    pool.run(composed.size(), [&](std::size_t i) { composed[i] = compose(i, solid, made) ? 1 : 0; });
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < composed.size(); ++i) {
+        if (composed[i] == 0) left.push_back(i);
+    }
+    if (!left.empty()) {
+        dirty_.sort(changes, pool);
+        pool.run(left.size(), [&](std::size_t k) { mesh(left[k], solid, dirty_.mask(changed_tiles_[left[k]])); });
+    }
+    return add_changed();
 }
 
 double Surface::volume_m3() const {

@@ -33,8 +33,11 @@ public:
     // Meshes all tiles from scratch. Where the watch wants no more the tiles that are left stay empty.
     RemeshStats mesh_all(const Solid& solid, WorkerPool& pool, WorkWatch* watch = nullptr);
     // Updates the surface after the changes; re-meshes only the cells whose data changed. The result equals that of
-    // mesh_all bit for bit.
-    RemeshStats update(const Solid& solid, const Changes& changes, WorkerPool& pool);
+    // mesh_all bit for bit. Takes the cells that a device has made after the same changes, where given: the result and
+    // the statistics are the same. Makes those tiles itself that the device has left or whose numbers cannot be right
+    // (compose_tile), and all where it names a tile twice or none of this surface; the solid's rays are read, and the
+    // changes sorted, for these alone.
+    RemeshStats update(const Solid& solid, const Changes& changes, WorkerPool& pool, const MadeCells* made = nullptr);
     // Returns the tiles that the last mesh_all or update re-meshed, in increasing order.
     [[nodiscard]] std::span<const std::uint32_t> changed_tiles() const { return changed_tiles_; }
 
@@ -63,6 +66,17 @@ public:
 private:
     template <typename MaskOf>
     RemeshStats mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool, WorkWatch* watch = nullptr);
+    RemeshStats compose_tiles(const Solid& solid, const Changes& changes, const MadeCells& made, WorkerPool& pool);
+    // Sorts the tiles into changed_tiles_ and made_order_. Returns false where they are not tiles of this surface.
+    [[nodiscard]] bool list_tiles(const MadeCells& made);
+    // Make the mesh of changed_tiles_[i] anew, for several i at once. compose() returns false, and changes nothing,
+    // where the device's cells do not make it.
+    void mesh(std::size_t i, const Solid& solid, const CellMask& dirty);
+    [[nodiscard]] bool compose(std::size_t i, const Solid& solid, const MadeCells& made);
+    void replace(std::size_t i, TileWork work, std::shared_ptr<TileMesh> fresh);
+    // Takes the changed tiles out of the sums before they are replaced, and adds them afterwards.
+    void subtract_changed();
+    RemeshStats add_changed();
 
     Lattice lattice_;
     TileGrid grid_;
@@ -70,6 +84,7 @@ private:
     std::vector<std::shared_ptr<const TileMesh>> tiles_;  // null for a tile without surface
     std::vector<std::uint32_t> changed_tiles_;
     std::vector<TileWork> work_;
+    std::vector<std::uint64_t> made_order_;  // the tile's number, then its index in MadeCells::tiles in the lower half
     std::uint64_t triangles_ = 0, disagreeing_edges_ = 0;
 };
 

@@ -18,6 +18,7 @@ public:
     TileCopier(const TileMesh& old, const CellMask& dirty, TileDraft& draft, std::vector<std::uint32_t>& new_index);
 
     [[nodiscard]] const CellMask& dirty() const { return dirty_; }
+    [[nodiscard]] const EdgeMask& dirty_edges() const { return dirty_edges_; }  // all edges of the dirty cells
 
     // Copies the clean cells with an id below `before` that have not been copied yet. All cells come before the first
     // quad.

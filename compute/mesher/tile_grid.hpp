@@ -44,6 +44,21 @@ struct TileGrid {
     }
 };
 
+// Returns the number of bits of up to 31 words, word(0) and so on. Counts within bytes, so that the compiler counts
+// several words at once.
+template <typename Word>
+[[nodiscard]] constexpr std::uint32_t bits_of_row(std::size_t words, Word&& word) {
+    std::uint32_t bytes = 0;
+    for (std::size_t i = 0; i < words; ++i) {
+        std::uint32_t bits = word(i);
+        bits -= bits >> 1 & 0x55555555u;
+        bits = (bits & 0x33333333u) + (bits >> 2 & 0x33333333u);
+        bytes += (bits + (bits >> 4)) & 0x0f0f0f0fu;
+    }
+    const std::uint32_t pairs = (bytes & 0x00ff00ffu) + (bytes >> 8 & 0x00ff00ffu);
+    return (pairs & 0xffffu) + (pairs >> 16);
+}
+
 // One bit for each cell that a tile sees: bit z + 1 of column (x, y).
 struct CellMask {
     std::array<std::uint32_t, kSeenCells * kSeenCells> columns{};
@@ -55,6 +70,12 @@ struct CellMask {
     [[nodiscard]] std::uint32_t at(int x, int y) const { return columns[column(x, y)]; }
     void add(int x, int y, std::uint32_t bits) { columns[column(x, y)] |= bits; }
     void set_all() { columns.fill(kAll); }
+    [[nodiscard]] std::size_t count() const {
+        std::size_t cells = 0;
+        for (std::size_t row = 0; row < columns.size(); row += kSeenCells)
+            cells += bits_of_row(kSeenCells, [&](std::size_t i) { return columns[row + i]; });
+        return cells;
+    }
 };
 
 }  // namespace burin::compute

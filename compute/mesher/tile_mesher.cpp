@@ -7,6 +7,9 @@
 
 #include "compute/mesher/cell_table.hpp"
 #include "compute/mesher/cell_vertices.hpp"
+#include "compute/mesher/made_tile.hpp"
+#include "compute/mesher/quad_corners.hpp"
+#include "compute/mesher/tile_bounds.hpp"
 #include "compute/mesher/tile_copier.hpp"
 #include "compute/mesher/tile_draft.hpp"
 #include "compute/mesher/tile_samples.hpp"
@@ -40,62 +43,68 @@ std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& firs
     return key * 16 + static_cast<std::uint64_t>(slot);
 }
 
-float longest_edge_m(const geometry::SurfaceTile& tile) {
-    float longest2 = 0.0f;
-    const auto place = [&](std::size_t i) { return geometry::place_of(tile.vertices[tile.indices[i]]); };
-    for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
-        const Vec3f a = place(i), b = place(i + 1), c = place(i + 2);
-        const Vec3f ab = b - a, bc = c - b, ca = a - c;
-        longest2 = std::max({longest2, glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
-    }
-    return std::sqrt(longest2);
-}
-
-geometry::TriangleSlab slab_of(const geometry::SurfaceTile& tile) {
-    return geometry::slab_around([&tile](auto&& visit) {
-        const auto place = [&](std::size_t i) { return Vec3(geometry::place_of(tile.vertices[tile.indices[i]])); };
-        for (std::size_t i = 0; i < tile.indices.size(); i += 3)
-            visit(geometry::Triangle{place(i), place(i + 1), place(i + 2)});
-    });
-}
-
 // Buffers of one thread, kept between calls so that their memory is reused.
 struct Scratch {
     TileSamples samples;
     TileDraft draft;
     std::vector<std::uint32_t> new_index;
+    std::vector<double> heights;
 };
+
+Scratch& scratch_of_thread() {
+    thread_local Scratch scratch;
+    return scratch;
+}
 
 class Mesher {
 public:
+    // The samples must hold the tile's signs.
     Mesher(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& dirty, const TileMesh& old,
            Scratch& scratch, TileMesh& mesh)
         : solid_(solid),
           first_node_(first_node),
           samples_(scratch.samples),
           draft_(scratch.draft),
+          heights_(scratch.heights),
           mesh_(mesh),
           cells_per_m_(static_cast<float>(1.0 / solid.lattice.spacing_m)),
           copier_(old, dirty, scratch.draft, scratch.new_index) {
         draft_.clear();
     }
 
+    // Computes the cells that are dirty.
     TileWork run() {
         make_vertices();
         make_quads();
-        draft_.vertices.assign_to(mesh_.vertices);
-        draft_.indices.assign_to(mesh_.indices);
-        mesh_.longest_edge_m = longest_edge_m(mesh_);
-        mesh_.slab = slab_of(mesh_);
-        draft_.quads.assign_to(mesh_.quads);
-        draft_.cells.assign_to(mesh_.cells);
-        draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);
-        mesh_.disagreeing_edges += copier_.disagreeing_edges();
-        mesh_.signs = samples_.signs();
+        finish();
+        return work_;
+    }
+
+    // Takes the cells and crossings that a device has made. Returns nothing where they and the clean ones are not all
+    // of the tile's cells, `cells` in number, or do not make whole quads.
+    std::optional<TileWork> run(const MadePart& made, std::size_t cells) {
+        take_vertices(made);
+        if (draft_.cells.count != cells) return {};
+        if (!samples_.take_crossings(made.edges, copier_.dirty_edges())) return {};
+        make_quads();
+        finish();
         return work_;
     }
 
 private:
+    void finish() {
+        draft_.vertices.assign_to(mesh_.vertices);
+        draft_.indices.assign_to(mesh_.indices);
+        draft_.quads.assign_to(mesh_.quads);
+        const TileBounds bounds = bounds_of(mesh_, heights_);
+        mesh_.longest_edge_m = bounds.longest_edge_m;
+        mesh_.slab = bounds.slab;
+        draft_.cells.assign_to(mesh_.cells);
+        draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);
+        mesh_.disagreeing_edges += copier_.disagreeing_edges();
+        mesh_.signs = samples_.signs();
+    }
+
     void make_vertices() {
         CellMask anew = samples_.cells_at_own_edges();
         for (std::size_t i = 0; i < anew.columns.size(); ++i) anew.columns[i] &= copier_.dirty().columns[i];
@@ -122,6 +131,17 @@ private:
         draft_.vertices.count += made.count;
         draft_.vertex_of_edge.push_back(made.of_edge);
         mesh_.has_twice_passed_faces |= (made.of_edge & TileMesh::kPassedTwice) != 0;
+    }
+
+    void take_vertices(const MadePart& made) {
+        for (const shared::MadeCell& cell : made.cells) {
+            copier_.copy_cells(number_of(cell));
+            draft_.begin_cell(number_of(cell), draft_.vertices.count);
+            draft_.vertices.append(made.vertices + cell.first_vertex, vertices_of(cell));
+            draft_.vertex_of_edge.push_back(of_edge(cell));
+        }
+        copier_.copy_cells(TileDraft::kCells);
+        work_.cells = static_cast<std::uint32_t>(made.cells.size());
     }
 
     void make_quads() {
@@ -248,16 +268,10 @@ private:
 
     // Tells whether the diagonal 1-3 turns its two triangles less away from the outward normal than 0-2 does.
     [[nodiscard]] bool other_diagonal(const std::array<std::uint32_t, 8>& q, const Vec3f& normal) const {
-        std::array<Float4, 4> p;
-        for (std::size_t i = 0; i < 4; ++i) __builtin_memcpy(&p[i], &draft_.vertices.items[q[i]], sizeof p[i]);
-        // Transposes rows of x, y, z to columns.
-        const Float4 xy01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5),
-                     xy23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
-                     z01 = __builtin_shufflevector(p[0], p[1], 2, 6, 2, 6),
-                     z23 = __builtin_shufflevector(p[2], p[3], 2, 6, 2, 6);
-        const Float4 x = shared::from_first_corner(__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5), cells_per_m_),
-                     y = shared::from_first_corner(__builtin_shufflevector(xy01, xy23, 2, 3, 6, 7), cells_per_m_),
-                     z = shared::from_first_corner(__builtin_shufflevector(z01, z23, 0, 1, 4, 5), cells_per_m_);
+        const QuadCorners corners(draft_.vertices.items.get(), q[0], q[1], q[2], q[3]);
+        const Float4 x = shared::from_first_corner(corners.x, cells_per_m_),
+                     y = shared::from_first_corner(corners.y, cells_per_m_),
+                     z = shared::from_first_corner(corners.z, cells_per_m_);
         return shared::takes_other_diagonal(shared::facings(x, y, z, normal.x, normal.y, normal.z));
     }
 
@@ -265,6 +279,7 @@ private:
     const std::array<int, 3>& first_node_;
     TileSamples& samples_;
     TileDraft& draft_;
+    std::vector<double>& heights_;
     TileMesh& mesh_;
     float cells_per_m_;
     TileCopier copier_;
@@ -276,11 +291,36 @@ private:
 TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
                    const TileMesh& old, TileMesh& fresh) {
     const std::array<int, 3> first_node = grid.first_node(tile);
-    thread_local Scratch scratch;
+    Scratch& scratch = scratch_of_thread();
     fresh = TileMesh();
     const NodeColumns* const signs_before = old.quads.empty() ? nullptr : &old.signs;
     if (!scratch.samples.collect_signs(solid, first_node, signs_before, dirty)) return {};
     return Mesher(solid, first_node, dirty, old, scratch, fresh).run();
+}
+
+std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made,
+                                     const shared::MadeTile& tile, const TileMesh& old, TileMesh& fresh) {
+    if (tile.left != 0 || old.has_twice_passed_faces) return {};
+    const std::optional<MadePart> part = part_of(made, tile);
+    if (!part) return {};
+    const std::array<int, 3> first_node = grid.first_node(tile.tile);
+    Scratch& scratch = scratch_of_thread();
+    fresh = TileMesh();
+    if (!scratch.samples.take_signs(part->signs)) {
+        return part->cells.empty() && part->edges.empty() ? std::optional(TileWork{}) : std::nullopt;
+    }
+    // The old cells that no crossed edge touches any more are dirty too.
+    const CellMask needed = scratch.samples.cells_at_own_edges();
+    CellMask dirty, kept;
+    std::uint32_t not_needed = 0;
+    for (std::size_t i = 0; i < dirty.columns.size(); ++i) {
+        const std::uint32_t made_here = part->mask.columns[i], needed_here = needed.columns[i];
+        not_needed |= made_here & ~needed_here;
+        kept.columns[i] = needed_here & ~made_here;
+        dirty.columns[i] = CellMask::kAll & ~kept.columns[i];
+    }
+    if (not_needed != 0 || !scratch.samples.same_signs(old.signs, kept)) return {};
+    return Mesher(solid, first_node, dirty, old, scratch, fresh).run(*part, needed.count());
 }
 
 std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<int, 3>& first_node,

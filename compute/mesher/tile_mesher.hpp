@@ -17,8 +17,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "compute/mesher/made_cells.hpp"
 #include "compute/mesher/tile_grid.hpp"
 #include "compute/mesher/tile_samples.hpp"
 #include "compute/rays/solid.hpp"
@@ -59,6 +61,14 @@ struct TileWork {
 // `old` must be different objects.
 TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
                    const TileMesh& old, TileMesh& fresh);
+
+// Makes the same mesh from the previous one and the cells that a device has made, without reading a ray. Returns
+// nothing, and leaves `fresh` undefined, where the tile is to be meshed as above: the device has left it to the host,
+// or there are twice passed faces before or after. So it does where the numbers of a faulty device lie beyond their
+// lists or the tile, are out of order, or do not make whole quads; wrong places and normals it cannot tell.
+// Thread-safe. `fresh` and `old` must be different objects.
+[[nodiscard]] std::optional<TileWork> compose_tile(const Solid& solid, const TileGrid& grid, const MadeCells& made,
+                                                   const shared::MadeTile& tile, const TileMesh& old, TileMesh& fresh);
 
 // Returns the key of each vertex, which is the same in all tiles for one point of the surface: (cell index in the
 // lattice) * 16 + slot. Slots 0 to 3 are the cell's loops; slot 4 + 2 * axis + pair is the extra vertex on the cell's

@@ -69,6 +69,16 @@ std::array<std::uint32_t, kSeenCells> dirty_columns(const CellMask& dirty) {
     return rows;
 }
 
+// Pads the mask with a border without cells, which gives the cells at and before each node, -2 .. kTileCells.
+constexpr std::size_t kPadded = kLocalNodes + 1;
+[[gnu::always_inline]] inline std::array<std::uint32_t, kPadded * kPadded> with_border(const CellMask& cells) {
+    std::array<std::uint32_t, kPadded * kPadded> padded{};
+    for (std::size_t y = 0; y < kSeenCells; ++y) {
+        std::copy_n(&cells.columns[y * kSeenCells], kSeenCells, &padded[(y + 1) * kPadded + 1]);
+    }
+    return padded;
+}
+
 }  // namespace
 
 bool TileSamples::collect_signs(const Solid& solid, const std::array<int, 3>& first_node, const NodeColumns* before,
@@ -86,18 +96,22 @@ bool TileSamples::collect_signs(const Solid& solid, const std::array<int, 3>& fi
                      static_cast<int>(std::bit_width(cells)), columns_);
         }
     }
-    constexpr std::uint32_t kAll = (1u << kLocalNodes) - 1u;
-    std::uint32_t any = 0, all = kAll;
+    return find_crossed();
+}
+
+bool TileSamples::take_signs(std::span<const std::uint32_t> signs) {
+    std::ranges::copy(signs, columns_.begin());
+    return find_crossed();
+}
+
+bool TileSamples::find_crossed() {
+    constexpr std::uint32_t kAllNodes = (1u << kLocalNodes) - 1u;
+    std::uint32_t any = 0, all = kAllNodes;
     for (const std::uint32_t bits : columns_) {
         any |= bits;
         all &= bits;
     }
-    if (any == 0 || all == kAll) return false;
-    find_crossed();
-    return true;
-}
-
-void TileSamples::find_crossed() {
+    if (any == 0 || all == kAllNodes) return false;
     constexpr std::size_t kRow = kLocalNodes, kAll = kRow * kRow;
     // The highest local node has no edge upwards: the last column of each row, the last row and the last bit stay 0.
     for (std::size_t row = 0; row < kAll; row += kRow) {
@@ -105,6 +119,7 @@ void TileSamples::find_crossed() {
     }
     for (std::size_t i = 0; i < kAll - kRow; ++i) crossed_[1][i] = columns_[i] ^ columns_[i + kRow];
     for (std::size_t i = 0; i < kAll; ++i) crossed_[2][i] = shared::crossed_upwards(columns_[i]);
+    return true;
 }
 
 CellMask TileSamples::cells_at_own_edges() const {
@@ -127,13 +142,22 @@ CellMask TileSamples::cells_at_own_edges() const {
     return cells;
 }
 
-EdgeMask edges_of(const CellMask& cells) {
-    // Pads the mask with a border without cells, which gives the cells at and before each node, -2 .. kTileCells.
-    constexpr std::size_t kPadded = kLocalNodes + 1;
-    std::array<std::uint32_t, kPadded * kPadded> padded{};
-    for (std::size_t y = 0; y < kSeenCells; ++y) {
-        std::copy_n(&cells.columns[y * kSeenCells], kSeenCells, &padded[(y + 1) * kPadded + 1]);
+bool TileSamples::same_signs(const NodeColumns& before, const CellMask& cells) const {
+    const auto padded = with_border(cells);
+    std::uint32_t changed = 0;
+    for (std::size_t y = 0; y < kLocalNodes; ++y) {
+        const std::uint32_t *const at = &padded[(y + 1) * kPadded], *const below = at - kPadded;
+        const std::size_t row = y * kLocalNodes;
+        for (std::size_t x = 0; x < kLocalNodes; ++x) {
+            const std::uint32_t around = at[x] | at[x + 1] | below[x] | below[x + 1];
+            changed |= (before[row + x] ^ columns_[row + x]) & (around | around << 1);
+        }
     }
+    return changed == 0;
+}
+
+EdgeMask edges_of(const CellMask& cells) {
+    const auto padded = with_border(cells);
     EdgeMask edges;
     for (std::size_t y = 0; y < kLocalNodes; ++y) {
         const std::uint32_t *const before = &padded[(y + 1) * kPadded], *const below = before - kPadded;
@@ -194,6 +218,45 @@ template <int axis>
         const auto ends = solid.sets[axis].ends(first_node[u] + node[u], first_node[v] + node[v]);
         read_crossing(ends, first_node[axis] + node[axis], sample);
     }
+}
+
+std::size_t TileSamples::own_crossed(const EdgeMask& edges) const {
+    std::size_t count = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t row = column(0, 0); row < column(0, kTileCells); row += kLocalNodes) {
+            count += bits_of_row(kTileCells, [&](std::size_t x) {
+                return crossed_[axis][row + x] & edges[axis][row + x] & shared::kOwnNodes;
+            });
+        }
+    }
+    return count;
+}
+
+bool TileSamples::take_crossings(std::span<const shared::MadeEdge> crossings, const EdgeMask& edges) {
+    if (crossings.size() != own_crossed(edges)) return false;
+    count_ = 0;
+    std::uint32_t least = 0;
+    for (const shared::MadeEdge& crossing : crossings) {
+        const std::uint32_t number = crossing.what & geometry::SurfaceTile::kQuadEdge;
+        const std::uint32_t axis = number / kTileCells / kTileCells / kTileCells,
+                            y = number / kTileCells / kTileCells % kTileCells, x = number / kTileCells % kTileCells,
+                            z = number % kTileCells;
+        if (number < least || axis > 2) return false;
+        least = number + 1;
+        const std::size_t at = column(static_cast<int>(x), static_cast<int>(y));
+        const bool lower_inside = (crossing.what >> 16 & 1u) != 0;
+        if (((crossed_[axis][at] & edges[axis][at]) >> (z + 1) & 1u) == 0) return false;
+        if ((columns_[at] >> (z + 1) & 1u) != (lower_inside ? 1u : 0u)) return false;
+        const shared::Direction n = shared::decode_normal(crossing.normal);
+        EdgeSample& sample = samples_[count_++];
+        sample.normal = {n.x, n.y, n.z};
+        sample.own_edge = static_cast<std::uint16_t>(number);
+        sample.disagrees = (crossing.what & geometry::SurfaceTile::kDisagrees) != 0;
+        sample.lower_inside = lower_inside;
+        sample.axis = static_cast<std::uint8_t>(axis);
+        sample.node = {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(z)};
+    }
+    return true;
 }
 
 }  // namespace burin::compute

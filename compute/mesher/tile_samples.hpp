@@ -12,6 +12,7 @@
 #include "base/space.hpp"
 #include "compute/mesher/tile_grid.hpp"
 #include "compute/rays/solid.hpp"
+#include "shaders/shared/made_cells.h"
 #include "shaders/shared/mesh_tile.h"
 #include "shaders/shared/vectors.h"
 
@@ -54,11 +55,19 @@ public:
     // earlier signs are given, only the columns that touch a dirty cell are read.
     [[nodiscard]] bool collect_signs(const Solid& solid, const std::array<int, 3>& first_node,
                                      const NodeColumns* before, const CellMask& dirty);
+    // Takes the signs that a device has read, in place of reading them.
+    [[nodiscard]] bool take_signs(std::span<const std::uint32_t> signs);
     [[nodiscard]] const NodeColumns& signs() const { return columns_; }
+    // Tells whether the corners of these cells have the signs that they had before.
+    [[nodiscard]] bool same_signs(const NodeColumns& before, const CellMask& cells) const;
     // Returns the cells that touch one of the tile's own crossed edges.
     [[nodiscard]] CellMask cells_at_own_edges() const;
     // Reads the crossings of all edges of these cells; no other edge may be passed to sample().
     void collect_crossings(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& cells);
+    // Takes the crossings of the tile's own edges among these from a device, in place of reading them. They have no
+    // place on their edge and no material, and cannot be passed to sample(). Returns false, and leaves the crossings
+    // undefined, unless each of the tile's own crossed edges among these is there once, in order, with its sign.
+    [[nodiscard]] bool take_crossings(std::span<const shared::MadeEdge> crossings, const EdgeMask& edges);
     // Returns the crossings ordered by axis, then by y, x, z of their lower nodes.
     [[nodiscard]] std::span<const EdgeSample> samples() const { return {samples_.get(), count_}; }
 
@@ -93,7 +102,10 @@ public:
     }
 
 private:
-    void find_crossed();
+    // Returns false when no edge is crossed.
+    bool find_crossed();
+    // Returns the number of the tile's own crossed edges among these.
+    [[nodiscard]] std::size_t own_crossed(const EdgeMask& edges) const;
     template <int axis>
     void collect_along(const Solid& solid, const std::array<int, 3>& first_node, const NodeColumns& edges);
     template <int axis>

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/mesher/made_cells.hpp"
 #include "compute/rays/carve_stats.hpp"
 #include "compute/tools/convex_pieces.hpp"
 #include "compute/tools/tool.hpp"
@@ -68,6 +69,12 @@ struct Flight {
     std::optional<gpu::Submission> submission;
     std::vector<Pass> passes;
     CarveStats stats;
+    // The cells around what it has changed: nothing where another takes them, where they are not all from one
+    // submission, or where the device had no room.
+    bool is_between = false;  // sweeps that the host carries out: who makes cells makes them after those
+    bool makes_cells = false;
+    int changing_submissions = 0;
+    std::optional<MadeCells> made;
 
     [[nodiscard]] bool is_done() const { return !submission && next_stage == stages.size(); }
     // Returns the passes that come next: of about so many work groups, one task at least, and as long as no ray can

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/try.hpp"
-#include "compute/vulkan/device_surface.hpp"
 
 namespace burin::compute {
 
@@ -67,17 +66,12 @@ std::vector<std::string> StandbyEngine::take_notices() {
     return notices;
 }
 
-std::unique_ptr<MeshingDevice> StandbyEngine::mesh_on_device() {
-    // A device that lacks something still carves, and the host meshes.
-    if (on_device_ == nullptr || !DeviceSurface::suits(on_device_->device())) return nullptr;
-    auto made = DeviceSurface::create(*on_device_);
-    if (made) return std::move(*made);
-    give_up_device(made.error());
-    return nullptr;
+void StandbyEngine::make_cells() {
+    makes_cells_ = true;
+    engine_->make_cells();
 }
 
 void StandbyEngine::give_up_device(const Error& why) {
-    if (on_device_ == nullptr) return;
     gather(on_device_->take_changes());
     last_traffic_ = traffic();
     ++losses_;
@@ -130,6 +124,7 @@ void StandbyEngine::take_an_offer() {
     taken_before_ = begun_;
     on_device_ = made->get();
     engine_ = std::move(*made);
+    if (makes_cells_) engine_->make_cells();
     notices_.push_back(lane->info().name + " carves again");
 }
 

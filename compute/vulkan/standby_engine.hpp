@@ -7,8 +7,6 @@
 // begins the updates again that were kept. Both give the same ends, so nothing shows of it but one notice for the user.
 // Where another device is offered (hear_offers), the next update is begun there, with another notice; after kMostLosses
 // devices the processor stays.
-// The host's solid lacks deferred cuts that were not read back (device_surface.hpp): whoever defers cuts has to do them
-// again after give_up_device().
 // Thread: that of the engines; the pool must outlive the engine.
 #pragma once
 
@@ -51,14 +49,13 @@ public:
     // Returns the work of the devices that there have been, also after they were given up.
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override;
 
-    // Has no effect while the processor carves.
-    [[nodiscard]] std::unique_ptr<MeshingDevice> mesh_on_device() override;
-    void give_up_device(const Error& why) override;
+    void make_cells() override;
 
     // The device's engine; null while the processor carves.
     [[nodiscard]] VulkanEngine* on_device() { return on_device_; }
 
 private:
+    void give_up_device(const Error& why);
     void let_the_processor_carve(Solid solid, const Error& why);
     void take_an_offer();
 
@@ -71,6 +68,7 @@ private:
     std::optional<DeviceTraffic> last_traffic_;  // of devices that were given up
     std::shared_ptr<OfferedDevice> offered_;     // null: none is
     int losses_ = 0;
+    bool makes_cells_ = false;
     std::vector<std::string> notices_;
 };
 

@@ -10,7 +10,6 @@
 #include "base/try.hpp"
 #include "shaders/cut_covered.comp.spv.hpp"
 #include "shaders/cut_rays.comp.spv.hpp"
-#include "shaders/export_rays.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
 
 namespace burin::compute {
@@ -67,7 +66,6 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
     auto made = compile(engine->cut_rays_, k_cut_rays_comp, 10, "cut");
     if (made) made = compile(engine->cut_covered_, k_cut_covered_comp, 10, "cut what is covered");
     if (made) made = compile(engine->patch_rays_, k_patch_rays_comp, 4, "patch");
-    if (made) made = compile(engine->export_rays_, k_export_rays_comp, 5, "read back");
     if (made) made = engine->synchronize();
     if (!made) {
         solid = engine->give_solid();
@@ -84,6 +82,15 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
 
 VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, WorkerPool& pool, const VulkanEngineOptions& options)
     : solid_(std::move(solid)), device_(device), pool_(pool), options_(options) {}
+
+void VulkanEngine::make_cells() {
+    if (maker_ || !CellMaker::suits(device_)) return;
+    auto made = CellMaker::create(device_, options_.cells);
+    if (made)
+        maker_ = std::move(*made);
+    else
+        leave_cells_to_host(made.error());
+}
 
 // Returns the rays that were assigned since the device was last used, as they are now.
 RayBatch VulkanEngine::take_assigned() {
@@ -198,7 +205,6 @@ CutParameters VulkanEngine::parameters() const {
 void VulkanEngine::send_counters(gpu::Commands& commands) {
     CutCounters counters{};
     counters.used = used_;
-    counters.stale = stale_count_;
     counters_.to_device<CutCounters>()[0] = counters;
     counters_.send(commands, sizeof(CutCounters));
     commands.barrier();

@@ -14,8 +14,6 @@
 // The change of a ray is recorded once a stage, and once a ball that smooths, between the lowest and the highest depth
 // that changed. After an Error, the next update sends the host's solid to the device anew.
 //
-// A cut can also be deferred: recorded into the caller's commands, without a wait. The host's solid then lags behind
-// the device's until read_back fetches the rays that differ; the device keeps a list of them, each once.
 // Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp.
 // Thread: one, as gpu::Device.
 #pragma once
@@ -29,6 +27,7 @@
 #include <vector>
 
 #include "compute/engine/engine.hpp"
+#include "compute/vulkan/cell_maker.hpp"
 #include "compute/vulkan/covered_rays.hpp"
 #include "compute/vulkan/flight.hpp"
 #include "compute/vulkan/vulkan_engine_memory.hpp"
@@ -45,6 +44,7 @@ struct VulkanEngineOptions {
     std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
     std::uint32_t spans_a_ray = 1;       // space for what a tool covers, per ray visited; 0: for one span in all
     std::uint32_t smooth_percent = 100;  // space for what smooths, of what a ball usually takes
+    CellMakerOptions cells = {};
     // The divisions and roots that tell whether the device rounds as the processor does; for tests.
     std::vector<CheckedRounding> roundings = hard_roundings();
 };
@@ -54,7 +54,7 @@ constexpr std::uint64_t kMostExported = std::uint64_t{1} << 22;
 
 // Work done since the engine was made.
 struct VulkanEngineCounts {
-    std::uint64_t cuts = 0;  // calls of carve and defer that reached the lattice
+    std::uint64_t cuts = 0;  // flights that reached the lattice
     std::uint64_t submissions = 0;
     std::uint64_t store_rebuilds = 0;  // because a ray found no space
     std::uint64_t balls_smoothed = 0;  // by the device
@@ -78,6 +78,7 @@ public:
     [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
         return burin::compute::add_material(solid_, material);
     }
+    void make_cells() override;
     [[nodiscard]] std::vector<std::string> take_notices() override { return std::exchange(notices_, {}); }
     [[nodiscard]] std::optional<DeviceTraffic> traffic() const override {
         const gpu::WorkAsked asked = device_.asked();
@@ -89,25 +90,9 @@ public:
     [[nodiscard]] Solid give_solid() { return std::move(solid_); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
+    // Returns what has been made of the surface; nothing without make_cells().
+    [[nodiscard]] CellMakerCounts made_cells() const { return maker_ ? maker_->counts() : CellMakerCounts{}; }
 
-    // A deferred cut, for callers that record commands of their own (device_surface.hpp). Call defer; then, while
-    // deferred_left(): record_pass into commands, submit them and wait at any later time, end_pass. After each pass,
-    // changed_rays() holds the rays that it finished; `changed` in counters() is their number, at most passed_rays().
-    // Nothing else may be called on the engine in between, and no update be under way. An Error loses the cuts deferred
-    // since the last read_back: the next call sends the host's solid anew.
-    [[nodiscard]] Result<void> defer(std::span<const BallSweep> sweeps);
-    [[nodiscard]] bool deferred_left() const { return pending_ > 0 || next_task_ < deferred_tasks_.size(); }
-    void record_pass(gpu::Commands& commands);
-    [[nodiscard]] Result<void> end_pass();
-    [[nodiscard]] const CarveStats& deferred_stats() const { return deferred_stats_; }  // since the last defer
-    // Updates solid() from the device and records the changes, each ray at most once. Does nothing when nothing was
-    // deferred.
-    [[nodiscard]] Result<void> read_back();
-    [[nodiscard]] std::uint32_t stale_rays() const { return stale_count_; }
-    [[nodiscard]] const DeviceSolid& device_solid() const { return device_solid_; }
-    [[nodiscard]] const gpu::Buffer& changed_rays() const { return deferred_changed_.buffer(); }
-    [[nodiscard]] const gpu::Buffer& counters() const { return counters_.buffer(); }
-    [[nodiscard]] std::uint32_t passed_rays() const { return passed_rays_; }
     [[nodiscard]] gpu::Device& device() { return device_; }
     // Sends the host's solid to the device if the device does not hold it, or the rays that were assigned since.
     [[nodiscard]] Result<void> synchronize();
@@ -137,6 +122,9 @@ private:
                           const shared::CutParameters& parameters);
     [[nodiscard]] Result<void> end_submission();
     [[nodiscard]] Result<void> end_uncovered(std::size_t done);
+    void send_for_cells(gpu::Commands& commands);
+    void take_cells(const shared::CutCounters& counters);
+    void leave_cells_to_host(const Error& why);
     [[nodiscard]] Result<Delta> land();
     [[nodiscard]] Result<Delta> carry_out_on_host();
     [[nodiscard]] Result<CarveStats> carry_out(std::span<const ToolSweep> sweeps, std::size_t first_ball,
@@ -154,14 +142,10 @@ private:
     [[nodiscard]] Result<void> reserve_patches(std::size_t rays, std::size_t ends);
     void record_patches(gpu::Commands& commands, std::span<const shared::PatchRay> rays,
                         std::span<const shared::DexelEnd> ends);
-    [[nodiscard]] Result<shared::CutCounters> fetch_stale(std::uint32_t first, std::uint32_t rays);
-    [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> check_longest() const;
     [[nodiscard]] shared::CutParameters parameters() const;
     void send_counters(gpu::Commands& commands);
     [[nodiscard]] Result<shared::CutCounters> counted(gpu::Commands commands);
-    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t groups);
-    [[nodiscard]] std::uint32_t send_tasks();
     [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
     void collect(const shared::CutCounters& counters);
     void apply_changes(Changes& changes);
@@ -171,27 +155,24 @@ private:
     WorkerPool& pool_;
     VulkanEngineOptions options_;
     VulkanEngineCounts counts_;
-    gpu::ComputePipeline cut_rays_, cut_covered_, patch_rays_, export_rays_;
+    gpu::ComputePipeline cut_rays_, cut_covered_, patch_rays_;
     std::optional<CoveredRays> covered_;  // nothing where the device rounds otherwise than the processor
     std::optional<SmoothPasses> smooth_;  // made by the first sweep that smooths
+    std::unique_ptr<CellMaker> maker_;    // null where the host makes all cells
     DeviceSolid device_solid_;
-    // Set while the device holds the same ends as solid_, but for assigned_, or newer ones after deferred cuts.
+    // Set while the device holds the same ends as solid_, but for assigned_ and what is under way.
     bool synchronized_ = false;
     std::vector<std::uint32_t> assigned_;  // codes of rays that the host has and the device has not; some several times
     // Number of ends that are taken in the device's store.
     std::uint32_t used_ = 0;
     // Upper bound of the number of ends of a ray.
     std::uint32_t longest_ = 0;
-    // Bytes in use in the buffers below.
-    std::size_t capsule_bytes_ = 0, order_bytes_ = 0;
-    std::uint32_t tasks_sent_ = 0;
     SharedBuffer capsules_{"capsules", SharedBuffer::Traffic::to_device};
     SharedBuffer tasks_{"cut tasks", SharedBuffer::Traffic::to_device};
     SharedBuffer order_{"capsule order", SharedBuffer::Traffic::to_device};
     SharedBuffer counters_{"cut counters", SharedBuffer::Traffic::both};
     SharedBuffer changed_{"changed rays", SharedBuffer::Traffic::in_place};
     SharedBuffer exported_{"changed ends", SharedBuffer::Traffic::in_place};
-    SharedBuffer deferred_changed_{"rays to mesh", SharedBuffer::Traffic::none};
     SharedBuffer pending_buffer_{"pending rays", SharedBuffer::Traffic::none};
     SharedBuffer continued_{"continued rays", SharedBuffer::Traffic::none};
     SharedBuffer stale_{"stale rays", SharedBuffer::Traffic::none};
@@ -204,11 +185,6 @@ private:
     std::vector<std::string> notices_;
     std::optional<Error> no_cover_;  // why covered_ is nothing, until the first sweep for which that matters
     std::optional<Error> failure_;   // of starting an update, for the next take()
-    // State of the deferred cut.
-    std::vector<shared::CutTask> deferred_tasks_;
-    std::size_t next_task_ = 0;
-    std::uint32_t pending_ = 0, stale_count_ = 0, passed_rays_ = 0;
-    CarveStats deferred_stats_;
     // Changed rays of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
     std::vector<shared::ChangedRay> changed_rays_;
     std::vector<shared::DexelEnd> new_ends_;

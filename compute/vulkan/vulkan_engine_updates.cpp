@@ -109,7 +109,6 @@ void VulkanEngine::start(Wait alone) {
 // ---- On the device
 
 Result<void> VulkanEngine::prepare(std::vector<ToolSweep> sweeps) {
-    BURIN_TRY_DO(read_back());
     flight_.emplace();
     changed_rays_.clear();
     new_ends_.clear();
@@ -233,6 +232,7 @@ Result<void> VulkanEngine::submit_passes() {
     order_.send(commands, flight_->tasks.order.size() * sizeof(std::uint32_t));
     tasks_.send(commands, tasks.size() * sizeof(CutTask));
     if (!smooths.empty()) BURIN_TRY_DO(smooth_->send(commands, smooths));
+    send_for_cells(commands);
     send_counters(commands);
     if (!flight_->patches.empty()) record_patches(commands, flight_->patches, flight_->patch_ends);
     CutParameters parameters = this->parameters();
@@ -252,6 +252,9 @@ Result<void> VulkanEngine::submit_passes() {
     if (flight_->one_pass && flight_->stages[flight_->passes.front().stage].is_covered())
         covered_->fetch_counters(commands);
     if (!smooths.empty()) smooth_->fetch(commands);
+    if (flight_->makes_cells)
+        maker_->record(commands, solid_, device_solid_, counters_.buffer(), changed_.buffer(),
+                       static_cast<std::uint32_t>(rays));
     counters_.fetch(commands, sizeof(CutCounters));
     BURIN_TRY(submission, std::move(commands).submit());
     ++counts_.submissions;
@@ -316,6 +319,26 @@ void VulkanEngine::record_smoothing(gpu::Commands& commands, const Pass& pass, s
                     {device_solid_.rays(), counters_.buffer(), changed_.buffer(), exported_.buffer()});
 }
 
+// Makes ready for the cells around what the passes change, unless the host makes them after work of its own.
+void VulkanEngine::send_for_cells(gpu::Commands& commands) {
+    flight_->makes_cells = maker_ != nullptr && flight_->on_host == flight_->sweeps.size() && !flight_->is_between;
+    if (!flight_->makes_cells) return;
+    if (const auto sent = maker_->send(commands, solid_); !sent) leave_cells_to_host(sent.error());
+}
+
+void VulkanEngine::leave_cells_to_host(const Error& why) {
+    notices_.push_back(Error{why.what, why.where, ""}.line() + "; the processor makes the surface");
+    maker_.reset();
+    if (flight_) flight_->makes_cells = false;
+}
+
+void VulkanEngine::take_cells(const CutCounters& counters) {
+    if (!flight_->makes_cells) return;
+    std::optional<MadeCells> made = maker_->take();
+    if (counters.changed == 0) return;
+    flight_->made = flight_->changing_submissions++ == 0 ? std::move(made) : std::nullopt;
+}
+
 // Takes over what the submission has done, and finds where the flight goes on.
 Result<void> VulkanEngine::end_submission() {
     BURIN_TRY_DO(flight_->submission->wait());
@@ -326,6 +349,7 @@ Result<void> VulkanEngine::end_submission() {
         std::min<std::uint64_t>(counters.exported * sizeof(DexelEnd), exported_.size_bytes()));
     flight_->stats.rays_touched += counters.touched;
     collect(counters);
+    take_cells(counters);
     if (counters.left[0] > 0) return make_room_for(counters);  // for what was assigned; nothing else has begun
     flight_->patches.clear();
     std::size_t done = 0;
@@ -363,11 +387,13 @@ Result<void> VulkanEngine::end_uncovered(std::size_t done) {
 
 // Puts what the flight has changed into the host's solid, and lets the host do what is left.
 Result<Delta> VulkanEngine::land() {
-    Delta delta{taken_ += flight_->updates, flight_->stats, {}};
+    Delta delta{taken_ += flight_->updates, flight_->stats, {}, {}};
     delta.stats.rays_changed = changed_rays_.size();
     apply_changes(delta.changes);
-    const Flight landed = std::move(*flight_);
+    Flight landed = std::move(*flight_);
     flight_.reset();
+    // Cells that were made before the host does the rest are not those of what it leaves.
+    if (landed.on_host == landed.sweeps.size()) delta.made = std::move(landed.made);
     if (landed.on_host < landed.sweeps.size()) {
         BURIN_TRY(rest, carry_out(from(landed.sweeps, landed.on_host), landed.first_ball, delta.changes));
         delta.stats += rest;
@@ -390,8 +416,7 @@ Error VulkanEngine::forgotten(const Error& why) {
 Result<Delta> VulkanEngine::carry_out_on_host() {
     const Update update = std::move(waiting_.front());
     waiting_.pop_front();
-    BURIN_TRY_DO(read_back());
-    Delta delta{++taken_, {}, {}};
+    Delta delta{++taken_, {}, {}, {}};
     if (update.sweeps.empty()) {
         delta.stats = {update.rays.rays.size(), assign_rays(update.rays, delta.changes)};
     } else {
@@ -424,6 +449,7 @@ Result<CarveStats> VulkanEngine::apply_one(const ToolSweep& sweep, std::size_t f
 // Lets the device carry out sweeps between what the host does, and waits for it.
 Result<CarveStats> VulkanEngine::cut_now(std::span<const ToolSweep> sweeps, Changes& changes) {
     BURIN_TRY_DO(prepare({sweeps.begin(), sweeps.end()}));
+    flight_->is_between = true;
     BURIN_TRY_DO(advance(Wait::yes));
     BURIN_TRY(delta, land());
     changes.append(delta.changes);

@@ -15,20 +15,12 @@
 #include <vector>
 
 #include "shaders/cover_rays.comp.spv.hpp"
+#include "shaders/cut_covered.comp.spv.hpp"
 #include "shaders/cut_rays.comp.spv.hpp"
-#include "shaders/export_rays.comp.spv.hpp"
-#include "shaders/gather_ball.comp.spv.hpp"
-#include "shaders/gather_corners.comp.spv.hpp"
-#include "shaders/mesh_copy_cells.comp.spv.hpp"
-#include "shaders/mesh_copy_quads.comp.spv.hpp"
-#include "shaders/mesh_edges.comp.spv.hpp"
-#include "shaders/mesh_give_back.comp.spv.hpp"
-#include "shaders/mesh_mark.comp.spv.hpp"
-#include "shaders/mesh_pieces.comp.spv.hpp"
-#include "shaders/mesh_quads.comp.spv.hpp"
-#include "shaders/mesh_sizes.comp.spv.hpp"
-#include "shaders/mesh_tiles.comp.spv.hpp"
-#include "shaders/mesh_vertices.comp.spv.hpp"
+#include "shaders/find_crossings.comp.spv.hpp"
+#include "shaders/list_cells.comp.spv.hpp"
+#include "shaders/make_cells.comp.spv.hpp"
+#include "shaders/mark_cells.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
 #include "shaders/round_doubles.comp.spv.hpp"
 #include "tests/compute/effort.hpp"
@@ -40,14 +32,10 @@ using Spirv = std::span<const std::uint32_t>;
 
 const std::vector<std::pair<const char*, Spirv>>& exact_shaders() {
     static const std::vector<std::pair<const char*, Spirv>> all{
-        {"cover_rays", k_cover_rays_comp},           {"cut_rays", k_cut_rays_comp},
-        {"export_rays", k_export_rays_comp},         {"gather_ball", k_gather_ball_comp},
-        {"gather_corners", k_gather_corners_comp},   {"mesh_copy_cells", k_mesh_copy_cells_comp},
-        {"mesh_copy_quads", k_mesh_copy_quads_comp}, {"mesh_give_back", k_mesh_give_back_comp},
-        {"mesh_edges", k_mesh_edges_comp},           {"mesh_mark", k_mesh_mark_comp},
-        {"mesh_pieces", k_mesh_pieces_comp},         {"mesh_quads", k_mesh_quads_comp},
-        {"mesh_sizes", k_mesh_sizes_comp},           {"mesh_tiles", k_mesh_tiles_comp},
-        {"mesh_vertices", k_mesh_vertices_comp},     {"patch_rays", k_patch_rays_comp},
+        {"cover_rays", k_cover_rays_comp},         {"cut_covered", k_cut_covered_comp},
+        {"cut_rays", k_cut_rays_comp},             {"find_crossings", k_find_crossings_comp},
+        {"list_cells", k_list_cells_comp},         {"make_cells", k_make_cells_comp},
+        {"mark_cells", k_mark_cells_comp},         {"patch_rays", k_patch_rays_comp},
         {"round_doubles", k_round_doubles_comp}};
     return all;
 }

@@ -17,9 +17,9 @@
 #include "base/try.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "compute/tools/tool_spans.hpp"
-#include "compute/vulkan/device_surface_buffers.hpp"
 #include "tests/compute/tool_reference.hpp"
 #include "tests/compute/vulkan_engine_fixture.hpp"
+#include "tests/compute/whole_buffers.hpp"
 
 namespace burin::compute::test {
 namespace {

@@ -107,33 +107,6 @@ public:
         return !testing::Test::HasFailure();
     }
 
-    // The Vulkan engine's host is behind until read_back.
-    bool cut_deferred(std::span<const BallSweep> sweeps) {
-        if (vulkan_ == nullptr) return false;
-        const auto expected = cpu_->carve(sweeps);
-        EXPECT_TRUE(expected) << expected.error().line();
-        auto done = vulkan_->defer(sweeps);
-        while (done && vulkan_->deferred_left()) {
-            auto commands = gpu::Commands::begin(vulkan_->device());
-            if (!commands) return false;
-            vulkan_->record_pass(*commands);
-            auto submission = std::move(*commands).submit();
-            if (!submission || !submission->wait()) return false;
-            done = vulkan_->end_pass();
-        }
-        EXPECT_TRUE(done) << done.error().line();
-        if (!expected || !done) return false;
-        EXPECT_EQ(vulkan_->deferred_stats().rays_touched, expected->rays_touched);
-        EXPECT_EQ(vulkan_->deferred_stats().rays_changed, expected->rays_changed);
-        return !testing::Test::HasFailure();
-    }
-    bool read_back() {
-        const auto done = vulkan_->read_back();
-        EXPECT_TRUE(done) << done.error().line();
-        EXPECT_TRUE(vulkan_->solid().same_content(cpu_->solid())) << "the engines hold different intervals";
-        return !testing::Test::HasFailure();
-    }
-
     [[nodiscard]] CarvingEngine& cpu() { return *cpu_; }
     [[nodiscard]] VulkanEngine& vulkan() { return *vulkan_; }
     [[nodiscard]] WorkerPool& pool() { return pool_; }

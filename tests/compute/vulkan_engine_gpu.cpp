@@ -185,9 +185,6 @@ TEST_F(VulkanEngineGpu, WithoutUnifiedMemoryTheEndsAreTheSame) {
         if (batch % 8 == 0) {
             ASSERT_TRUE(engines.assign(random_rays(engines.cpu().solid().lattice, 10, random)));
         }
-        if (batch % 8 == 4) {
-            ASSERT_TRUE(engines.cut_deferred(sweeps) && engines.read_back());
-        }
     }
     EXPECT_GT(engines.vulkan().counts().store_rebuilds, 0u);
 }

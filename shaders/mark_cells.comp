@@ -5,22 +5,18 @@
 #extension GL_EXT_buffer_reference : require
 // Marks the cells that the rays changed by a cut can have altered (cells_changed in shaders/shared/mesh_tile.h), and
 // lists the tiles that see them: one invocation per ray, as many as the cut may have changed. A tile that gets no row
-// or no slot waits for another submission, and is then meshed whole.
+// or no slot is missed, and the host then makes all cells of the update.
 #include "shaders/shared/cut_job.h"
-#include "shaders/mesh_buffers.glsl"
+#include "shaders/cell_buffers.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 14) readonly buffer CutCount { CutCounters cut; };
-layout(std430, binding = 15) readonly buffer Changed { ChangedRay changed[]; };
+layout(std430, binding = 12) readonly buffer CutCount { CutCounters cut; };
+layout(std430, binding = 13) readonly buffer Changed { ChangedRay changed[]; };
 
 const uint kNoRow = 0xffffffffu;
 const uint kMostProbes = 32u;
 
-void wait(uint tile) {
-    if (atomicExchange(ranges[tile].marked, 1u) == 0u) waiting[atomicAdd(counters.waiting, 1u)] = tile;
-}
-
-// Returns the tile's row of marked cells; the first to ask for it puts the tile on the list to mesh.
+// Returns the tile's row of marked cells; the first to ask for it puts the tile on the list.
 uint row_of(uint tile) {
     uint at = tile * 0x9e3779b1u >> 8;
     uint row = kNoRow;
@@ -40,12 +36,12 @@ uint row_of(uint tile) {
         uint slot = atomicAdd(counters.tiles, 1u);
         has_slot = slot < parameters.slots;
         if (has_slot) {
-            dirty[slot] = tile;
-            jobs[slot].mask = row;
+            tiles[slot].tile = tile;
+            tiles[slot].mask = row;
             atomicAdd(counters.tile_groups[0], 1u);
         }
     }
-    if (!has_slot) wait(tile);
+    if (!has_slot) atomicAdd(counters.missed, 1u);
     return row;
 }
 
@@ -61,21 +57,20 @@ void main() {
     ivec3 to = clamp(hi + 1, ivec3(0), last) / kMeshTile;  // the tile above sees the cell too
     // One loop over all tiles and one over all columns, with the conditions at their ends: software drivers turn each
     // loop as often as the busiest of eight lanes needs, and once more where the condition comes first.
-    ivec3 tiles = to - from + 1;
+    ivec3 tiles_near = to - from + 1;
     int i = 0;
     do {
-        ivec3 at = from + ivec3(i % tiles.x, i / tiles.x % tiles.y, i / (tiles.x * tiles.y));
-        uint tile = uint((at.z * parameters.tiles[1] + at.y) * parameters.tiles[0] + at.x);
-        if (ranges[tile].marked != 0u) continue;  // it is or will be meshed whole
-        uint row = row_of(tile);
+        ivec3 at = from + ivec3(i % tiles_near.x, i / tiles_near.x % tiles_near.y, i / (tiles_near.x * tiles_near.y));
         CellRange seen = cells_seen(cells, at.x, at.y, at.z);
         int wide = seen.hi[0] - seen.lo[0] + 1;
         int columns = wide * (seen.hi[1] - seen.lo[1] + 1);
-        if (row == kNoRow || wide <= 0 || columns <= 0 || seen.lo[2] > seen.hi[2]) continue;
+        if (seen.lo[2] > seen.hi[2]) continue;
+        uint row = row_of(uint((at.z * parameters.tiles[1] + at.y) * parameters.tiles[0] + at.x));
+        if (row == kNoRow || wide <= 0 || columns <= 0) continue;
         uint bits = cells_between(seen.lo[2], seen.hi[2]);
         int c = 0;
         do {
             atomicOr(masks[row].columns[cell_column(seen.lo[0] + c % wide, seen.lo[1] + c / wide)], bits);
         } while (++c < columns);
-    } while (++i < tiles.x * tiles.y * tiles.z);
+    } while (++i < tiles_near.x * tiles_near.y * tiles_near.z);
 }

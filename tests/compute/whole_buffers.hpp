@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Helpers shared by the parts of DeviceSurface (device_surface*.cpp): create, fill and read whole buffers, waiting for
-// the device.
+// Creates and reads whole buffers of a device, waiting for it.
 #pragma once
 
 #include <cstring>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "gpu/buffer.hpp"
 #include "gpu/commands.hpp"
 
-namespace burin::compute {
-
-template <typename T>
-Result<void> fill_buffer(gpu::Device& device, const gpu::Buffer& buffer, const std::vector<T>& values) {
-    const auto bytes = std::as_bytes(std::span(values));
-    if (bytes.empty()) return {};
-    if (buffer.mapped().empty()) return gpu::write(device, buffer, 0, bytes);
-    std::memcpy(buffer.mapped().data(), bytes.data(), bytes.size());
-    return {};
-}
+namespace burin::compute::test {
 
 template <typename T>
 Result<std::vector<T>> read_buffer(gpu::Device& device, const gpu::Buffer& buffer, std::size_t count) {
@@ -44,4 +33,4 @@ inline Result<void> create_into(gpu::Buffer& to, gpu::Device& device, gpu::Buffe
     return {};
 }
 
-}  // namespace burin::compute
+}  // namespace burin::compute::test

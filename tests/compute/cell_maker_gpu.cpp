@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// The cells that the device makes behind its cuts: tiles that take them over are those that the host makes, in every
+// field, to the last bit.
+#include "compute/vulkan/cell_maker.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compute/mesher/surface.hpp"
+#include "tests/compute/random_solids.hpp"
+#include "tests/compute/same_tiles.hpp"
+#include "tests/compute/updates.hpp"
+#include "tests/compute/vulkan_engine_fixture.hpp"
+
+namespace burin::compute::test {
+namespace {
+
+// An engine on a device, with a surface of the cells that the device makes, and one of those that the host makes of the
+// same changes.
+class FollowedTwice {
+public:
+    FollowedTwice(const Solid& solid, const gpu::Device& device, const VulkanEngineOptions& options = {})
+        : taken_(solid.lattice), own_(solid.lattice) {
+        auto made = VulkanEngine::create(Solid(solid), device, pool_, options);
+        EXPECT_TRUE(made) << made.error().line();
+        if (!made) return;
+        engine_ = std::move(*made);
+        engine_->make_cells();
+        EXPECT_TRUE(engine_->take_notices().empty());
+        taken_.mesh_all(solid, pool_);
+        own_.mesh_all(solid, pool_);
+    }
+    // Takes an update, and tells what differs then; nothing where nothing does.
+    [[nodiscard]] std::string take(Wait wait = Wait::yes) {
+        const auto delta = engine_->take(wait);
+        if (!delta) return delta.error().line();
+        if (!*delta) return "";
+        made_ += (*delta)->made ? 1 : 0;
+        const RemeshStats of_taken =
+            taken_.update(engine_->solid(), (*delta)->changes, pool_, (*delta)->made ? &*(*delta)->made : nullptr);
+        const RemeshStats of_own = own_.update(engine_->solid(), (*delta)->changes, pool_);
+        cells_ += of_own.cells;
+        if (of_taken.tiles != of_own.tiles || of_taken.cells != of_own.cells || of_taken.triangles != of_own.triangles)
+            return "other statistics";
+        if (!std::ranges::equal(taken_.changed_tiles(), own_.changed_tiles())) return "other tiles";
+        return first_difference(taken_, own_);
+    }
+    [[nodiscard]] std::string carve(const std::vector<ToolSweep>& sweeps) {
+        const auto begun = engine_->begin(sweeps);
+        return begun ? take() : begun.error().line();
+    }
+    [[nodiscard]] VulkanEngine& engine() { return *engine_; }
+    [[nodiscard]] const Surface& own() const { return own_; }
+    [[nodiscard]] std::uint64_t made() const { return made_; }    // updates whose cells the device has made
+    [[nodiscard]] std::uint64_t cells() const { return cells_; }  // that the host makes
+
+private:
+    WorkerPool pool_{2};
+    std::unique_ptr<VulkanEngine> engine_;
+    Surface taken_, own_;
+    std::uint64_t made_ = 0, cells_ = 0;
+};
+
+class CellMakerGpu : public VulkanEngineGpu {};
+
+std::vector<ToolSweep> balls(std::span<const BallSweep> sweeps) {
+    std::vector<ToolSweep> tools;
+    for (const BallSweep& sweep : sweeps)
+        tools.push_back({.shape = BallTool{sweep.radius_m},
+                         .start = {sweep.start_object_m},
+                         .end = {sweep.end_object_m},
+                         .operation = sweep.operation,
+                         .material = sweep.material});
+    return tools;
+}
+
+}  // namespace
+
+TEST_F(CellMakerGpu, AStrokeMakesTheCellsThatTheHostMakesAndTheTilesAreTheSame) {
+    FollowedTwice carved(unit_cube(64), device());
+    for (const BallSweep& sweep : stroke_1000(kSanitized ? 64 : 16))
+        ASSERT_EQ(carved.carve(balls(std::span(&sweep, 1))), "");
+    const CellMakerCounts counts = carved.engine().made_cells();
+    // The host makes cells with a face that a loop passes twice anew each time.
+    EXPECT_LE(counts.cells, carved.cells());
+    EXPECT_GT(counts.cells, carved.cells() / 100 * 99);
+    EXPECT_EQ(counts.updates, carved.made());
+    EXPECT_EQ(counts.left_updates, 0u);
+    EXPECT_LT(counts.left_tiles, counts.tiles / 4);
+}
+
+TEST_F(CellMakerGpu, EveryToolAndOperationWithRaysThatAreAssignedBetweenGivesTheSameTiles) {
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(repeated(6)); ++seed) {
+        Random random(seed);
+        const Solid solid = unit_cube(random.small(16, 48));
+        FollowedTwice carved(solid, device());
+        for (int i = 0; i < 20; ++i) {
+            static_cast<void>(begin(carved.engine(), any_work(random, solid.lattice)));
+            ASSERT_EQ(carved.take(random.chance(0.5) ? Wait::yes : Wait::no), "") << "seed " << seed << ", " << i;
+        }
+        while (carved.engine().under_way() > 0) ASSERT_EQ(carved.take(), "") << "seed " << seed;
+        EXPECT_GT(carved.made(), 0u);
+    }
+}
+
+// In noise loops pass faces twice, whose tiles are left to the host, and rays disagree about nodes.
+TEST_F(CellMakerGpu, NoiseGivesTheSameTilesWhateverItsRaysSay) {
+    for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
+        const Solid solid = noise_solid({34, 20, 37}, 0.05, rays, 11);
+        FollowedTwice carved(solid, device());
+        Random random(21);
+        for (int i = 0; i < repeated(8); ++i) {
+            BallSweep sweep;
+            sweep.start_object_m =
+                solid.lattice.origin_object +
+                solid.lattice.spacing_m * Vec3(34 * random.unit(), 20 * random.unit(), 37 * random.unit());
+            sweep.end_object_m = sweep.start_object_m + solid.lattice.spacing_m * Vec3(random.unit());
+            sweep.radius_m = solid.lattice.spacing_m * random.between(0.5, 4.0);
+            sweep.operation = static_cast<Operation>(i % 3);  // cut, fill, paint
+            sweep.material = 1;
+            ASSERT_EQ(carved.carve(balls(std::span(&sweep, 1))), "") << i;
+        }
+        EXPECT_GT(carved.engine().made_cells().left_tiles, 0u);
+        EXPECT_GT(carved.own().disagreeing_edges() + (rays == Rays::agree ? 1 : 0), 0u);
+    }
+}
+
+TEST_F(CellMakerGpu, WhatFindsNoRoomIsMadeByTheHostUntilThereIsRoom) {
+    for (const CellMakerOptions& small : {CellMakerOptions{.tiles = 1}, CellMakerOptions{.cells = 1},
+                                          CellMakerOptions{.edges = 1}, CellMakerOptions{.vertices = 1}}) {
+        FollowedTwice carved(unit_cube(48), device(), {.cells = small});
+        for (const BallSweep& sweep : stroke_1000(50)) ASSERT_EQ(carved.carve(balls(std::span(&sweep, 1))), "");
+        const CellMakerCounts counts = carved.engine().made_cells();
+        EXPECT_GT(counts.left_tiles + counts.left_updates, 0u);
+        EXPECT_LT(counts.left_updates, 6u) << "it grows";
+        EXPECT_GT(counts.cells, 0u);
+    }
+}
+
+TEST_F(CellMakerGpu, ACutOfSeveralSubmissionsIsMadeByTheHost) {
+    FollowedTwice carved(unit_cube(40), device(), {.spare_ends = 0, .export_per_ray = 1, .tasks_a_pass = 4});
+    Random random(9);
+    for (int i = 0; i < repeated(10); ++i) {
+        std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 5)));
+        for (BallSweep& sweep : sweeps) sweep = random_sweep(random, 0.025);
+        ASSERT_EQ(carved.carve(balls(sweeps)), "") << i;
+    }
+}
+
+TEST_F(CellMakerGpu, WithoutUnifiedMemoryTheTilesAreTheSame) {
+    capabilities().unified_memory = false;
+    FollowedTwice carved(unit_cube(40), device(), {.cells = {.tiles = 4}});
+    for (const BallSweep& sweep : stroke_1000(50)) ASSERT_EQ(carved.carve(balls(std::span(&sweep, 1))), "");
+    EXPECT_GT(carved.made(), 10u);
+}
+
+// The colour of a vertex is the material's.
+TEST_F(CellMakerGpu, AMaterialThatIsAddedLaterHasItsColour) {
+    FollowedTwice carved(unit_cube(32), device());
+    BallSweep sweep{Vec3(0.5, 0.5, 1.0), Vec3(0.5, 0.5, 1.0), 0.2, 0};
+    ASSERT_EQ(carved.carve(balls(std::span(&sweep, 1))), "");
+    geometry::Material red;
+    red.colour = {255, 0, 0};
+    const auto added = carved.engine().add_material(red);
+    ASSERT_TRUE(added);
+    sweep.material = *added;
+    sweep.operation = Operation::paint;
+    ASSERT_EQ(carved.carve(balls(std::span(&sweep, 1))), "");
+    EXPECT_EQ(carved.made(), 2u);
+}
+
+}  // namespace burin::compute::test
