@@ -29,6 +29,16 @@ std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene, const Strok
     return sweeps;
 }
 
+// Returns the solid that the scene's tool leaves of an uncut one.
+Result<compute::Solid> cut_solid(const CarveScene& scene, compute::Solid uncut, const StrokeOptions& options,
+                                 WorkerPool& pool) {
+    StrokeOptions cutting = options;
+    cutting.smooths = false;
+    const auto engine = compute::make_cpu_engine(std::move(uncut), pool);
+    BURIN_TRY_DO(engine->carve(tool_sweeps(scene, cutting)));
+    return engine->solid();
+}
+
 // Fails where the processor has gone on for a device: its times are no device's.
 Result<void> check_engine(sculpt::Sculpture& sculpture, const StrokeOptions& options) {
     if (!options.on_vulkan || sculpture.engine().name() == std::string_view("vulkan")) return {};
@@ -163,6 +173,10 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
 Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& options) {
     WorkerPool pool(options.threads);
     BURIN_TRY(uncut, uncut_solid(scene, options.resolution, pool));
+    if (options.smooths) {
+        BURIN_TRY(cut, cut_solid(scene, std::move(uncut), options, pool));
+        uncut = std::move(cut);
+    }
     StrokeRun run;
     run.threads = pool.threads();
     run.resolution = options.resolution;

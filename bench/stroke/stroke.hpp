@@ -32,7 +32,7 @@ struct StrokeOptions {
     bool with_undo = false;   // time the updates with undo as well
     bool with_light = false;  // time the updates with light as well
     StrokeTool tool = StrokeTool::ball;
-    bool smooths = false;  // the tool smooths where it would cut
+    bool smooths = false;  // the tool smooths where it has cut, all of the stroke, before
     // Says whether the removed volume and the cut surface have a closed form.
     [[nodiscard]] bool is_known() const { return tool == StrokeTool::ball && !smooths; }
 };
@@ -64,9 +64,9 @@ struct StrokeRun {
     // Sums up the updates without undo or light; nothing without a device.
     std::optional<compute::DeviceTraffic> traffic;
     UpdateCounts counts;
-    std::size_t strokes_kept = 0;  // by the history of with_undo
-    std::size_t tiles_lit = 0;     // baked during the updates of with_light
-    std::uint64_t rays_touched = 0, rays_changed = 0;                                   // summed over the updates
+    std::size_t strokes_kept = 0;                      // by the history of with_undo
+    std::size_t tiles_lit = 0;                         // baked during the updates of with_light
+    std::uint64_t rays_touched = 0, rays_changed = 0;  // summed over the updates
     std::uint64_t cells_remeshed = 0, triangles_remeshed = 0, triangles_published = 0;  // likewise; of whole tiles
     double first_mesh_ms = 0.0;  // of the whole uncut solid, on the host
     std::uint64_t rays_held = 0;
