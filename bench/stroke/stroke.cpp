@@ -20,11 +20,21 @@ namespace {
 
 constexpr std::uint64_t kCheckedRays = 20000;  // an axis
 
+// A ball that smooths does so about the place that it touches, as in a session: the lowest of what it has cut.
+void smooth_instead(const CarveScene& scene, compute::ToolSweep& sweep) {
+    sweep.operation = compute::Operation::smooth;
+    const auto* const ball = std::get_if<compute::BallTool>(&sweep.shape);
+    if (ball == nullptr) return;
+    const Vec3 down = scene.object_from_scene.orientation * Vec3(0.0, 0.0, -ball->radius_m);
+    sweep.start.position_m += down;
+    sweep.end.position_m += down;
+}
+
 std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene, const StrokeOptions& options) {
     std::vector<compute::ToolSweep> sweeps;
     for (const compute::BallSweep& sweep : scene.sweeps) {
         sweeps.push_back(tool_sweep(scene, sweep, options.tool));
-        if (options.smooths) sweeps.back().operation = compute::Operation::smooth;
+        if (options.smooths) smooth_instead(scene, sweeps.back());
     }
     return sweeps;
 }
