@@ -171,7 +171,7 @@ CommandAction add_stroke_bench(Command command) {
                 "A ball, or a tool in its place that removes about as much; capsule: a ball with --swept")
         .one_of({"ball", kCapsule, "cylinder", "cone", "bullnose", "box"})
         .show_default();
-    command.choice("--operation", options->stroke.smooths, "What the tool does: cut, or smooth",
+    command.choice("--operation", options->stroke.smooths, "What the tool does: cut, or smooth what it has cut before",
                    {{"cut", false}, {"smooth", true}});
     command.flag("--swept", options->swept, "Sweep the tool from each place to the next; else a stamp at each place");
     command.option("--scene", options->scenes,

@@ -20,13 +20,33 @@ namespace {
 
 constexpr std::uint64_t kCheckedRays = 20000;  // an axis
 
+// A ball that smooths does so about the place that it touches, as in a session: the lowest of what it has cut.
+void smooth_instead(const CarveScene& scene, compute::ToolSweep& sweep) {
+    sweep.operation = compute::Operation::smooth;
+    const auto* const ball = std::get_if<compute::BallTool>(&sweep.shape);
+    if (ball == nullptr) return;
+    const Vec3 down = scene.object_from_scene.orientation * Vec3(0.0, 0.0, -ball->radius_m);
+    sweep.start.position_m += down;
+    sweep.end.position_m += down;
+}
+
 std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene, const StrokeOptions& options) {
     std::vector<compute::ToolSweep> sweeps;
     for (const compute::BallSweep& sweep : scene.sweeps) {
         sweeps.push_back(tool_sweep(scene, sweep, options.tool));
-        if (options.smooths) sweeps.back().operation = compute::Operation::smooth;
+        if (options.smooths) smooth_instead(scene, sweeps.back());
     }
     return sweeps;
+}
+
+// Returns the solid that the scene's tool leaves of an uncut one.
+Result<compute::Solid> cut_solid(const CarveScene& scene, compute::Solid uncut, const StrokeOptions& options,
+                                 WorkerPool& pool) {
+    StrokeOptions cutting = options;
+    cutting.smooths = false;
+    const auto engine = compute::make_cpu_engine(std::move(uncut), pool);
+    BURIN_TRY_DO(engine->carve(tool_sweeps(scene, cutting)));
+    return engine->solid();
 }
 
 // Fails where the processor has gone on for a device: its times are no device's.
@@ -163,6 +183,10 @@ Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std
 Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& options) {
     WorkerPool pool(options.threads);
     BURIN_TRY(uncut, uncut_solid(scene, options.resolution, pool));
+    if (options.smooths) {
+        BURIN_TRY(cut, cut_solid(scene, std::move(uncut), options, pool));
+        uncut = std::move(cut);
+    }
     StrokeRun run;
     run.threads = pool.threads();
     run.resolution = options.resolution;

@@ -32,7 +32,7 @@ struct StrokeOptions {
     bool with_undo = false;   // time the updates with undo as well
     bool with_light = false;  // time the updates with light as well
     StrokeTool tool = StrokeTool::ball;
-    bool smooths = false;  // the tool smooths where it would cut
+    bool smooths = false;  // the tool smooths where it has cut, all of the stroke, before
     // Says whether the removed volume and the cut surface have a closed form.
     [[nodiscard]] bool is_known() const { return tool == StrokeTool::ball && !smooths; }
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The interface between the host and shaders/cut_rays.comp and cut_covered.comp: which rays to cut by which capsules,
-// or by what a tool covers of them, which of them changed, and which have to wait for another pass. Passes that smooth
-// (smooth_job.h) share the counters. All fields but
-// those of the push constants are 32-bit words, so the layout is the same everywhere.
+// or by what a tool covers of them, which of them changed, and which have to wait for another pass. All fields but
+// those of the push constants are 32-bit words, so the layout is the same everywhere. Passes that smooth (smooth_job.h)
+// share the counters and the list of changed rays.
 //
 // Several passes may follow each other in one submission, each with its number. One that leaves anything undone keeps
 // all that come after it from beginning, so that the order of the work stays.

@@ -248,6 +248,16 @@ TEST(Stroke, TellsTheSpreadOfWhatUpdatesAskOfADevice) {
     EXPECT_EQ(table(report).find("counts_per_update"), std::string::npos);
 }
 
+TEST(Stroke, ThatSmoothsGoesOverWhatItsToolHasCut) {
+    const auto cut = run_stroke(short_scene(), {.resolution = 48, .threads = 1});
+    const auto smoothed = run_stroke(short_scene(), {.resolution = 48, .threads = 1, .smooths = true});
+    ASSERT_TRUE(cut.has_value() && smoothed.has_value());
+    EXPECT_GT(smoothed->rays_changed, 0u);
+    EXPECT_FALSE(smoothed->intervals.has_value()) << "there is no closed form";
+    EXPECT_NEAR(geometry::examine(smoothed->mesh).signed_volume_m3 / geometry::examine(cut->mesh).signed_volume_m3, 1.0,
+                0.01);
+}
+
 TEST(Stroke, GivesTheSameSurfaceOnAnyNumberOfThreads) {
     const CarveScene scene = short_scene();
     const auto one = run_stroke(scene, {32, false, 1}), three = run_stroke(scene, {32, false, 3});

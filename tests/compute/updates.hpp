@@ -19,7 +19,7 @@ namespace burin::compute::test {
 using Work = std::variant<std::vector<ToolSweep>, RayBatch>;
 using MakeEngine = std::function<std::unique_ptr<CarvingEngine>(const Solid& solid)>;
 
-// Mostly balls, some tools that a device has no shader for, some that smooth, and rays that are assigned.
+// Mostly balls, some other tools, a quarter of all that smooths, and rays that are assigned.
 [[nodiscard]] inline Work any_work(Random& random, const Lattice& lattice) {
     const auto somewhere = [&] { return Vec3(random.between(-0.1, 1.1), random.unit(), random.unit()); };
     if (random.chance(0.2)) {
@@ -33,10 +33,12 @@ using MakeEngine = std::function<std::unique_ptr<CarvingEngine>(const Solid& sol
         ToolSweep sweep{.shape = BallTool{random.between(0.05, 0.2)}, .start = {}, .end = {}};
         if (random.chance(0.2)) sweep.shape = CylinderTool{random.between(0.05, 0.15), 0.3};
         if (random.chance(0.1)) sweep.shape = BoxTool{Vec3(0.1, 0.05, 0.08)};
+        if (random.chance(0.1)) sweep.shape = ConeTool{0.02, random.between(0.05, 0.15), 0.2};
         sweep.start.position_m = somewhere();
         sweep.end.position_m = random.chance(0.3) ? sweep.start.position_m : somewhere();
         sweep.operation = static_cast<Operation>(random.small(0, 3));
         sweep.material = static_cast<std::uint8_t>(random.small(0, 1));
+        sweep.smooth_strength = random.unit();
         sweeps.push_back(std::move(sweep));
     }
     return sweeps;

@@ -23,8 +23,9 @@ TEST_F(UpdatesOfADevice, AreTakenOneByOne) {
     for (int round = 0; round < repeated(4); ++round) {
         const auto seed = static_cast<std::uint64_t>(300 + round);
         takes_updates_one_by_one(on_vulkan(), seed);
-        takes_updates_one_by_one(on_vulkan({.spare_ends = 0, .export_per_ray = 0, .tasks_a_pass = 2, .spans_a_ray = 0}),
-                                 seed);
+        takes_updates_one_by_one(
+            on_vulkan({.spare_ends = 0, .export_per_ray = 0, .tasks_a_pass = 2, .spans_a_ray = 0, .smooth_percent = 0}),
+            seed);
     }
 }
 
