@@ -108,7 +108,7 @@ TEST_F(CellMakerGpu, EveryToolAndOperationWithRaysThatAreAssignedBetweenGivesThe
 // In noise loops pass faces twice, whose fans the host makes, and rays disagree about nodes.
 TEST_F(CellMakerGpu, NoiseGivesTheSameTilesWhateverItsRaysSay) {
     for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
-        const Solid solid = noise_solid({34, 20, 37}, 0.2, rays, 11);
+        const Solid solid = noise_solid({34, 20, 37}, 0.5, rays, 11);
         FollowedTwice carved(solid, device());
         Random random(21);
         for (int i = 0; i < repeated(8); ++i) {
