@@ -4,8 +4,8 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
 // Marks the cells that the rays changed by a cut can have altered (cells_changed in shaders/shared/mesh_tile.h), and
-// lists the tiles that see them: one invocation per ray, as many as the cut may have changed. A tile that gets no row
-// or no slot is missed, and the host then makes all cells of the update.
+// lists the tiles that see them: one invocation per ray, or per several where a cut may have changed very many. A tile
+// that gets no row or no slot is missed, and the host then makes all cells of the update.
 #include "shaders/shared/cut_job.h"
 #include "shaders/cell_buffers.glsl"
 
@@ -45,10 +45,7 @@ uint row_of(uint tile) {
     return row;
 }
 
-void main() {
-    uint number = gl_GlobalInvocationID.x;
-    if (number >= cut.changed) return;
-    ChangedRay ray = changed[number];
+void mark_around(ChangedRay ray) {
     CellRange cells = cells_changed(axis_of(ray.ray), u_of(ray.ray), v_of(ray.ray), ray.changed_lo, ray.changed_hi);
     ivec3 lo = ivec3(cells.lo[0], cells.lo[1], cells.lo[2]);
     ivec3 hi = ivec3(cells.hi[0], cells.hi[1], cells.hi[2]);
@@ -73,4 +70,13 @@ void main() {
             atomicOr(masks[row].columns[cell_column(seen.lo[0] + c % wide, seen.lo[1] + c / wide)], bits);
         } while (++c < columns);
     } while (++i < tiles_near.x * tiles_near.y * tiles_near.z);
+}
+
+void main() {
+    uint number = gl_GlobalInvocationID.x;
+    if (number >= cut.changed) return;
+    do {
+        mark_around(changed[number]);
+        number += gl_NumWorkGroups.x * uint(kCellGroup);
+    } while (number < cut.changed);
 }

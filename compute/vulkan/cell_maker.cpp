@@ -27,7 +27,9 @@ using shared::MadeEdge;
 using shared::MadeTile;
 using shared::SurfaceVertex;
 
-constexpr std::uint32_t kMostBindings = 14;  // of mark_cells.comp
+constexpr std::uint32_t kMostBindings = 14;       // of mark_cells.comp
+constexpr std::uint64_t kMostGroups = 65535;      // that every device takes in one dispatch
+constexpr std::uint32_t kMostMarkGroups = 16384;  // beyond them each invocation marks around several rays
 constexpr std::size_t kTableWords = std::size_t{4} * 256;
 
 // Packs cell_table.hpp and the colours of the materials for the device (shaders/shared/cell_row.h).
@@ -103,13 +105,13 @@ Result<void> CellMaker::compile() {
 
 Result<void> CellMaker::reserve() {
     const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes;
-    const auto bounded = [&](std::uint32_t& count, std::size_t element_bytes) {
-        count = static_cast<std::uint32_t>(std::min<std::uint64_t>(count, limit / element_bytes));
+    const auto bounded = [&](std::uint32_t& count, std::size_t element_bytes, std::uint64_t most) {
+        count = static_cast<std::uint32_t>(std::min<std::uint64_t>({count, limit / element_bytes, most}));
     };
-    bounded(options_.tiles, sizeof(shared::CellTile));
-    bounded(options_.cells, sizeof(MadeCell));
-    bounded(options_.edges, sizeof(shared::ListedEdge));
-    bounded(options_.vertices, sizeof(SurfaceVertex));
+    bounded(options_.tiles, sizeof(shared::CellTile), kMostGroups);
+    bounded(options_.cells, sizeof(MadeCell), kMostGroups * shared::kCellGroup);
+    bounded(options_.edges, sizeof(shared::ListedEdge), kMostGroups * shared::kCellGroup);
+    bounded(options_.vertices, sizeof(SurfaceVertex), limit);
     mask_rows_ = std::bit_ceil(2 * options_.tiles);
     const std::uint64_t masks_before = masks_.size_bytes();
     const std::pair<SharedBuffer*, std::uint64_t> sizes[] = {
@@ -176,7 +178,8 @@ void CellMaker::record(gpu::Commands& commands, const Solid& host, const DeviceS
     with_changes.emplace_back(cut_counters);
     with_changes.emplace_back(changed);
     constexpr std::uint32_t kGroup = shared::kCellGroup;
-    commands.dispatch(stages_[mark], with_changes, gpu::bytes_of(p), {(most_changed + kGroup - 1) / kGroup, 1, 1});
+    commands.dispatch(stages_[mark], with_changes, gpu::bytes_of(p),
+                      {std::min((most_changed + kGroup - 1) / kGroup, kMostMarkGroups), 1, 1});
     constexpr std::pair<Stage, std::size_t> kSteps[] = {{list, offsetof(CellCounters, tile_groups)},
                                                         {cross, offsetof(CellCounters, edge_groups)},
                                                         {make, offsetof(CellCounters, cell_groups)},

@@ -23,8 +23,9 @@ using shared::PendingRay;
 using shared::SmoothParameters;
 using shared::SmoothTask;
 
-// Rays that one pass visits; more of them are left to the host, for which that is work enough.
-constexpr std::uint32_t kMostVisited = 1u << 22;
+// Rays that one pass visits, of as many work groups as every device takes; more of them are left to the host, for which
+// that is work enough.
+constexpr std::uint32_t kMostVisited = 65535u * shared::kCutGroup;
 
 bool is_convex_cut(const ToolSweep& sweep) {
     return !std::holds_alternative<BallTool>(sweep.shape) && !std::holds_alternative<MeshTool>(sweep.shape) &&
