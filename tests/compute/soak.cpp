@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "base/try.hpp"
 #include "compute/engine/history.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/tools/apply.hpp"
@@ -19,6 +20,7 @@
 #include "tests/compute/effort.hpp"
 #include "tests/compute/engine_pair.hpp"
 #include "tests/compute/mesh_topology.hpp"
+#include "tests/compute/same_tiles.hpp"
 #include "tests/compute/tool_reference.hpp"
 #include "tests/compute/updates.hpp"
 #include "tests/gpu/test_device.hpp"
@@ -58,9 +60,30 @@ bool same_depths(std::span<const DexelEnd> a, std::span<const DexelEnd> b) {
 
 // A device's engine that does whatever the processor's does, with a history of its own.
 struct Beside {
-    explicit Beside(std::unique_ptr<CarvingEngine> made) : engine(std::move(made)) {}
+    Beside(std::unique_ptr<CarvingEngine> made, WorkerPool& workers)
+        : engine(std::move(made)), surface(engine->solid().lattice), pool(workers) {
+        engine->make_cells();
+        surface.mesh_all(engine->solid(), pool);
+    }
+    [[nodiscard]] Result<CarveStats> carve(const ToolSweep& sweep) {
+        BURIN_TRY_DO(engine->begin(std::span(&sweep, 1)));
+        BURIN_TRY(delta, engine->take(Wait::yes));
+        surface.update(engine->solid(), delta->changes, pool, delta->made ? &*delta->made : nullptr);
+        made += delta->made ? 1 : 0;
+        changes = std::move(delta->changes);
+        return delta->stats;
+    }
+    // Follows what came outside of any update.
+    void follow() {
+        changes = engine->take_changes();
+        surface.update(engine->solid(), changes, pool);
+    }
     std::unique_ptr<CarvingEngine> engine;
     History history;
+    Surface surface;         // of the cells that the device has made
+    Changes changes;         // of the last work
+    std::uint64_t made = 0;  // updates whose cells the device has made
+    WorkerPool& pool;
 };
 
 // A solid in use: the engine, its surface and its history, and a copy that only learns of what the engine says it
@@ -74,7 +97,7 @@ public:
             // Little room, so that all that grows does.
             auto made = VulkanEngine::create(Solid(shadow_), *device, pool_, {.spare_ends = 64, .export_per_ray = 1});
             EXPECT_TRUE(made) << made.error().line();
-            if (made) beside_.emplace(std::move(*made));
+            if (made) beside_.emplace(std::move(*made), pool_);
         }
         surface_.mesh_all(shadow_, pool_);
         kept_.push_back(shadow_);
@@ -101,6 +124,7 @@ public:
         ASSERT_TRUE(well_formed(engine_->solid()));
         if (beside_) {
             ASSERT_EQ(first_difference(beside_->engine->solid(), shadow_), "") << "the engines differ";
+            ASSERT_EQ(first_difference(beside_->surface, surface_), "") << "the surfaces differ";
         }
         Surface fresh(shadow_.lattice);
         fresh.mesh_all(shadow_, pool_);
@@ -119,11 +143,15 @@ public:
             ASSERT_TRUE(undone.has_value());
             if (beside_) {
                 ASSERT_TRUE(beside_->history.undo(*beside_->engine));
+                beside_->follow();
             }
             follow(std::nullopt);
             if (!*undone) break;
         }
         ASSERT_TRUE(engine_->solid().same_content(kept_.front()));
+        if (beside_) {
+            ASSERT_GT(beside_->made, steps_ / 4) << "the device makes cells";
+        }
     }
 
 private:
@@ -187,7 +215,7 @@ private:
         }
         last_ = sweep;
         if (beside_) {
-            const auto done = beside_->engine->carve(std::span(&sweep, 1));
+            const auto done = beside_->carve(sweep);
             ASSERT_TRUE(done) << done.error().line();
             ASSERT_EQ(done->rays_touched, stats->rays_touched);
             ASSERT_EQ(done->rays_changed, stats->rays_changed);
@@ -217,6 +245,7 @@ private:
             const auto theirs = undoes ? history.undo(*beside_->engine) : history.redo(*beside_->engine);
             ASSERT_TRUE(theirs.has_value());
             ASSERT_EQ(*theirs, *moved);
+            beside_->follow();
         }
         follow(std::nullopt);
     }
@@ -225,7 +254,7 @@ private:
     void follow(std::optional<Operation> operation) {
         const Changes changes = engine_->take_changes();
         if (beside_) {
-            const Changes theirs = beside_->engine->take_changes();
+            const Changes& theirs = beside_->changes;
             ASSERT_EQ(first_held(theirs), first_held(changes)) << "the engines tell of other changes";
             if (operation) beside_->history.record(theirs);
         }
