@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a device tells the host of the cells that it has made anew after a cut (shaders/make_cells.comp), tile by tile. The
+// What a device tells the host of the cells that it has made anew after a cut (shaders/make_cells.comp), by tile. The
 // host puts them into its tiles (compute/mesher/made_cells.hpp). A cell, its vertices and the crossings of its edges
 // are those of compute/mesher/tile_mesher.hpp, bit for bit. All fields are 32-bit words, so the layout is the same
 // everywhere.

@@ -32,7 +32,7 @@ namespace {
 
 // Numbers of this library's own; the maker's are not needed.
 constexpr HilError kNoCard = -1001, kInUse = -1002, kGone = -1003, kBadChannel = -1004, kExpired = -1005,
-                   kOneAlone = -1006, kNoSuchState = -1007;
+                   kOneAlone = -1006, kNoSuchState = -1007, kTooMany = -1008;
 constexpr std::size_t kMostCards = 4;
 constexpr std::array<std::uint32_t, 6> kEnableLines{0, 1, 2, 3, 16, 17};
 
@@ -90,7 +90,8 @@ HilError hil_get_version(HilVersion* version) {
 HilError hil_open(const char* /*type*/, const char* identifier, HilCard* card) {
     const std::lock_guard lock(library().mutex);
     auto memory = HilSharedMemory::open(identifier != nullptr ? identifier : "");
-    if (!memory || !(*memory)->is_alive(library().clock.now_ns())) return kNoCard;
+    if (!memory) return kNoCard;
+    if (!(*memory)->is_alive(library().clock.now_ns())) return kGone;
     if (const std::int32_t error = (*memory)->error) return error;
     for (std::size_t i = 0; i < kMostCards; ++i) {
         if (library().cards[i]) continue;
@@ -101,7 +102,7 @@ HilError hil_open(const char* /*type*/, const char* identifier, HilCard* card) {
         *card = reinterpret_cast<HilCard>(i + 1);
         return 0;
     }
-    return kNoCard;
+    return kTooMany;
 }
 
 HilError hil_close(HilCard handle) {
@@ -247,6 +248,7 @@ HilError msg_get_error_messageA(const char* /*locale*/, HilError error, char* to
     if (error == kGone) text = "the card does not answer";
     if (error == kExpired) text = "the watchdog has expired";
     if (error == kOneAlone) text = "analog and digital expiration states go together";
+    if (error == kTooMany) text = "this program has four cards open already";
     if (error == kNoSuchState) text = "the card has no such expiration state";
     std::snprintf(to, size, "%s", text);
     return 0;
