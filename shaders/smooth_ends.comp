@@ -53,28 +53,30 @@ double share_between_nodes(SmoothTask task, SmoothEdge edge, bool low_inside) {
     return below.field / (below.field - above.field);
 }
 
-void main() {
-    uint number = gl_GlobalInvocationID.x;
-    if (is_stopped() || number >= smooth_counts.ends) return;
-    SmoothTask task = tasks[parameters.ball];
-    SmoothPath path = path_of(task);
-    SmoothEnd job = smooth_ends[number];
-    SmoothEdge edge = SmoothEdge(axis_of(job.ray), u_of(job.ray), v_of(job.ray), job.low);
-    RayRef ray = rays[index_of_ray(edge.axis, edge.u, edge.v)];
-    bool is_made = (job.flags & kIsMade) != 0u;
-    bool low_inside = (job.flags & kLowInside) != 0u;
+SmoothEnd job;
+SmoothEdge edge;
+DexelEnd old = DexelEnd(0u, 0u);  // the end that is moved, and the next
+DexelEnd next = DexelEnd(0u, 0u);
+double was = 0.5;       // shares of the edge: where it is, or is looked for from, and where the field's zero is
+double root;
+double by_share = 1.0;  // of the way that it is moved
+int question = kRoot;
+int newton_steps = 0;
+bool is_found = false;
+dvec3 normal = dvec3(0.0);
 
-    DexelEnd old = DexelEnd(0u, 0u);
-    DexelEnd next = old;
-    double was = 0.5;
-    double by_share = 1.0;
-    int question = kRoot;
-    if (is_made) {
-        double share = share_between_nodes(task, edge, low_inside);
+bool is_made() { return (job.flags & kIsMade) != 0u; }
+bool is_low_inside() { return (job.flags & kLowInside) != 0u; }
+
+// Finds out what there is to ask first.
+void begin_questions(SmoothTask task, SmoothPath path) {
+    if (is_made()) {
+        double share = share_between_nodes(task, edge, is_low_inside());
         bool has_share = share >= 0.0;
         if (has_share) was = share;
         if (!has_share || smoothing_at(path, place_on_edge(edge, was)).share < 1.0) question = kMade;
     } else {
+        RayRef ray = rays[index_of_ray(edge.axis, edge.u, edge.v)];
         old = store.at[ray.first + job.number];
         was = share_of_depth(edge, depth_of(old));
         by_share = smoothing_at(path, place_on_edge(edge, was)).share;
@@ -84,43 +86,63 @@ void main() {
             question = kVanished;
         }
     }
-
+    root = was;
     job.result = old;
-    double half_gap = half_between(old, next);
-    double root = was;
-    int step = 0;
-    bool is_found = false;
-    dvec3 normal = dvec3(0.0);
+}
+
+// Returns the place on the edge that the question is about.
+dvec3 place_of_question() {
+    double share = root;
+    if (question == kVanished) share = was + half_between(old, next);
+    if (question == kMade) share = clamp(root, 0.0, 1.0);
+    return place_on_edge(edge, share);
+}
+
+void note_between(double share, FieldValue value) {
+    bool is_inside = (job.flags & kInsideBetween) != 0u;
+    if (share > 0.0 && value.known &&
+        has_vanished(edge, old, half_between(old, next), is_inside, share, value.distance))
+        job.is_gone = 1u;
+    question = job.is_gone != 0u || is_too_weak(by_share) ? kDone : kRoot;
+}
+
+// Takes a step of Newton's method towards the field's zero.
+void step_to_root(FieldValue value) {
+    bool is_last = !value.known || newton_steps + 1 == kNewtonSteps;
+    if (value.known) {
+        normal = value.gradient;
+        is_found = true;
+    }
+    if (!is_last) {
+        double by = newton_step(value.distance, value.gradient[edge.axis]);
+        root += by;
+        is_last = abs(by) < kSmallStep;
+    }
+    ++newton_steps;
+    if (!is_last) return;
+    question = is_made() ? kMade : kDone;
+    if (!is_made() && is_found) job.result = moved_end(old, edge.low, was, root, by_share, normal);
+}
+
+void main() {
+    uint number = gl_GlobalInvocationID.x;
+    if (is_stopped() || number >= smooth_counts.ends) return;
+    SmoothTask task = tasks[parameters.ball];
+    SmoothPath path = path_of(task);
+    job = smooth_ends[number];
+    edge = SmoothEdge(axis_of(job.ray), u_of(job.ray), v_of(job.ray), job.low);
+    begin_questions(task, path);
     for (int turn = 0; turn < 5 && question != kDone; ++turn) {
-        double share = root;
-        if (question == kVanished) share = was + half_gap;
-        if (question == kMade) share = clamp(root, 0.0, 1.0);
-        dvec3 place = place_on_edge(edge, share);
+        dvec3 place = place_of_question();
         Smoothing smoothing = smoothing_at(path, place);
         FieldValue value = field_at(task, place, smoothing.width);
         if (question == kVanished) {
-            bool is_inside = (job.flags & kInsideBetween) != 0u;
-            if (smoothing.share > 0.0 && value.known &&
-                has_vanished(edge, old, half_gap, is_inside, smoothing.share, value.distance))
-                job.is_gone = 1u;
-            question = job.is_gone != 0u || is_too_weak(by_share) ? kDone : kRoot;
+            note_between(smoothing.share, value);
         } else if (question == kRoot) {
-            bool is_last = !value.known || step + 1 == kNewtonSteps;
-            if (value.known) {
-                normal = value.gradient;
-                is_found = true;
-            }
-            if (!is_last) {
-                double by = newton_step(value.distance, value.gradient[edge.axis]);
-                root += by;
-                is_last = abs(by) < kSmallStep;
-            }
-            ++step;
-            if (is_last) question = is_made ? kMade : kDone;
-            if (is_last && !is_made && is_found) job.result = moved_end(old, edge.low, was, root, by_share, normal);
+            step_to_root(value);
         } else {
             uint material = material_near(task, place, 2.0 * smoothing.width.value, task.material);
-            job.result = made_end(edge, root, material, low_inside, value.known, value.gradient);
+            job.result = made_end(edge, root, material, is_low_inside(), value.known, value.gradient);
             question = kDone;
         }
     }

@@ -78,16 +78,12 @@ struct FieldValue {
     dvec3 gradient;
 };
 
-FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
-    FieldValue value;
-    value.known = false;
-    value.distance = 0.0;
-    value.gradient = dvec3(0.0);
-    int level = level_for(task, width.value);
-    double width2 = width.value * width.value;
+// Returns the sum of the normals near a place, each with its weight.
+dvec3 mean_normal_near(SmoothTask task, int level, dvec3 place, double width) {
+    double width2 = width * width;
     dvec3 mean_normal = dvec3(0.0);
     near_left = kMostNear;
-    begin_near(task, level, place, width.value);
+    begin_near(task, level, place, width);
     while (has_near_row()) {
         take_near_row();
         for (; near_next < near_end; ++near_next) {
@@ -100,6 +96,17 @@ FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
         }
     }
     check_near();
+    return mean_normal;
+}
+
+FieldValue field_at(SmoothTask task, dvec3 place, KernelWidth width) {
+    FieldValue value;
+    value.known = false;
+    value.distance = 0.0;
+    value.gradient = dvec3(0.0);
+    int level = level_for(task, width.value);
+    double width2 = width.value * width.value;
+    dvec3 mean_normal = mean_normal_near(task, level, place, width.value);
     double length = length3(mean_normal);
     if (!(length > 0.0)) return value;
     KernelSums sums = no_sums();
