@@ -8,7 +8,8 @@
 namespace burin::gpu {
 
 // Where there is no driver, or none that works.
-inline constexpr const char* kNoDriver = "install mesa-vulkan-drivers";
+inline constexpr const char* kNoDriver =
+    "install the graphics card's driver, or install mesa-vulkan-drivers, which has one in software too";
 
 // Creates the instance of a device that is being opened, with the extensions of the options. Fails where there is no
 // loader or driver, and where an extension or the validation layer is missing.

@@ -83,7 +83,12 @@ Result<void> check_for_a_stroke(const session::SculptOptions& options) {
     return {};
 }
 
-void say_that_nothing_was_touched(const Box& box) {
+void say_that_nothing_was_touched(const Box& box, bool smooths) {
+    if (smooths) {
+        std::fputs("burin: smoothing has changed nothing: what it reached is smooth already, or nothing lies there\n",
+                   stderr);
+        return;
+    }
     std::fprintf(stderr,
                  "burin: the tool has touched nothing; the workpiece lies between (%g, %g, %g) and (%g, %g, %g) mm, "
                  "and the stroke's file is in metres\n",
@@ -343,7 +348,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
     if (!carved.notices.empty()) report["notices"] = carved.notices;
     if (const auto traffic = carving.engine().traffic()) report["engine"]["traffic"] = describe_traffic(*traffic);
     report["carving"] = describe_carving(carving);
-    if (!inputs.stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(bounds_object);
+    if (!inputs.stroke.empty() && report["carving"]["rays_touched"] == 0)
+        say_that_nothing_was_touched(bounds_object, chosen.tool.operation == compute::Operation::smooth);
     describe_finished(report, finished, export_unit);
     if (!carved.undone.is_null()) report["undo"] = carved.undone;
     const std::optional<session::FeltFigures>& felt = carved.felt;

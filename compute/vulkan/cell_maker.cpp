@@ -197,7 +197,7 @@ std::optional<MadeCells> CellMaker::take() {
     ++counts_.updates;
     // A tile that got no slot has left its row of marked cells behind.
     masks_are_stale_ = masks_are_stale_ || counters.missed > 0;
-    const bool is_whole = counters.missed == 0;
+    const bool is_whole = counters.missed == 0 && counters.tiles <= options_.tiles;
     std::optional<MadeCells> made;
     if (is_whole) {
         made.emplace();

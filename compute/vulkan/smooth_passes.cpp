@@ -133,6 +133,12 @@ std::optional<std::vector<SmoothStep>> smooth_steps(const Lattice& lattice, cons
     return steps;
 }
 
+bool SmoothPasses::suits(const gpu::Device& device) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device.core()->physical, &properties);
+    return properties.limits.maxPerStageDescriptorStorageBuffers >= kSmoothBuffers;
+}
+
 Result<SmoothPasses> SmoothPasses::create(const gpu::Device& device, std::uint32_t percent) {
     SmoothPasses passes(device);
     passes.percent_ = percent;

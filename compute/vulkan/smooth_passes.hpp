@@ -55,7 +55,9 @@ public:
         const gpu::Buffer &rays, &counters, &changed, &exported;
     };
 
-    // The device must round as the processor does (rounding_check.hpp). `percent` is the space at first, of what a ball
+    // Says whether a device binds as many buffers at once as the kernels take.
+    [[nodiscard]] static bool suits(const gpu::Device& device);
+    // The device must suit, and round as the processor does (rounding_check.hpp). `percent` is the space at first, of what a ball
     // usually takes; tests choose 0, so that growth happens.
     [[nodiscard]] static Result<SmoothPasses> create(const gpu::Device& device, std::uint32_t percent = 100);
 

@@ -73,6 +73,7 @@ void StandbyEngine::make_cells() {
 
 void StandbyEngine::give_up_device(const Error& why) {
     gather(on_device_->take_changes());
+    std::ranges::move(on_device_->take_notices(), std::back_inserter(notices_));
     last_traffic_ = traffic();
     ++losses_;
     if (offered_) offered_->hear(losses_ < kMostLosses);

@@ -73,6 +73,7 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid&& solid, const 
     }
     auto covered =
         CoveredRays::create(engine->device_, {.roundings = options.roundings, .spans_a_ray = options.spans_a_ray});
+    engine->smooths_ = covered && SmoothPasses::suits(device);
     if (covered)
         engine->covered_.emplace(std::move(*covered));
     else
@@ -84,7 +85,8 @@ VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, WorkerPool& p
     : solid_(std::move(solid)), device_(device), pool_(pool), options_(options) {}
 
 void VulkanEngine::make_cells() {
-    if (maker_ || !CellMaker::suits(device_)) return;
+    // Without covered_ the device rounds otherwise than the processor, or nobody knows how it does.
+    if (maker_ || !covered_ || !CellMaker::suits(device_)) return;
     auto made = CellMaker::create(device_, options_.cells);
     if (made)
         maker_ = std::move(*made);

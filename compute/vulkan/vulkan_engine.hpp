@@ -132,6 +132,7 @@ private:
     [[nodiscard]] Result<CarveStats> cut_now(std::span<const ToolSweep> sweeps, Changes& changes);
     [[nodiscard]] Result<CarveStats> apply_one(const ToolSweep& sweep, std::size_t first_ball, Changes& changes);
     [[nodiscard]] std::uint64_t assign_rays(const RayBatch& rays, Changes& changes);
+    [[nodiscard]] std::unexpected<Error> taken_back(const Changes& changes, const Error& why);
     [[nodiscard]] Error forgotten(const Error& why);
 
     [[nodiscard]] Result<void> send_assigned();
@@ -159,6 +160,7 @@ private:
     std::optional<CoveredRays> covered_;  // nothing where the device rounds otherwise than the processor
     std::unique_ptr<CellMaker> maker_;    // null where the host makes all cells
     std::optional<SmoothPasses> smooth_;  // made by the first sweep that smooths
+    bool smooths_ = false;                // else the host smooths
     DeviceSolid device_solid_;
     // Set while the device holds the same ends as solid_, but for assigned_ and what is under way.
     bool synchronized_ = false;

@@ -69,7 +69,7 @@ Result<std::optional<Delta>> VulkanEngine::take(Wait wait) {
 }
 
 bool VulkanEngine::is_for_device(const ToolSweep& sweep) const {
-    return is_ball_cut(sweep) || (covered_ && (is_convex_cut(sweep) || is_smoothing(sweep)));
+    return is_ball_cut(sweep) || (covered_ && is_convex_cut(sweep)) || (smooths_ && is_smoothing(sweep));
 }
 
 void VulkanEngine::tell_what_is_not_covered(std::span<const ToolSweep> sweeps) {
@@ -318,8 +318,8 @@ void VulkanEngine::leave_cells_to_host(const Error& why) {
 }
 
 void VulkanEngine::take_cells(const CutCounters& counters) {
-    if (!flight_->makes_cells) return;
-    std::optional<MadeCells> made = maker_->take();
+    std::optional<MadeCells> made;
+    if (flight_->makes_cells) made = maker_->take();
     if (counters.changed == 0) return;
     flight_->made = flight_->changing_submissions++ == 0 ? std::move(made) : std::nullopt;
 }
@@ -393,12 +393,23 @@ Result<Delta> VulkanEngine::land() {
     apply_changes(delta.changes);
     Flight landed = std::move(*flight_);
     flight_.reset();
-    delta.made = std::move(landed.made);
+    // Cells that were made before the host does the rest are not those of what it leaves.
+    if (landed.on_host == landed.sweeps.size()) delta.made = std::move(landed.made);
     if (landed.on_host < landed.sweeps.size()) {
-        BURIN_TRY(rest, carry_out(from(landed.sweeps, landed.on_host), landed.first_ball, delta.changes));
-        delta.stats += rest;
+        const auto rest = carry_out(from(landed.sweeps, landed.on_host), landed.first_ball, delta.changes);
+        if (!rest) return taken_back(delta.changes, rest.error());
+        delta.stats += *rest;
     }
     return delta;
+}
+
+// Gives the rays back what they held: an update of which only a part can be carried out has not been taken.
+std::unexpected<Error> VulkanEngine::taken_back(const Changes& changes, const Error& why) {
+    for (auto ray = changes.rays.rbegin(); ray != changes.rays.rend(); ++ray) {
+        const RayPlace place = place_of(ray->ray);
+        solid_.sets[static_cast<std::size_t>(place.axis)].replace(place.u, place.v, changes.before_of(*ray));
+    }
+    return std::unexpected(why);
 }
 
 // Forgets all updates that were not taken.
@@ -420,8 +431,9 @@ Result<Delta> VulkanEngine::carry_out_on_host() {
     if (update.sweeps.empty()) {
         delta.stats = {update.rays.rays.size(), assign_rays(update.rays, delta.changes)};
     } else {
-        BURIN_TRY(stats, carry_out(update.sweeps, 0, delta.changes));
-        delta.stats = stats;
+        const auto stats = carry_out(update.sweeps, 0, delta.changes);
+        if (!stats) return taken_back(delta.changes, stats.error());
+        delta.stats = *stats;
     }
     return delta;
 }

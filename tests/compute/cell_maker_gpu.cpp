@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compute/mesher/surface.hpp"
+#include "compute/vulkan/standby_engine.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/compute/same_tiles.hpp"
 #include "tests/compute/updates.hpp"
@@ -146,6 +147,63 @@ TEST_F(CellMakerGpu, ACutOfSeveralSubmissionsIsMadeByTheHost) {
         std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 5)));
         for (BallSweep& sweep : sweeps) sweep = random_sweep(random, 0.025);
         ASSERT_EQ(carved.carve(balls(sweeps)), "") << i;
+    }
+}
+
+// A tool that leaves too many parts of a ray is left to the host, after the device has made cells of what came before.
+TEST_F(CellMakerGpu, WorkThatIsFoundToBeTheHostsLeavesItTheCellsAsWell) {
+    const Solid solid = unit_cube(48);
+    FollowedTwice carved(solid, device());
+    ToolSweep ball{.shape = BallTool{0.2}, .start = {Vec3(0.5, 0.5, 1.0)}, .end = {Vec3(0.5, 0.5, 1.0)}};
+    ToolSweep comb{.shape = CylinderTool{0.05 * solid.lattice.spacing_m, 0.9},
+                   .start = {Vec3(0.0, 0.5, 0.5), glm::angleAxis(0.4, Vec3(0.0, 1.0, 0.0))},
+                   .end = {Vec3(1.0, 0.5, 0.5), glm::angleAxis(2.4, Vec3(0.0, 1.0, 0.0))},
+                   .tolerance_cells = 1.0};
+    ASSERT_EQ(carved.carve({ball}), "");
+    ASSERT_EQ(carved.made(), 1u);
+    ball.start.position_m.x = ball.end.position_m.x = 0.1;
+    ASSERT_EQ(carved.carve({ball, comb}), "");
+    EXPECT_EQ(carved.made(), 1u) << "the comb is the host's";
+    EXPECT_GT(carved.engine().made_cells().updates, 1u) << "the device has made cells after the ball";
+}
+
+// Rays of so many ends that a ball cannot smooth over them on the device, which it finds out on its way.
+TEST_F(CellMakerGpu, ABallThatTheHostSmoothsAfterTheDeviceHasCutLeavesItTheCells) {
+    for (const bool is_lost : {false, true}) {
+        auto own = gpu::Device::create({.validation = true});
+        ASSERT_TRUE(own) << own.error().line();
+        WorkerPool pool(1);
+        StandbyEngine carved(unit_cube(32), *own, pool);
+        const auto alone = make_cpu_engine(unit_cube(32), pool);
+        carved.make_cells();
+        RayBatch combs;
+        std::vector<shared::DexelEnd> ends;
+        for (int i = 0; i < 600; ++i) ends.push_back(shared::make_end(5000 + 200 * i, 1, 0x7fff7fffu));
+        for (int u = 25; u < 27; ++u) combs.add(shared::ray_code(2, u, 16), ends);
+        ASSERT_TRUE(carved.assign(combs) && alone->assign(combs));
+        static_cast<void>(carved.take_changes());
+        static_cast<void>(alone->take_changes());
+        const Solid before = alone->solid();
+        Surface surface(before.lattice), anew(before.lattice);
+        surface.mesh_all(before, pool);
+        const ToolSweep cut{.shape = BallTool{0.12}, .start = {Vec3(0.1, 0.5, 1.0)}, .end = {Vec3(0.8, 0.5, 1.0)}};
+        ToolSweep smoothed = cut, elsewhere = cut;
+        smoothed.shape = BallTool{0.2};
+        smoothed.operation = Operation::smooth;
+        elsewhere.start.position_m = elsewhere.end.position_m = Vec3(0.5, 0.05, 0.3);
+        const std::vector<ToolSweep> sweeps{cut, smoothed, elsewhere};
+        ASSERT_TRUE(carved.begin(sweeps) && alone->begin(sweeps));
+        // Lost, the device fails between what the host does: nothing of the update may be carried out twice.
+        own->core()->lose_at_next_submit = is_lost;
+        const auto delta = carved.take(Wait::yes), expected = alone->take(Wait::yes);
+        ASSERT_TRUE(delta && *delta && expected && *expected);
+        EXPECT_EQ(std::string(carved.name()), is_lost ? "cpu" : "vulkan");
+        EXPECT_EQ(first_difference(carved.solid(), alone->solid()), "") << is_lost;
+        EXPECT_EQ((*delta)->stats.rays_touched, (*expected)->stats.rays_touched) << is_lost;
+        EXPECT_EQ(first_held((*delta)->changes), first_held((*expected)->changes)) << is_lost;
+        surface.update(carved.solid(), (*delta)->changes, pool, (*delta)->made ? &*(*delta)->made : nullptr);
+        anew.mesh_all(alone->solid(), pool);
+        EXPECT_EQ(first_difference(surface, anew), "") << is_lost;
     }
 }
 
