@@ -51,7 +51,7 @@ public:
         omni_.dies_after(kEnded_ns);
         thread_ = std::thread([this] { omni_.run([this] { return ends_.load(); }); });
         // It can be found from its first step on.
-        const auto is_found = [&] { return std::ranges::find(names_ = emulated_omnis(), name) != names_.end(); };
+        const auto is_found = [&] { return std::ranges::count(emulated_omnis(), name) > 0; };
         EXPECT_TRUE(tried(is_found));
     }
     ~RunningOmni() {
@@ -63,7 +63,6 @@ public:
 
 private:
     EmulatedOmni omni_;
-    std::vector<std::string> names_;
     std::atomic<bool> ends_ = false;
     std::thread thread_;
 };

@@ -49,7 +49,7 @@ public:
         wand_.dies_after(kEnded_ns);
         thread_ = std::thread([this] { wand_.run([this] { return ends_.load(); }); });
         // It can be found from its first step on.
-        const auto is_found = [&] { return std::ranges::find(names_ = emulated_wands(), name) != names_.end(); };
+        const auto is_found = [&] { return std::ranges::count(emulated_wands(), name) > 0; };
         EXPECT_TRUE(tried(is_found));
     }
     ~RunningWand() {
@@ -61,7 +61,6 @@ public:
 
 private:
     EmulatedWand wand_;
-    std::vector<std::string> names_;
     std::atomic<bool> ends_ = false;
     std::thread thread_;
 };
