@@ -349,7 +349,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     if (const auto traffic = carving.engine().traffic()) report["engine"]["traffic"] = describe_traffic(*traffic);
     report["carving"] = describe_carving(carving);
     if (!inputs.stroke.empty() && report["carving"]["rays_touched"] == 0)
-        say_that_nothing_was_touched(bounds_object, chosen.tool.operation == compute::Operation::smooth);
+        say_that_nothing_was_touched(bounds_object, tool.tool.operation == compute::Operation::smooth);
     describe_finished(report, finished, export_unit);
     if (!carved.undone.is_null()) report["undo"] = carved.undone;
     const std::optional<session::FeltFigures>& felt = carved.felt;
