@@ -57,8 +57,8 @@ public:
 
     // Says whether a device binds as many buffers at once as the kernels take.
     [[nodiscard]] static bool suits(const gpu::Device& device);
-    // The device must suit, and round as the processor does (rounding_check.hpp). `percent` is the space at first, of what a ball
-    // usually takes; tests choose 0, so that growth happens.
+    // The device must suit, and round as the processor does (rounding_check.hpp). `percent` is the space at first, of
+    // what a ball usually takes; tests choose 0, so that growth happens.
     [[nodiscard]] static Result<SmoothPasses> create(const gpu::Device& device, std::uint32_t percent = 100);
 
     // Makes room for balls. No commands that record() has been given may be left to submit.

@@ -88,10 +88,10 @@ TEST_F(CardCommand, RecordOfAGpuRunsToItsEndWithTheProgramAlone) {
     for (const char* key : {"device", "driver", "machine", "program"}) EXPECT_TRUE(record[key].is_string()) << key;
     EXPECT_EQ(record["small"], true);
     EXPECT_EQ(record["engines"]["all"]["ends_that_differ"], 0);
-    EXPECT_EQ(record["strokes"].size(), 20u) << "five tools, stamped and swept, by two engines";
+    EXPECT_EQ(record["strokes"].size(), 30u) << "five tools, stamped, swept and smoothing, by two engines";
     for (const Json& stroke : record["strokes"])
         EXPECT_EQ(stroke["counts_per_update"].is_null(), stroke["engine"] == "cpu");
-    EXPECT_EQ(record["commands"].size(), 24u);
+    EXPECT_EQ(record["commands"].size(), 34u);
     EXPECT_FALSE(record["frame"].is_null());
     ASSERT_EQ(record["profile"].size(), 2u);
     const Json &carved = record["profile"][0]["runs"][0], &by_processor = record["profile"][1]["runs"][0];

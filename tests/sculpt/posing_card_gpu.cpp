@@ -77,7 +77,7 @@ std::size_t times_told(const std::string& output, const std::string& what = "the
 TEST_F(PosingCard, ThatFailsInAnyOfTwelveWaysGivesTheProcessorsPartAndOneMessage) {
     const std::vector<std::string> failures{
         "BURIN_POSE_HIDE=float64",         "BURIN_POSE_HIDE=int64",
-        "BURIN_POSE_HIDE=address",         "BURIN_POSE_DEVICE_BYTES=1000000",
+        "BURIN_POSE_HIDE=address",         "BURIN_POSE_DEVICE_BYTES=3000000",
         "BURIN_POSE_DEVICE_BYTES=8000000", "BURIN_POSE_DEVICE_BYTES=20000000",
         "BURIN_POSE_HOST_BYTES=1000000",   "BURIN_POSE_LOSE_SUBMIT=1",
         "BURIN_POSE_LOSE_SUBMIT=7",        "BURIN_POSE_LOSE_WAIT=3",
@@ -94,7 +94,7 @@ TEST_F(PosingCard, ThatFailsInAnyOfTwelveWaysGivesTheProcessorsPartAndOneMessage
                 EXPECT_TRUE(at_.read("card.stl") == at_.read("cpu.stl")) << what;
                 const Json report = Json::parse(at_.read("card.json")), &reported = report["engine"];
                 // Carving needs little memory of the device; making cells as well is told of where it has too little.
-                const bool fits = failure.contains("DEVICE_BYTES"), makes_cells = !failure.ends_with("=1000000");
+                const bool fits = failure.contains("DEVICE_BYTES"), makes_cells = !failure.ends_with("=3000000");
                 const bool is_silent = (fits && makes_cells) || (failure.contains("nowhere") && engine == "auto");
                 EXPECT_EQ(reported["name"], fits ? "vulkan" : "cpu") << what;
                 EXPECT_EQ(times_told(done.output), fits || is_silent ? 0u : 1u) << what << "\n" << done.output;
