@@ -99,6 +99,15 @@ double value_of(const ActivityPanel::Slider& slider, double part) {
     return std::clamp(rounded(slider.from + steps * slider.step, 12), slider.from, slider.to);
 }
 
+// Writes a widget's name where it has one, and leaves the rest of the line to the widget.
+void beside_name(Kit& kit, std::string_view name, float height, bool enabled) {
+    if (name.empty()) return;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + 0.5f * (kit.px(height) - kit.type.text->FontSize);
+    kit.write({at.x, top}, enabled ? kDim : kFaint, kit.shortened(name, kit.px(kNameWidth - 6.0f)));
+    ImGui::SetCursorScreenPos({at.x + kit.px(kNameWidth), at.y});
+}
+
 void show(Kit& kit, const ActivityPanel::Row& row) { kit.figure(row.name, row.value); }
 void show(Kit& kit, const ActivityPanel::Page& page) {
     kit.paragraph(kText, page.text);
@@ -117,7 +126,8 @@ void show(Kit& kit, const ActivityPanel::Slider& slider) {
     const Enabled enabled(kit, slider.enabled && has_range);
     const double at =
         has_range && std::isfinite(slider.value) ? part_of(slider.value, slider.from, slider.to, false) : 0;
-    const auto part = kit.slider(label_of(slider.act), slider.name, at, text_of(slider));
+    const auto part =
+        kit.slider(label_of(slider.act), kit.shortened(slider.name, kit.px(kNameWidth - 2.0f)), at, text_of(slider));
     if (!part) return;
     const double wanted = value_of(slider, *part);
     if (wanted != slider.value) kit.give_held(DoAct{with_value(slider.act, exact_word(wanted))});
@@ -136,12 +146,10 @@ void show(Kit& kit, const ActivityPanel::Choice& choice) {
     const float each = (kit.width() - name) / static_cast<float>(items.size());
     std::optional<std::size_t> chosen;
     if (widest + kit.px(10.0f) > each) {
-        chosen = kit.list(label_of(choice.act), choice.name, items, choice.chosen);
+        chosen =
+            kit.list(label_of(choice.act), kit.shortened(choice.name, kit.px(kNameWidth - 6.0f)), items, choice.chosen);
     } else {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        kit.write({at.x, at.y + 0.5f * (kit.px(kButtonHeight) - kit.type.text->FontSize)},
-                  choice.enabled ? kDim : kFaint, choice.name);
-        ImGui::SetCursorScreenPos({at.x + name, at.y});
+        beside_name(kit, choice.name, kButtonHeight, choice.enabled);
         chosen = kit.segments(items, choice.chosen);
     }
     if (chosen && *chosen != choice.chosen)
@@ -154,6 +162,7 @@ void show(Kit& kit, const ActivityPanel::Swatches& swatches) {
     const auto give = [&](const std::array<double, 3>& srgb) {
         kit.give(DoAct{with_value(swatches.act, exact_word(srgb))});
     };
+    beside_name(kit, swatches.name, kSwatchesHeight, swatches.enabled);
     show_swatches(kit, label_of(swatches.act), {swatches.colours, swatches.chosen}, give);
 }
 

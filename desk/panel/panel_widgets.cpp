@@ -278,7 +278,7 @@ std::optional<std::size_t> Kit::list(const std::string& label, std::string_view 
     const float x = p.hi.x - px(14.0f), r = px(3.2f);
     const std::array<ImVec2, 3> chevron{
         ImVec2{x - r, middle - 0.5f * r}, {x, middle + 0.5f * r}, {x + r, middle - 0.5f * r}};
-    draw().AddPolyline(chevron.data(), 3, kDim, 0, px(1.5f));
+    draw().AddPolyline(chevron.data(), 3, on ? kDim : kFaint, 0, px(1.5f));
 
     const std::string popup = label + " list";
     if (p.clicked) ImGui::OpenPopup(popup.c_str());

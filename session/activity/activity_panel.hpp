@@ -75,7 +75,7 @@ struct ActivityPanel {
         bool operator==(const Choice&) const = default;
     };
     struct Swatches {
-        std::string name;                            // said where the mouse rests
+        std::string name;                            // left of the colours; empty: none
         std::vector<std::array<double, 3>> colours;  // sRGB
         std::size_t chosen = 0;                      // as many as there are: none
         ActWords act = {};                           // the word is "R,G,B"

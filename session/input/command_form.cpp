@@ -24,7 +24,7 @@ std::optional<double> finite_number(std::string_view word) {
 }
 
 std::string range_text(const ArgumentKind& kind) {
-    const std::string range = "a number from " + exact_word(kind.least) + " to " + exact_word(kind.most);
+    const std::string range = formatted("a number from %.12g to %.12g", kind.least, kind.most);
     return kind.unit.empty() ? range : range + ", in " + std::string(kind.unit);
 }
 
