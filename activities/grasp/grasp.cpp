@@ -350,10 +350,10 @@ void Grasp::stage(picture::Picture& scene, std::size_t /*screen*/) const {
 }
 
 session::ActivityPanel Grasp::panel() const {
-    session::ActivityPanel panel{
-        .title = "Hand", .aside = text_of(gesture_.gesture), .page = "", .rows = {}, .buttons = {}};
-    if (gesture_.grasps()) panel.rows.push_back({"Holds", grasps_.back().object});
-    if (!pointed_at_.empty()) panel.rows.push_back({"Points at", pointed_at_});
+    using Row = session::ActivityPanel::Row;
+    session::ActivityPanel panel{.title = "Hand", .aside = text_of(gesture_.gesture)};
+    if (gesture_.grasps()) panel.widgets.push_back(Row{"Holds", grasps_.back().object});
+    if (!pointed_at_.empty()) panel.widgets.push_back(Row{"Points at", pointed_at_});
     return panel;
 }
 

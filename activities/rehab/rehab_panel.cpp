@@ -150,22 +150,23 @@ std::vector<ActivityPanel::Button> Rehab::buttons() const {
 
 ActivityPanel Rehab::panel() const {
     const ExerciseCourse course = exercise_->course();
-    ActivityPanel panel{.title = capital(exercise_->name()), .aside = {}, .page = {}, .rows = {}, .buttons = {}};
-    panel.page = exercise_->task();
+    ActivityPanel panel{.title = capital(exercise_->name()), .page = exercise_->task()};
     if (is_asking()) panel.page = "Press with each finger once, then the time begins: " + start_.missing();
     if (start_.has_failed()) panel.page = "Broken off: " + failure();
     for (const ExerciseCourse::Count& count : course.counts)
         if (count.wanted > 0)
-            panel.rows.push_back({count.name, formatted("%u of %u", count.number, count.wanted)});
+            panel.widgets.push_back(ActivityPanel::Row{count.name, formatted("%u of %u", count.number, count.wanted)});
         else if (count.number > 0)
-            panel.rows.push_back({count.name, formatted("%u", count.number)});
+            panel.widgets.push_back(ActivityPanel::Row{count.name, formatted("%u", count.number)});
     const SettingValues& values = exercise_->settings();
-    panel.rows.push_back({"Time", values.has("time_limit_s")
-                                      ? formatted("%.0f of %.0f s", course.time_s, values.number("time_limit_s"))
-                                      : formatted("%.0f s", course.time_s)});
-    if (fitted_.is_object()) panel.rows.push_back({"Fitted by", fitted_.at("text").get<std::string>()});
-    if (course.end != ExerciseEnd::not_yet) panel.rows.push_back({"Score", formatted("%.0f of 100", course.score)});
-    panel.buttons = buttons();
+    panel.widgets.push_back(ActivityPanel::Row{
+        "Time", values.has("time_limit_s") ? formatted("%.0f of %.0f s", course.time_s, values.number("time_limit_s"))
+                                           : formatted("%.0f s", course.time_s)});
+    if (fitted_.is_object())
+        panel.widgets.push_back(ActivityPanel::Row{"Fitted by", fitted_.at("text").get<std::string>()});
+    if (course.end != ExerciseEnd::not_yet)
+        panel.widgets.push_back(ActivityPanel::Row{"Score", formatted("%.0f of 100", course.score)});
+    panel.add(buttons());
     panel.hides_scene = true;
     panel.task = task();
     panel.tables = tables();

@@ -196,7 +196,8 @@ std::uint64_t Seek::check() const {
 }
 
 session::ActivityPanel Seek::panel() const {
-    session::ActivityPanel panel{.title = "Seek", .aside = "", .page = "", .rows = {}, .buttons = {}};
+    using Panel = session::ActivityPanel;
+    Panel panel{.title = "Seek"};
     switch (phase_) {
         case Phase::waiting: panel.page = "Press Start. Then touch each object that is named and glows."; break;
         case Phase::starting:
@@ -204,12 +205,12 @@ session::ActivityPanel Seek::panel() const {
         case Phase::over: panel.page = "That was all, and is kept. Press Start to seek them again."; break;
     }
     if (!targets_.empty()) panel.aside = formatted("%zu of %zu", sought_now(), targets_.size());
-    if (phase_ == Phase::seeking) panel.rows.push_back({"Time", formatted("%.0f s", now_.time_s)});
+    if (phase_ == Phase::seeking) panel.widgets.push_back(Panel::Row{"Time", formatted("%.0f s", now_.time_s)});
     if (!found_.empty()) {
         const Sought& last = found_.back();
-        panel.rows.push_back({last.object, last.skipped ? "given up" : formatted("%.1f s", last.time_s)});
+        panel.widgets.push_back(Panel::Row{last.object, last.skipped ? "given up" : formatted("%.1f s", last.time_s)});
     }
-    panel.buttons = {{"Start", {"start"}}, {"Skip", {"skip"}, phase_ == Phase::seeking}};
+    panel.add<Panel::Button>({{"Start", {"start"}}, {"Skip", {"skip"}, phase_ == Phase::seeking}});
     return panel;
 }
 

@@ -268,26 +268,24 @@ void StudyActivity::adjust(session::PartOfHand of, haptics::TickParameters& para
 }
 
 session::ActivityPanel StudyActivity::panel() const {
-    session::ActivityPanel panel{
-        .title = "Study",
-        .aside = device_.participant.empty() ? group_.code : device_.participant + ", " + group_.code,
-        .page = shown_.page,
-        .rows = {},
-        .buttons = {},
-        .field = "note",
-        .governs = true};
-    if (!jig_off_.empty()) panel.rows.push_back({"in the jig", jig_row_});
-    for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
+    using Panel = session::ActivityPanel;
+    Panel panel{.title = "Study",
+                .aside = device_.participant.empty() ? group_.code : device_.participant + ", " + group_.code,
+                .page = shown_.page,
+                .governs = true};
+    if (!jig_off_.empty()) panel.widgets.push_back(Panel::Row{"in the jig", jig_row_});
+    for (const PanelRow& row : shown_.rows) panel.widgets.push_back(Panel::Row{row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
     const bool calibrated = jig_off_.empty(), paused = run_.paused();
     const bool trial = in_stage && run_.place()->stage->kind == study::StageKind::trial;
-    panel.buttons = {{"Start", {"start"}, calibrated && run_.phase() == TrainingRun::Phase::between},
-                     {"Next", {"next"}, in_stage && ends_by_operator()},
-                     {"Pause", {"pause"}, in_stage && !paused},
-                     {"Go on", {"go-on"}, calibrated && paused},
-                     {"Repeat", {"repeat"}, trial && !paused},
-                     {"In the jig", {"jig"}, device_.wand.has_value()},
-                     {"Stop", {"stop"}, in_stage, "End the visit for good?"}};
+    panel.add<Panel::Button>({{"Start", {"start"}, calibrated && run_.phase() == TrainingRun::Phase::between},
+                              {"Next", {"next"}, in_stage && ends_by_operator()},
+                              {"Pause", {"pause"}, in_stage && !paused},
+                              {"Go on", {"go-on"}, calibrated && paused},
+                              {"Repeat", {"repeat"}, trial && !paused},
+                              {"In the jig", {"jig"}, device_.wand.has_value()},
+                              {"Stop", {"stop"}, in_stage, "End the visit for good?"}});
+    panel.widgets.push_back(Panel::Field{"Note", {"note"}, "a note that names nobody"});
     return panel;
 }
 

@@ -110,9 +110,9 @@ public:
         const auto learn = [&](std::string_view text) {
             for (const std::uint32_t letter : panel::letters_beyond_latin(text)) letters_.insert(letter);
         };
-        const std::array<const std::string*, 6> texts{&model.workpiece.name, &model.export_path, &model.tool.file,
-                                                      &kit_.memory.path,     &kit_.memory.field, &kit_.memory.name};
-        for (const std::string* text : texts) learn(*text);
+        for (const std::string* text : {&model.workpiece.name, &model.export_path, &model.tool.file}) learn(*text);
+        learn(kit_.memory.path + kit_.memory.name);
+        for (const auto& field : kit_.memory.fields) learn(field.second);
         if (model.document) learn(model.document->name + "\u2026");  // of its buttons
         if (model.question) learn(model.question->name + model.question->path + "\u2026");
         for (const std::string& name : model.object_names) learn(name);
@@ -121,7 +121,7 @@ public:
         if (model.activity) {
             for (const std::string* text : {&model.activity->title, &model.activity->aside, &model.activity->page})
                 learn(*text);
-            for (const ActivityPanel::Row& row : model.activity->rows) learn(row.name + row.value);
+            learn(panel::texts_of(*model.activity));
             if (model.activity->task) learn(model.activity->task->next + model.activity->task->state);
             for (const std::string& paragraph : model.activity->help) learn(paragraph);
         }

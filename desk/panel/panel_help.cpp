@@ -79,8 +79,10 @@ void show_activity_help(Kit& kit, const ActivityPanel& activity) {
             kit.gap(6.0f);
         }
         std::vector<HelpLine> lines;
-        for (const ActivityPanel::Button& button : activity.buttons)
+        for (const ActivityPanel::Button& button : activity.buttons())
             if (button.key) add_line(lines, label_of(ShortCut{*button.key, {}, {}, false, {}}), button.title);
+        for (const ActivityPanel::Choice& choice : activity.all<ActivityPanel::Choice>())
+            if (choice.key) add_line(lines, label_of(ShortCut{*choice.key, {}, {}, false, {}}), choice.name);
         show_lines(kit, lines, 104.0f);
     }
     kit.end_card();

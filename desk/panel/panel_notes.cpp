@@ -215,7 +215,7 @@ std::string tip_of(std::string_view label) {
     }
     const auto spec = std::ranges::find(commands(), name, &CommandSpec::name);
     if (spec == commands().end()) return {};
-    std::string tip = spec->help, keys;
+    std::string tip(spec->help), keys;
     for (const ShortCut& cut : short_cuts())
         if (name_of(cut.action) == name) keys += (keys.empty() ? "" : ", ") + label_of(cut);
     return keys.empty() ? tip : tip + (tip.empty() ? "" : " ") + "(" + keys + ")";

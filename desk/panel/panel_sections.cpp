@@ -107,72 +107,11 @@ std::string filter_text(double a) {
     return a <= 0.0 ? "off" : written("%.2f", a) + written(" \xC2\xB7 %.0f ms", a / (1.0 - a));
 }
 
-constexpr std::array<std::array<double, 3>, 8> kSwatches{{{0.80, 0.76, 0.70},
-                                                          {0.88, 0.56, 0.21},
-                                                          {0.70, 0.34, 0.22},
-                                                          {0.62, 0.22, 0.30},
-                                                          {0.38, 0.62, 0.48},
-                                                          {0.26, 0.41, 0.77},
-                                                          {0.44, 0.38, 0.64},
-                                                          {0.36, 0.38, 0.40}}};
-
-ImU32 packed(const std::array<double, 3>& srgb) {
-    return ImGui::ColorConvertFloat4ToU32(
-        {static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]), 1.0f});
-}
-
 Item item_of(std::string_view command, std::string_view name, std::string title) {
     return {std::string(command) + " " + std::string(name), std::move(title), true};
 }
 
 }  // namespace
-
-void show_swatches(Kit& kit, const std::string& name, const std::array<double, 3>& now_srgb,
-                   const std::function<void(const std::array<double, 3>&)>& give) {
-    const ImVec2 start = ImGui::GetCursorScreenPos();
-    const float height = kit.px(30.0f), each = kit.width() / (kSwatches.size() + 1), r = kit.px(9.5f);
-    const auto swatch = [&](std::size_t i, const std::string& label, const std::array<double, 3>& srgb, bool own) {
-        ImGui::SetCursorScreenPos({start.x + each * static_cast<float>(i), start.y});
-        const bool clicked = ImGui::InvisibleButton(label.c_str(), {each, height});
-        kit.note(label);
-        const ImVec2 m{start.x + each * (static_cast<float>(i) + 0.5f), start.y + 0.5f * height};
-        const bool here = srgb == now_srgb;
-        if (here && !own) canvas().AddCircle(m, r + kit.px(3.0f), kText, 32, kit.px(1.5f));
-        if (own) {
-            canvas().AddRectFilled({m.x - r, m.y - r}, {m.x + r, m.y + r}, packed(srgb), kit.px(4.0f));
-            canvas().AddRect({m.x - r, m.y - r}, {m.x + r, m.y + r}, ImGui::IsItemHovered() ? kText : kDim,
-                             kit.px(4.0f), 0, kit.px(1.2f));
-        } else {
-            canvas().AddCircleFilled(m, ImGui::IsItemHovered() ? r + kit.px(1.0f) : r, packed(srgb), 32);
-        }
-        return clicked;
-    };
-    for (std::size_t i = 0; i < kSwatches.size(); ++i) {
-        if (swatch(i, name + " " + std::to_string(i + 1), kSwatches[i], false)) give(kSwatches[i]);
-    }
-    if (swatch(kSwatches.size(), name, now_srgb, true)) {
-        ImGui::OpenPopup((name + " circle").c_str());
-        kit.again = true;
-    }
-    const ImVec2 corner = ImGui::GetItemRectMax();
-    const float wide = kit.px(236.0f), tall = kit.px(216.0f);
-    ImGui::SetNextWindowPos(
-        {corner.x - wide, std::max(0.0f, std::min(corner.y + kit.px(4.0f), ImGui::GetIO().DisplaySize.y - tall))});
-    ImGui::SetNextWindowSize({wide, tall});
-    if (!ImGui::BeginPopup((name + " circle").c_str(), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar)) return;
-    std::array<float, 3> parts{};
-    for (std::size_t k = 0; k < 3; ++k) parts[k] = static_cast<float>(now_srgb[k]);
-    ImGui::SetNextItemWidth(wide - kit.px(16.0f));
-    if (ImGui::ColorPicker3("##circle", parts.data(),
-                            ImGuiColorEditFlags_PickerHueWheel | ImGuiColorEditFlags_NoInputs |
-                                ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoOptions |
-                                ImGuiColorEditFlags_NoAlpha)) {
-        std::array<double, 3> srgb{};
-        for (std::size_t k = 0; k < 3; ++k) srgb.at(k) = rounded(std::clamp(double{parts[k]}, 0.0, 1.0), 3);
-        give(srgb);
-    }
-    ImGui::EndPopup();
-}
 
 sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind) {
     constexpr double kUsual_m = 0.005, kMost_m = 1.0;

@@ -13,6 +13,8 @@ void show_activity(Kit& kit, const PanelModel& model);
 // The activity's buttons, the line of their question, and its field; as high as acts_height() says, at scale 1.
 void show_acts(Kit& kit, const ActivityPanel& activity);
 [[nodiscard]] float acts_height(const ActivityPanel& activity);
+// Returns all texts of its widgets, for the letters in them.
+[[nodiscard]] std::string texts_of(const ActivityPanel& activity);
 // The tables for who leads the session, a card each.
 void show_tables(Kit& kit, const ActivityPanel& activity);
 // What the person is doing now, drawn in an area of the current window; as high as task_height() says.
@@ -58,7 +60,15 @@ void show_question(Kit& kit, const PanelQuestion& question, const Area& free);
 // Returns what the command of a label does, and the keys that do it too; empty where the label is no command's.
 [[nodiscard]] std::string tip_of(std::string_view label);
 
-// Draws colours to choose from; gives the one chosen, which may be held in the hand for a while.
+// Colours of which one is chosen; as many as there are: none.
+struct OfferedColours {
+    std::span<const std::array<double, 3>> srgb;
+    std::size_t chosen = 0;
+};
+// Draws these colours to choose from; gives another than the chosen one, once for each press.
+void show_swatches(Kit& kit, const std::string& label, const OfferedColours& offered,
+                   const std::function<void(const std::array<double, 3>&)>& give);
+// Draws the usual colours and any other to choose from; gives the one chosen, which a hand may hold for a while.
 void show_swatches(Kit& kit, const std::string& label, const std::array<double, 3>& now_srgb,
                    const std::function<void(const std::array<double, 3>&)>& give);
 

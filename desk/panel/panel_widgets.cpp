@@ -263,19 +263,22 @@ std::optional<std::size_t> Kit::list(const std::string& label, std::string_view 
     const ImVec2 start = ImGui::GetCursorScreenPos();
     const float name = px(92.0f), height = px(28.0f), row = px(26.0f);
     const float middle = start.y + 0.5f * height;
-    write({start.x, middle - 0.5f * type.text->FontSize}, kDim, title);
+    const bool on = off_because.empty();
+    write({start.x, middle - 0.5f * type.text->FontSize}, on ? kDim : kFaint, title);
     ImGui::SetCursorScreenPos({start.x + name, start.y});
-    const Pressed p = press_area(label.c_str(), {width() - 0.0f, height});
+    Pressed p = press_area(label.c_str(), {width() - 0.0f, height});
     note(label);
-    draw().AddRectFilled(p.lo, p.hi, p.hovered ? kControlHovered : kControl, px(6.0f));
+    p.clicked = p.clicked && on;
+    p.hovered = p.hovered && on;
+    draw().AddRectFilled(p.lo, p.hi, !on ? kField : p.hovered ? kControlHovered : kControl, px(6.0f));
     draw().PushClipRect(p.lo, {p.hi.x - px(20.0f), p.hi.y}, true);
     if (selected < items.size())
-        write({p.lo.x + px(10.0f), middle - 0.5f * type.text->FontSize}, kText, items[selected].text);
+        write({p.lo.x + px(10.0f), middle - 0.5f * type.text->FontSize}, on ? kText : kFaint, items[selected].text);
     draw().PopClipRect();
     const float x = p.hi.x - px(14.0f), r = px(3.2f);
     const std::array<ImVec2, 3> chevron{
         ImVec2{x - r, middle - 0.5f * r}, {x, middle + 0.5f * r}, {x + r, middle - 0.5f * r}};
-    draw().AddPolyline(chevron.data(), 3, kDim, 0, px(1.5f));
+    draw().AddPolyline(chevron.data(), 3, on ? kDim : kFaint, 0, px(1.5f));
 
     const std::string popup = label + " list";
     if (p.clicked) ImGui::OpenPopup(popup.c_str());

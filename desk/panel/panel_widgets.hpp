@@ -25,10 +25,10 @@ struct Memory {
     std::string model_path;           // the model's path that it was copied from
     // Last command of the held widget, so that a hand at rest gives it once.
     CommandInput last;
-    std::string last_for;   // the hand that it was for; empty: the one in use
-    std::string open_list;  // the label of the list that is open
-    std::string asking;     // the label of the activity's button whose question stands there
-    std::string field;      // text of the activity's field
+    std::string last_for;                       // the hand that it was for; empty: the one in use
+    std::string open_list;                      // the label of the list that is open
+    std::string asking;                         // the label of the activity's button whose question stands there
+    std::map<std::string, std::string> fields;  // texts of the activity's fields, by label
     // The question about the document: what it was when it was shown last, the answer that Enter gives, the name that
     // is typed, the one with which typing began, and one that is not to be replaced.
     std::string question;

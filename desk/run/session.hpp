@@ -10,7 +10,7 @@
 #include "desk/view/session_screens.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "record/record_reader.hpp"
-#include "session/activity/activity.hpp"
+#include "session/activity/activity_marks.hpp"
 #include "session/drive/recording_start.hpp"
 #include "session/drive/tick_witness.hpp"
 #include "session/options/session_options.hpp"

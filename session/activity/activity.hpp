@@ -32,6 +32,7 @@
 #include "session/activity/activity_marks.hpp"
 #include "session/activity/activity_orders.hpp"
 #include "session/activity/activity_panel.hpp"
+#include "session/input/command_form.hpp"
 
 namespace burin::haptics {
 struct TickParameters;  // haptics/tick_parameters.hpp
@@ -47,12 +48,10 @@ class ScenePart;  // scene/scene_part.hpp
 
 namespace burin::session {
 
-// Something that can be done in the activity: `do NAME ARGUMENTS`.
-struct Act {
-    std::string_view name;       // "next"
-    std::string_view arguments;  // "NAME"; empty: none; [ ]: optional; ... at the end: more
-    std::string_view help;       // one line
-};
+// Something that can be done in the activity: `do NAME ARGUMENTS`. Its words are checked as those of the session's
+// commands are, with the kinds that it gives for its arguments:
+//   Act{"apart", "METRES", "Lay beads so far apart", {number_within(0.0001, 1.0, "m")}}
+using Act = CommandForm;
 
 struct WorldObjects;  // session/objects/world_objects.hpp
 
@@ -105,8 +104,8 @@ public:
     // it: facts by their names.
     [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> facts() const { return {}; }
     [[nodiscard]] virtual std::span<const Act> acts() const { return {}; }
-    // Carries out one of its acts: words[0] is one of acts(). The Error says what would be right; nothing has changed
-    // then.
+    // Carries out one of its acts: words[0] is one of acts(), the others are of its kinds. The Error says what would be
+    // right; nothing has changed then.
     [[nodiscard]] virtual Result<void> act(std::span<const std::string> words, ActivityOrders& orders) = 0;
     // Goes on by the ticks since the last step. Called once a frame, and once after the last tick.
     virtual void step(const ActivityView& view, ActivityOrders& orders) = 0;
@@ -135,8 +134,8 @@ public:
     [[nodiscard]] virtual Result<void> finish() { return {}; }
 };
 
-// Checks that the words are an act of the activity with its arguments, with the nearest name in the Error; null: there
-// is none, and every act fails.
+// Checks that the words are an act of the activity with its arguments, with the nearest name or what an argument may be
+// in the Error; null: there is none, and every act fails.
 [[nodiscard]] Result<void> check_act(const Activity* activity, std::span<const std::string> words);
 
 }  // namespace burin::session

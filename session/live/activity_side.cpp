@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <variant>
 
 namespace burin::session {
 namespace {
@@ -55,6 +57,15 @@ Result<HoldOrder> order_of(const HoldObject& wanted, const WorldObjects* world, 
     return order;
 }
 
+// Returns what a widget gives when a key is pressed.
+std::optional<ActivityPanel::ActWords> act_of_key(const ActivityPanel::Widget& widget, Key key) {
+    if (const auto* const button = std::get_if<ActivityPanel::Button>(&widget))
+        return button->key == key && button->enabled ? std::optional(button->act) : std::nullopt;
+    const auto* const choice = std::get_if<ActivityPanel::Choice>(&widget);
+    if (choice == nullptr || choice->key != key || !choice->enabled || choice->values.empty()) return std::nullopt;
+    return with_value(choice->act, choice->values[(choice->chosen + 1) % choice->values.size()].word);
+}
+
 }  // namespace
 
 void ActivitySide::press_keys(std::span<const InputEvent> events, SessionOrders& orders) const {
@@ -63,8 +74,8 @@ void ActivitySide::press_keys(std::span<const InputEvent> events, SessionOrders&
         const auto* const key = std::get_if<KeyInput>(&event.input);
         if (key == nullptr || key->motion != KeyMotion::press || key->modifiers != Modifiers{}) continue;
         const ActivityPanel now = activity_->panel();
-        for (const ActivityPanel::Button& button : now.buttons)
-            if (button.key == key->key && button.enabled) orders.acts.push_back({button.act, event.line});
+        for (const ActivityPanel::Widget& widget : now.widgets)
+            if (auto act = act_of_key(widget, key->key)) orders.acts.push_back({std::move(*act), event.line});
     }
 }
 

@@ -38,7 +38,7 @@ public:
         news_.add(std::move(news));
         if (activity_) std::ranges::move(drawn, std::back_inserter(drawn_));
     }
-    // Adds the acts of its buttons whose keys are pressed among a step's events.
+    // Adds the acts of its widgets whose keys are pressed among a step's events.
     void press_keys(std::span<const InputEvent> events, SessionOrders& orders) const;
     // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders
     // as it wants. tools: of each part of the hands, by its number.

@@ -31,11 +31,7 @@ std::string listed(const auto& names) {
 
 // Returns the index of a word in a list of names.
 Result<std::size_t> choice(std::string_view command, std::string_view word, std::span<const std::string_view> names) {
-    const auto at = std::ranges::find(names, word);
-    if (at == names.end()) {
-        return no_argument(command, word, meant_by(word, names) + "There are " + listed(names));
-    }
-    return static_cast<std::size_t>(at - names.begin());
+    return read_name(word, names, "command " + std::string(command));
 }
 
 // Returns the descriptor in a table with this name.
@@ -47,22 +43,14 @@ Result<Descriptor> choice_of(std::string_view command, std::string_view word, st
     return table[at];
 }
 
+constexpr std::array<std::string_view, 4> kSwitchWords{"off", "on", "no", "yes"};
+
 Result<bool> parse_switch(std::string_view command, std::string_view word) {
-    constexpr std::array<std::string_view, 4> kWords{"off", "on", "no", "yes"};
-    BURIN_TRY(at, choice(command, word, kWords));
+    BURIN_TRY(at, choice(command, word, kSwitchWords));
     return at % 2 == 1;
 }
 
-Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) {
-    const std::string where = "command " + std::string(range.name) + " " + word;
-    const auto number = sculpt::parse_numbers(word, 1, where);
-    std::string remedy = "write a number from " + as_input(SetQuantity{range.quantity, range.least}).arguments[0] +
-                         " to " + as_input(SetQuantity{range.quantity, range.most}).arguments[0];
-    if (!range.unit.empty()) remedy += ", in " + std::string(range.unit);
-    if (!number) return fail(where, "is not a number", remedy);
-    if ((*number)[0] < range.least || (*number)[0] > range.most) return fail(where, "is out of bounds", remedy);
-    return SetQuantity{range.quantity, (*number)[0]};
-}
+ArgumentKind kind_of(const QuantityDescriptor& range) { return number_within(range.least, range.most, range.unit); }
 
 Parsed parse_tool(CommandWords words) {
     const std::string& text = words[0];
@@ -79,14 +67,8 @@ Parsed parse_operation(CommandWords words) {
 }
 
 Parsed parse_colour(CommandWords words) {
-    const std::string where = "command colour " + words[0];
-    const char* const remedy = "write red,green,blue from 0 to 1, such as 0.8,0.2,0.1";
-    const auto numbers = sculpt::parse_numbers(words[0], 3, where);
-    if (!numbers) return fail(where, "is no colour", remedy);
-    if (std::ranges::any_of(*numbers, [](double part) { return part < 0.0 || part > 1.0; })) {
-        return fail(where, "is out of bounds", remedy);
-    }
-    return SetColour{{(*numbers)[0], (*numbers)[1], (*numbers)[2]}};
+    BURIN_TRY(srgb, read_colour(words[0], "command colour " + words[0]));
+    return SetColour{srgb};
 }
 
 Parsed parse_material(CommandWords words) {
@@ -282,7 +264,7 @@ Parsed parse_mirror(CommandWords words) {
 
 template <Quantity quantity>
 Parsed parse_number_of(CommandWords words) {
-    return parse_quantity(descriptor_of(quantity), words[0]);
+    return SetQuantity{quantity, number_of(words[0])};
 }
 
 struct Entry {
@@ -293,31 +275,53 @@ struct Entry {
 template <Quantity quantity>
 Entry entry_of() {
     const QuantityDescriptor& q = descriptor_of(quantity);
-    return {{q.name, q.argument, std::string(q.help)}, parse_number_of<quantity>};
+    return {{q.name, q.argument, q.help, {kind_of(q)}}, parse_number_of<quantity>};
 }
+
+std::vector<std::string_view> names_of(const auto& descriptors) {
+    std::vector<std::string_view> names;
+    for (const auto& descriptor : descriptors) names.push_back(descriptor.name);
+    return names;
+}
+
+// What help and kinds of arguments read from other tables, kept for as long as the program runs.
+struct NamesInTables {
+    std::vector<std::string_view> operations = names_of(sculpt::operations());
+    std::vector<std::string_view> materials = names_of(sculpt::feel_presets());
+    std::vector<std::string_view> techniques = names_of(session::techniques());
+    std::string tool_help = "Take a tool: " + listed(sculpt::tool_synopses());
+    std::string operation_help = "What the tool does: " + all_of(sculpt::operations());
+    std::string material_help = "What the workpiece feels like: " + all_of(sculpt::feel_presets());
+    std::string technique_help = "How the workspace moves: " + all_of(session::techniques());
+    std::string object_help = "Change an object of the world: " + all_of(scene::object_properties());
+
+private:
+    static std::string all_of(const auto& descriptors) { return sculpt::alternatives(sculpt::names_in(descriptors)); }
+};
 
 // Lists the commands that take an argument.
 const std::vector<Entry>& entries() {
-    using sculpt::alternatives, sculpt::names_in;
+    static const NamesInTables in;
+    constexpr ArgumentKind kSwitch = name_of_these(kSwitchWords);
     static const std::vector<Entry> all{
-        {{"tool", "SHAPE", "Take a tool: " + listed(sculpt::tool_synopses())}, parse_tool},
+        {{"tool", "SHAPE", in.tool_help}, parse_tool},
         entry_of<Quantity::radius>(),
-        {{"operation", "WHAT", "What the tool does: " + alternatives(names_in(sculpt::operations()))}, parse_operation},
-        {{"colour", "R,G,B", "Colour of what the tool leaves, each part from 0 to 1"}, parse_colour},
-        {{"material", "NAME", "What the workpiece feels like: " + alternatives(names_in(sculpt::feel_presets()))},
-         parse_material},
+        {{"operation", "WHAT", in.operation_help, {name_of_these(in.operations)}}, parse_operation},
+        {{"colour", "R,G,B", "Colour of what the tool leaves, each part from 0 to 1", {colour_word()}}, parse_colour},
+        {{"material", "NAME", in.material_help, {name_of_these(in.materials)}}, parse_material},
         entry_of<Quantity::hardness>(),
         entry_of<Quantity::friction>(),
         entry_of<Quantity::stiffness>(),
-        {{"force", "on|off", "Whether the device gives force"}, parse_force},
-        {{"amplifiers", "on|off", "Enable the device's amplifiers again after a trip, or switch them off"},
+        {{"force", "on|off", "Whether the device gives force", {kSwitch}}, parse_force},
+        {{"amplifiers", "on|off", "Enable the device's amplifiers again after a trip, or switch them off", {kSwitch}},
          parse_amplifiers},
         entry_of<Quantity::velocity_filter>(),
         entry_of<Quantity::force_filter>(),
-        {{"technique", "NAME", "How the workspace moves: " + alternatives(names_in(techniques()))}, parse_technique},
+        {{"technique", "NAME", in.technique_help, {name_of_these(in.techniques)}}, parse_technique},
         entry_of<Quantity::scale>(),
         {{"stereo-mode", "NAME", "How the two eyes' pictures are shown, such as anaglyph_red_cyan"}, parse_mode},
-        {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
+        {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument", {kSwitch}},
+         parse_eye_swap},
         {{"edge-comfort", "auto|on|off", "Whether depth fades towards the edge of a lone screen, for the eyes' ease"},
          parse_edges},
         {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
@@ -326,20 +330,21 @@ const std::vector<Entry>& entries() {
           "Carve the other side as well, across planes through the workpiece's middle: x, y, z, several such as xz, or "
           "none"},
          parse_mirror},
-        {{"object", "NAME WHAT VALUE",
-          "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
-         parse_object},
+        {{"object", "NAME WHAT VALUE", in.object_help}, parse_object},
         {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
-        {{"mouse", "surface|free",
-          "Whether the tool is where the cursor points, or the mouse moves it along the screen"},
+        {{"mouse",
+          "surface|free",
+          "Whether the tool is where the cursor points, or the mouse moves it along the screen",
+          {name_of_these(mouse_mode_names())}},
          parse_mouse},
         entry_of<Quantity::strength>(),
         {{"hand", "NAME", "Lead the hand of this name with mouse and keys, of several"}, parse_hand},
         {{"do", "ACT...", "Tell the activity something, as the buttons of its section do"}, parse_act},
-        {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
+        {{"show-force", "on|off", "Whether an arrow shows the force", {kSwitch}}, parse_force_shown},
         {{"calibrate", "[reset]", "Take the wand, now in its jig, for being where that is; or take that back"},
          parse_calibrate},
-        {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
+        {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go", {kSwitch}},
+         parse_catch_drill},
         {{"save", "[FILE]", "Save the work as a document, FILE.burin; without a name into the one that it has"},
          parse_save},
         {{"save-as", "[FILE] [given|free|taken|replaced]",
@@ -367,7 +372,7 @@ const std::vector<CommandSpec>& all_commands() {
         for (std::size_t i = 0; i < kActions; ++i) {
             const auto action = static_cast<Action>(i);
             if (action != Action::swap_eyes && action != Action::save_as && action != Action::quit)
-                list.push_back({name_of(action), "", std::string(help_of(action))});
+                list.push_back({name_of(action), "", help_of(action)});
         }
         return list;
     }();
@@ -397,15 +402,7 @@ std::span<const CommandSpec> commands() { return all_commands(); }
 Result<SessionCommand> parse_command(const CommandInput& input) {
     const auto entry = std::ranges::find_if(entries(), [&](const Entry& e) { return e.spec.name == input.name; });
     if (entry == entries().end()) return parse_action(input);
-    const bool optional = entry->spec.arguments.starts_with('[');
-    const auto wanted = static_cast<std::size_t>(1 + std::ranges::count(entry->spec.arguments, ' '));
-    const std::size_t given = input.arguments.size();
-    const bool more = entry->spec.arguments.ends_with("...");
-    if ((given > wanted && !more) || (given < wanted && !optional)) {
-        const std::string count = wanted == 1 ? "takes one argument" : "takes " + std::to_string(wanted) + " arguments";
-        return fail("command " + input.name, given == 0 ? "lacks its argument" : count,
-                    "write " + input.name + " " + std::string(entry->spec.arguments));
-    }
+    BURIN_TRY_DO(check_words(entry->spec, input.arguments));
     return entry->parse(input.arguments);
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Names every command that a session accepts, and what its arguments name besides tools and operations
 // (sculpt/tool_kinds.hpp): workspace techniques and quantities, one descriptor each. The panel, keys, scripts and
-// replays all give commands in these words, so that they cannot differ. Each command has its arguments, one line of
-// help and a parser that returns a typed value. Numbers are in SI units; a printed value reads back to the same bits.
+// replays all give commands in these words, so that they cannot differ. Each command has the form that acts of
+// activities have too (session/input/command_form.hpp), and a parser that returns a typed value. Numbers are in SI
+// units; a printed value reads back to the same bits.
 // Pure functions; any thread.
 #pragma once
 
@@ -13,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "haptics/workspace/workspace_picture.hpp"
+#include "session/input/command_form.hpp"
 #include "session/input/command_input.hpp"
 #include "session/state/session_command.hpp"
 
@@ -51,11 +53,7 @@ struct QuantityDescriptor {
 [[nodiscard]] std::span<const QuantityDescriptor> quantities();
 [[nodiscard]] const QuantityDescriptor& descriptor_of(Quantity quantity);
 
-struct CommandSpec {
-    std::string_view name;
-    std::string_view arguments;  // "R", "on|off" or "NAME WHAT VALUE"; empty: none; [ ]: optional; ... at the end: more
-    std::string help;            // one line
-};
+using CommandSpec = CommandForm;
 // Lists the commands in the order in which help shows them.
 [[nodiscard]] std::span<const CommandSpec> commands();
 

@@ -8,13 +8,6 @@ namespace burin::session {
 
 namespace {
 
-// Returns the shortest text that reads back to the same bits.
-std::string exact(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-    return {text.data(), end.ptr};
-}
-
 std::string on_off(bool on) { return on ? "on" : "off"; }
 
 struct Printer {
@@ -23,14 +16,12 @@ struct Printer {
     CommandInput operator()(const SetOperation& c) const {
         return {"operation", {std::string(sculpt::descriptor_of(c.operation).name)}};
     }
-    CommandInput operator()(const SetColour& c) const {
-        return {"colour", {exact(c.srgb[0]) + "," + exact(c.srgb[1]) + "," + exact(c.srgb[2])}};
-    }
+    CommandInput operator()(const SetColour& c) const { return {"colour", {exact_word(c.srgb)}}; }
     CommandInput operator()(const SetMaterial& c) const {
         return {"material", {std::string(sculpt::feel_presets()[static_cast<std::size_t>(c.preset)].name)}};
     }
     CommandInput operator()(const SetQuantity& c) const {
-        return {std::string(descriptor_of(c.quantity).name), {exact(c.value)}};
+        return {std::string(descriptor_of(c.quantity).name), {exact_word(c.value)}};
     }
     CommandInput operator()(const SetTechnique& c) const {
         return {"technique", {std::string(descriptor_of(c.technique).name)}};
@@ -75,8 +66,8 @@ struct Printer {
     CommandInput operator()(const LeadHand& c) const { return {"hand", {c.hand}}; }
     CommandInput operator()(const EditObject& c) const {
         const scene::PropertyDescriptor& property = scene::descriptor_of(c.property);
-        std::string value = property.numbers == 0 ? on_off(c.value[0] != 0.0) : exact(c.value[0]);
-        for (std::size_t i = 1; i < property.numbers; ++i) value += "," + exact(c.value.at(i));
+        std::string value = property.numbers == 0 ? on_off(c.value[0] != 0.0) : exact_word(c.value[0]);
+        for (std::size_t i = 1; i < property.numbers; ++i) value += "," + exact_word(c.value.at(i));
         return {"object", {c.object, std::string(property.name), value}};
     }
     CommandInput operator()(const CalibrateHandle& c) const {

@@ -118,7 +118,7 @@ TEST(PointingHand, LeavesNothingLitUpWhenItsGloveIsLostOrItPointsNoMore) {
                     hand.point_at(at.pose * (at.scale * middle_in_file_m(thing)), 0.1, uneven_turn(thing + 1));
                     go_on(150);
                     EXPECT_EQ(colours.lit_up(), std::set{name}) << of;
-                    EXPECT_EQ(activity.panel().rows.size(), 1u) << of;
+                    EXPECT_EQ(activity.panel().rows().size(), 1u) << of;
                     if (ends == Ends::is_lost) hand.be_lost(true);
                     if (ends == Ends::opens) hand.bend(devices::GripShape::whole, 0.1);
                     if (ends == Ends::points_elsewhere)
@@ -130,13 +130,13 @@ TEST(PointingHand, LeavesNothingLitUpWhenItsGloveIsLostOrItPointsNoMore) {
                     }
                     go_on(150);
                     EXPECT_EQ(colours.lit_up(), std::set<std::string>{}) << of;
-                    EXPECT_EQ(activity.panel().rows.size(), ends == Ends::holds ? 1u : 0u) << of;
+                    EXPECT_EQ(activity.panel().rows().size(), ends == Ends::holds ? 1u : 0u) << of;
                     EXPECT_EQ(activity.gesture().grasps(), ends == Ends::holds) << of;
                     // Lost with something in it, too.
                     hand.be_lost(true);
                     go_on(150);
                     EXPECT_EQ(colours.lit_up(), std::set<std::string>{}) << of;
-                    EXPECT_TRUE(activity.panel().rows.empty()) << of;
+                    EXPECT_TRUE(activity.panel().rows().empty()) << of;
                 }
     }
 }

@@ -298,7 +298,7 @@ TEST(RehabRun, ShowsForcesAgainstWhatIsAskedAndWhatComesNext) {
     EXPECT_TRUE(panel.task->state.empty());
     EXPECT_EQ(panel.task->progress, "0 of 5");
     const auto enabled = [&](const char* title) {
-        for (const auto& button : panel.buttons)
+        for (const auto& button : panel.buttons())
             if (button.title == title) return button.enabled;
         return false;
     };

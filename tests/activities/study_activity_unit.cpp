@@ -212,17 +212,20 @@ TEST_F(StudyActivities, GiveTheOperatorCodeTimeLeftANoteAndAStopThatAsks) {
     frame(std::vector<Vec3>(2001, spine.front()));
     const session::ActivityPanel panel = activity_->panel();
     EXPECT_EQ(panel.aside, "p07, haptic");
-    EXPECT_EQ(panel.field, "note");
+    const auto fields = panel.all<session::ActivityPanel::Field>();
+    ASSERT_EQ(fields.size(), 1u);
+    EXPECT_EQ(fields[0].act, std::vector<std::string>{"note"});
     EXPECT_TRUE(panel.governs);
     const double whole_s = *protocol_.stage("interactive")->ends_after_s;
-    const auto left = std::ranges::find(panel.rows, "left", &session::ActivityPanel::Row::name);
-    ASSERT_NE(left, panel.rows.end());
+    const auto rows = panel.rows();
+    const auto left = std::ranges::find(rows, "left", &session::ActivityPanel::Row::name);
+    ASSERT_NE(left, rows.end());
     EXPECT_EQ(left->value, formatted("%.0f s of %.0f", whole_s - 2.0, whole_s));
-    for (const session::ActivityPanel::Button& button : panel.buttons)
+    for (const session::ActivityPanel::Button& button : panel.buttons())
         EXPECT_EQ(button.asks.empty(), button.title != "Stop") << button.title;
     ASSERT_TRUE(act({"pause"}));
     frame(std::vector<Vec3>(3001, spine.front()));
-    const auto paused = activity_->panel().rows;
+    const auto paused = activity_->panel().rows();
     EXPECT_EQ(std::ranges::find(paused, "left", &session::ActivityPanel::Row::name)->value, left->value)
         << "a pause takes nothing of it";
     ASSERT_TRUE(act({"note", "holds her breath"}));
@@ -421,16 +424,16 @@ TEST_F(StudyActivities, HoldTheStageWhereTheWandReadsFartherOffInItsJigThanThePr
     ASSERT_NE(activity_->run().session(), nullptr);
     EXPECT_EQ(activity_->run().session()->state().phase, study::StagePhase::paused);
     EXPECT_FALSE(act({"go-on"}));
-    EXPECT_EQ(activity_->panel().rows.at(0).name, "in the jig");
-    EXPECT_EQ(activity_->panel().rows.at(0).value, "2.5 mm off, 2.0 allowed") << "longer, it would cover its name";
-    for (const session::ActivityPanel::Button& button : activity_->panel().buttons)
+    EXPECT_EQ(activity_->panel().rows().at(0).name, "in the jig");
+    EXPECT_EQ(activity_->panel().rows().at(0).value, "2.5 mm off, 2.0 allowed") << "longer, it would cover its name";
+    for (const session::ActivityPanel::Button& button : activity_->panel().buttons())
         EXPECT_EQ(button.enabled, button.title == "Stop" || button.title == "In the jig") << button.title;
     EXPECT_TRUE(std::ranges::any_of(events_, [](const RunEvent& e) { return e.value.contains("2.5 mm"); }));
     tool_.position_device_m = in_the_jig;
     frame({spine.front()});
     ASSERT_TRUE(act({"jig"}));
     const auto enabled = [&](const char* title) {
-        const auto buttons = activity_->panel().buttons;
+        const auto buttons = activity_->panel().buttons();
         return std::ranges::find(buttons, title, &session::ActivityPanel::Button::title)->enabled;
     };
     EXPECT_TRUE(enabled("Go on"));
@@ -485,7 +488,7 @@ TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {
     EXPECT_LT(parameters.guidance.lead_speed_m_per_s, 0.0);
     const session::ActivityPanel panel = activity_->panel();
     EXPECT_EQ(panel.aside, "p07, haptic");
-    EXPECT_TRUE(std::ranges::any_of(panel.rows, [](const auto& row) { return row.name == "force"; }));
+    EXPECT_TRUE(std::ranges::any_of(panel.rows(), [](const auto& row) { return row.name == "force"; }));
 }
 
 }  // namespace

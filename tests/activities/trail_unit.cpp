@@ -41,7 +41,7 @@ TEST(Trail, LeavesABeadEverySoFarWhileTheButtonIsDownAndNoneElse) {
     OneHand hand;
     (void)drawn_along(trail, hand, 0, 100, false);
     EXPECT_TRUE(staged(trail).objects.empty());
-    EXPECT_FALSE(trail.panel().buttons[0].enabled);
+    EXPECT_FALSE(trail.panel().buttons().at(0).enabled);
     (void)drawn_along(trail, hand, 0, 40, true);
     EXPECT_EQ(staged(trail).objects.size(), 5u) << "at 0, 10, 20, 30 and 40 mm";
     const Similarity turned{{0.0, 1.0, 0.0}, glm::angleAxis(0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0)), 2.0};
@@ -73,6 +73,29 @@ TEST(Trail, IsClearedByItsActAndRefusesItWhereNothingIsDrawn) {
     (void)drawn_along(trail, hand, 0, 40, true);
     ASSERT_TRUE(trail.act(words, orders));
     EXPECT_TRUE(staged(trail).objects.empty());
+}
+
+TEST(Trail, LaysBeadsAsFarApartAsItsSliderSaysAndItsActTakes) {
+    Trail trail(0.0095);
+    OneHand hand;
+    session::ActivityOrders orders;
+    const auto tell = [&](const std::vector<std::string>& words) -> Result<void> {
+        if (auto checked = session::check_act(&trail, words); !checked) return checked;
+        return trail.act(words, orders);
+    };
+    const auto sliders = trail.panel().all<session::ActivityPanel::Slider>();
+    ASSERT_EQ(sliders.size(), 1u);
+    EXPECT_EQ(sliders[0].value, 0.0095);
+    EXPECT_TRUE(tell(session::with_value(sliders[0].act, "0.0195")));
+    EXPECT_EQ(trail.panel().all<session::ActivityPanel::Slider>()[0].value, 0.0195);
+    (void)drawn_along(trail, hand, 0, 40, true);
+    EXPECT_EQ(staged(trail).objects.size(), 3u) << "at 0, 20 and 40 mm";
+    for (const char* const wrong : {"nan", "0", "-0.01", "2", "near"}) EXPECT_FALSE(tell({"apart", wrong})) << wrong;
+    EXPECT_TRUE(tell({"apart", "near"}).error().line().contains("a number from 0.0001 to 1, in m"));
+    EXPECT_EQ(trail.panel().all<session::ActivityPanel::Slider>()[0].value, 0.0195) << "nothing has changed";
+    EXPECT_EQ(trail.settings(), Trail(0.0095).settings()) << "a recording begins as it began";
+    Trail other(0.0095);
+    EXPECT_NE(other.check(), trail.check());
 }
 
 TEST(Trail, SaysOnceThatItIsFull) {

@@ -47,8 +47,8 @@ public:
         return {.title = "Watching",
                 .aside = "",
                 .page = page,
-                .rows = {{"Ticks", "many"}},
-                .buttons = {{"Calm", {"calm"}, !calm, {}, Key::f6}},
+                .widgets = {ActivityPanel::Row{"Ticks", "many"},
+                            ActivityPanel::Button{"Calm", {"calm"}, !calm, {}, Key::f6}},
                 .governs = governs_from_now && asked_++ % 2 == 1};
     }
     [[nodiscard]] Result<void> finish() override {
@@ -202,7 +202,7 @@ TEST(SessionActivity, ThatGovernsLeavesThePanelNothingOfWhatIsFeltOrSeen) {
     PanelModel model;
     model.object = PanelObject{};
     model.object_names = {"stone"};
-    model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+    model.activity = ActivityPanel{.title = "Study"};
     Panel panel = Panel::create({.size = {340, 2000}}).value();
     const auto offers = [&](const std::string& label) {
         static_cast<void>(panel.show(model, 0));
@@ -222,31 +222,37 @@ TEST(SessionActivity, ThatGovernsLeavesThePanelNothingOfWhatIsFeltOrSeen) {
 // The operator of a study: a page, warnings and rows come and go while the hand is on its way to a button.
 TEST(SessionActivity, ThatGovernsHasItsButtonsWhereNothingMovesThem) {
     PanelModel model;
-    ActivityPanel activity{.title = "Study", .aside = "p07, touch", .page = "", .rows = {}, .buttons = {}};
+    ActivityPanel activity{
+        .title = "Study",
+        .aside = "p07, touch",
+        .page = "",
+    };
     activity.governs = true;
-    activity.field = "note";
-    activity.buttons = {{"Start", {"start"}},
-                        {"Next", {"next"}},
-                        {"Pause", {"pause"}},
-                        {"Go on", {"go-on"}},
-                        {"Repeat", {"repeat"}},
-                        {"In the jig", {"jig"}},
-                        {"Stop", {"stop"}, true, "End the visit?"}};
+    activity.add<ActivityPanel::Button>({{"Start", {"start"}},
+                                         {"Next", {"next"}},
+                                         {"Pause", {"pause"}},
+                                         {"Go on", {"go-on"}},
+                                         {"Repeat", {"repeat"}},
+                                         {"In the jig", {"jig"}},
+                                         {"Stop", {"stop"}, true, "End the visit?"}});
+    activity.widgets.push_back(ActivityPanel::Field{"Note", {"note"}});
     for (const ImageSize size : {ImageSize{340, 700}, ImageSize{340, 1000}}) {
         Panel panel = Panel::create({.size = size}).value();
         std::map<std::string, PixelRect> first;
         for (int state = 0; state < 5; ++state) {
             model.activity = activity;
-            if (state > 0) model.activity->rows = {{"in the jig", "2.5 mm off"}, {"stage", "test"}, {"now", "runs"}};
+            if (state > 0)
+                model.activity->add<ActivityPanel::Row>(
+                    {{"in the jig", "2.5 mm off"}, {"stage", "test"}, {"now", "runs"}});
             if (state > 1) model.activity->page = "A page of the participant's, which takes some lines of the panel.";
             if (state > 2) model.warnings = {"Picture 61 ms behind the hand; 15 is noticed", "The tracker is lost"};
             if (state > 3) {
                 model.touch.cause = haptics::GateCause::device_fault;
-                model.activity->buttons[1].enabled = false;
+                std::get<ActivityPanel::Button>(model.activity->widgets[1]).enabled = false;
             }
             static_cast<void>(panel.show(model, state));
             for (const char* label : {"do start", "do next", "do pause", "do go-on", "do repeat", "do jig", "do stop",
-                                      "field", "do note"}) {
+                                      "field do note", "do note"}) {
                 const auto at = panel.place_of(label);
                 ASSERT_TRUE(at) << label << " is not shown, state " << state;
                 const auto [before, fresh] = first.emplace(label, *at);
@@ -262,8 +268,9 @@ TEST(SessionActivity, ThatGovernsHasItsButtonsWhereNothingMovesThem) {
 
 TEST(SessionActivity, AsksBeforeItDoesWhatCannotBeTakenBack) {
     PanelModel model;
-    model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
-    model.activity->buttons = {{"Next", {"next"}}, {"Stop", {"stop"}, true, "End the visit for good?"}};
+    model.activity = ActivityPanel{.title = "Study"};
+    model.activity->add<ActivityPanel::Button>(
+        {{"Next", {"next"}}, {"Stop", {"stop"}, true, "End the visit for good?"}});
     model.activity->governs = true;
     Panel panel = Panel::create({.size = {340, 700}}).value();
     Nanoseconds now_ns = 0;
@@ -290,7 +297,7 @@ TEST(SessionActivity, AsksBeforeItDoesWhatCannotBeTakenBack) {
     EXPECT_EQ(clicked("yes, do stop"), stop);
     EXPECT_FALSE(panel.place_of("yes, do stop"));
     EXPECT_TRUE(clicked("do stop").empty());
-    model.activity->buttons[1].enabled = false;
+    std::get<ActivityPanel::Button>(model.activity->widgets[1]).enabled = false;
     static_cast<void>(panel.show(model, now_ns += 16'000'000));
     EXPECT_FALSE(panel.place_of("yes, do stop")) << "the stage has ended meanwhile";
 
@@ -304,9 +311,8 @@ TEST(SessionActivity, AsksBeforeItDoesWhatCannotBeTakenBack) {
 
 TEST(SessionActivity, TakesANoteFromTheOperatorsField) {
     PanelModel model;
-    model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
-    model.activity->buttons = {{"Next", {"next"}}};
-    model.activity->field = "note";
+    model.activity = ActivityPanel{.title = "Study"};
+    model.activity->widgets = {ActivityPanel::Button{"Next", {"next"}}, ActivityPanel::Field{"Note", {"note"}}};
     model.activity->governs = true;
     Panel panel = Panel::create({.size = {340, 700}}).value();
     static_cast<void>(panel.show(model, 0));
@@ -323,7 +329,7 @@ TEST(SessionActivity, TakesANoteFromTheOperatorsField) {
         return panel.show(model, 0).actions;
     };
     EXPECT_TRUE(click("do note").empty()) << "nothing is written";
-    EXPECT_TRUE(click("field").empty());
+    EXPECT_TRUE(click("field do note").empty());
     panel.feed(std::vector<InputEvent>{{0, TextInput{"holds her breath"}}});
     EXPECT_TRUE(panel.show(model, 0).actions.empty());
     EXPECT_EQ(click("do note"), (std::vector<CommandInput>{{"do", {"note", "holds her breath"}}}));
@@ -334,10 +340,10 @@ TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
     Panel panel = Panel::create({.size = {340, 2000}}).value();
     for (const std::size_t count : {6u, 7u}) {
         PanelModel model;
-        model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+        model.activity = ActivityPanel{.title = "Study"};
         for (std::size_t i = 0; i < count; ++i) {
             const std::string act = "act" + std::to_string(i);
-            model.activity->buttons.push_back({"Go on", {act}, true});
+            model.activity->widgets.push_back(ActivityPanel::Button{"Go on", {act}, true});
         }
         static_cast<void>(panel.show(model, 0));
         const auto first = panel.place_of("do act0"), last = panel.place_of("do act" + std::to_string(count - 1));

@@ -76,31 +76,61 @@ inline PanelModel study_model() {
     PanelModel model = idle_model();
     model.carves = false;
     model.workpiece = {"world.toml", "320 x 130 x 90 mm, 6 objects"};
-    model.activity = ActivityPanel{.title = "Study",
-                                   .aside = "p07, touch",
-                                   .page = "",
-                                   .rows = {},
-                                   .buttons = {},
-                                   .field = "note",
-                                   .governs = true};
-    model.activity->rows = {{"stage", "practice (day 1, stage 3)"},
-                            {"now", "runs"},
-                            {"left", "43 s of 300"},
-                            {"clock", "257.3 s"},
-                            {"path", "112 mm along, 18 mm off the axis"},
-                            {"force", "0.61 N, largest 1.90 N"},
-                            {"caps", "in none"},
-                            {"saturated", "0.4 % of ticks"},
-                            {"missed ticks", "0"}};
-    model.activity->buttons = {{"Start", {"start"}, false},
-                               {"Next", {"next"}, false},
-                               {"Pause", {"pause"}},
-                               {"Go on", {"go-on"}, false},
-                               {"Repeat", {"repeat"}, false},
-                               {"In the jig", {"jig"}},
-                               {"Stop", {"stop"}, true, "End the visit for good?"}};
+    model.activity = ActivityPanel{.title = "Study", .aside = "p07, touch", .governs = true};
+    model.activity->add<ActivityPanel::Row>({{"stage", "practice (day 1, stage 3)"},
+                                             {"now", "runs"},
+                                             {"left", "43 s of 300"},
+                                             {"clock", "257.3 s"},
+                                             {"path", "112 mm along, 18 mm off the axis"},
+                                             {"force", "0.61 N, largest 1.90 N"},
+                                             {"caps", "in none"},
+                                             {"saturated", "0.4 % of ticks"},
+                                             {"missed ticks", "0"}});
+    model.activity->add<ActivityPanel::Button>({{"Start", {"start"}, false},
+                                                {"Next", {"next"}, false},
+                                                {"Pause", {"pause"}},
+                                                {"Go on", {"go-on"}, false},
+                                                {"Repeat", {"repeat"}, false},
+                                                {"In the jig", {"jig"}},
+                                                {"Stop", {"stop"}, true, "End the visit for good?"}});
+    model.activity->widgets.push_back(ActivityPanel::Field{"Note", {"note"}, "a note that names nobody"});
     model.touch.in_contact = true;
     model.touch.force_N = 0.61;
+    return model;
+}
+
+// An activity with one widget of each kind.
+inline PanelModel all_widgets_model() {
+    using Widgets = ActivityPanel;
+    PanelModel model = idle_model();
+    Widgets::Plot plot{.name = "Force", .value = "0.82 N", .limit = 1.2f};
+    for (int i = 0; i < 120; ++i) plot.values.push_back(0.7f + 0.3f * std::sin(0.2f * static_cast<float>(i)));
+    model.activity = ActivityPanel{
+        .title = "Trail",
+        .aside = "41 beads",
+        .page = "Hold the button down and draw.",
+        .widgets = {Widgets::Row{"Length", "164 mm"}, plot,
+                    Widgets::Slider{.name = "Apart",
+                                    .value = 0.004,
+                                    .from = 0.001,
+                                    .to = 0.02,
+                                    .step = 0.0005,
+                                    .unit = "mm",
+                                    .units_in_one = 1000.0,
+                                    .act = {"apart"}},
+                    Widgets::Choice{.name = "Shape", .values = {{"Ball", "ball"}, {"Cube", "cube"}}, .act = {"shape"}},
+                    Widgets::Choice{.name = "Exercise",
+                                    .values = {{"Squeeze the ball", "squeeze"},
+                                               {"Spread the fingers", "spread"},
+                                               {"Follow the tapping", "tap"}},
+                                    .chosen = 1,
+                                    .act = {"kind"}},
+                    Widgets::Swatches{.name = "Colour",
+                                      .colours = {{0.8, 0.3, 0.2}, {0.9, 0.6, 0.2}, {0.2, 0.4, 0.8}, {0.9, 0.9, 0.9}},
+                                      .act = {"colour"}},
+                    Widgets::Page{"Beads that touch each other are one string."}, Widgets::Button{"Clear", {"clear"}},
+                    Widgets::Button{"Undo", {"back"}, false}, Widgets::Button{"Stop", {"stop"}, true, "End the trail?"},
+                    Widgets::Field{"Note", {"note"}, "a note that names nobody"}}};
     return model;
 }
 

@@ -13,8 +13,12 @@ namespace {
 
 PanelModel exercise_model() {
     PanelModel model = idle_model();
-    ActivityPanel activity{.title = "Ball", .aside = {}, .page = "Squeeze the ball.", .rows = {}, .buttons = {}};
-    activity.buttons = {{"Start", {"start"}, false, {}, Key::f5}, {"Pause", {"pause"}, true, {}, Key::f6}};
+    ActivityPanel activity{
+        .title = "Ball",
+        .page = "Squeeze the ball.",
+    };
+    activity.add<ActivityPanel::Button>(
+        {{"Start", {"start"}, false, {}, Key::f5}, {"Pause", {"pause"}, true, {}, Key::f6}});
     activity.hides_scene = true;
     activity.task = ActivityPanel::Task{.state = "", .next = "Hold it so", .progress = "1 of 5"};
     activity.task->bars = {{"index", 0.7, 0.6, 0.2, 1.0, 0xd55e00}, {"together", 2.1, 2.0, 2.0, 3.0, 0xd0d4d8}};

@@ -93,6 +93,7 @@ struct Recorded {
     }
 
     std::string script;
+    ImageSize shown = kShownSize;
     std::unique_ptr<Desk> desk;
     std::optional<InputSource> input;
     std::optional<ThreadRecorder> recorder;
@@ -115,7 +116,7 @@ public:
         return clock_.now_ns();
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
-        const auto done = step_frame(*of_.desk, executor, *of_.recorder, frame_, {{.size = kShownSize}});
+        const auto done = step_frame(*of_.desk, executor, *of_.recorder, frame_, {{.size = of_.shown}});
         if (!done) static_cast<void>(ended());
         return done;
     }
@@ -135,9 +136,11 @@ private:
 };
 
 // Records it with its threads, at the machine's pace. Returns how many ticks it had.
-inline std::uint64_t record_live(const SculptOptions& options, const std::string& script = kShortScript) {
+inline std::uint64_t record_live(const SculptOptions& options, const std::string& script = kShortScript,
+                                 ImageSize shown = kShownSize) {
     PacedClock clock(2);  // the hand's thread and the frames
     Recorded recorded(options, clock, Recorded::Of::script, script);
+    recorded.shown = shown;
     Session& s = recorded.desk->session();
     ThreadsSeen seen(s, clock, 30);
     ShortFrames frames(recorded, clock, seen);
@@ -154,8 +157,8 @@ inline std::uint64_t record_live(const SculptOptions& options, const std::string
 
 class ShortFramesAgain final : public FrameSource {
 public:
-    ShortFramesAgain(Desk& desk, InputSource input, const ThreadLog& log, ThreadReplay& replay)
-        : desk_(desk), input_(std::move(input)), log_(log), replay_(replay) {
+    ShortFramesAgain(Desk& desk, InputSource input, const ThreadLog& log, ThreadReplay& replay, ImageSize shown)
+        : desk_(desk), input_(std::move(input)), log_(log), replay_(replay), shown_(shown) {
         recorder_.keep_events();
     }
     [[nodiscard]] std::optional<Nanoseconds> next() override {
@@ -165,8 +168,7 @@ public:
         return frame_.time_ns;
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
-        if (const auto done = step_frame(desk_, executor, recorder_, frame_, {{.size = kShownSize}}); !done)
-            return done;
+        if (const auto done = step_frame(desk_, executor, recorder_, frame_, {{.size = shown_}}); !done) return done;
         departed_ += replay_.is_as_recorded(desk_.words()) ? 0u : 1u;
         return {};
     }
@@ -179,6 +181,7 @@ private:
     InputSource input_;
     const ThreadLog& log_;
     ThreadReplay& replay_;
+    ImageSize shown_;
     std::size_t next_ = 0, departed_ = 0;
     ThreadRecorder recorder_{input_, desk_.session()};
     FrameInput frame_;
@@ -194,7 +197,8 @@ struct Judged {
 };
 
 // Does a log again, and compares its ticks with those of a file.
-inline Judged judged(InputLog log, const std::string& path, const SculptOptions& options) {
+inline Judged judged(InputLog log, const std::string& path, const SculptOptions& options,
+                     ImageSize shown = kShownSize) {
     const ThreadLog threads = *log.threads;
     auto reader = record::RecordReader::open(path);
     auto judge = TickComparison::create(*reader, {});
@@ -203,7 +207,7 @@ inline Judged judged(InputLog log, const std::string& path, const SculptOptions&
     auto ticks = threads.ticks.count > 0 ? ticks_of_lines(threads, path) : std::move(*ticks_of_columns(*reader));
     ThreadReplay replay((*desk)->session(), threads, std::move(ticks), path);
     replay.judge_ticks(&*judge);
-    ShortFramesAgain frames(**desk, InputSource::replay(std::move(log)), threads, replay);
+    ShortFramesAgain frames(**desk, InputSource::replay(std::move(log)), threads, replay, shown);
     Judged result;
     result.done = drive(replay, frames);
     if (result.done) result.done = replay.run_to_end();
@@ -258,7 +262,7 @@ public:
     }
     [[nodiscard]] std::uint64_t check() const override { return holds.size() + adds_to_check; }
     [[nodiscard]] bool is_running() const override { return true; }
-    [[nodiscard]] ActivityPanel panel() const override { return {"Grasp", "", "", {}, {}}; }
+    [[nodiscard]] ActivityPanel panel() const override { return {.title = "Grasp"}; }
 
     std::vector<scene::ContactEvent> contacts;
     std::vector<HoldObject> holds;

@@ -90,6 +90,38 @@ TEST_F(SessionPanel, ShowsEachStateOfASession) {
     EXPECT_LT(count_of(pictures[0], {230, 124, 112}), 5u);
 }
 
+// An activity's widgets of each kind: as they are, none of them enabled, at the panel's foot, and as small as half of a
+// side-by-side picture of 1280 x 720 has them.
+TEST_F(SessionPanel, ShowsEachKindOfWidgetOfAnActivity) {
+    struct Shown {
+        const char* name;
+        ImageSize size;
+        double scale;
+        bool enabled, governs;
+    };
+    for (const Shown& shown :
+         {Shown{"widgets", {340, 900}, 1.0, true, false}, Shown{"widgets_off", {340, 900}, 1.0, false, false},
+          Shown{"widgets_foot", {340, 720}, 1.0, true, true}, Shown{"widgets_half", {170, 360}, 0.5, true, false}}) {
+        PanelModel model = all_widgets_model();
+        model.activity->governs = shown.governs;
+        for (ActivityPanel::Widget& widget : model.activity->widgets)
+            std::visit(
+                [&](auto& one) {
+                    if constexpr (requires { one.enabled; }) one.enabled = one.enabled && shown.enabled;
+                },
+                widget);
+        auto panel = Panel::create({.size = shown.size, .scale = shown.scale});
+        ASSERT_TRUE(panel) << panel.error().line();
+        const Image picture = paint(*panel, model);
+        keep(picture, shown.name);
+        for (const char* const label : {"do apart", "do shape ball", "do kind", "do colour 1"}) {
+            const auto at = panel->place_of(label);
+            ASSERT_TRUE(at) << label << ", " << shown.name;
+            EXPECT_LE(at->x + at->width, shown.size.width) << label << ", " << shown.name;
+        }
+    }
+}
+
 TEST_F(SessionPanel, IsLargerForAWallSeenFromAfar) {
     auto panel = Panel::create({.size = {680, 1440}, .scale = 2.0});
     ASSERT_TRUE(panel) << panel.error().line();
@@ -136,7 +168,7 @@ TEST_F(SessionPanel, AsksTheOperatorOfAStudyInALineOfItsOwn) {
     (void)panel->show(model, 16'000'000);
     keep(paint(*panel, model, 32'000'000), "study_asks");
     const auto yes = panel->place_of("yes, do stop"), stop = panel->place_of("do stop"),
-               field = panel->place_of("field");
+               field = panel->place_of("field do note");
     ASSERT_TRUE(yes && stop && field);
     EXPECT_EQ(stop->y, at->y);
     EXPECT_GE(yes->y, stop->y + stop->height);

@@ -343,7 +343,7 @@ TEST(PanelRest, LaysNothingOutWhileNothingChanges) {
 TEST(PanelRest, LooksTheSameWhateverPageCameBefore) {
     const auto after = [](const std::string& before) {
         PanelDesk desk(workable_model(), {340, 680});
-        desk.model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+        desk.model.activity = ActivityPanel{.title = "Study"};
         for (int i = 0; i < 5; ++i) desk.show();
         for (const std::string& page : {before, std::string("wrote part.stl")}) {
             desk.model.activity->page = page;

@@ -39,9 +39,7 @@ public:
     [[nodiscard]] std::string settings() const override { return {}; }
     [[nodiscard]] Result<void> act(std::span<const std::string>, ActivityOrders&) override { return {}; }
     void step(const ActivityView&, ActivityOrders& orders) override { orders.holds.push_back({"thing", by_, true}); }
-    [[nodiscard]] ActivityPanel panel() const override {
-        return {.title = "", .aside = "", .page = "", .rows = {}, .buttons = {}};
-    }
+    [[nodiscard]] ActivityPanel panel() const override { return {.title = ""}; }
 
 private:
     std::vector<PartOfHand> by_;
