@@ -56,7 +56,7 @@ void WorkSide::begin_journal(const SessionState& state) {
     const bool keeps = !options_.live.journal.empty() && state.saves;
     if (state.saves && options_.live.input.empty()) news_.begin(keeps, !opened_.recovered.empty());
     const bool begins_at_once = scene_.carved() != nullptr || !opened_.journal.empty();
-    if (keeps && begins_at_once) keep_journal(state);
+    if (keeps && begins_at_once) keep_journal(state.world.get());
     begins_journal_ = keeps && !begins_at_once;
 }
 
@@ -64,6 +64,8 @@ void WorkSide::save(const AskedSave& wanted, const SessionState& state, const Gi
     if (!files_.write()) return;
     news_.save_ordered();
     note_edits(wanted.world.get(), state, give);  // so that a save that fails leaves them in the journal
+    // A journal that began after this, with what follows, would get what is saved now in place of that.
+    if (std::exchange(begins_journal_, false)) keep_journal(wanted.world.get());
     document::SaveRequest request = document_.request(wanted, files_, options_, beginning_());
     if (wanted.world && !request.refused)
         request.content.parts.push_back(saved_world_.save(*wanted.world, !request.changed_alone));
@@ -72,10 +74,10 @@ void WorkSide::save(const AskedSave& wanted, const SessionState& state, const Gi
 }
 
 // Before the scene's thread starts, or where there is no workpiece.
-void WorkSide::keep_journal(const SessionState& state) {
+void WorkSide::keep_journal(const WorldObjects* world) {
     document::Content beginning = beginning_();
     if (scene_.workpiece() != nullptr) scene_.workpiece()->copy(beginning.parts.emplace_back());
-    if (state.world) beginning.parts.push_back(saved_world_.all(*state.world));
+    if (world != nullptr) beginning.parts.push_back(saved_world_.all(*world));
     if (const auto kept = document_.keep_journal(options_.live.journal, options_, opened_, std::move(beginning));
         !kept) {
         news_.journal_keeps(false);
@@ -93,7 +95,7 @@ void WorkSide::note_edits(const WorldObjects* world, const SessionState& state, 
     if (world == nullptr || !state.saves || options_.live.journal.empty()) return;
     std::optional<scene::Pages> change = saved_world_.take_change(*world);
     if (!change) return;
-    if (std::exchange(begins_journal_, false)) keep_journal(state);
+    if (std::exchange(begins_journal_, false)) keep_journal(world);
     give(scene_.noting({.part = state.carves ? 1 : 0, .pages = std::move(*change)}, document_.writer()));
 }
 

@@ -65,7 +65,7 @@ public:
 
 private:
     void note_edits(const WorldObjects* world, const SessionState& state, const Give& give);
-    void keep_journal(const SessionState& state);
+    void keep_journal(const WorldObjects* world);
     void watch_journal(const SessionState& state, const Give& give);
 
     const SculptOptions& options_;
