@@ -169,7 +169,7 @@ TEST(BenchCommand, RecordOfAGpuNamesWhatFailedAndKeepsAllElse) {
     EXPECT_EQ(record["engines"]["machine"], "m");
     EXPECT_TRUE(record["frame"].is_null());
     EXPECT_EQ(record["failed"].size(), 2u);
-    EXPECT_EQ(record["strokes"].size(), 20u);
+    EXPECT_EQ(record["strokes"].size(), 30u);
 }
 
 TEST(BenchCommand, RecordOfAGpuSaysWhatItCannotDo) {
