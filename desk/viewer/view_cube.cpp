@@ -10,6 +10,7 @@
 
 #include "desk/viewer/viewer_lead.hpp"
 #include "sculpt/tool_mesh.hpp"
+#include "session/state/session_room.hpp"
 #include "wall/seen_place.hpp"
 
 namespace burin::session {

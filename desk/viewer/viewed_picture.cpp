@@ -7,6 +7,7 @@
 #include "sculpt/tool_mesh.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/held/staging.hpp"
+#include "session/state/session_room.hpp"
 #include "wall/projection.hpp"
 
 namespace burin::session {

@@ -5,6 +5,7 @@
 
 #include "base/try.hpp"
 #include "scene/rendered_material.hpp"
+#include "session/held/held_handle.hpp"
 #include "session/state/session_room.hpp"
 
 namespace burin::session {
