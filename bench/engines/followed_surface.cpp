@@ -55,7 +55,7 @@ ComparedSurface FollowedSurface::follow(const compute::Solid& solid, const compu
     ComparedSurface compared;
     for (const std::uint32_t tile : by_processor_.changed_tiles())
         compare(tile, by_device_.tile(tile), by_processor_.tile(tile), compared);
-    // What differs is counted once, and not with every update after.
+    // Counts a difference once: later updates would find it again.
     if (compared.differ > 0) by_device_ = by_processor_;
     return compared;
 }

@@ -38,7 +38,7 @@ unsigned pattern_of(std::size_t number, std::span<const std::uint32_t> signs) {
 
 // Tells whether a face that a loop passes twice in this cell is passed twice in the cell beyond it, too.
 bool has_fan(std::size_t number, const CellCase& cell_case, std::span<const std::uint32_t> signs) {
-    // Of x, y and z: how far apart neighbours' numbers are, and how often that goes into a cell's number.
+    // Steps between the numbers of neighbours along x, y and z; a number over its step, modulo, is the place.
     constexpr std::array<std::size_t, 3> kStep{kSeenCells, std::size_t{kSeenCells} * kSeenCells, 1};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t place = number / kStep[axis] % kSeenCells;

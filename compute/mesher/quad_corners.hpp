@@ -12,7 +12,7 @@ namespace burin::compute {
 struct QuadCorners {
     [[gnu::always_inline]] QuadCorners(const shared::SurfaceVertex* vertices, std::uint32_t i0, std::uint32_t i1,
                                        std::uint32_t i2, std::uint32_t i3) {
-        // What comes after the place of a vertex is in the fourth lane.
+        // The fourth lane holds the vertex's normal, which nobody reads.
         shared::Float4 p0, p1, p2, p3;
         __builtin_memcpy(&p0, vertices + i0, sizeof p0);
         __builtin_memcpy(&p1, vertices + i1, sizeof p1);

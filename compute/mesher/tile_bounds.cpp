@@ -27,7 +27,7 @@ float longest2_of_triangles(const SurfaceTile& tile) {
     return longest2;
 }
 
-// The same for a tile of quads alone, of which each side and the diagonal is looked at once.
+// Returns the longest edge of a tile of quads alone, squared: looks at each side and the diagonal once.
 float longest2_of_quads(const SurfaceTile& tile) {
     Float4 longest2{};
     for (std::size_t i = 0; i < tile.indices.size(); i += 6) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a search needs to know of all triangles of a tile at once: their longest edge, and a plane that they lie behind.
+// Bounds of all triangles of a tile, by which a search passes it by: their longest edge, and a plane that none crosses.
 // Pure; the same bits on every machine.
 #pragma once
 

@@ -40,7 +40,7 @@ inline constexpr double kLargestSmoothCells = 100.0;
 // The longest path that is smoothed at once, in radii.
 inline constexpr double kSmoothStretch = 0.25;
 
-// What a ball smooths, in cells.
+// Describes the smoothing of one ball, in cells.
 struct SmoothRegion {
     shared::SmoothPath path;
     double most_width = 0.0;        // of the kernel
@@ -48,7 +48,7 @@ struct SmoothRegion {
     [[nodiscard]] bool is_empty() const {
         return !(path.most_width2 > 0.0) || lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2];
     }
-    // How far from the path ends count, none of them farther than this.
+    // The reach of the field: ends farther from the path do not count.
     [[nodiscard]] double reach() const { return path.radius + most_width + 1.0; }
 };
 [[nodiscard]] SmoothRegion smooth_region(const Lattice& lattice, const SmoothBall& ball);

@@ -293,7 +293,7 @@ Result<bool> SmoothPasses::make_room() {
         if (wanted <= length(list)) return;
         is_short = true;
         fits = fits && wanted * kSharedLists.at(list).element_bytes <= device_.capabilities().max_storage_buffer_bytes;
-        // What follows was not counted.
+        // Later lists were not counted in this pass.
         lengths.at(list) = std::max(wanted, std::min<std::uint64_t>(2 * wanted, 4 * std::uint64_t{length(list)}));
     };
     std::uint64_t all_points = 0, all_nodes = 0;
