@@ -11,8 +11,8 @@
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "scene/scene_changes.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -51,7 +51,7 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
 
 }  // namespace
 
-CarvedPart::CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3,
+CarvedPart::CarvedPart(Sculpture& sculpture, const toolbox::Tool& tool, double hardness_Ns_per_m3,
                        std::optional<std::size_t> undo_bytes, std::size_t hand)
     : sculpture_(sculpture), keeps_history_(undo_bytes.has_value()) {
     carvers_.push_back({hand, StrokeReader(tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m)});
@@ -173,7 +173,7 @@ void CarvedPart::drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& s
 void CarvedPart::note_border(Carver& carver, std::span<const compute::ToolSweep> sweeps) {
     const Box room = lattice_bounds(sculpture_.surface().lattice());
     const auto leaves = [&](const compute::ToolSweep& sweep) {
-        const Vec3 least(size_of(sweep.shape));
+        const Vec3 least(toolbox::size_of(sweep.shape));
         return sweep.operation == compute::Operation::fill &&
                glm::any(glm::lessThan(glm::min(sweep.start.position_m, sweep.end.position_m) - least, room.lo) ||
                         glm::greaterThan(glm::max(sweep.start.position_m, sweep.end.position_m) + least, room.hi));
@@ -254,7 +254,7 @@ void CarvedPart::order(const UseTool& use, std::size_t hand) {
 void CarvedPart::use_tool(Carver& carver, const UseTool& use) {
     const Result<std::uint8_t> material = sculpture_.add_material(use.material);
     if (!material) return notify(material.error().line());
-    Tool tool = use.tool;
+    toolbox::Tool tool = use.tool;
     tool.material = *material;
     carver.refused.reset();
     if (const auto ok = compute::check_tool(sculpture_.engine().solid(), tool.sweep(Pose{}, Pose{})); !ok) {

@@ -49,8 +49,8 @@ public:
     // sculpture must outlive the part. `hand` is the first that carves; another does once it has been given a tool.
     // With `undo_bytes` the part has the sculpture keep a history, within that much memory where it begins with none,
     // and passes on what the sculpture has to say (Sculpture::take_notices); without, both remain the caller's affair.
-    CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3, std::optional<std::size_t> undo_bytes,
-               std::size_t hand = 0);
+    CarvedPart(Sculpture& sculpture, const toolbox::Tool& tool, double hardness_Ns_per_m3,
+               std::optional<std::size_t> undo_bytes, std::size_t hand = 0);
     ~CarvedPart() override;
 
     // Tells what has changed, as pages (sculpt/saved_solid.hpp), when a stroke ends, when one is undone, and meanwhile

@@ -14,8 +14,8 @@ class CarvedScene {
 public:
     // sculpture and channels must outlive it. `reach_m` is how far the tool may move until the next update. undo_bytes:
     // as CarvedPart.
-    CarvedScene(Sculpture& sculpture, haptics::HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
-                double reach_m, std::optional<std::size_t> undo_bytes)
+    CarvedScene(Sculpture& sculpture, haptics::HapticChannels& channels, const toolbox::Tool& tool,
+                double hardness_Ns_per_m3, double reach_m, std::optional<std::size_t> undo_bytes)
         : part_(sculpture, tool, hardness_Ns_per_m3, undo_bytes),
           service_({&part_}, {{&channels, Vec3(0.0), part_.around_m(), reach_m}}) {}
 

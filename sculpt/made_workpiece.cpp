@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sculpt/made_workpiece.hpp"
+#include "geometry/files/closed_mesh.hpp"
 
 #include "base/try.hpp"
 
@@ -20,7 +21,7 @@ Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, const compute::Engi
     compute::ChosenEngine chosen = make_engine(std::move(loaded.solid), *pool);
     begin_step(watch.work, "meshing the surface", from, 1.0);
     auto carving = std::make_unique<Sculpture>(std::move(chosen.engine), *pool, watch.work);
-    if (watch.work != nullptr && !watch.work->is_wanted()) return no_longer_wanted();
+    if (watch.work != nullptr && !watch.work->is_wanted()) return geometry::no_longer_wanted();
     return MadeWorkpiece{std::move(pool), std::move(loaded), lattice, std::move(carving)};
 }
 

@@ -13,12 +13,12 @@
 #include "compute/light/lamp.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 #include "sculpt/mirror.hpp"
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::sculpt {
 
 struct UseTool {
-    Tool tool;                    // its material's index is looked up when the order is carried out
+    toolbox::Tool tool;           // its material's index is looked up when the order is carried out
     geometry::Material material;  // added to the solid's table if it is new
     double hardness_Ns_per_m3 = 0.0;
 };

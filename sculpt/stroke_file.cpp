@@ -129,7 +129,7 @@ Result<Stroke> read_stroke(const std::filesystem::path& path) {
     return parse_stroke(text, path.string());
 }
 
-Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Tool& tool, bool merge_rows) {
+Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const toolbox::Tool& tool, bool merge_rows) {
     Progress progress("carving");
     const double tolerance_m = merge_rows ? tool.tolerance_cells * sculpture.surface().lattice().spacing_m : -1.0;
     std::vector<Pose> run;  // the rows from press to release
@@ -138,7 +138,7 @@ Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Too
         for (std::size_t k = i; k < stroke.size() && stroke[k].button; ++k) {
             run.push_back({stroke[k].position_object_m, stroke[k].orientation_object});
         }
-        std::vector<compute::ToolSweep> sweeps = sweeps_along(run, tool, tolerance_m);
+        std::vector<compute::ToolSweep> sweeps = toolbox::sweeps_along(run, tool, tolerance_m);
         // Without merging, the first row is an update of its own, as if the tool had been set down before it moved.
         if (!merge_rows && run.size() > 1) sweeps.insert(sweeps.begin(), tool.sweep(run.front(), run.front()));
         for (std::size_t done = 0; done < sweeps.size(); ++done) {

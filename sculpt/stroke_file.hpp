@@ -15,7 +15,7 @@
 #include "base/error.hpp"
 #include "base/space.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::sculpt {
 
@@ -36,6 +36,7 @@ using Stroke = std::vector<StrokeRow>;
 // the tool from the row before if that was pressed too, else it stamps the tool where it is. Each sweep is an update.
 // With merge_rows, a straight sweep replaces rows of one orientation that it follows to within the tool's tolerance;
 // without, every pressed row is a sweep. Shows its progress on standard error.
-[[nodiscard]] Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Tool& tool, bool merge_rows);
+[[nodiscard]] Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const toolbox::Tool& tool,
+                                         bool merge_rows);
 
 }  // namespace burin::sculpt

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -18,7 +18,9 @@ constexpr double kComesDown = 0.001;
 
 }  // namespace
 
-double around_m(const Tool& tool) { return reach_of(tool.shape) + kSurroundings * size_of(tool.shape); }
+double around_m(const toolbox::Tool& tool) {
+    return toolbox::reach_of(tool.shape) + kSurroundings * toolbox::size_of(tool.shape);
+}
 
 haptics::ToolAction action_of(compute::Operation operation) {
     switch (operation) {
@@ -30,13 +32,13 @@ haptics::ToolAction action_of(compute::Operation operation) {
     return haptics::ToolAction::touch;
 }
 
-StrokeReader::StrokeReader(const Tool& tool, double hardness_Ns_per_m3, double cell_m)
+StrokeReader::StrokeReader(const toolbox::Tool& tool, double hardness_Ns_per_m3, double cell_m)
     : tool_(tool),
       hardness_Ns_per_m3_(hardness_Ns_per_m3),
       around_m_(sculpt::around_m(tool)),
       tolerance_m_(kSweepTolerance * cell_m) {}
 
-void StrokeReader::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
+void StrokeReader::use_tool(const toolbox::Tool& tool, double hardness_Ns_per_m3) {
     tool_ = tool;
     around_m_ = sculpt::around_m(tool);
     hardness_Ns_per_m3_ = hardness_Ns_per_m3;
@@ -56,7 +58,7 @@ SweptSamples StrokeReader::read() {
     if (continues) run.push_back(last_pose_object_);
     const auto end_run = [&] {
         if (run.size() >= 2 || (run.size() == 1 && !continues)) {
-            std::ranges::copy(sweeps_along(run, tool_, tolerance_m_), std::back_inserter(swept.sweeps));
+            std::ranges::copy(toolbox::sweeps_along(run, tool_, tolerance_m_), std::back_inserter(swept.sweeps));
         }
         run.clear();
         continues = false;
@@ -92,7 +94,7 @@ bool StrokeReader::is_coming_down(const haptics::TickRecord& tick) {
     const haptics::PointRecord& point = tick.contact.points[0];
     const double depth_m = glm::dot(point.proxy_object_m - point.hip_object_m, point.normal_object);
     const std::optional<double> before_m = std::exchange(depth_m_, depth_m);
-    is_down_ = before_m && depth_m - *before_m < kComesDown * size_of(tool_.shape);
+    is_down_ = before_m && depth_m - *before_m < kComesDown * toolbox::size_of(tool_.shape);
     on_its_way_object_ = Pose{point.hip_object_m, tool_.turns() ? tick.motion.orientation_object : Quat{1, 0, 0, 0}};
     if (is_down_) on_its_way_object_.reset();
     return !is_down_;

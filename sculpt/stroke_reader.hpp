@@ -22,7 +22,7 @@
 
 #include "haptics/tick_parameters.hpp"
 #include "haptics/tick_record.hpp"
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::sculpt {
 
@@ -35,7 +35,7 @@ inline constexpr std::uint32_t kOverAir = 1u << 2;
 [[nodiscard]] haptics::ToolAction action_of(compute::Operation operation);
 
 // Returns the radius of a ball about a tool's place that holds the tool and what the tick looks at around it.
-[[nodiscard]] double around_m(const Tool& tool);
+[[nodiscard]] double around_m(const toolbox::Tool& tool);
 
 // Motion of the working tool since the previous read, up to the first release of the button.
 struct SweptSamples {
@@ -46,16 +46,16 @@ struct SweptSamples {
 class StrokeReader {
 public:
     // Samples are merged into one sweep where that moves the tool by less than a twentieth of `cell_m`.
-    StrokeReader(const Tool& tool, double hardness_Ns_per_m3, double cell_m);
+    StrokeReader(const toolbox::Tool& tool, double hardness_Ns_per_m3, double cell_m);
 
     // Takes samples, in order, behind those that have not been read yet.
     void take(std::span<const haptics::TickRecord> ticks);
     // Reads the samples taken, and stops after one in which the button came up: then more may wait.
     [[nodiscard]] SweptSamples read();
     // Changes the tool from the next sample on. Its material must be in the solid's table.
-    void use_tool(const Tool& tool, double hardness_Ns_per_m3);
+    void use_tool(const toolbox::Tool& tool, double hardness_Ns_per_m3);
 
-    [[nodiscard]] const Tool& tool() const { return tool_; }
+    [[nodiscard]] const toolbox::Tool& tool() const { return tool_; }
     [[nodiscard]] double around_m() const { return around_m_; }  // of the tool
     // Returns whether the button was down in the last sample. A stroke lasts until the button comes up, even where the
     // tool loses contact on the way.
@@ -69,7 +69,7 @@ private:
 
     std::vector<haptics::TickRecord> ticks_;
     std::size_t read_ = 0;  // of ticks_
-    Tool tool_;
+    toolbox::Tool tool_;
     double hardness_Ns_per_m3_;
     double around_m_, tolerance_m_;
     Pose last_pose_object_;  // where the tool worked last

@@ -42,9 +42,6 @@ struct LoadWatch {
 };
 // Returns the share of all the work at which the solid is there and its surface is meshed.
 [[nodiscard]] double meshing_from(const WorkpieceOptions& options);
-// What ends work that nobody wants any more.
-[[nodiscard]] std::unexpected<Error> no_longer_wanted();
-
 struct LoadedWorkpiece {
     compute::Solid solid;
     Json report;                      // the file's health, repairs, and the conversion
@@ -55,27 +52,9 @@ struct LoadedWorkpiece {
     Box bounds_object = {};           // of the workpiece, without its room
 };
 
-struct ClosedMesh {
-    geometry::TriangleMesh mesh;  // facing outwards
-    Json report;
-    std::string size = {};  // as of a LoadedWorkpiece
-    LengthUnit unit = LengthUnit::m;
-    Vec3 size_m{0.0};
-    std::string joined = {};  // which corners were joined, in words; empty where none were
-    std::string closed = {};  // which holes were closed, likewise
-};
-
-// Reads the mesh file that is the source, welds it and turns it to face outwards; the report says how much of each.
-// Equal positions become one vertex; where it is open, corners at open edges are joined within a tolerance that follows
-// from the precision of the file's numbers, or within weld_m, which `size` tells. Fails on a mesh that is not closed
-// then, with the reason, unless its holes are to be closed: all of them, or small ones where all are small.
-[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options, const LoadWatch& watch = {});
-
 // Notes in `size` and in the report what of the mesh no ray of its solid met (unmet_parts.hpp).
 void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& solid, std::string& size, Json& report);
 
-// Checks the length of --weld, which must be a distance above zero; a loaded mesh must be more than ten times as long.
-[[nodiscard]] Result<void> check_weld(std::optional<double> weld_m, double longest_side_m);
 // Makes the solid of a file or a shape, with its room. Every triangle of a file is in the solid or in the report.
 [[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool,
                                                      const LoadWatch& watch = {});
@@ -87,9 +66,5 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
 [[nodiscard]] double longest_side_m(const Box& box);
 // Checks whether --units has a mesh file to speak of: sizes of shapes are in metres.
 [[nodiscard]] Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file);
-
-// Parses numbers separated by commas: exactly `count`, all finite. An Error names `what`.
-[[nodiscard]] Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count,
-                                                        const std::string& what);
 
 }  // namespace burin::sculpt

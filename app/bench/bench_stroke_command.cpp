@@ -15,6 +15,7 @@
 #include "bench/stroke/pareto.hpp"
 #include "bench/stroke/stroke_report.hpp"
 #include "compute/rays/lattice.hpp"
+#include "geometry/files/closed_mesh.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/record/input_files.hpp"
@@ -100,7 +101,7 @@ Result<bench::CarveScene> StrokeBench::scene_named(const std::string& name) cons
     if (name.starts_with(kMeshScene)) {
         const std::string file = name.substr(std::string(kMeshScene).size());
         // The scene is brought to a size of its own, whatever the file's unit.
-        BURIN_TRY(closed, sculpt::load_closed_mesh({.source = file, .close_holes = true, .units = LengthUnit::m}));
+        BURIN_TRY(closed, geometry::load_closed_mesh({.file = file, .close_holes = true, .units = LengthUnit::m}));
         const std::string stem = std::filesystem::path(file).stem().string();
         Result<bench::CarveScene> on_mesh = bench::stroke_on_mesh_scene(stem, std::move(closed.mesh), swept);
         if (!on_mesh) return on_mesh;

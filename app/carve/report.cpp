@@ -7,9 +7,9 @@
 
 #include "base/statistics.hpp"
 #include "geometry/mesh/mesh_health.hpp"
-#include "sculpt/feel_options.hpp"
 #include "sculpt/sculpture.hpp"
 #include "session/felt/felt_figures.hpp"
+#include "toolbox/feel_options.hpp"
 
 namespace burin::app {
 
@@ -72,9 +72,9 @@ Json occurrences(const std::map<std::string, session::Occurrence>& of) {
 
 }  // namespace
 
-Json describe_feel(const session::FeltFigures& felt, const sculpt::Feel& feel) {
+Json describe_feel(const session::FeltFigures& felt, const toolbox::Feel& feel) {
     return {{"device", "simulated Omni, held by a simulated hand"},
-            {"material", sculpt::describe_feel_settings(feel)},
+            {"material", toolbox::describe_feel_settings(feel)},
             {"object_from_device_scale", felt.object_from_device.scale},
             {"duration_s", felt.duration_s},
             {"ticks", felt.ticks},

@@ -20,15 +20,18 @@ struct FeltFigures;
 }
 namespace burin::sculpt {
 class Sculpture;  // sculpt/sculpture.hpp
-struct Feel;
 }  // namespace burin::sculpt
+
+namespace burin::toolbox {
+struct Feel;
+}  // namespace burin::toolbox
 
 namespace burin::app {
 
 [[nodiscard]] Json describe_carving(const sculpt::Sculpture& carving);
 // Counts what a mesh of numbers in the unit has; volume and area in metres.
 [[nodiscard]] Json describe_mesh(const geometry::TriangleMesh& numbers, LengthUnit unit);
-[[nodiscard]] Json describe_feel(const session::FeltFigures& felt, const sculpt::Feel& feel);
+[[nodiscard]] Json describe_feel(const session::FeltFigures& felt, const toolbox::Feel& feel);
 // Describes the submissions, waits and copies by which a device has carved.
 [[nodiscard]] Json describe_traffic(const compute::DeviceTraffic& traffic);
 // Wall-clock figures: these differ from run to run.

@@ -20,27 +20,27 @@
 #include "record/record_writer.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/stroke_file.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/felt/felt_stroke.hpp"
 #include "session/record/input_files.hpp"
 #include "session/work/opened_work.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-session::Staging staging_of(const sculpt::Stroke& stroke, const sculpt::Tool& tool,
+session::Staging staging_of(const sculpt::Stroke& stroke, const toolbox::Tool& tool,
                             const std::optional<session::FeltFigures>& felt) {
     session::Staging staging;
-    staging.tool_radius_object_m = sculpt::size_of(tool.shape);
+    staging.tool_radius_object_m = toolbox::size_of(tool.shape);
     staging.tool_visible = !stroke.empty();
     if (!stroke.empty()) {
         staging.tool_center_object = stroke.back().position_object_m;
         staging.tool_orientation_object = stroke.back().orientation_object;
     }
-    if (tool.turns()) staging.held = session::take_up(sculpt::ToolSpec{}, tool.shape);
+    if (tool.turns()) staging.held = session::take_up(toolbox::ToolSpec{}, tool.shape);
     if (felt) {
         staging.tool_center_object = felt->last_tool.proxy_object_m;
         staging.tool_orientation_object = felt->last_tool.tool_orientation_object;
@@ -96,25 +96,25 @@ void say_that_nothing_was_touched(const Box& box, bool smooths) {
 }
 
 // Says how large the mesh of a tool's file is, and in which unit it was read.
-Result<std::string> size_of_file(const sculpt::ToolSpec& tool) {
+Result<std::string> size_of_file(const toolbox::ToolSpec& tool) {
     BURIN_TRY(read, geometry::import_mesh(tool.file, tool.units));
     return geometry::describe_size(tool.file, read.report.size_m, read.report.unit);
 }
 
 struct ChosenTool {
-    sculpt::ToolOptions options;  // with the tool that was taken where none was given
-    sculpt::ToolSettings settings;
-    sculpt::Tool tool;
+    toolbox::ToolOptions options;  // with the tool that was taken where none was given
+    toolbox::ToolSettings settings;
+    toolbox::Tool tool;
 };
 
 // Makes the tool. Where none is given the workpiece's longest side decides; before it is known a ball stands in.
 Result<ChosenTool> choose_tool(const session::SculptOptions& options, std::optional<double> longest_side_m) {
-    sculpt::ToolOptions wanted = options.tool;
+    toolbox::ToolOptions wanted = options.tool;
     wanted.units = options.workpiece.units;
-    if (longest_side_m) wanted = sculpt::with_tool(wanted, *longest_side_m);
-    BURIN_TRY(settings, sculpt::parse_tool_settings(wanted));
-    BURIN_TRY(tool, sculpt::make_tool(settings));
-    const bool is_a_file = settings.shape.kind == sculpt::ToolKind::mesh;
+    if (longest_side_m) wanted = toolbox::with_tool(wanted, *longest_side_m);
+    BURIN_TRY(settings, toolbox::parse_tool_settings(wanted));
+    BURIN_TRY(tool, toolbox::make_tool(settings));
+    const bool is_a_file = settings.shape.kind == toolbox::ToolKind::mesh;
     BURIN_TRY_DO(sculpt::check_units(options.workpiece, is_a_file));
     return ChosenTool{std::move(wanted), std::move(settings), std::move(tool)};
 }
@@ -123,13 +123,13 @@ Result<ChosenTool> choose_tool(const session::SculptOptions& options, std::optio
 // tool's part of the report.
 Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& material, double longest_side_m,
                        double cell_m, bool is_used) {
-    Json report = sculpt::describe_tool(chosen.options, material);
-    if (chosen.settings.shape.kind == sculpt::ToolKind::mesh) {
+    Json report = toolbox::describe_tool(chosen.options, material);
+    if (chosen.settings.shape.kind == toolbox::ToolKind::mesh) {
         BURIN_TRY(size, size_of_file(chosen.settings.shape));
         report["size"] = size;
         std::printf("%s\n", size.c_str());
     }
-    const auto misfit = sculpt::misfit(chosen.settings, chosen.tool, longest_side_m, cell_m);
+    const auto misfit = toolbox::misfit(chosen.settings, chosen.tool, longest_side_m, cell_m);
     if (!is_used || !misfit) return report;
     std::fprintf(stderr, "burin: %s\n", misfit->c_str());
     report["misfit"] = *misfit;
@@ -157,7 +157,7 @@ Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
 
 // What a session file says of the program and the settings that it comes from. Digests are of files that are read.
 std::vector<std::pair<std::string, std::string>> facts_of(const session::SculptOptions& options,
-                                                          const sculpt::ToolOptions& tool, const std::string& engine) {
+                                                          const toolbox::ToolOptions& tool, const std::string& engine) {
     std::vector<std::pair<std::string, std::string>> facts{{"program", "burin"},
                                                            {"version", BURIN_VERSION},
                                                            {"compiler", __VERSION__},
@@ -179,7 +179,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const session::SculptO
 
 // Gives the workpiece the material of the surface that the tool leaves. Fails where it cannot be carved with the tool.
 Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenTool& chosen) {
-    const geometry::Material material = sculpt::material_of(chosen.settings);
+    const geometry::Material material = toolbox::material_of(chosen.settings);
     chosen.tool.material = static_cast<std::uint8_t>(workpiece.solid.materials.size());
     workpiece.solid.materials.push_back(material);
     BURIN_TRY_DO(compute::check_tool(workpiece.solid, chosen.tool.sweep(Pose{}, Pose{})));
@@ -189,7 +189,7 @@ Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenToo
 // Gathers what is known before the first long step.
 struct StrokeInputs {
     ChosenTool chosen;  // a ball that stands in where no tool is given
-    sculpt::Feel feel;
+    toolbox::Feel feel;
     sculpt::Stroke stroke;
 };
 
@@ -197,7 +197,7 @@ struct StrokeInputs {
 Result<StrokeInputs> read_inputs(const session::SculptOptions& options) {
     BURIN_TRY_DO(check_for_a_stroke(options));
     BURIN_TRY(chosen, choose_tool(options, std::nullopt));
-    BURIN_TRY(feel, sculpt::parse_feel(options.feel));
+    BURIN_TRY(feel, toolbox::parse_feel(options.feel));
     BURIN_TRY_DO(check_all_outputs(options));
     BURIN_TRY_DO(record::check_new_place(options.live.record));
     BURIN_TRY_DO(sculpt::check_simplification(options.simplify_m));
@@ -237,7 +237,7 @@ Result<std::optional<session::Pictures>> open_pictures(const std::string& folder
 Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carving,
                                                         const session::SculptOptions& options,
                                                         const StrokeInputs& inputs, const ChosenTool& chosen) {
-    const sculpt::Tool& tool = chosen.tool;
+    const toolbox::Tool& tool = chosen.tool;
     if (inputs.stroke.empty()) return std::optional<session::FeltFigures>();
     if (options.hand == session::HandChoice::rigid) {
         BURIN_TRY_DO(sculpt::carve_rigidly(carving, inputs.stroke, tool, options.merge_rows));
@@ -367,7 +367,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
 }
 
 Result<void> record_again(const session::SculptOptions& options) {
-    BURIN_TRY(feel, sculpt::parse_feel(options.feel));
+    BURIN_TRY(feel, toolbox::parse_feel(options.feel));
     BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
     WorkerPool pool(options.threads);
     BURIN_TRY(opened, session::open_work(options.workpiece, pool));

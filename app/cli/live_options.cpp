@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/cli/live_options.hpp"
 
+#include "base/numbers.hpp"
 #include "base/try.hpp"
 #include "compute/engine/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -115,7 +116,7 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
         "--panel-scale",
         [&options](const std::vector<std::string>& given) -> Result<void> {
             if (given.empty()) return {};
-            const auto scale = sculpt::parse_numbers(given.back(), 1, "--panel-scale");
+            const auto scale = parse_numbers(given.back(), 1, "--panel-scale");
             const auto& bounds = session::kPanelScaleBounds;
             if (!scale || (*scale)[0] < bounds.least || (*scale)[0] > bounds.most)
                 return fail("--panel-scale " + given.back(), "is no size of letters",

@@ -42,14 +42,13 @@ void add_tool_options(Command command, session::SculptOptions& options) {
     command.option("--weld", options.workpiece.weld_m, kWeldHelp).within(session::kWeldBounds);
     command
         .option("--tool", options.tool.shape,
-                sculpt::alternatives(sculpt::tool_synopses()) +
+                alternatives(toolbox::tool_synopses()) +
                     ", in metres; else a ball whose radius is 5 % of the workpiece's longest side")
         .asset(AssetRoom::tools);
     std::vector<std::pair<std::string, compute::Operation>> operations;
-    for (const sculpt::OperationDescriptor& known : sculpt::operations())
+    for (const toolbox::OperationDescriptor& known : toolbox::operations())
         operations.emplace_back(known.name, known.operation);
-    command.choice("--operation", options.tool.operation, sculpt::alternatives(sculpt::names_in(sculpt::operations())),
-                   operations);
+    command.choice("--operation", options.tool.operation, alternatives(names_in(toolbox::operations())), operations);
     command.option("--material", options.tool.material, "R,G,B, the colour of the surface that the tool leaves");
     command
         .option("--sweep-tolerance", options.tool.sweep_tolerance_cells,

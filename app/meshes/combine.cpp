@@ -19,6 +19,7 @@
 #include "compute/rays/lattice.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/rays/set_algebra.hpp"
+#include "geometry/files/closed_mesh.hpp"
 #include "geometry/mesh/mesh_placing.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
@@ -42,12 +43,12 @@ struct CombineOptions {
 };
 
 // Names the material of a mesh without any after its file, so that b's does not pass for a's in the result.
-void name_materials(sculpt::ClosedMesh& closed, const std::string& file, const std::array<std::uint8_t, 3>& colour) {
+void name_materials(geometry::ClosedMesh& closed, const std::string& file, const std::array<std::uint8_t, 3>& colour) {
     if (!closed.mesh.materials.empty()) return;
     closed.mesh.materials = {{std::filesystem::path(file).stem().string(), colour}};
 }
 
-Result<compute::Solid> convert_onto(sculpt::ClosedMesh& closed, const std::string& file,
+Result<compute::Solid> convert_onto(geometry::ClosedMesh& closed, const std::string& file,
                                     const compute::Lattice& lattice, WorkerPool& pool, Json& report) {
     Result<compute::ScanConversion> converted = compute::scan_convert_onto(closed.mesh, lattice, pool);
     if (!converted) {
@@ -83,12 +84,12 @@ void print(const Json& report) {
 
 // Reads both meshes, each with a material of its own.
 struct BothMeshes {
-    sculpt::ClosedMesh a, b;
+    geometry::ClosedMesh a, b;
 };
 Result<BothMeshes> load_both(const CombineOptions& options) {
     const auto load = [&](const std::string& file) {
-        return sculpt::load_closed_mesh(
-            {.source = file, .close_holes = options.close_holes, .units = options.units, .weld_m = options.weld_m});
+        return geometry::load_closed_mesh(
+            {.file = file, .close_holes = options.close_holes, .units = options.units, .weld_m = options.weld_m});
     };
     BURIN_TRY(a, load(options.a));
     BURIN_TRY(b, load(options.b));

@@ -17,6 +17,7 @@
 #include "app/recordings/session_export.hpp"
 #include "base/try.hpp"
 #include "compute/repair/rounding.hpp"
+#include "geometry/files/closed_mesh.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
@@ -226,7 +227,7 @@ Result<void> convert_mesh(const ConvertOptions& options) {
     const geometry::ImportReport& report = imported.report;
     std::printf("%s\n", geometry::describe_size(options.in, report.size_m, report.unit).c_str());
     const double longest_side_m = std::max({report.size_m.x, report.size_m.y, report.size_m.z});
-    BURIN_TRY_DO(sculpt::check_weld(options.weld_m, longest_side_m));
+    BURIN_TRY_DO(geometry::check_weld(options.weld_m, longest_side_m));
     for (const std::string& remark : imported.report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
     if (options.close_holes || options.weld_m) close_mesh(imported, options);

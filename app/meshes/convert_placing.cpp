@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "compute/mesher/surface.hpp"
@@ -32,7 +33,7 @@ void add_placing_options(Command command, ConvertOptions& options) {
     command.flag("--center", options.center, "Move the middle of the mesh's box to the origin: --place 0,0,0");
     const auto take_place = [&options](const std::vector<std::string>& given) -> Result<void> {
         const std::string& text = given.back();
-        const auto numbers = sculpt::parse_numbers(text, 3, text);
+        const auto numbers = parse_numbers(text, 3, text);
         if (!numbers) return fail("'" + text + "'", "is no place", "give x, y and z in metres, such as 0.1,0,-0.25");
         options.place_m = Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
         return given.size() == 1 ? Result<void>() : fail("'" + text + "'", "is a second place", "give one");

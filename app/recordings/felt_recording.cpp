@@ -92,9 +92,9 @@ Result<void> check_same_file(const record::RecordReader& reader, const char* fac
 
 }  // namespace
 
-std::string felt_settings(const session::SculptOptions& options, const sculpt::ToolOptions& tool,
+std::string felt_settings(const session::SculptOptions& options, const toolbox::ToolOptions& tool,
                           const std::string& engine) {
-    const sculpt::FeelOptions& feel = options.feel;
+    const toolbox::FeelOptions& feel = options.feel;
     const auto& units = options.workpiece.units;
     const Json json{{"workpiece",
                      {{"source", options.workpiece.source},
@@ -105,7 +105,7 @@ std::string felt_settings(const session::SculptOptions& options, const sculpt::T
                       {"units", units ? std::string(name_of(*units)) : std::string()}}},
                     {"tool",
                      {{"shape", tool.shape},
-                      {"operation", std::string(sculpt::descriptor_of(tool.operation).name)},
+                      {"operation", std::string(toolbox::descriptor_of(tool.operation).name)},
                       {"material", tool.material},
                       {"sweep_tolerance_cells", tool.sweep_tolerance_cells},
                       {"smooth_strength", tool.smooth_strength},
@@ -161,7 +161,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
         return fail(where, "its settings have no sound value for " + reader.missing(),
                     "replay a recording that burin sculpt --hand simulated --record has written");
     o.workpiece.units = length_unit(units);
-    for (const sculpt::OperationDescriptor& known : sculpt::operations())
+    for (const toolbox::OperationDescriptor& known : toolbox::operations())
         if (known.name == operation) o.tool.operation = known.operation;
     o.engine = engine == "vulkan" ? compute::EngineChoice::vulkan : compute::EngineChoice::cpu;
     o.undo = undo ? 1 : 0;
@@ -172,7 +172,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
 std::optional<double> felt_ball_radius_m(const std::string& settings) {
     const auto options = read_felt_settings(settings, "");
     if (!options || !options->tool.shape.starts_with("ball:")) return {};
-    const auto tool = sculpt::parse_tool(options->tool);
+    const auto tool = toolbox::parse_tool(options->tool);
     if (!tool || !(tool->ball_radius_m() > 0.0)) return {};
     return tool->ball_radius_m();
 }

@@ -19,7 +19,7 @@ inline constexpr const char* kFeltActivity = "felt stroke";
 
 // Returns the settings as JSON, for the fact "settings": all options that decide what is felt. `engine` is the one that
 // was chosen, `tool` the one that was taken where none was given.
-[[nodiscard]] std::string felt_settings(const session::SculptOptions& options, const sculpt::ToolOptions& tool,
+[[nodiscard]] std::string felt_settings(const session::SculptOptions& options, const toolbox::ToolOptions& tool,
                                         const std::string& engine);
 // Reads what felt_settings() has written; `where` names the file.
 [[nodiscard]] Result<session::SculptOptions> read_felt_settings(const std::string& text, const std::string& where);

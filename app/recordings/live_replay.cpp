@@ -258,8 +258,8 @@ Result<void> run_recorded_session(const session::SculptOptions& given, const std
 std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
     const Result<std::string> shape = session::option_on(activities::live_settings_of(reader), "--tool");
     if (!shape) return {};
-    const auto tool = sculpt::parse_tool_spec(*shape, "--tool");
-    if (!tool || tool->kind != sculpt::ToolKind::ball) return {};
+    const auto tool = toolbox::parse_tool_spec(*shape, "--tool");
+    if (!tool || tool->kind != toolbox::ToolKind::ball) return {};
     return tool->sizes_m[0];
 }
 

@@ -184,7 +184,7 @@ void add_opened_options(Command command, WorldVisit& o) {
         .show_default();
     command
         .option("--tool", o.session.tool.shape,
-                sculpt::alternatives(sculpt::tool_synopses()) +
+                alternatives(toolbox::tool_synopses()) +
                     ", in metres; else a ball whose radius is 1.5 % of the world's longest side")
         .asset(AssetRoom::tools);
     add_mirror_option(command, o.session);

@@ -16,6 +16,7 @@
 #include "bench/measure/timing.hpp"
 #include "document/document_reader.hpp"
 #include "document/document_writer.hpp"
+#include "geometry/files/closed_mesh.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "record/compressed.hpp"
 #include "sculpt/carved_part.hpp"
@@ -51,7 +52,7 @@ private:
 
 Result<CarveScene> carved_scene(const DocumentTask& task) {
     if (task.mesh.empty()) return stroke_1000_scene();
-    BURIN_TRY(closed, sculpt::load_closed_mesh({.source = task.mesh, .close_holes = true, .units = LengthUnit::m}));
+    BURIN_TRY(closed, geometry::load_closed_mesh({.file = task.mesh, .close_holes = true, .units = LengthUnit::m}));
     return stroke_on_mesh_scene(fs::path(task.mesh).stem().string(), std::move(closed.mesh), false);
 }
 

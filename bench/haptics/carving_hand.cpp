@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "haptics/channels.hpp"
-#include "sculpt/feel_options.hpp"
-#include "sculpt/felt_tool.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::bench {
 
@@ -62,14 +62,14 @@ CarvingHand::CarvingHand(const compute::ToolShape& tool, const CarvedBlock& bloc
       channels_(std::make_unique<haptics::HapticChannels>(64, 64)),
       loop_(device_, clock_, *channels_) {
     tool_.shape = tool;
-    const sculpt::FeltTool felt = sculpt::felt_tool(tool);
+    const toolbox::FeltTool felt = toolbox::felt_tool(tool);
     parameters_.probe = felt.probe;
     parameters_.action = sculpt::action_of(compute::Operation::cut);
-    parameters_.materials.fill(sculpt::touch_material({}));
+    parameters_.materials.fill(toolbox::touch_material({}));
     parameters_.shape = felt.shape;
     parameters_.tool = felt.surface;
     stiffness_N_per_m_ = material().stiffness_N_per_m;
-    origin_m_ = Vec3(0.5 * block.size_m.x, block.size_m.y + sculpt::tip_m(tool), 0.5 * block.size_m.z);
+    origin_m_ = Vec3(0.5 * block.size_m.x, block.size_m.y + toolbox::tip_m(tool), 0.5 * block.size_m.z);
     const double reach_m = kGoesFarther_m + 2.0 * sculpture_->surface().lattice().spacing_m;
     scene_ = std::make_unique<sculpt::CarvedScene>(*sculpture_, *channels_, tool_, material().hardness_Ns_per_m3,
                                                    reach_m, std::nullopt);

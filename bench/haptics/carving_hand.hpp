@@ -48,7 +48,7 @@ private:
     void tick(const Vec3& hand_m, bool pressed);
 
     WorkerPool pool_{1};
-    sculpt::Tool tool_;
+    toolbox::Tool tool_;
     std::unique_ptr<sculpt::Sculpture> sculpture_;
     std::unique_ptr<haptics::HapticChannels> channels_;
     std::unique_ptr<sculpt::CarvedScene> scene_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <variant>
 
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::bench {
 namespace {
@@ -78,7 +78,7 @@ Sunk sink(const compute::ToolShape& tool, int resolution, double of_yield, doubl
     CarvedBlock block = kPlungedBlock;
     block.resolution = resolution;
     CarvingHand hand(tool, block);
-    const geometry::TriangleMesh mesh = sculpt::mesh_of(tool);
+    const geometry::TriangleMesh mesh = toolbox::mesh_of(tool);
     const double yield_Pa = hand.material().cutting_yield_Pa, hardness = hand.material().hardness_Ns_per_m3;
     for (int i = 0; i < 200; ++i) hand.go_to({0.0, 0.002 - 2e-5 * i, 0.0}, i > 110);
     for (int i = 0; i < 6000 && -hand.cut_m().y < from_m; ++i)

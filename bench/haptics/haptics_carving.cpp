@@ -11,8 +11,8 @@
 #include "bench/haptics/touch_run.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/feel_options.hpp"
-#include "sculpt/felt_tool.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::bench {
 namespace {
@@ -42,8 +42,8 @@ Result<PressedWalk> path_over_ball(double tool_m, double depth_m) {
     return PressedWalk::create(mesh_of(ball, 40), {.depth_m = depth_m, .above_m = tool_m + 0.005});
 }
 
-sculpt::Tool ball_tool(double radius_m) {
-    sculpt::Tool tool;
+toolbox::Tool ball_tool(double radius_m) {
+    toolbox::Tool tool;
     tool.shape = compute::BallTool{radius_m};
     return tool;
 }
@@ -104,7 +104,7 @@ Result<void> touch_while_carving(Haptics& all, const Carving& of) {
     MonotonicClock clock;
     TickCosts& costs = costs_of(all, "carving", of);
     haptics::TickParameters parameters = session_parameters(haptics::ball_probe(of.tool_m), true);
-    parameters.tool = sculpt::felt_tool(compute::BallTool{of.tool_m}).surface;
+    parameters.tool = toolbox::felt_tool(compute::BallTool{of.tool_m}).surface;
     TouchRun run(costs, clock, parameters, path, true);
     const double reach_m = 0.012 + 2.0 * of.ball.cell_m();  // as a session: 1 m/s for 12 ms
     sculpt::CarvedScene service(of.ball.sculpture(), run.channels(), ball_tool(of.tool_m),
@@ -132,7 +132,7 @@ Result<void> carve_groove(const Haptics& all, CarvedBall& ball, double tool_m) {
     for (std::uint64_t pressed = 0; pressed < ticks || !poses.empty();) {
         path.step();
         if (path.lifted() && poses.size() > 1) {
-            const auto sweeps = sculpt::sweeps_along(poses, ball_tool(tool_m), 0.05 * ball.cell_m());
+            const auto sweeps = toolbox::sweeps_along(poses, ball_tool(tool_m), 0.05 * ball.cell_m());
             BURIN_TRY_DO(ball.sculpture().update(sweeps));
             poses.clear();
             if (pressed >= ticks) break;

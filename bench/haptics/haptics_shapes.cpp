@@ -13,7 +13,7 @@
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/felt_tool.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::bench {
 namespace {
@@ -39,7 +39,7 @@ public:
     using Publish = std::function<Result<void>(geometry::LocalSurface& draft, const Vec3& hip_m)>;
 
     ShapeRun(const ShapeTool& tool, PressedWalk path, ShapeTicks& figures) : path_(std::move(path)), figures_(figures) {
-        const sculpt::FeltTool felt = sculpt::felt_tool(tool.shape);
+        const toolbox::FeltTool felt = toolbox::felt_tool(tool.shape);
         on_ = session_parameters(felt.probe, true);
         on_.shape = felt.shape;
         on_.tool = felt.surface;
@@ -115,14 +115,14 @@ Result<void> touch_mesh_with(Haptics& all, const TouchedScene& scene, const Shap
 
 // A groove along the way that the hand goes, by the tool as it is turned there.
 Result<void> carve_with(const Haptics& all, sculpt::Sculpture& sculpture, const ShapeTool& tool, PressedWalk path) {
-    sculpt::Tool cuts;
+    toolbox::Tool cuts;
     cuts.shape = tool.shape;
     const double tolerance_m = 0.05 * sculpture.surface().lattice().spacing_m;
     std::vector<Pose> poses;
     for (std::uint64_t pressed = 0;;) {
         path.step();
         if (path.lifted() && poses.size() > 1) {
-            const auto sweeps = sculpt::sweeps_along(poses, cuts, tolerance_m);
+            const auto sweeps = toolbox::sweeps_along(poses, cuts, tolerance_m);
             BURIN_TRY_DO(sculpture.update(sweeps));
             poses.clear();
             if (pressed >= all.options.shape_ticks) return {};

@@ -13,8 +13,8 @@
 #include "bench/measure/rough_surfaces.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
-#include "sculpt/feel_options.hpp"
 #include "sculpt/stroke_reader.hpp"
+#include "toolbox/feel_options.hpp"
 
 namespace burin::bench {
 namespace {
@@ -182,7 +182,7 @@ haptics::TickParameters session_parameters(const haptics::Probe& probe, bool fri
     parameters.sequence = 1;
     parameters.probe = probe;
     parameters.action = sculpt::action_of(compute::Operation::cut);
-    haptics::TouchMaterial material = sculpt::touch_material({});
+    haptics::TouchMaterial material = toolbox::touch_material({});
     if (!friction) material.static_friction = material.dynamic_friction = 0.0;
     parameters.materials.fill(material);
     return parameters;

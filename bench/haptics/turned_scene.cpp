@@ -9,9 +9,9 @@
 #include "bench/measure/bumpy_sphere.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "haptics/channels.hpp"
-#include "sculpt/feel_options.hpp"
-#include "sculpt/felt_tool.hpp"
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::bench {
 namespace {
@@ -59,8 +59,8 @@ public:
         : turning_(turning),
           channels_(std::make_unique<haptics::HapticChannels>(64, 64)),
           loop_(device_, clock_, *channels_) {
-        const sculpt::FeltTool felt = sculpt::felt_tool(tool);
-        haptics::TouchMaterial material = sculpt::touch_material({});
+        const toolbox::FeltTool felt = toolbox::felt_tool(tool);
+        haptics::TouchMaterial material = toolbox::touch_material({});
         if (!turning.friction) material.static_friction = material.dynamic_friction = 0.0;
         parameters_.materials.fill(material);
         parameters_.action = sculpt::action_of(compute::Operation::cut);
@@ -69,7 +69,7 @@ public:
         parameters_.tool = felt.surface;
         parameters_.max_surface_age_s = 0.0;
         parameters_.workspace.placed = 1;
-        tip_m_ = sculpt::tip_m(tool);
+        tip_m_ = toolbox::tip_m(tool);
         geometry::LocalSurface& draft = channels_->surface.draft();
         draft.sequence = 1;
         draft.radius_m = 1e3;

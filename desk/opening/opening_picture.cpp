@@ -46,10 +46,10 @@ void OpeningPicture::take(FirstLook look) {
 // The scene as the session begins it, with the mesh in the workpiece's place.
 picture::Picture OpeningPicture::scene() const {
     const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
-    const auto tool = sculpt::parse_tool_settings(sculpt::with_tool({}, longest_m));
+    const auto tool = toolbox::parse_tool_settings(toolbox::with_tool({}, longest_m));
     Viewer viewer = begin_viewer(desk_, output_);
     const SessionState state =
-        begin_session(room_, tool.value_or(sculpt::ToolSettings{}), {}, placed_before(viewer, room_, desk_, nullptr));
+        begin_session(room_, tool.value_or(toolbox::ToolSettings{}), {}, placed_before(viewer, room_, desk_, nullptr));
     take_hand(viewer, state);
     const ViewedSession seen{state, room_, viewer, desk_};
     auto scene = scene_of(seen, desk_.wall.main, Vec3(0.0), {}).value_or(picture::Picture{});

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "geometry/files/closed_mesh.hpp"
 #include "geometry/mesh/coarse_copy.hpp"
 
 namespace burin::session {
@@ -60,7 +61,7 @@ void OpeningSight::stop() {
 }
 
 OpeningWork::OpeningWork(Make make, std::function<void()> wake)
-    : sight_(std::move(wake)), made_(sculpt::no_longer_wanted()), thread_([this, make = std::move(make)] {
+    : sight_(std::move(wake)), made_(geometry::no_longer_wanted()), thread_([this, make = std::move(make)] {
           made_ = make(sight_);
           sight_.finish();
       }) {}

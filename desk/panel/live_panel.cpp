@@ -141,7 +141,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const MessageLog& lo
     m.tool_sizes = context.tool_sizes;
     m.operation = led.tool.operation;
     m.only_touch = led.only_touch;
-    const geometry::Material material = sculpt::material_of(led.tool);
+    const geometry::Material material = toolbox::material_of(led.tool);
     for (std::size_t i = 0; i < 3; ++i) m.colour_srgb[i] = material.colour[i] / 255.0;
     if (!state.feel.hardness_kPa_per_mm_s) m.material = state.feel.preset;
     m.hardness_Ns_per_m3 = value(Quantity::hardness);

@@ -16,13 +16,13 @@
 #include "haptics/workspace/workspace_picture.hpp"
 #include "scene/haptic_material.hpp"
 #include "scene/rendered_material.hpp"
-#include "sculpt/feel_options.hpp"
 #include "sculpt/mirror.hpp"
-#include "sculpt/tool_kinds.hpp"
 #include "session/activity/activity_panel.hpp"
 #include "session/input/actions.hpp"
 #include "session/notices/message_kind.hpp"
 #include "session/record/panel_measured.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/tool_kinds.hpp"
 #include "wall/stereo_mode.hpp"
 
 namespace burin::session {
@@ -174,12 +174,12 @@ struct PanelModel {
     bool carves = true;                     // there is a workpiece
     std::vector<PanelHand> hands;           // where there are several
     std::size_t hand = 0;                   // that mouse, keys and panel lead; tool, touch and filters are its
-    sculpt::ToolSpec tool;
+    toolbox::ToolSpec tool;
     ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;
     bool only_touch = false;  // none of them works
     std::array<double, 3> colour_srgb{0.88, 0.56, 0.21};
-    std::optional<sculpt::FeelPreset> material;  // none: its hardness was given as a number
+    std::optional<toolbox::FeelPreset> material;  // none: its hardness was given as a number
     double hardness_Ns_per_m3 = 1e6;
     double friction = 0.3;
     double stiffness_N_per_m = 600.0;

@@ -20,33 +20,33 @@ std::string millimetres(double length_m) {
 }
 
 // Draws the tool from the side, its tip below.
-void draw_icon(sculpt::ToolKind kind, ImVec2 m, float r, ImU32 colour, ImU32 edge) {
+void draw_icon(toolbox::ToolKind kind, ImVec2 m, float r, ImU32 colour, ImU32 edge) {
     ImDrawList& d = canvas();
     switch (kind) {
-        case sculpt::ToolKind::ball:
+        case toolbox::ToolKind::ball:
             d.AddCircleFilled(m, r, colour, 32);
             d.AddCircleFilled({m.x - 0.32f * r, m.y - 0.34f * r}, 0.24f * r, edge, 16);
             break;
-        case sculpt::ToolKind::cylinder:
+        case toolbox::ToolKind::cylinder:
             d.AddRectFilled({m.x - 0.62f * r, m.y - r}, {m.x + 0.62f * r, m.y + r}, colour, 0.1f * r);
             d.AddRectFilled({m.x - 0.4f * r, m.y - 0.85f * r}, {m.x - 0.2f * r, m.y + 0.85f * r}, edge, 0.1f * r);
             break;
-        case sculpt::ToolKind::cone:
+        case toolbox::ToolKind::cone:
             d.AddTriangleFilled({m.x - 0.9f * r, m.y - 0.9f * r}, {m.x + 0.9f * r, m.y - 0.9f * r}, {m.x, m.y + r},
                                 colour);
             d.AddTriangleFilled({m.x - 0.5f * r, m.y - 0.75f * r}, {m.x - 0.22f * r, m.y - 0.75f * r},
                                 {m.x - 0.12f * r, m.y + 0.35f * r}, edge);
             break;
-        case sculpt::ToolKind::bullnose:
+        case toolbox::ToolKind::bullnose:
             d.AddRectFilled({m.x - 0.7f * r, m.y - r}, {m.x + 0.7f * r, m.y + r}, colour, 0.45f * r,
                             ImDrawFlags_RoundCornersBottom);
             d.AddRectFilled({m.x - 0.46f * r, m.y - 0.85f * r}, {m.x - 0.24f * r, m.y + 0.6f * r}, edge, 0.1f * r);
             break;
-        case sculpt::ToolKind::box:
+        case toolbox::ToolKind::box:
             d.AddRectFilled({m.x - 0.85f * r, m.y - 0.85f * r}, {m.x + 0.85f * r, m.y + 0.85f * r}, colour, 0.12f * r);
             d.AddRectFilled({m.x - 0.65f * r, m.y - 0.65f * r}, {m.x - 0.4f * r, m.y + 0.65f * r}, edge, 0.1f * r);
             break;
-        case sculpt::ToolKind::mesh: break;
+        case toolbox::ToolKind::mesh: break;
     }
 }
 
@@ -58,8 +58,8 @@ std::string capitalised(std::string_view name) {
 
 void show_tool_kinds(Kit& kit, const PanelModel& model) {
     std::vector<Item> items;
-    std::vector<sculpt::ToolKind> kinds;
-    for (const sculpt::ToolDescriptor& kind : sculpt::tool_kinds()) {
+    std::vector<toolbox::ToolKind> kinds;
+    for (const toolbox::ToolDescriptor& kind : toolbox::tool_kinds()) {
         if (!kind.on_panel()) continue;
         kinds.push_back(kind.kind);
         items.push_back({.label = "tool " + std::string(kind.name), .text = {}});
@@ -78,7 +78,7 @@ void show_tool_kinds(Kit& kit, const PanelModel& model) {
 }
 
 void show_sizes(Kit& kit, const PanelModel& model) {
-    const auto sizes = sculpt::descriptor_of(model.tool.kind).used_sizes();
+    const auto sizes = toolbox::descriptor_of(model.tool.kind).used_sizes();
     const double from = model.tool_sizes.from_m, to = 2.0 * model.tool_sizes.radius_to_m;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         const double size = model.tool.sizes_m[i];
@@ -88,7 +88,7 @@ void show_sizes(Kit& kit, const PanelModel& model) {
         if (!part) continue;
         const double wanted = *part <= 0.0 && sizes[i].may_be_zero ? 0.0 : value_at(*part, from, to, true);
         if (wanted == size) continue;
-        if (model.tool.kind == sculpt::ToolKind::ball) {
+        if (model.tool.kind == toolbox::ToolKind::ball) {
             kit.give_held(SetQuantity{Quantity::radius, wanted});
         } else {
             kit.give_held(SetTool{with_size(model.tool, i, wanted, from)});
@@ -113,21 +113,21 @@ Item item_of(std::string_view command, std::string_view name, std::string title)
 
 }  // namespace
 
-sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind) {
+toolbox::ToolSpec tool_like(const toolbox::ToolSpec& tool, toolbox::ToolKind kind) {
     constexpr double kUsual_m = 0.005, kMost_m = 1.0;
-    const sculpt::ToolDescriptor& descriptor = sculpt::descriptor_of(kind);
+    const toolbox::ToolDescriptor& descriptor = toolbox::descriptor_of(kind);
     if (!descriptor.on_panel()) return tool;
-    const double r = sculpt::half_width_m(tool);
+    const double r = toolbox::half_width_m(tool);
     const double rounded_m = rounded(r > 0.0 ? std::min(r, kMost_m) : kUsual_m, 3);
-    sculpt::ToolSpec like{kind, {}, {}};
+    toolbox::ToolSpec like{kind, {}, {}};
     for (std::size_t i = 0; i < like.sizes_m.size(); ++i)
         like.sizes_m[i] = rounded(rounded_m * descriptor.proportions[i], 4);
     return like;
 }
 
-sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m, double least_m) {
+toolbox::ToolSpec with_size(toolbox::ToolSpec tool, std::size_t index, double size_m, double least_m) {
     tool.sizes_m.at(index) = size_m;
-    const auto adapted = sculpt::descriptor_of(tool.kind).rule.adapted;
+    const auto adapted = toolbox::descriptor_of(tool.kind).rule.adapted;
     if (adapted != nullptr) tool.sizes_m = adapted(tool.sizes_m, index, least_m);
     return tool;
 }
@@ -136,12 +136,12 @@ namespace {
 
 void show_operations(Kit& kit, const PanelModel& model) {
     std::vector<Item> items;
-    for (const sculpt::OperationDescriptor& operation : sculpt::operations())
+    for (const toolbox::OperationDescriptor& operation : toolbox::operations())
         items.push_back(item_of("operation", operation.name, capitalised(operation.name)));
     // None is lit while the tool only touches; a press on one ends that.
     const std::size_t lit = model.only_touch ? items.size() : static_cast<std::size_t>(model.operation);
     const auto chosen = kit.segments(items, lit);
-    if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
+    if (chosen) kit.give(SetOperation{toolbox::operations()[*chosen].operation});
 }
 
 // Each plane is switched by a button of its own; one that is on is lit.
@@ -174,7 +174,7 @@ void show_hands(Kit& kit, const PanelModel& model) {
 
 void show_tool(Kit& kit, const PanelModel& model) {
     const std::string aside =
-        model.tool.file.empty() ? std::string(sculpt::descriptor_of(model.tool.kind).name) : model.tool.file;
+        model.tool.file.empty() ? std::string(toolbox::descriptor_of(model.tool.kind).name) : model.tool.file;
     if (kit.begin_card("Tool", aside)) {
         show_tool_kinds(kit, model);
         kit.gap(4.0f);
@@ -191,11 +191,11 @@ void show_material(Kit& kit, const PanelModel& model) {
         show_swatches(kit, "colour", model.colour_srgb,
                       [&](const std::array<double, 3>& srgb) { kit.give_held(SetColour{srgb}); });
         std::vector<Item> items;
-        for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets())
+        for (const toolbox::FeelPresetDescriptor& preset : toolbox::feel_presets())
             items.push_back(item_of("material", preset.name, std::string(preset.title)));
         const std::size_t now = model.material ? static_cast<std::size_t>(*model.material) : items.size();
         const auto chosen = kit.list("material", "Feels like", items, now);
-        if (chosen) kit.give(SetMaterial{sculpt::feel_presets()[*chosen].preset});
+        if (chosen) kit.give(SetMaterial{toolbox::feel_presets()[*chosen].preset});
         kit.quantity(Quantity::hardness, "Hardness", model.hardness_Ns_per_m3, hardness_text(model.hardness_Ns_per_m3));
     }
     kit.end_card();

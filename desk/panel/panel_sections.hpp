@@ -74,10 +74,10 @@ void show_swatches(Kit& kit, const std::string& label, const std::array<double, 
 
 // Returns a tool of another kind and about the same width, with sizes that the parser accepts; the same tool where the
 // panel does not offer the kind.
-[[nodiscard]] sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind);
+[[nodiscard]] toolbox::ToolSpec tool_like(const toolbox::ToolSpec& tool, toolbox::ToolKind kind);
 // Returns the tool with one size changed, and the others where they must follow; one that has to be above zero becomes
 // least_m.
-[[nodiscard]] sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m,
-                                         double least_m = ToolSizeRange{}.from_m);
+[[nodiscard]] toolbox::ToolSpec with_size(toolbox::ToolSpec tool, std::size_t index, double size_m,
+                                          double least_m = ToolSizeRange{}.from_m);
 
 }  // namespace burin::session::panel

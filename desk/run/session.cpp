@@ -69,9 +69,9 @@ Result<void> check_for_a_session(const SculptOptions& options) {
 
 // Reports errors in the options before a window opens, also those in the file of a mesh tool.
 Result<void> check(const SculptOptions& options) {
-    BURIN_TRY_DO(sculpt::parse_tool(options.tool));
+    BURIN_TRY_DO(toolbox::parse_tool(options.tool));
     BURIN_TRY_DO(sculpt::check_crumbs(options.crumbs_m));
-    BURIN_TRY_DO(sculpt::parse_feel(options.feel));
+    BURIN_TRY_DO(toolbox::parse_feel(options.feel));
     if (options.no_workpiece && options.world.empty() && !options.scene)
         return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");
     if (options.mirror.any() && !has_workpiece(options))

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <variant>
 
-#include "sculpt/tool_mesh.hpp"
 #include "session/held/held_tool.hpp"
 #include "session/state/session_room.hpp"
 #include "session/state/session_state.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::session {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kPaneOpacity = 0.22, kImageOpacity = 0.55;
 constexpr std::array<Vec3, 3> kColours{{{0.80, 0.30, 0.28}, {0.36, 0.66, 0.32}, {0.28, 0.46, 0.82}}};
 
 std::shared_ptr<const picture::DrawnMesh> ball() {
-    static const auto mesh = picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
+    static const auto mesh = picture::drawn_mesh(toolbox::drawing_of(compute::BallTool{1.0}));
     return mesh;
 }
 
@@ -32,7 +32,7 @@ geometry::TriangleMesh frame_of(int axis, const Vec3& half, double bar_m) {
         for (const double side : {-1.0, 1.0}) {
             Vec3 size(bar_m);
             size[along] = half[along] + bar_m;
-            const geometry::TriangleMesh bar = sculpt::drawing_of(compute::BoxTool{size});
+            const geometry::TriangleMesh bar = toolbox::drawing_of(compute::BoxTool{size});
             const auto first = static_cast<std::uint32_t>(frame.positions_m.size());
             for (Vec3 place_m : bar.positions_m) {
                 place_m[across] += side * half[across];
@@ -59,7 +59,7 @@ MirrorPanes mirror_panes(const Box& workpiece_object) {
             for (Vec3& place_m : mesh.positions_m) place_m += workpiece_object.center();
             return picture::drawn_mesh(mesh);
         };
-        panes.at(static_cast<std::size_t>(axis)) = {placed(sculpt::drawing_of(compute::BoxTool{half})),
+        panes.at(static_cast<std::size_t>(axis)) = {placed(toolbox::drawing_of(compute::BoxTool{half})),
                                                     placed(frame_of(axis, half, kFrame * longest_m))};
     }
     return panes;

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "desk/viewer/viewer_lead.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "session/state/session_room.hpp"
+#include "toolbox/tool_mesh.hpp"
 #include "wall/seen_place.hpp"
 
 namespace burin::session {
@@ -102,7 +102,7 @@ std::shared_ptr<const picture::DrawnMesh> letters() {
 }
 
 std::shared_ptr<const picture::DrawnMesh> cube() {
-    static const auto mesh = picture::drawn_mesh(sculpt::drawing_of(compute::BoxTool{Vec3(0.5)}));
+    static const auto mesh = picture::drawn_mesh(toolbox::drawing_of(compute::BoxTool{Vec3(0.5)}));
     return mesh;
 }
 

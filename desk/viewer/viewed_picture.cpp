@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "sculpt/tool_mesh.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/held/staging.hpp"
 #include "session/state/session_room.hpp"
+#include "toolbox/tool_mesh.hpp"
 #include "wall/projection.hpp"
 
 namespace burin::session {
@@ -19,7 +19,7 @@ constexpr double kBoxOpacity = 0.04;
 // Returns the colour of what the tool leaves behind; a cutting tool has its own.
 Vec3 tool_colour(const HandState& hand) {
     if (hand.tool.operation == compute::Operation::cut) return picture::PictureTool{}.colour;
-    const auto c = sculpt::material_of(hand.tool).colour;
+    const auto c = toolbox::material_of(hand.tool).colour;
     return Vec3(c[0], c[1], c[2]) / 255.0;
 }
 
@@ -67,14 +67,14 @@ void add_tool(picture::Picture& scene, const SessionState& state, std::size_t nu
     if (tool.tick == 0) return;
     const HandState& hand = state.hands[number];
     if (hand.handle) return add_handle(scene, *hand.handle, tool, hand.held->half_width_m(), state.world_from_object);
-    static const auto kBall = picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
+    static const auto kBall = picture::drawn_mesh(toolbox::drawing_of(compute::BallTool{1.0}));
     Similarity object_from_tool{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
     const bool is_ball = !hand.held->drawn;
     if (is_ball) object_from_tool.scale = hand.held->half_width_m();
     scene.objects.push_back(
         {is_ball ? kBall : hand.held->drawn, state.world_from_object * object_from_tool, tool_colour(hand)});
     // A shaft as the tool in use has one, along the tool's +Y.
-    static const auto kShaft = picture::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{0.12, 3.2}));
+    static const auto kShaft = picture::drawn_mesh(toolbox::drawing_of(compute::CylinderTool{0.12, 3.2}));
     const double from_m = is_ball ? 0.8 * hand.held->half_width_m() : hand.held->shaft_height_m;
     Similarity object_from_shaft = object_from_tool;
     object_from_shaft.position_m += object_from_tool.orientation * Vec3(0.0, from_m, 0.0);
@@ -103,7 +103,7 @@ wall::ComfortFinding comfort_of(const ViewedSession& seen, const haptics::ToolSt
     const std::array<wall::ContentBall, 2> balls{
         {{world_from_object * workpiece.center(),
           0.5 * scale * std::max({workpiece.extent().x, workpiece.extent().y, workpiece.extent().z})},
-         {world_from_object * tool.proxy_object_m, scale * sculpt::reach_of(seen.state.led().held->shape)}}};
+         {world_from_object * tool.proxy_object_m, scale * toolbox::reach_of(seen.state.led().held->shape)}}};
     return wall::judge(seen.desk.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {balls, {}});
 }
 

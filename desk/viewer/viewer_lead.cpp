@@ -7,10 +7,10 @@
 
 #include "desk/viewer/framed_world.hpp"
 #include "desk/viewer/view_cube.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/state/session_commands.hpp"
 #include "session/state/session_room.hpp"
+#include "toolbox/tool_mesh.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
 
@@ -31,7 +31,7 @@ DeskSurface surface_of(const ViewedSession& seen, const ViewerLook& look) {
     on.seen = look.surface;
     on.cursor = {seen.output_on(main), look.output, sight.screen, wall::middle_of(wall::eyes_of(sight.viewer)),
                  object_from_world};
-    on.tool = {sculpt::tip_m(held.shape), held.half_width_m(), held.half_width_m(), 0.0};
+    on.tool = {toolbox::tip_m(held.shape), held.half_width_m(), held.half_width_m(), 0.0};
     on.object_from_device = object_from_device_on_surface(seen.room);
     on.object_from_screen = glm::normalize(object_from_world.orientation * world_from_screen(sight.screen));
     on.middle_object = seen.room.workpiece_object.center();

@@ -3,7 +3,7 @@
 //
 // A piece is the convex hull of its corners, or of circles about the tool's axis, +Y, and everything within rounding_m
 // of that hull. The hulls lie inside the tool by more than that, so that what touches is the tool less the clearance
-// that a ball has too, with its edges rounded (sculpt/felt_tool.hpp makes it and says by how much it differs). A tool
+// that a ball has too, with its edges rounded (toolbox/felt_tool.hpp makes it and says by how much it differs). A tool
 // of one piece is felt as convex. A hull of more than kMostCorners is thinned evenly by its maker, whose `differs_m`
 // says what that takes; of the kinds of tool only a mesh can have so many.
 // Frame: tool, metres of the object frame. Plain data of fixed size.

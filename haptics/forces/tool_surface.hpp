@@ -7,7 +7,7 @@
 // sample that a look at a bed of the tool's shape would give it to (engagement.hpp), so that both areas agree, and all
 // add up to the shape's.
 // Frame: tool, metres; where the tool is drawn from and turned about is the origin. Plain data, made before the haptic
-// thread sees it (sculpt/tool_samples.hpp).
+// thread sees it (toolbox/tool_samples.hpp).
 #pragma once
 
 #include <array>

@@ -14,12 +14,12 @@
 #include "haptics/realtime.hpp"
 #include "record/record_writer.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "sculpt/progress.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "session/drive/driver.hpp"
 #include "session/drive/executors.hpp"
 #include "session/record/carved_by.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::session {
 namespace {
@@ -60,7 +60,7 @@ double middle_speed(const sculpt::Stroke& stroke, const std::vector<double>& spe
 // the material: held on the stroke it would press with that force. The press is proportional to the speed, up to the
 // median speed of the pressed rows, and eases where the hand rests: a tool that is pressed and not moved sinks.
 Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Similarity& object_from_device,
-                                          const sculpt::Feel& feel, const IntoMaterial& into_material) {
+                                          const toolbox::Feel& feel, const IntoMaterial& into_material) {
     const Similarity device_from_object = inverse(object_from_device);
     const std::vector<double> speeds = speeds_of(stroke);
     const double usual = middle_speed(stroke, speeds);
@@ -86,9 +86,9 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
 
 // Builds a hand that presses into the workpiece as it is before the stroke.
 Result<devices::SimulatedHand> pressing_hand(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
-                                             const sculpt::Tool& tool, const haptics::ToolSurface& tool_surface,
-                                             const sculpt::Feel& feel, const Similarity& object_from_device) {
-    const double around_m = sculpt::reach_of(tool.shape) + sculpt::size_of(tool.shape);
+                                             const toolbox::Tool& tool, const haptics::ToolSurface& tool_surface,
+                                             const toolbox::Feel& feel, const Similarity& object_from_device) {
+    const double around_m = toolbox::reach_of(tool.shape) + toolbox::size_of(tool.shape);
     geometry::LocalSurface surface;
     // Seen from within the tool, for the tip of one lies in the surface that it touches; but not far up its shank.
     const Vec3 middle = 0.5 * (Vec3(tool_surface.lo_m) + Vec3(tool_surface.hi_m));
@@ -253,10 +253,10 @@ Similarity fit_into_workspace(const sculpt::Stroke& stroke, const Vec3& workspac
     return {bounds.center(), Quat{1, 0, 0, 0}, std::max({1.0, needed.x, needed.y, needed.z})};
 }
 
-Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke, const sculpt::Tool& tool,
+Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke, const toolbox::Tool& tool,
                                   const FeltOptions& options) {
     FeltFigures figures;
-    const sculpt::FeltTool felt_tool = sculpt::felt_tool(tool.shape);
+    const toolbox::FeltTool felt_tool = toolbox::felt_tool(tool.shape);
     figures.workspace_device_m = devices::OmniModel{}.workspace_m;
     figures.object_from_device = fit_into_workspace(stroke, figures.workspace_device_m);
     figures.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kHandRests_s;

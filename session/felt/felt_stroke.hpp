@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "sculpt/feel_options.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/stroke_file.hpp"
-#include "sculpt/tool_options.hpp"
 #include "session/felt/felt_figures.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::session {
 
 struct FeltOptions {
-    sculpt::Feel feel;
+    toolbox::Feel feel;
     bool real_time = false;
     std::string record = {};  // a new session file (record/record_writer.hpp); empty: none
     // Facts of the session for that file.
@@ -35,6 +35,6 @@ struct FeltOptions {
 // Carves the stroke with the simulated hand, which feels any tool as its shape, in the workspace as
 // fit_into_workspace() has it. A recording that fails ends the stroke.
 [[nodiscard]] Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
-                                                const sculpt::Tool& tool, const FeltOptions& options);
+                                                const toolbox::Tool& tool, const FeltOptions& options);
 
 }  // namespace burin::session

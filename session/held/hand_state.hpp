@@ -9,7 +9,7 @@
 #include "base/space.hpp"
 #include "devices/hand/hand_target.hpp"
 #include "haptics/workspace/workspace_picture.hpp"
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::session {
 
@@ -24,7 +24,7 @@ struct SceneHold {
 struct HandState {
     std::string hand_name;         // "right"; empty for the only hand
     Similarity world_from_device;  // where the hand's workspace is in the world
-    sculpt::ToolSettings tool;
+    toolbox::ToolSettings tool;
     std::shared_ptr<const HeldTool> held;        // of tool.shape, after a step; null only where that cannot be made
     std::shared_ptr<const HeldHandle> handle;    // whose points touch, each as the tool's ball; null: the tool alone
     Pose handle_reads_device, device_from_read;  // where the handle read to be last; its calibration

@@ -9,7 +9,7 @@
 #include "haptics/tick_parameters.hpp"
 #include "haptics/tool_state.hpp"
 #include "picture/frame_setup.hpp"
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::session {
 namespace {
@@ -24,8 +24,8 @@ const Vec3 kRodColour{0.75, 0.76, 0.80}, kTopBall{0.86, 0.12, 0.10}, kBottomBall
 
 DrawnHandle::DrawnHandle(const devices::WandDescription& description)
     : rod_(picture::drawn_mesh(
-          sculpt::drawing_of(compute::CylinderTool{kRodRadius * description.handle_m, description.handle_m}))),
-      ball_(picture::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}))),
+          toolbox::drawing_of(compute::CylinderTool{kRodRadius * description.handle_m, description.handle_m}))),
+      ball_(picture::drawn_mesh(toolbox::drawing_of(compute::BallTool{1.0}))),
       tool_from_handle_(description.device_tool_from_handle),
       half_length_m_(0.5 * description.handle_m) {}
 

@@ -9,33 +9,34 @@
 
 namespace burin::session {
 
-Result<void> ToolMeshes::read(const sculpt::ToolSpec& tool) {
-    if (tool.kind != sculpt::ToolKind::mesh || shape_of(tool)) return {};
-    BURIN_TRY(shape, sculpt::make_shape(tool));
+Result<void> ToolMeshes::read(const toolbox::ToolSpec& tool) {
+    if (tool.kind != toolbox::ToolKind::mesh || shape_of(tool)) return {};
+    BURIN_TRY(shape, toolbox::make_shape(tool));
     read_.emplace_back(tool, std::move(shape));
     return {};
 }
 
-Result<compute::ToolShape> ToolMeshes::shape_of(const sculpt::ToolSpec& tool) const {
-    if (tool.kind != sculpt::ToolKind::mesh) return sculpt::make_shape(tool);
+Result<compute::ToolShape> ToolMeshes::shape_of(const toolbox::ToolSpec& tool) const {
+    if (tool.kind != toolbox::ToolKind::mesh) return toolbox::make_shape(tool);
     const auto known = std::ranges::find(read_, tool, [](const auto& one) { return one.first; });
     if (known != read_.end()) return known->second;
-    return fail("tool " + sculpt::text_of(tool), "has not been read, and a running session reads no files",
+    return fail("tool " + toolbox::text_of(tool), "has not been read, and a running session reads no files",
                 "start the session with it (--tool), or take it up in its --input");
 }
 
-Result<std::shared_ptr<const HeldTool>> take_up(const sculpt::ToolSpec& tool, const ToolMeshes& meshes) {
+Result<std::shared_ptr<const HeldTool>> take_up(const toolbox::ToolSpec& tool, const ToolMeshes& meshes) {
     BURIN_TRY(shape, meshes.shape_of(tool));
     return take_up(tool, std::move(shape));
 }
 
-std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::ToolShape shape) {
+std::shared_ptr<const HeldTool> take_up(const toolbox::ToolSpec& tool, compute::ToolShape shape) {
     auto held = std::make_shared<HeldTool>();
     held->spec = tool;
-    held->felt = sculpt::felt_tool(shape);
-    if (!std::holds_alternative<compute::BallTool>(shape)) held->drawn = picture::drawn_mesh(sculpt::drawing_of(shape));
-    held->spine = sculpt::spine_of(shape);
-    held->shaft_height_m = sculpt::shaft_height_m(shape);
+    held->felt = toolbox::felt_tool(shape);
+    if (!std::holds_alternative<compute::BallTool>(shape))
+        held->drawn = picture::drawn_mesh(toolbox::drawing_of(shape));
+    held->spine = toolbox::spine_of(shape);
+    held->shaft_height_m = toolbox::shaft_height_m(shape);
     held->shape = std::move(shape);
     return held;
 }

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "sculpt/felt_tool.hpp"
-#include "sculpt/tool_kinds.hpp"
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_kinds.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::picture {
 struct DrawnMesh;  // picture/drawn_mesh.hpp
@@ -23,28 +23,28 @@ namespace burin::session {
 class ToolMeshes {
 public:
     // Reads the file of a tool that is a mesh, unless it has been read; does nothing for other tools.
-    [[nodiscard]] Result<void> read(const sculpt::ToolSpec& tool);
+    [[nodiscard]] Result<void> read(const toolbox::ToolSpec& tool);
     // Returns the shape of a tool. Fails for a mesh that has not been read.
-    [[nodiscard]] Result<compute::ToolShape> shape_of(const sculpt::ToolSpec& tool) const;
+    [[nodiscard]] Result<compute::ToolShape> shape_of(const toolbox::ToolSpec& tool) const;
 
 private:
-    std::vector<std::pair<sculpt::ToolSpec, compute::ToolShape>> read_;
+    std::vector<std::pair<toolbox::ToolSpec, compute::ToolShape>> read_;
 };
 
 struct HeldTool {
-    sculpt::ToolSpec spec;
+    toolbox::ToolSpec spec;
     compute::ToolShape shape;
-    sculpt::FeltTool felt;
+    toolbox::FeltTool felt;
     std::shared_ptr<const picture::DrawnMesh> drawn;  // null: a ball
-    sculpt::Spine spine;
+    toolbox::Spine spine;
     double shaft_height_m = 0.0;
 
     // Half of the tool's least width; a ball's radius.
-    [[nodiscard]] double half_width_m() const { return sculpt::size_of(shape); }
+    [[nodiscard]] double half_width_m() const { return toolbox::size_of(shape); }
 };
 
 // Makes a tool ready. Takes some milliseconds for one that is no ball.
-[[nodiscard]] Result<std::shared_ptr<const HeldTool>> take_up(const sculpt::ToolSpec& tool, const ToolMeshes& meshes);
-[[nodiscard]] std::shared_ptr<const HeldTool> take_up(const sculpt::ToolSpec& tool, compute::ToolShape shape);
+[[nodiscard]] Result<std::shared_ptr<const HeldTool>> take_up(const toolbox::ToolSpec& tool, const ToolMeshes& meshes);
+[[nodiscard]] std::shared_ptr<const HeldTool> take_up(const toolbox::ToolSpec& tool, compute::ToolShape shape);
 
 }  // namespace burin::session

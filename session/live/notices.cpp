@@ -13,8 +13,8 @@ void Notices::look(const SessionState& state, const SessionHands& hands, std::sp
     }
 }
 
-void Notices::look_at_tool(const sculpt::ToolSettings& settings, const sculpt::Tool& tool, const Box& workpiece_object,
-                           double spacing_m) {
+void Notices::look_at_tool(const toolbox::ToolSettings& settings, const toolbox::Tool& tool,
+                           const Box& workpiece_object, double spacing_m) {
     const double longest_m = sculpt::longest_side_m(workpiece_object);
     if (const auto misfit = misfit_.look(settings, tool, longest_m, spacing_m)) log_.notify(*misfit);
 }

@@ -32,7 +32,7 @@ public:
     // Looks at strokes and devices after a step.
     void look(const SessionState& state, const SessionHands& hands, std::span<const haptics::ToolState> tools,
               const haptics::ToolState& in_use, const Led& led, double spacing_m, Nanoseconds time_ns);
-    void look_at_tool(const sculpt::ToolSettings& settings, const sculpt::Tool& tool, const Box& workpiece_object,
+    void look_at_tool(const toolbox::ToolSettings& settings, const toolbox::Tool& tool, const Box& workpiece_object,
                       double spacing_m);
     // Takes what has changed of the carved surface.
     void take(const sculpt::SurfaceUpdate& update);

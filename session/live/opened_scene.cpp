@@ -79,16 +79,16 @@ void note_tool(const SculptOptions& options, const Room& room, FoundOut& found) 
     found.tool_options = options.tool;
     if (!room.carved_object && found.tool_options.shape.empty())
         found.tool_options.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
-    found.tool_options = sculpt::with_tool(found.tool_options, longest_side_m);
+    found.tool_options = toolbox::with_tool(found.tool_options, longest_side_m);
 }
 
 Result<SessionState> first_state(const SculptOptions& options, const FoundOut& found, const Room& room,
                                  const HandSide::Handles& handles, const Similarity& placed) {
-    BURIN_TRY(tool, sculpt::parse_tool_settings(found.tool_options));
+    BURIN_TRY(tool, toolbox::parse_tool_settings(found.tool_options));
     auto meshes = std::make_shared<ToolMeshes>();
     BURIN_TRY_DO(meshes->read(tool.shape));
-    for (const sculpt::ToolSpec& other : options.live.tools_of_input) BURIN_TRY_DO(meshes->read(other));
-    BURIN_TRY(feel, sculpt::parse_feel_settings(options.feel));
+    for (const toolbox::ToolSpec& other : options.live.tools_of_input) BURIN_TRY_DO(meshes->read(other));
+    BURIN_TRY(feel, toolbox::parse_feel_settings(options.feel));
     std::vector<std::string> names;
     for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
     SessionState state = begin_session(room, tool, feel, placed, std::move(meshes), handles, names);

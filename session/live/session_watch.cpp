@@ -123,10 +123,10 @@ std::optional<std::string> StrokeWatch::look(const SessionState& state, const ha
     return why_nothing(state.led(), touched_, depth_m, spacing_m);
 }
 
-std::optional<std::string> MisfitWatch::look(const sculpt::ToolSettings& settings, const sculpt::Tool& tool,
+std::optional<std::string> MisfitWatch::look(const toolbox::ToolSettings& settings, const toolbox::Tool& tool,
                                              double longest_side_m, double spacing_m) {
     if (silent_) return std::nullopt;
-    auto misfit = sculpt::misfit(settings, tool, longest_side_m, spacing_m);
+    auto misfit = toolbox::misfit(settings, tool, longest_side_m, spacing_m);
     if (std::exchange(misfits_, misfit.has_value())) return std::nullopt;
     return misfit;
 }

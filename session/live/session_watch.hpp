@@ -15,10 +15,10 @@
 #include "session/notices/message_kind.hpp"
 #include "session/state/leader.hpp"
 
-namespace burin::sculpt {
-struct Tool;  // sculpt/tool_options.hpp
+namespace burin::toolbox {
+struct Tool;  // toolbox/tool_options.hpp
 struct ToolSettings;
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox
 
 namespace burin::session {
 
@@ -87,7 +87,7 @@ public:
     // silent: says nothing.
     void begin(bool silent) { silent_ = silent; }
     // Returns what is wrong when that begins.
-    [[nodiscard]] std::optional<std::string> look(const sculpt::ToolSettings& settings, const sculpt::Tool& tool,
+    [[nodiscard]] std::optional<std::string> look(const toolbox::ToolSettings& settings, const toolbox::Tool& tool,
                                                   double longest_side_m, double spacing_m);
 
 private:

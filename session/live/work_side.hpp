@@ -19,10 +19,10 @@ namespace burin::session {
 
 // What a session found out in place of what its options leave open.
 struct FoundOut {
-    std::string name, size;            // of what is worked on: its file's or its shape's; "60 x 40 x 8 mm, 128 cells"
-    LengthUnit unit = LengthUnit::m;   // of the workpiece's file
-    bool holes_closed = false;         // of the workpiece's mesh
-    sculpt::ToolOptions tool_options;  // as the session began
+    std::string name, size;             // of what is worked on: its file's or its shape's; "60 x 40 x 8 mm, 128 cells"
+    LengthUnit unit = LengthUnit::m;    // of the workpiece's file
+    bool holes_closed = false;          // of the workpiece's mesh
+    toolbox::ToolOptions tool_options;  // as the session began
 
     // Writes it into options that leave it open.
     void settle(SculptOptions& options) const;

@@ -13,12 +13,12 @@
 #include "compute/engine/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "scene/world_reading.hpp"
-#include "sculpt/feel_options.hpp"
 #include "sculpt/mirror.hpp"
-#include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/input/actions.hpp"
 #include "session/options/edge_comfort.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::scene {
 struct World;  // scene/world_file.hpp
@@ -44,9 +44,9 @@ enum class DetailChoice { automatic, full };
 struct LiveOptions {
     bool live = false;  // explicitly requested; also implied when there is neither a stroke nor an output
     std::string input;  // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
-    std::vector<sculpt::ToolSpec> tools_of_input;  // that the input takes up; no option of the command line
-    std::string record;                            // path of the input recording; empty: none
-    bool lsl = false;                              // ticks and events are streamed by Lab Streaming Layer
+    std::vector<toolbox::ToolSpec> tools_of_input;  // that the input takes up; no option of the command line
+    std::string record;                             // path of the input recording; empty: none
+    bool lsl = false;                               // ticks and events are streamed by Lab Streaming Layer
     // Streams of markers that it hears, by a name, a predicate or "" for all; none: it hears none.
     std::optional<std::string> lsl_markers = std::nullopt;
     // Folder for a journal of what is not saved; empty: the usual one of a person, none with an input; "none".
@@ -119,7 +119,7 @@ struct SculptOptions {
     std::shared_ptr<const scene::World> scene;  // the world itself, in place of a file; no option of the command line
     bool no_workpiece = false;                  // with a world
     std::string points;  // of a handle, that touch (devices::points_named); empty: the tool is held in its middle
-    sculpt::ToolOptions tool;
+    toolbox::ToolOptions tool;
     sculpt::Mirror mirror;   // planes on whose other sides it works as well
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep
@@ -127,7 +127,7 @@ struct SculptOptions {
     // Makes it; none: the processor's, and a device that is asked for is refused. No option of the command line.
     compute::EngineMaker make_engine;
     HandChoice hand = HandChoice::rigid;
-    sculpt::FeelOptions feel;  // with a simulated hand
+    toolbox::FeelOptions feel;  // with a simulated hand
     bool real_time = false;
     std::size_t undo = 0;                                   // strokes to undo at the end, from press to release
     std::size_t undo_memory_MiB = 1024;                     // memory for strokes that can be undone

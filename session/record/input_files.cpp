@@ -58,7 +58,7 @@ InputFiles& InputFiles::script(const std::string& path) {
     file(path);
     if (path.empty() || is_database(path)) return *this;
     if (const Result<InputLog> log = read_input_log(path))
-        for (const sculpt::ToolSpec& tool : tools_in(*log)) mesh(tool.file);
+        for (const toolbox::ToolSpec& tool : tools_in(*log)) mesh(tool.file);
     return *this;
 }
 
@@ -71,7 +71,7 @@ InputFiles inputs_of(const SculptOptions& options) {
     const LiveOptions& live = options.live;
     inputs.script(live.input).file(live.record).file(live.wall).device(live.device);
     for (const NamedDevice& hand : live.hands) inputs.device(hand.device);
-    for (const sculpt::ToolSpec& tool : live.tools_of_input) inputs.mesh(tool.file);
+    for (const toolbox::ToolSpec& tool : live.tools_of_input) inputs.mesh(tool.file);
     return inputs;
 }
 

@@ -101,8 +101,8 @@ std::unexpected<Error> on_line(Error error, const std::string& log, std::size_t 
 // Returns the state of a session that was started without options: a command that cannot be carried out there cannot
 // be anywhere.
 Result<SessionState> plain_state() {
-    BURIN_TRY(tool, sculpt::parse_tool_settings({}));
-    BURIN_TRY(feel, sculpt::parse_feel_settings({}));
+    BURIN_TRY(tool, toolbox::parse_tool_settings({}));
+    BURIN_TRY(feel, toolbox::parse_feel_settings({}));
     SessionState state;
     state.led().tool = tool;
     state.feel = feel;
@@ -110,7 +110,7 @@ Result<SessionState> plain_state() {
 }
 
 // Returns the tool that a command takes up.
-std::optional<sculpt::ToolSpec> tool_in(const CommandInput& input) {
+std::optional<toolbox::ToolSpec> tool_in(const CommandInput& input) {
     const Result<SessionCommand> command = parse_command(input);
     if (!command) return std::nullopt;
     const auto* set = std::get_if<SetTool>(&*command);
@@ -170,8 +170,8 @@ LogNeeds needs_of(std::span<const InputEvent> events) {
     return needs;
 }
 
-std::vector<sculpt::ToolSpec> tools_in(const InputLog& log) {
-    std::vector<sculpt::ToolSpec> tools;
+std::vector<toolbox::ToolSpec> tools_in(const InputLog& log) {
+    std::vector<toolbox::ToolSpec> tools;
     for (const InputEvent& event : log.events)
         if (const auto* command = std::get_if<CommandInput>(&event.input))
             if (const auto tool = tool_in(*command)) tools.push_back(*tool);

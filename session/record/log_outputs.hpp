@@ -20,9 +20,9 @@
 
 #include "base/error.hpp"
 
-namespace burin::sculpt {
-struct ToolSpec;  // sculpt/tool_kinds.hpp
-}  // namespace burin::sculpt
+namespace burin::toolbox {
+struct ToolSpec;  // toolbox/tool_kinds.hpp
+}  // namespace burin::toolbox
 
 namespace burin::session {
 
@@ -50,7 +50,7 @@ struct LogNeeds {
 [[nodiscard]] LogNeeds needs_of(std::span<const InputEvent> events);
 
 // Returns the tools that a log's commands take up.
-[[nodiscard]] std::vector<sculpt::ToolSpec> tools_in(const InputLog& log);
+[[nodiscard]] std::vector<toolbox::ToolSpec> tools_in(const InputLog& log);
 
 // Places the files that a session is asked for. What is asked for in a log's session is the log's doing, by whatever
 // way: keys, the panel and the mouse on it are events of the log.

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "base/near_name.hpp"
+#include "base/numbers.hpp"
 #include "base/try.hpp"
 #include "document/document_file.hpp"
 #include "scene/object_property.hpp"
@@ -55,14 +56,14 @@ ArgumentKind kind_of(const QuantityDescriptor& range) { return number_within(ran
 Parsed parse_tool(CommandWords words) {
     const std::string& text = words[0];
     // Looks the kind up first, because this error offers the nearest name.
-    BURIN_TRY(kind, choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds()));
+    BURIN_TRY(kind, choice_of("tool", text.substr(0, text.find(':')), toolbox::tool_kinds()));
     const std::string where = "command tool " + text;
-    BURIN_TRY(tool, sculpt::parse_tool_spec(text, where));
+    BURIN_TRY(tool, toolbox::parse_tool_spec(text, where));
     return SetTool{std::move(tool)};
 }
 
 Parsed parse_operation(CommandWords words) {
-    BURIN_TRY(operation, choice_of("operation", words[0], sculpt::operations()));
+    BURIN_TRY(operation, choice_of("operation", words[0], toolbox::operations()));
     return SetOperation{operation.operation};
 }
 
@@ -72,7 +73,7 @@ Parsed parse_colour(CommandWords words) {
 }
 
 Parsed parse_material(CommandWords words) {
-    BURIN_TRY(preset, choice_of("material", words[0], sculpt::feel_presets()));
+    BURIN_TRY(preset, choice_of("material", words[0], toolbox::feel_presets()));
     return SetMaterial{preset.preset};
 }
 
@@ -215,7 +216,7 @@ Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& proper
     }
     constexpr const char* kOpacityRemedy = "write a number from 0, clear as glass, to 1, which hides what is behind";
     const bool is_opacity = property.property == scene::ObjectProperty::opacity;
-    const auto numbers = sculpt::parse_numbers(word, property.numbers, where);
+    const auto numbers = parse_numbers(word, property.numbers, where);
     if (!numbers) {
         const std::string unit = property.unit.empty() ? "" : ", in " + std::string(property.unit);
         return fail(where, property.numbers == 1 ? "is not a number" : "is not " + std::string(property.argument),
@@ -286,17 +287,17 @@ std::vector<std::string_view> names_of(const auto& descriptors) {
 
 // What help and kinds of arguments read from other tables, kept for as long as the program runs.
 struct NamesInTables {
-    std::vector<std::string_view> operations = names_of(sculpt::operations());
-    std::vector<std::string_view> materials = names_of(sculpt::feel_presets());
+    std::vector<std::string_view> operations = names_of(toolbox::operations());
+    std::vector<std::string_view> materials = names_of(toolbox::feel_presets());
     std::vector<std::string_view> techniques = names_of(session::techniques());
-    std::string tool_help = "Take a tool: " + listed(sculpt::tool_synopses());
-    std::string operation_help = "What the tool does: " + all_of(sculpt::operations());
-    std::string material_help = "What the workpiece feels like: " + all_of(sculpt::feel_presets());
+    std::string tool_help = "Take a tool: " + listed(toolbox::tool_synopses());
+    std::string operation_help = "What the tool does: " + all_of(toolbox::operations());
+    std::string material_help = "What the workpiece feels like: " + all_of(toolbox::feel_presets());
     std::string technique_help = "How the workspace moves: " + all_of(session::techniques());
     std::string object_help = "Change an object of the world: " + all_of(scene::object_properties());
 
 private:
-    static std::string all_of(const auto& descriptors) { return sculpt::alternatives(sculpt::names_in(descriptors)); }
+    static std::string all_of(const auto& descriptors) { return alternatives(names_in(descriptors)); }
 };
 
 // Lists the commands that take an argument.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names every command that a session accepts, and what its arguments name besides tools and operations
-// (sculpt/tool_kinds.hpp): workspace techniques and quantities, one descriptor each. The panel, keys, scripts and
+// (toolbox/tool_kinds.hpp): workspace techniques and quantities, one descriptor each. The panel, keys, scripts and
 // replays all give commands in these words, so that they cannot differ. Each command has the form that acts of
 // activities have too (session/input/command_form.hpp), and a parser that returns a typed value. Numbers are in SI
 // units; a printed value reads back to the same bits.

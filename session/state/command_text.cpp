@@ -12,13 +12,13 @@ std::string on_off(bool on) { return on ? "on" : "off"; }
 
 struct Printer {
     CommandInput operator()(const RunAction& c) const { return {std::string(name_of(c.action)), {}}; }
-    CommandInput operator()(const SetTool& c) const { return {"tool", {sculpt::text_of(c.tool)}}; }
+    CommandInput operator()(const SetTool& c) const { return {"tool", {toolbox::text_of(c.tool)}}; }
     CommandInput operator()(const SetOperation& c) const {
-        return {"operation", {std::string(sculpt::descriptor_of(c.operation).name)}};
+        return {"operation", {std::string(toolbox::descriptor_of(c.operation).name)}};
     }
     CommandInput operator()(const SetColour& c) const { return {"colour", {exact_word(c.srgb)}}; }
     CommandInput operator()(const SetMaterial& c) const {
-        return {"material", {std::string(sculpt::feel_presets()[static_cast<std::size_t>(c.preset)].name)}};
+        return {"material", {std::string(toolbox::feel_presets()[static_cast<std::size_t>(c.preset)].name)}};
     }
     CommandInput operator()(const SetQuantity& c) const {
         return {std::string(descriptor_of(c.quantity).name), {exact_word(c.value)}};

@@ -21,7 +21,7 @@ constexpr TechniqueDescriptor described(haptics::WorkspaceTechnique technique) {
     }
     return {};
 }
-constexpr std::array kTechniques = sculpt::table_of<haptics::WorkspaceTechnique, described>();
+constexpr std::array kTechniques = table_of<haptics::WorkspaceTechnique, described>();
 
 // Rounds to nine significant digits, as sessions have always kept radius and hardness; so an old recording replays to
 // the same bits.
@@ -34,11 +34,11 @@ double nine_digits(double value) {
 }
 
 void set_radius(SessionState& s, double radius_m) {
-    s.led().tool.shape = sculpt::resized(s.led().tool.shape, nine_digits(radius_m));
+    s.led().tool.shape = toolbox::resized(s.led().tool.shape, nine_digits(radius_m));
 }
 
 void set_hardness(SessionState& s, double hardness_Ns_per_m3) {
-    s.feel = sculpt::with_hardness(s.feel, nine_digits(hardness_Ns_per_m3 / sculpt::kHardnessUnit_Ns_per_m3));
+    s.feel = toolbox::with_hardness(s.feel, nine_digits(hardness_Ns_per_m3 / toolbox::kHardnessUnit_Ns_per_m3));
 }
 
 using State = SessionState;
@@ -66,22 +66,22 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
                 quantity,
                 {"radius", "m", "R", "The tool's radius in metres; sizes of other tools than a ball go along"},
                 {1e-6, 10.0, 0.0005, 0.05, true}, kTool,
-                [](const State& s) { return sculpt::half_width_m(s.led().tool.shape); }, set_radius);
+                [](const State& s) { return toolbox::half_width_m(s.led().tool.shape); }, set_radius);
         case Quantity::hardness:
             return row(
                 quantity, {"hardness", "N s/m3", "H", "How hard the material is to cut, in N s/m3"},
                 {0.0, 1e12, 1e4, 1e8, true}, kTool,
-                [](const State& s) { return sculpt::touch_material(s.feel).hardness_Ns_per_m3; }, set_hardness);
+                [](const State& s) { return toolbox::touch_material(s.feel).hardness_Ns_per_m3; }, set_hardness);
         case Quantity::friction:
             return row(
                 quantity, {"friction", "", "MU", "Friction of the surface, Coulomb's coefficient"},
                 {0.0, 10.0, 0.0, 1.0}, kTool,
-                [](const State& s) { return sculpt::touch_material(s.feel).dynamic_friction; },
+                [](const State& s) { return toolbox::touch_material(s.feel).dynamic_friction; },
                 [](State& s, double value) { s.feel.friction = value; });
         case Quantity::stiffness:
             return row(
                 quantity, {"stiffness", "N/m", "K", "Stiffness of the surface in N/m"}, {0.0, 1e6, 50.0, 2000.0, true},
-                kTool, [](const State& s) { return sculpt::touch_material(s.feel).stiffness_N_per_m; },
+                kTool, [](const State& s) { return toolbox::touch_material(s.feel).stiffness_N_per_m; },
                 [](State& s, double value) { s.feel.stiffness_N_per_m = value; });
         case Quantity::velocity_filter:
             return row(
@@ -109,7 +109,7 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
     }
     return {};
 }
-constexpr std::array kQuantities = sculpt::table_of<Quantity, described_quantity>();
+constexpr std::array kQuantities = table_of<Quantity, described_quantity>();
 
 }  // namespace
 

@@ -11,13 +11,13 @@
 
 #include "compute/rays/operation.hpp"
 #include "haptics/workspace/workspace_picture.hpp"
-#include "sculpt/feel_options.hpp"
 #include "sculpt/mirror.hpp"
-#include "sculpt/tool_kinds.hpp"
 #include "session/input/actions.hpp"
 #include "session/objects/edit_object.hpp"
 #include "session/options/edge_comfort.hpp"
 #include "session/state/asked_close.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/tool_kinds.hpp"
 #include "wall/stereo_mode.hpp"
 
 namespace burin::session {
@@ -28,7 +28,7 @@ struct RunAction {
     bool operator==(const RunAction&) const = default;
 };
 struct SetTool {
-    sculpt::ToolSpec tool;
+    toolbox::ToolSpec tool;
     bool operator==(const SetTool&) const = default;
 };
 struct SetOperation {
@@ -42,7 +42,7 @@ struct SetColour {
 };
 // Makes the workpiece feel like a material.
 struct SetMaterial {
-    sculpt::FeelPreset preset = sculpt::FeelPreset::medium;
+    toolbox::FeelPreset preset = toolbox::FeelPreset::medium;
     bool operator==(const SetMaterial&) const = default;
 };
 // Names a number that a session keeps and a command can set.

@@ -43,7 +43,7 @@ public:
         return change_tool([&](SessionState& s) { s.led().tool.colour = colour; });
     }
     Result<void> operator()(const SetMaterial& set) {
-        return change_tool([&](SessionState& s) { s.feel = sculpt::with_preset(s.feel, set.preset); });
+        return change_tool([&](SessionState& s) { s.feel = toolbox::with_preset(s.feel, set.preset); });
     }
     Result<void> operator()(const SetQuantity& set);
     Result<void> operator()(const SetTechnique& set) {
@@ -211,7 +211,7 @@ Result<void> Runner::operator()(const CalibrateHandle& wanted) {
 
 Result<void> Runner::operator()(const SetQuantity& set) {
     const QuantityDescriptor& quantity = descriptor_of(set.quantity);
-    if (set.quantity == Quantity::radius && state_.led().tool.shape.kind == sculpt::ToolKind::mesh) {
+    if (set.quantity == Quantity::radius && state_.led().tool.shape.kind == toolbox::ToolKind::mesh) {
         return fail("radius", "a tool that is a mesh keeps its size", "take another tool, or scale the mesh's file");
     }
     if (quantity.concern == QuantityConcern::tool_and_touch)

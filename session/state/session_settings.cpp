@@ -71,7 +71,7 @@ std::optional<std::string> text(const std::string& value) {
 }
 std::optional<std::string> text(bool on) { return on ? std::optional<std::string>("") : std::nullopt; }
 std::optional<std::string> text(compute::Operation operation) {
-    return std::string(sculpt::descriptor_of(operation).name);
+    return std::string(toolbox::descriptor_of(operation).name);
 }
 std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
 std::optional<std::string> text(const sculpt::Mirror& mirror) {
@@ -114,7 +114,7 @@ bool read(const std::string& text, std::vector<NamedDevice>& hands) {
 }
 bool read(const std::string& text, bool& on) { return on = text.empty(); }
 bool read(const std::string& text, compute::Operation& value) {
-    for (const sculpt::OperationDescriptor& known : sculpt::operations()) {
+    for (const toolbox::OperationDescriptor& known : toolbox::operations()) {
         value = known.operation;
         if (known.name == text) return true;
     }

@@ -10,11 +10,11 @@
 #include "base/try.hpp"
 #include "sculpt/sculpt_order.hpp"
 #include "sculpt/stroke_reader.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/held/held_tool.hpp"
 #include "session/objects/world_objects.hpp"
 #include "session/state/session_room.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::session {
 namespace {
@@ -29,8 +29,8 @@ double longest_of(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 // Returns the feel of the workpiece; with infinite hardness when it can only be touched.
 haptics::TouchMaterial material_under_tool(const SessionState& state, const HandState& hand) {
     constexpr double kCannotBeCut = std::numeric_limits<double>::infinity();
-    return sculpt::touch_material(hand.only_touch || !state.carves ? sculpt::with_hardness(state.feel, kCannotBeCut)
-                                                                   : state.feel);
+    return toolbox::touch_material(hand.only_touch || !state.carves ? toolbox::with_hardness(state.feel, kCannotBeCut)
+                                                                    : state.feel);
 }
 
 // Returns the radius of a ball about as wide as the tool.
@@ -93,7 +93,7 @@ Similarity object_from_device(const SessionState& state, const Room& room, std::
     return mapped * Similarity{hand.device_from_read.position_m, hand.device_from_read.orientation};
 }
 
-SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
+SessionState begin_session(const Room& room, const toolbox::ToolSettings& tool, const toolbox::FeelSettings& feel,
                            const Similarity& world_from_object, std::shared_ptr<const ToolMeshes> meshes,
                            std::span<const std::shared_ptr<const HeldHandle>> handles,
                            std::span<const std::string> hands) {
@@ -152,7 +152,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
     p.workspace.reach_object.lo -= around;
     p.workspace.reach_object.hi += around;
-    const sculpt::FeltTool& felt = hand.held->felt;
+    const toolbox::FeltTool& felt = hand.held->felt;
     p.probe = felt.probe;
     p.shape = felt.shape;
     p.tool = felt.surface;
@@ -190,17 +190,17 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
 }
 
 Result<sculpt::UseTool> tool_of(const SessionState& state) {
-    const sculpt::ToolSettings& tool = state.led().tool;
-    BURIN_TRY_DO(sculpt::check_tool(tool));
-    BURIN_TRY_DO(sculpt::check_feel(state.feel));
-    if (state.led().handle && tool.shape.kind != sculpt::ToolKind::ball)
-        return fail("tool " + sculpt::text_of(tool.shape), "is no ball, and balls are at the points of a wand",
+    const toolbox::ToolSettings& tool = state.led().tool;
+    BURIN_TRY_DO(toolbox::check_tool(tool));
+    BURIN_TRY_DO(toolbox::check_feel(state.feel));
+    if (state.led().handle && tool.shape.kind != toolbox::ToolKind::ball)
+        return fail("tool " + toolbox::text_of(tool.shape), "is no ball, and balls are at the points of a wand",
                     "take a ball, such as ball:0.004");
     const ToolMeshes none;
     BURIN_TRY(shape, (state.meshes ? *state.meshes : none).shape_of(tool.shape));
-    sculpt::Tool made = sculpt::make_tool(tool, std::move(shape));
+    toolbox::Tool made = toolbox::make_tool(tool, std::move(shape));
     made.fills_at_hand = state.mouse == MouseMode::surface;
-    return sculpt::UseTool{std::move(made), sculpt::material_of(tool),
+    return sculpt::UseTool{std::move(made), toolbox::material_of(tool),
                            material_under_tool(state, state.led()).hardness_Ns_per_m3};
 }
 

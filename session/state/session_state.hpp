@@ -14,13 +14,13 @@
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "base/space.hpp"
-#include "sculpt/feel_options.hpp"
 #include "sculpt/mirror.hpp"
 #include "session/held/hand_state.hpp"
 #include "session/input/actions.hpp"
 #include "session/objects/world_history.hpp"
 #include "session/state/asked_close.hpp"
 #include "session/state/smooth_stroke.hpp"
+#include "toolbox/feel_options.hpp"
 
 namespace burin::devices {
 struct DeviceDescription;  // devices/haptic/haptic_device.hpp
@@ -51,7 +51,7 @@ struct SessionState {
     std::uint64_t placed = 1;
     Vec3 middle_object{0.0};                   // of all that can be touched
     std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none
-    sculpt::FeelSettings feel;
+    toolbox::FeelSettings feel;
     bool carves = true;                 // there is a workpiece
     bool saves = true;                  // the work can be saved
     sculpt::Mirror mirror;              // planes on whose other sides the workpiece is carved as well
@@ -78,8 +78,8 @@ struct SessionState {
 
 // Returns the first state: the workpiece at this place in the world, each hand's workspace over its front, and all
 // hands with the same tool. handles: of each hand that has one, by number; hands: their names, none for one alone.
-[[nodiscard]] SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool,
-                                         const sculpt::FeelSettings& feel, const Similarity& world_from_object = {},
+[[nodiscard]] SessionState begin_session(const Room& room, const toolbox::ToolSettings& tool,
+                                         const toolbox::FeelSettings& feel, const Similarity& world_from_object = {},
                                          std::shared_ptr<const ToolMeshes> meshes = nullptr,
                                          std::span<const std::shared_ptr<const HeldHandle>> handles = {},
                                          std::span<const std::string> hands = {});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/numbers.hpp"
 #include "base/try.hpp"
 #include "compute/rays/extent.hpp"
 #include "document/journal.hpp"
@@ -46,7 +47,7 @@ void add_to(std::string& told, const std::string& more) { told += (told.empty() 
 // Returns the saved view of a workpiece of this size; nothing where none was saved, or it is damaged, which is told.
 std::optional<Similarity> view_in(const document::DocumentReader& reader, double size_m, std::string& lost) {
     if (!reader.facts().contains(kView)) return std::nullopt;
-    const auto n = sculpt::parse_numbers(reader.fact(kView), 8, kView);
+    const auto n = parse_numbers(reader.fact(kView), 8, kView);
     const auto is_near = [](double at_m) { return std::abs(at_m) <= kFarthestSeen_m; };
     const auto is_sound = [&] {
         const double turn = glm::length(Quat((*n)[3], (*n)[4], (*n)[5], (*n)[6])), seen_m = (*n)[7] * size_m;
@@ -62,7 +63,7 @@ std::optional<Similarity> view_in(const document::DocumentReader& reader, double
 // lattice's.
 Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& lattice, std::string& lost) {
     if (!reader.facts().contains(kBounds)) return sculpt::workpiece_bounds(lattice);
-    const auto n = sculpt::parse_numbers(reader.fact(kBounds), 6, kBounds);
+    const auto n = parse_numbers(reader.fact(kBounds), 6, kBounds);
     const Box most = sculpt::lattice_bounds(lattice);
     const auto is_sound = [&] {
         double longest_m = 0.0;
@@ -183,7 +184,7 @@ struct IntoOptions {
 
     void operator()(const SetTool& set) const {
         if (keeps_tool) return;
-        const std::string shape = sculpt::text_of(set.tool);
+        const std::string shape = toolbox::text_of(set.tool);
         if (const auto read = ToolMeshes().read(set.tool); read)
             options.tool.shape = shape;
         else  // its file lies elsewhere now; the work is no less there
@@ -200,11 +201,11 @@ struct IntoOptions {
         options.tool.material = exact(of_255);
     }
     void operator()(const SetMaterial& set) const {
-        if (!keeps_hardness) options.feel.hardness = sculpt::feel_presets()[static_cast<std::size_t>(set.preset)].name;
+        if (!keeps_hardness) options.feel.hardness = toolbox::feel_presets()[static_cast<std::size_t>(set.preset)].name;
     }
     void operator()(const SetQuantity& set) const {
         if (set.quantity == Quantity::hardness && !keeps_hardness)
-            options.feel.hardness = number_in(set.value / sculpt::kHardnessUnit_Ns_per_m3);
+            options.feel.hardness = number_in(set.value / toolbox::kHardnessUnit_Ns_per_m3);
         if (set.quantity == Quantity::stiffness && !options.feel.stiffness_N_per_m)
             options.feel.stiffness_N_per_m = set.value;
         if (set.quantity == Quantity::friction && !options.feel.friction) options.feel.friction = set.value;
@@ -216,9 +217,9 @@ struct IntoOptions {
 };
 
 // Takes what of the material's feel no command sets, where the options leave it open.
-void take_feel(const document::DocumentReader& reader, bool keeps_hardness, sculpt::FeelOptions& feel) {
+void take_feel(const document::DocumentReader& reader, bool keeps_hardness, toolbox::FeelOptions& feel) {
     const auto take = [&](const char* fact, std::optional<double>& into) {
-        const auto number = sculpt::parse_numbers(reader.fact(fact), 1, fact);
+        const auto number = parse_numbers(reader.fact(fact), 1, fact);
         if (number && !into) into = number->front();
     };
     take(kGrain, feel.grain_mm);
@@ -309,7 +310,7 @@ Result<void> take_settings_of_document(SculptOptions& options) {
     if (path.empty()) return {};
     BURIN_TRY(reader, document::DocumentReader::open(path));
     const IntoOptions into{options, !options.tool.shape.empty(),
-                           options.feel.hardness != sculpt::FeelOptions{}.hardness};
+                           options.feel.hardness != toolbox::FeelOptions{}.hardness};
     // A command that this program does not know is left out: what it set is not there either.
     for (const std::string& line : reader.commands())
         if (const Result<SessionCommand> command = parse_command_line(line)) std::visit(into, *command);
@@ -318,7 +319,7 @@ Result<void> take_settings_of_document(SculptOptions& options) {
 }
 
 std::vector<std::string> saved_commands(const SessionState& state) {
-    const sculpt::ToolSettings& tool = state.led().tool;
+    const toolbox::ToolSettings& tool = state.led().tool;
     std::vector<SessionCommand> commands{SetTool{tool.shape}, SetOperation{tool.operation}};
     if (tool.colour) {
         SetColour colour;
@@ -344,7 +345,7 @@ std::map<std::string, std::string> saved_facts(const SculptOptions& options, con
     const Similarity& view = state.world_from_object;
     facts[kUnit] = name_of(state.export_unit);
     // Empty where there is none: a fact that is not written stays as it was.
-    const sculpt::FeelSettings& feel = state.feel;
+    const toolbox::FeelSettings& feel = state.feel;
     facts[kHardness] = std::isinf(feel.hardness_kPa_per_mm_s.value_or(0.0)) ? kCannotBeCut : "";
     facts[kYield] = feel.yield_kPa ? number_in(*feel.yield_kPa) : "";
     facts[kGrain] = feel.grain_mm ? number_in(*feel.grain_mm) : "";

@@ -109,7 +109,7 @@ TEST(SessionHands, EachHandHasAToolAndForcesOfItsOwn) {
     EXPECT_FALSE(parameters(0).shape.touches());
     EXPECT_TRUE(parameters(1).shape.touches());
     desk.frame({lead("right")});
-    EXPECT_EQ(desk.desk->session().state().led().tool.shape.kind, sculpt::ToolKind::ball);
+    EXPECT_EQ(desk.desk->session().state().led().tool.shape.kind, toolbox::ToolKind::ball);
     EXPECT_TRUE(desk.desk->session().state().led().force_on);
 }
 

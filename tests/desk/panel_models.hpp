@@ -12,7 +12,7 @@ namespace burin::session {
 inline PanelModel idle_model() {
     PanelModel model;
     model.workpiece = {"soccer-ball.obj", "220.4 x 219.8 x 220.1 mm, 256 cells"};
-    model.tool = {sculpt::ToolKind::ball, {0.004, 0.0, 0.0}, {}};
+    model.tool = {toolbox::ToolKind::ball, {0.004, 0.0, 0.0}, {}};
     model.sources = {{"Haptic device", "simulated hand, 1000 Hz", Condition::good},
                      {"Head tracker", "mouse and keys", Condition::idle}};
     model.figures.frames_per_s = 60.0;
@@ -64,7 +64,7 @@ inline PanelModel no_force_model() {
 
 inline PanelModel export_model() {
     PanelModel model = idle_model();
-    model.tool = {sculpt::ToolKind::bullnose, {0.006, 0.0015, 0.024}, {}};
+    model.tool = {toolbox::ToolKind::bullnose, {0.006, 0.0015, 0.024}, {}};
     model.undo_count = 3;
     model.exporting = true;
     model.log = model.notes = {{"Writing part.stl", MessageKind::info, 1, 12'000'000'000}};

@@ -85,7 +85,7 @@ struct Parts {
         {},
         &clock};
     haptics::HapticLoop loop{omni, clock, channels};
-    sculpt::CarvedScene carved{carving, channels, sculpt::Tool{compute::BallTool{0.005}}, 1e6, 0.01, {}};
+    sculpt::CarvedScene carved{carving, channels, toolbox::Tool{compute::BallTool{0.005}}, 1e6, 0.01, {}};
     SteppedExecutor executor{clock, loop, {&channels}, carved.service()};
 };
 

@@ -10,9 +10,9 @@
 
 #include "desk/panel/panel.hpp"
 #include "desk/panel/panel_sections.hpp"
-#include "sculpt/tool_options.hpp"
 #include "session/state/command_table.hpp"
 #include "tests/desk/panel_models.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::session {
 namespace {
@@ -102,9 +102,9 @@ const std::map<std::string, Commands>& fixed_commands() {
     return expected;
 }
 
-std::vector<sculpt::ToolKind> kinds_on_panel() {
-    std::vector<sculpt::ToolKind> kinds;
-    for (const sculpt::ToolDescriptor& kind : sculpt::tool_kinds())
+std::vector<toolbox::ToolKind> kinds_on_panel() {
+    std::vector<toolbox::ToolKind> kinds;
+    for (const toolbox::ToolDescriptor& kind : toolbox::tool_kinds())
         if (kind.on_panel()) kinds.push_back(kind.kind);
     return kinds;
 }
@@ -113,10 +113,10 @@ std::vector<sculpt::ToolKind> kinds_on_panel() {
 std::map<std::string, Commands> expected_commands() {
     std::map<std::string, Commands> expected = fixed_commands();
     for (const char* axis : {"x", "y", "z"}) expected[std::string("mirror ") + axis] = {{"mirror", {axis}}};
-    const sculpt::ToolSpec held = idle_model().tool;
-    for (const sculpt::ToolKind kind : kinds_on_panel()) {
-        Commands& given = expected["tool " + std::string(sculpt::descriptor_of(kind).name)];
-        if (kind != held.kind) given = {{"tool", {sculpt::text_of(panel::tool_like(held, kind))}}};
+    const toolbox::ToolSpec held = idle_model().tool;
+    for (const toolbox::ToolKind kind : kinds_on_panel()) {
+        Commands& given = expected["tool " + std::string(toolbox::descriptor_of(kind).name)];
+        if (kind != held.kind) given = {{"tool", {toolbox::text_of(panel::tool_like(held, kind))}}};
     }
     return expected;
 }
@@ -173,20 +173,20 @@ TEST(PanelWidgets, OfferEveryEntryOfTheirLists) {
         EXPECT_EQ(desk.click(list + " " + std::string(entry)), (Commands{{list, {std::string(entry)}}}));
     };
     for (const wall::StereoMode mode : wall::stereo_modes()) offers("stereo-mode", file_name_of(mode));
-    for (const auto& preset : sculpt::feel_presets()) offers("material", preset.name);
+    for (const auto& preset : toolbox::feel_presets()) offers("material", preset.name);
     for (const TechniqueDescriptor& technique : techniques()) offers("technique", technique.name);
 }
 
 TEST(PanelWidgets, SaySizesOfEveryToolThatATakerTakes) {
-    for (const sculpt::ToolKind kind : kinds_on_panel()) {
+    for (const toolbox::ToolKind kind : kinds_on_panel()) {
         PanelModel model = workable_model();
         model.tool = panel::tool_like(model.tool, kind);
-        for (const sculpt::ToolSize& size : sculpt::descriptor_of(kind).used_sizes()) {
+        for (const toolbox::ToolSize& size : toolbox::descriptor_of(kind).used_sizes()) {
             const std::string label = size.name == "radius" ? "radius" : "tool " + std::string(size.name);
             PanelDesk desk(model);
             const Commands given = desk.click(label);
             ASSERT_EQ(given.size(), 1u) << label;
-            EXPECT_EQ(given[0].name, kind == sculpt::ToolKind::ball ? "radius" : "tool");
+            EXPECT_EQ(given[0].name, kind == toolbox::ToolKind::ball ? "radius" : "tool");
             EXPECT_TRUE(parse_command(given[0])) << label;
         }
     }
@@ -438,23 +438,23 @@ TEST(PanelReplay, IsTheSameBitForBitWhateverOtherPanelsDo) {
 
 RC_GTEST_PROP(PanelSizes, OfAnyToolStayATool, ()) {
     const auto any_kind = [] { return *rc::gen::elementOf(kinds_on_panel()); };
-    sculpt::ToolSpec tool{sculpt::ToolKind::ball, {0.001 * *rc::gen::inRange(1, 100), 0.0, 0.0}, {}};
+    toolbox::ToolSpec tool{toolbox::ToolKind::ball, {0.001 * *rc::gen::inRange(1, 100), 0.0, 0.0}, {}};
     tool = panel::tool_like(tool, any_kind());
     for (int i = 0; i < 4; ++i) {
-        const auto sizes = sculpt::descriptor_of(tool.kind).used_sizes().size();
+        const auto sizes = toolbox::descriptor_of(tool.kind).used_sizes().size();
         const double size_m = panel::value_at(0.01 * *rc::gen::inRange(0, 101), 0.0005, 0.1, true);
         tool = panel::with_size(tool, *rc::gen::inRange<std::size_t>(0, sizes), size_m);
-        RC_ASSERT(sculpt::parse_tool_settings({.shape = sculpt::text_of(tool)}).has_value());
+        RC_ASSERT(toolbox::parse_tool_settings({.shape = toolbox::text_of(tool)}).has_value());
         tool = panel::tool_like(tool, any_kind());
     }
 }
 
 TEST(PanelSizes, OfAnotherKindAreAboutAsWide) {
-    using sculpt::ToolKind;
-    const auto like = [](const sculpt::ToolSpec& tool, ToolKind kind) {
-        return sculpt::text_of(panel::tool_like(tool, kind));
+    using toolbox::ToolKind;
+    const auto like = [](const toolbox::ToolSpec& tool, ToolKind kind) {
+        return toolbox::text_of(panel::tool_like(tool, kind));
     };
-    const sculpt::ToolSpec ball{ToolKind::ball, {0.004, 0.0, 0.0}, {}};
+    const toolbox::ToolSpec ball{ToolKind::ball, {0.004, 0.0, 0.0}, {}};
     EXPECT_EQ(like(ball, ToolKind::cylinder), "cylinder:0.004,0.016");
     EXPECT_EQ(like(ball, ToolKind::cone), "cone:0,0.004,0.012");
     EXPECT_EQ(like(ball, ToolKind::bullnose), "bullnose:0.004,0.001,0.016");
@@ -482,13 +482,13 @@ TEST(PanelSizes, ThatAreOfferedSuitTheWorkpiece) {
 }
 
 TEST(PanelSizes, FollowTheOneThatIsSet) {
-    using sculpt::ToolKind;
-    const sculpt::ToolSpec nose{ToolKind::bullnose, {0.004, 0.001, 0.016}, {}};
-    EXPECT_EQ(panel::with_size(nose, 1, 0.02).sizes_m, (sculpt::ToolSizes{0.02, 0.02, 0.02}));
-    EXPECT_EQ(panel::with_size(nose, 0, 0.0005).sizes_m, (sculpt::ToolSizes{0.0005, 0.0005, 0.016}));
-    const sculpt::ToolSpec cone{ToolKind::cone, {0.0, 0.004, 0.012}, {}};
-    EXPECT_EQ(panel::with_size(cone, 1, 0.0).sizes_m, (sculpt::ToolSizes{0.0005, 0.0, 0.012}));
-    EXPECT_EQ(panel::with_size(cone, 0, 0.002).sizes_m, (sculpt::ToolSizes{0.002, 0.004, 0.012}));
+    using toolbox::ToolKind;
+    const toolbox::ToolSpec nose{ToolKind::bullnose, {0.004, 0.001, 0.016}, {}};
+    EXPECT_EQ(panel::with_size(nose, 1, 0.02).sizes_m, (toolbox::ToolSizes{0.02, 0.02, 0.02}));
+    EXPECT_EQ(panel::with_size(nose, 0, 0.0005).sizes_m, (toolbox::ToolSizes{0.0005, 0.0005, 0.016}));
+    const toolbox::ToolSpec cone{ToolKind::cone, {0.0, 0.004, 0.012}, {}};
+    EXPECT_EQ(panel::with_size(cone, 1, 0.0).sizes_m, (toolbox::ToolSizes{0.0005, 0.0, 0.012}));
+    EXPECT_EQ(panel::with_size(cone, 0, 0.002).sizes_m, (toolbox::ToolSizes{0.002, 0.004, 0.012}));
 }
 
 }  // namespace

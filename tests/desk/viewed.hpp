@@ -43,7 +43,7 @@ struct Viewed {
 };
 
 // Begins as a session before this wall does, with a tool and how the main screen is shown.
-[[nodiscard]] inline Viewed begin_viewed(const Room& room, const DeskRoom& desk, const sculpt::ToolSettings& tool,
+[[nodiscard]] inline Viewed begin_viewed(const Room& room, const DeskRoom& desk, const toolbox::ToolSettings& tool,
                                          const wall::OutputSettings& output = {}) {
     Viewed viewed{room, desk, {}, begin_viewer(desk, output)};
     viewed.state = begin_session(room, tool, {}, placed_before(viewed.viewer, room, desk, nullptr));
@@ -64,8 +64,8 @@ struct Viewed {
     desk.hands.front().home_head_world = {{0.0, 1.6, 2.0}, Quat{1, 0, 0, 0}};
     return desk;
 }
-[[nodiscard]] inline sculpt::ToolSettings ball_tool() {
-    return {.shape = {sculpt::ToolKind::ball, sculpt::ToolSizes{0.01}, {}}};
+[[nodiscard]] inline toolbox::ToolSettings ball_tool() {
+    return {.shape = {toolbox::ToolKind::ball, toolbox::ToolSizes{0.01}, {}}};
 }
 // Returns the block before a wall of a file, with its viewer where the wall's tracker is taken to be without one.
 [[nodiscard]] inline Viewed block_before_wall(const SessionWall& wall) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sculpt/tool_samples.hpp"
+#include "toolbox/tool_samples.hpp"
 
 namespace burin::haptics::test {
 
@@ -52,7 +52,7 @@ inline geometry::TriangleMesh ball_mesh(double radius_m, int divisions = 4) {
     return mesh;
 }
 
-inline ToolSurface ball_tool(double radius_m) { return sculpt::tool_surface(ball_mesh(radius_m), radius_m); }
+inline ToolSurface ball_tool(double radius_m) { return toolbox::tool_surface(ball_mesh(radius_m), radius_m); }
 
 // What of a ball of radius R at depth d in a plane is engaged, x = d / R <= 1: integrals over the cap, n into the
 // material, t across it, with m the ball's normal. Across and lift are of its front half.

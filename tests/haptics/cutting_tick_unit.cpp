@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "haptics/tick.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/test_units.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::haptics {
 
@@ -16,7 +16,7 @@ namespace burin::haptics {
 // is the torque of the material, against the turn. The spring, which bears in the middle, has none.
 TEST(CuttingTick, TheTickGivesTheHandTheMaterialsTorqueOnAToolThatTurns) {
     const Vec3 half(0.012, 0.002, 0.004);
-    const sculpt::FeltTool felt = sculpt::felt_tool(compute::BoxTool{half});
+    const toolbox::FeltTool felt = toolbox::felt_tool(compute::BoxTool{half});
     const test::Surface plane = test::plane(0.05, 200);
     const auto torque_of_turn = [&](double rate_rad_per_s) {
         TickParameters p;

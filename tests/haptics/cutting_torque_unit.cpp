@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "haptics/tick.hpp"
-#include "sculpt/felt_tool.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "tests/haptics/session_tools.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/uneven_poses.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -87,7 +87,7 @@ Vec3 torque_by_pieces(const geometry::TriangleMesh& mesh, const Pose& before, co
     return torque_Nm;
 }
 
-TickParameters cutting_parameters(const sculpt::FeltTool& felt) {
+TickParameters cutting_parameters(const toolbox::FeltTool& felt) {
     TickParameters parameters;
     parameters.probe = felt.probe;
     parameters.shape = felt.shape;
@@ -110,7 +110,7 @@ struct CutTorque {
 };
 
 // Presses the tool down over the edge, which lies towards `side_rad` of its axis, and turns it in the last ticks.
-CutTorque press_over_the_edge(const sculpt::FeltTool& felt, const geometry::TriangleMesh& mesh, double side_rad,
+CutTorque press_over_the_edge(const toolbox::FeltTool& felt, const geometry::TriangleMesh& mesh, double side_rad,
                               const Vec3& turning_rad_per_s) {
     constexpr int kTicks = 80;                            // down to half of the size of the smallest
     constexpr double kFall_m = 3e-5, kTurned_rad = 0.08;  // in a tick, and in all
@@ -155,8 +155,8 @@ CutTorque press_over_the_edge(const sculpt::FeltTool& felt, const geometry::Tria
 
 TEST(CuttingTorque, OfEveryKindOfToolIsThatOfTheMaterialOnItsPiecesAboutItsOrigin) {
     for (const CuttingKind& kind : cutting_kinds()) {
-        const sculpt::FeltTool felt = sculpt::felt_tool(kind.shape);
-        const geometry::TriangleMesh mesh = sculpt::mesh_of(kind.shape);
+        const toolbox::FeltTool felt = toolbox::felt_tool(kind.shape);
+        const geometry::TriangleMesh mesh = toolbox::mesh_of(kind.shape);
         const double size_m = felt.surface.size_m / kUnevenScales[0];
         for (int side = 0; side < 4; ++side)
             for (const double rate_rad_per_s : {0.0, kind.turns_rad_per_s, -kind.turns_rad_per_s}) {
@@ -181,12 +181,12 @@ TEST(CuttingTorque, OfEveryKindOfToolIsThatOfTheMaterialOnItsPiecesAboutItsOrigi
 // bears it.
 TEST(CuttingTorque, OfAMillThatCutsBesideItsAxisIsItsForceAtTheMiddleOfHalfADisc) {
     constexpr double kRadius_m = 0.003, kFallsIn_m = 2e-5, kDeep_m = 0.0008;
-    const sculpt::FeltTool felt = sculpt::felt_tool(compute::CylinderTool{kRadius_m, 0.012});
+    const toolbox::FeltTool felt = toolbox::felt_tool(compute::CylinderTool{kRadius_m, 0.012});
     const Pose bench{Vec3(0.0), Quat(1.0, 0.0, 0.0, 0.0)};
     const test::Surface surface = half_plane(bench);
     TickParameters parameters = cutting_parameters(felt);
     parameters.clearance_ratio = TickParameters{}.clearance_ratio;
-    const double tip_m = sculpt::tip_m(compute::CylinderTool{kRadius_m, 0.012});
+    const double tip_m = toolbox::tip_m(compute::CylinderTool{kRadius_m, 0.012});
     const double half_disc_m2 = 0.5 * std::numbers::pi * kRadius_m * kRadius_m;
     const double lever_m = 4.0 * kRadius_m / (3.0 * std::numbers::pi);
     TickState state;

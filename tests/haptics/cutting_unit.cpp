@@ -89,7 +89,7 @@ TEST(ToolSurface, ItsTableFindsTheSampleNearestToAPlaceAndNoneFarAway) {
     }
     EXPECT_EQ(ball().nearest(Vec3f(static_cast<float>(2.0 * kRadius_m), 0.0f, 0.0f)), ToolSurface::kNone);
     EXPECT_EQ(ball().nearest(Vec3f(std::numeric_limits<float>::quiet_NaN())), ToolSurface::kNone);
-    EXPECT_EQ(sculpt::tool_surface({}, 1.0).count, 0u);
+    EXPECT_EQ(toolbox::tool_surface({}, 1.0).count, 0u);
 }
 
 TEST(Cutting, AtASteadyPressTheToolCutsAtYieldAndHardnessTimesItsSection) {
@@ -333,7 +333,7 @@ TEST(Cutting, ATurningToolIsHeldBackByWhatItTurnsInto) {
                 beam.triangles.push_back({p, q, r});
                 beam.triangles.push_back({p, r, s});
             }
-    const ToolSurface tool = sculpt::tool_surface(beam, half.y);
+    const ToolSurface tool = toolbox::tool_surface(beam, half.y);
     const TouchMaterial material = material_of(2e6, 1e4);
     CuttingState state;
     CuttingInput in = pressing(0.0);

@@ -184,7 +184,7 @@ std::uint64_t number_in(const char* name, std::uint64_t otherwise) {
 class LetGoRun {
 public:
     LetGoRun(const LetGoScene& scene, std::size_t parts, double radius_m, double budget_us, double friction,
-             std::uint64_t seed, const sculpt::FeltTool& tool = {})
+             std::uint64_t seed, const toolbox::FeltTool& tool = {})
         : scene_(scene), radius_m_(radius_m), shape_(tool.shape), devices_(parts), channels_(parts) {
         std::vector<LoopPart> all;
         for (std::size_t i = 0; i < parts; ++i) {
@@ -391,7 +391,7 @@ TEST(LetGo, AHandInFreeAirIsNotHeldByAShape) {
         {"box", compute::BoxTool{{0.002, 0.0015, 0.0025}}},
         {"mesh", compute::MeshTool{std::make_shared<geometry::TriangleMesh>(test::six_sided_bar(0.0015, 0.005))}}};
     for (const auto& [name, shape] : tools) {
-        const sculpt::FeltTool felt = sculpt::felt_tool(shape);
+        const toolbox::FeltTool felt = toolbox::felt_tool(shape);
         LetGoFigures sum;
         for (std::uint64_t run = 0; sum.ticks < ticks; ++run) {
             const double budget_us = std::array{333.0, 100.0, 33.0}[run % 3];

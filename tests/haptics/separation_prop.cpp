@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "haptics/contact/tool_sides.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/turned_tools.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -84,7 +84,7 @@ TEST(Separation, IsNeverLessThanWhatASideOfTheToolTells) {
                                                 compute::ConeTool{0.4, 0.1, 0.5}, compute::BullNoseTool{0.5, 0.2, 1.0},
                                                 compute::BoxTool{{0.2, 0.3, 0.5}}};
     std::vector<ToolShape> shapes;
-    for (const compute::ToolShape& tool : tools) shapes.push_back(sculpt::felt_tool(tool).shape);
+    for (const compute::ToolShape& tool : tools) shapes.push_back(toolbox::felt_tool(tool).shape);
     for (int i = 0; i < compute::test::repeated(40'000); ++i) {
         const ToolShape& shape = shapes[static_cast<std::size_t>(i) % shapes.size()];
         ASSERT_GT(shape.side_count, 0u);

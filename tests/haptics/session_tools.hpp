@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sculpt/felt_tool.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::haptics::test {
 
@@ -37,7 +37,7 @@ inline geometry::TriangleMesh six_sided_bar(double radius_m, double length_m) {
 
 // About `width_m` wide.
 inline std::vector<NamedTool> session_tools(double width_m) {
-    const auto felt = [](const compute::ToolShape& tool) { return sculpt::felt_tool(tool).shape; };
+    const auto felt = [](const compute::ToolShape& tool) { return toolbox::felt_tool(tool).shape; };
     const double w = width_m;
     return {
         {"mill", felt(compute::CylinderTool{w / 3.0, 2.0 * w})},

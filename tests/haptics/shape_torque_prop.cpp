@@ -23,16 +23,16 @@ using test::FinePlane;
 
 struct FlatTool {
     const char* name;
-    sculpt::FeltTool felt;
+    toolbox::FeltTool felt;
     double below_m;  // from the tool's origin to its flat side
 };
 
 std::vector<FlatTool> flat_tools() {
     const auto bar = std::make_shared<geometry::TriangleMesh>(test::six_sided_bar(0.0015, 0.005));
-    return {{"mill", sculpt::felt_tool(compute::CylinderTool{0.001, 0.006}), 0.0},
-            {"bull-nose", sculpt::felt_tool(compute::BullNoseTool{0.0015, 0.0005, 0.006}), 0.0},
-            {"box", sculpt::felt_tool(compute::BoxTool{{0.002, 0.0015, 0.0025}}), 0.0015},
-            {"mesh", sculpt::felt_tool(compute::MeshTool{bar}), 0.0}};
+    return {{"mill", toolbox::felt_tool(compute::CylinderTool{0.001, 0.006}), 0.0},
+            {"bull-nose", toolbox::felt_tool(compute::BullNoseTool{0.0015, 0.0005, 0.006}), 0.0},
+            {"box", toolbox::felt_tool(compute::BoxTool{{0.002, 0.0015, 0.0025}}), 0.0015},
+            {"mesh", toolbox::felt_tool(compute::MeshTool{bar}), 0.0}};
 }
 
 // A tool that a hand presses onto the plane and draws over it.

@@ -34,7 +34,7 @@ struct Bench {
         ball.lattice.origin_object += place;
         return compute::make_cpu_engine(std::move(ball), pool);
     }
-    static Tool tool() { return {compute::BallTool{0.02}}; }
+    static toolbox::Tool tool() { return {compute::BallTool{0.02}}; }
     // The tool at a place, with its button up or down; material without hardness goes away where the hand is.
     void sample(const Vec3& place, bool pressed) {
         haptics::TickRecord s;
@@ -294,8 +294,8 @@ std::uint64_t changed_rays(Bench& bench) {
     return bench.carving.figures().rays_changed;
 }
 
-Tool tool_for(compute::Operation operation) {
-    Tool tool = Bench::tool();
+toolbox::Tool tool_for(compute::Operation operation) {
+    toolbox::Tool tool = Bench::tool();
     tool.operation = operation;
     return tool;
 }
@@ -356,7 +356,7 @@ TEST(CarvedPart, FillingWorksWhereTheToolRestsAndPaintingOnlyWhereItTouches) {
 TEST(CarvedPart, AToolThatCannotSmoothCarvesNothingSaysWhyAndLeavesTheRestAlone) {
     Bench bench;
     // More than a hundred cells of 6.25 mm.
-    Tool smooth = tool_for(compute::Operation::smooth);
+    toolbox::Tool smooth = tool_for(compute::Operation::smooth);
     smooth.shape = compute::BallTool{0.7};
     bench.desk.order(UseTool{smooth, {"skin"}, 0.0});
     ASSERT_TRUE(bench.desk.update(0));

@@ -13,12 +13,12 @@
 
 #include "base/text.hpp"
 #include "haptics/forces/cutting.hpp"
-#include "sculpt/tool_mesh.hpp"
-#include "sculpt/tool_samples.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/sculpt/area_in_plane.hpp"
 #include "tests/support/property_cases.hpp"
+#include "toolbox/tool_mesh.hpp"
+#include "toolbox/tool_samples.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -73,8 +73,8 @@ TEST(EngagedArea, OfRandomToolsInAPlane) {
             compute::BallTool{r}, compute::CylinderTool{r, l}, compute::ConeTool{tip, r, l},
             compute::BullNoseTool{r, corner, l + corner}, compute::BoxTool{half}};
         for (std::size_t kind = 0; kind < shapes.size(); ++kind) {
-            const geometry::TriangleMesh mesh = mesh_of(shapes.at(kind));
-            const haptics::ToolSurface tool = tool_surface(mesh, size_of(shapes.at(kind)));
+            const geometry::TriangleMesh mesh = toolbox::mesh_of(shapes.at(kind));
+            const haptics::ToolSurface tool = toolbox::tool_surface(mesh, toolbox::size_of(shapes.at(kind)));
             Quat turn(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
             turn = glm::normalize(turn);
             const haptics::test::Surface plane = haptics::test::plane(10.0 * tool.size_m, 200);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compute/engine/chosen_engine.hpp"
+#include "geometry/files/closed_mesh.hpp"
 #include "sculpt/made_workpiece.hpp"
 
 #include <gtest/gtest.h>
@@ -48,7 +49,7 @@ TEST(MadeWorkpiece, IsNotMadeWhereItIsNoLongerWanted) {
         work.stop();
         const auto made = make_workpiece({.source = source, .resolution = 32}, compute::on_processor, 1, {&work});
         ASSERT_FALSE(made) << source;
-        EXPECT_EQ(made.error().line(), no_longer_wanted().error().line());
+        EXPECT_EQ(made.error().line(), geometry::no_longer_wanted().error().line());
     }
 }
 

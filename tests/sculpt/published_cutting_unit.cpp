@@ -7,9 +7,9 @@
 
 #include "base/plot/figures.hpp"
 #include "haptics/forces/cutting.hpp"
-#include "sculpt/feel_options.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -31,14 +31,14 @@ constexpr std::array kPublished{
     Published{"beech-lvl", 11.73, 3.70, 0.041, 0.091}, Published{"ptfe", 20.33, 2.71, 0.041, 0.091}};
 
 haptics::TouchMaterial material_of(const std::string& name) {
-    return touch_material(*parse_feel_settings({.hardness = name}));
+    return toolbox::touch_material(*toolbox::parse_feel_settings({.hardness = name}));
 }
 
 // A tool on the plane y = 0 and a hand above it that presses along -y.
 class PressedTool {
 public:
     PressedTool(const compute::ToolShape& shape, double height_m, const haptics::TouchMaterial& material)
-        : tool_(felt_tool(shape).surface), height_m_(height_m), material_(material) {}
+        : tool_(toolbox::felt_tool(shape).surface), height_m_(height_m), material_(material) {}
 
     void press(double hand_depth_m) {
         haptics::CuttingInput in;

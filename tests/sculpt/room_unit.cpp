@@ -27,7 +27,7 @@ Added half_ball_on_top(double room) {
     EXPECT_NEAR(block->bounds_object.hi.z, 0.04, 1e-3) << "the room is not the workpiece's";
     Sculpture carving(compute::make_cpu_engine(std::move(block->solid), pool), pool);
     haptics::HapticChannels channels;
-    const Tool ball{compute::BallTool{kAddedRadius_m}, compute::Operation::fill};
+    const toolbox::Tool ball{compute::BallTool{kAddedRadius_m}, compute::Operation::fill};
     CarvedScene desk(carving, channels, ball, 0.0, 0.02, 1 << 24);
     EXPECT_TRUE(desk.update(0));
     static_cast<void>(desk.take_surface_update());

@@ -8,8 +8,8 @@
 #include "base/json.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -24,7 +24,7 @@ struct SavedBall {
     void stroke(const Vec3& from, const Vec3& to) {
         const auto material = carving.add_material({"red", {200, 10, 10}});
         ASSERT_TRUE(material);
-        Tool tool{compute::BallTool{0.02}};
+        toolbox::Tool tool{compute::BallTool{0.02}};
         tool.material = *material;
         const std::array sweeps{tool.sweep(Pose{from}, Pose{to})};
         const auto done = carving.update(sweeps);
@@ -58,7 +58,7 @@ TEST(SavedSolid, IsTheSameToTheBitAndGoesOnTheSame) {
     ASSERT_TRUE(opened.save(again));
     EXPECT_EQ(again.pages, pages.pages);
     ball.stroke({0.0, -0.1, 0.08}, {0.02, 0.1, 0.07});
-    Tool tool{compute::BallTool{0.02}};
+    toolbox::Tool tool{compute::BallTool{0.02}};
     tool.material = *opened.add_material({"red", {200, 10, 10}});
     const std::array sweeps{tool.sweep(Pose{{0.0, -0.1, 0.08}}, Pose{{0.02, 0.1, 0.07}})};
     ASSERT_TRUE(opened.update(sweeps));

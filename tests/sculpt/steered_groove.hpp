@@ -14,9 +14,9 @@
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/feel_options.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "sculpt/workpiece.hpp"
+#include "toolbox/feel_options.hpp"
+#include "toolbox/felt_tool.hpp"
 
 namespace burin::sculpt {
 
@@ -155,13 +155,13 @@ inline Groove carve_groove(devices::AnyHand hand, double duration_s,
                            static_cast<int>(std::lround(kGrooveBlock_m.x / kGrooveCell_m)), false};
     Sculpture carving(compute::make_cpu_engine(std::move(load_workpiece(block, pool)->solid), pool), pool);
     // Without a yield, below which a material would hide what the hand does.
-    const Feel feel = *parse_feel({.yield_kPa = 0.0});
-    const Tool tool{compute::BallTool{kGrooveBall_m}};
+    const toolbox::Feel feel = *toolbox::parse_feel({.yield_kPa = 0.0});
+    const toolbox::Tool tool{compute::BallTool{kGrooveBall_m}};
     haptics::HapticChannels channels;
     haptics::TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
     parameters.workspace.object_from_device.position_m = block_from_device();
-    FeltTool felt = felt_tool(tool.shape);
+    toolbox::FeltTool felt = toolbox::felt_tool(tool.shape);
     parameters.probe = felt.probe;
     parameters.shape = felt.shape;
     parameters.tool = felt.surface;

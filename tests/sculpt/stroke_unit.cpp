@@ -17,7 +17,7 @@
 namespace burin::sculpt {
 namespace {
 
-const Tool kBall{compute::BallTool{0.02}, compute::Operation::cut, 0};
+const toolbox::Tool kBall{compute::BallTool{0.02}, compute::Operation::cut, 0};
 
 std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
     return compute::make_cpu_engine(*compute::make_ball(0.1, 32, {"skin"}), pool);
@@ -61,7 +61,7 @@ TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
 
 // The bead of a mouse began with a lump: the button goes down while the hand is above the surface.
 TEST(StrokeReader, FillingAtTheHandBeginsWhenTheHandHasComeDown) {
-    Tool tool{compute::BallTool{0.004}, compute::Operation::fill, 0};
+    toolbox::Tool tool{compute::BallTool{0.004}, compute::Operation::fill, 0};
     tool.fills_at_hand = true;
     const auto sample = [](std::uint64_t tick, double height_m, double x_m, bool pressed) {
         haptics::TickRecord record = sample_of(tick, {x_m, 0.0, height_m}, pressed);

@@ -25,20 +25,20 @@ struct Felt {
     double volume_removed_m3 = 0.0;
 };
 
-Felt felt_on(const std::string& block, int resolution, const sculpt::Tool& tool, const sculpt::Stroke& stroke,
-             const sculpt::FeelOptions& options) {
+Felt felt_on(const std::string& block, int resolution, const toolbox::Tool& tool, const sculpt::Stroke& stroke,
+             const toolbox::FeelOptions& options) {
     WorkerPool pool(2);
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece({block, resolution, false}, pool);
     sculpt::Sculpture carving(compute::make_cpu_engine(std::move(workpiece->solid), pool), pool);
     Felt felt;
-    felt.figures = *carve_by_feel(carving, stroke, tool, {*sculpt::parse_feel(options), false});
+    felt.figures = *carve_by_feel(carving, stroke, tool, {*toolbox::parse_feel(options), false});
     felt.volume_removed_m3 = carving.initial_volume_m3() - carving.surface().volume_m3();
     return felt;
 }
 
-Felt felt_on_a_block(const sculpt::Stroke& stroke, const sculpt::FeelOptions& options,
+Felt felt_on_a_block(const sculpt::Stroke& stroke, const toolbox::FeelOptions& options,
                      compute::Operation operation = compute::Operation::cut) {
-    sculpt::Tool tool{compute::BallTool{kRadius_m}};
+    toolbox::Tool tool{compute::BallTool{kRadius_m}};
     tool.operation = operation;
     return felt_on("block:0.04,0.03,0.02", 96, tool, stroke, options);
 }
@@ -83,8 +83,8 @@ Running running(const FeltFigures& felt) {
     return sum;
 }
 
-sculpt::FeelOptions feel(double hardness, double press_N) {
-    sculpt::FeelOptions options;
+toolbox::FeelOptions feel(double hardness, double press_N) {
+    toolbox::FeelOptions options;
     options.hardness = std::to_string(hardness);
     options.press_N = press_N;
     options.grip_N_per_m = 600.0;
@@ -121,7 +121,7 @@ TEST(Felt, TheGrooveIsAsDeepAsTheClosedFormOfForceHardnessAndSpeedSays) {
         // the force is the tolerance.
         const double half_section_m2 = 0.5 * kPi * at.depth_m * (2.0 * kRadius_m - at.depth_m);
         const double lift_N =
-            sculpt::parse_feel(feel(hardness, press_N))->material.cutting_yield_Pa * half_section_m2 +
+            toolbox::parse_feel(feel(hardness, press_N))->material.cutting_yield_Pa * half_section_m2 +
             hardness * 1e6 * haptics::test::engaged_areas(kRadius_m, at.depth_m).lift_m2 * at.speed_m_per_s;
         EXPECT_NEAR(lift_N / at.press_N, 1.0, 0.25) << hardness << ' ' << press_N << ' ' << at.depth_m;
         EXPECT_GT(at.drag_N, 0.0);
@@ -133,7 +133,7 @@ TEST(Felt, PressedOnTheSpotTheToolSinksAsTheClosedFormSays) {
     // The tool is set down, then pressed for 0.4 s without moving.
     sculpt::Stroke stroke{row(0.0, 0.0, 0.003, false), row(0.2, 0.0, -0.003, false), row(0.5, 0.0, -0.003, true),
                           row(0.9, 0.0, -0.003, false)};
-    sculpt::FeelOptions options = feel(20.0, 0.0);
+    toolbox::FeelOptions options = feel(20.0, 0.0);
     options.yield_kPa = 0.0;
     const Felt felt = felt_on_a_block(stroke, options);
     // dF/dt: the depth's own closed form needs the force, which falls as the tool sinks; it is summed up from the
@@ -158,7 +158,7 @@ TEST(Felt, PressedOnTheSpotTheToolComesToRestWhereItsSectionAtTheYieldBearsThePr
     for (const double yield_kPa : {40.0, 80.0}) {
         sculpt::Stroke stroke{row(0.0, 0.0, 0.003, false), row(0.2, 0.0, -0.002, false), row(0.3, 0.0, -0.002, true),
                               row(2.8, 0.0, -0.002, false)};
-        sculpt::FeelOptions options = feel(8.0, 0.0);
+        toolbox::FeelOptions options = feel(8.0, 0.0);
         options.yield_kPa = yield_kPa;
         const Felt felt = felt_on_a_block(stroke, options);
         const TracePoint* last = nullptr;
@@ -176,10 +176,10 @@ TEST(Felt, PressedOnTheSpotTheToolComesToRestWhereItsSectionAtTheYieldBearsThePr
 // tool, and the triangles near it are more than a tick can look at.
 TEST(Felt, AToolIsHeldByTheMaterialHoweverLargeItIsAndHoweverFineTheBlock) {
     constexpr double kYield_Pa = 120e3, kGrip_N_per_m = 200.0, kDeep_m = 0.003;
-    sculpt::FeelOptions options = feel(2.0, 0.0);
+    toolbox::FeelOptions options = feel(2.0, 0.0);
     options.yield_kPa = kYield_Pa / 1e3;
     options.grip_N_per_m = kGrip_N_per_m;
-    const auto pulled = [&](const sculpt::Tool& tool, double half_height_m, int resolution) {
+    const auto pulled = [&](const toolbox::Tool& tool, double half_height_m, int resolution) {
         sculpt::Stroke stroke;
         const auto to = [&](double time_s, double x, double height_m, bool button) {
             stroke.push_back({time_s, {x, 0.025, 0.02 + half_height_m + height_m}, {1, 0, 0, 0}, button});
@@ -253,7 +253,7 @@ TEST(Felt, TheForceIsSmoothWhileSurfacesArrive) {
 }
 
 TEST(Felt, WhatHasNoHardnessGivesWayWithoutForceAndWhatIsInfinitelyHardStaysWhole) {
-    sculpt::FeelOptions options = feel(0.0, 1.0);
+    toolbox::FeelOptions options = feel(0.0, 1.0);
     const Felt air = felt_on_a_block(along(0.04), options);
     EXPECT_GT(air.volume_removed_m3, 1e-7);
     EXPECT_LT(air.figures.force_mean_cutting_N, 0.05);
@@ -281,26 +281,26 @@ TEST(Felt, EndsWithTheFirstTickThatIsNotBeforeItsEnd) {
 }
 
 TEST(Felt, OptionsThatMakeNoSenseAreRefusedWithTheRemedy) {
-    sculpt::FeelOptions options;
+    toolbox::FeelOptions options;
     for (const std::string bad : {"granite", "-1", "nan", "", "4kPa"}) {
         options.hardness = bad;
-        const auto refused = sculpt::parse_feel(options);
+        const auto refused = toolbox::parse_feel(options);
         ASSERT_FALSE(refused) << bad;
         EXPECT_NE(refused.error().line().find("soft, medium, hard"), std::string::npos);
     }
     options = {};
     options.friction = -0.1;
-    EXPECT_FALSE(sculpt::parse_feel(options));
+    EXPECT_FALSE(toolbox::parse_feel(options));
     options = {};
     options.grip_N_per_m = 0.0;
-    EXPECT_FALSE(sculpt::parse_feel(options));
+    EXPECT_FALSE(toolbox::parse_feel(options));
     options = {};
     options.press_N = NAN;
-    EXPECT_FALSE(sculpt::parse_feel(options));
+    EXPECT_FALSE(toolbox::parse_feel(options));
     options = {};
     options.stiffness_N_per_m = 123.0;
     options.friction = 0.4;
-    const auto given = sculpt::parse_feel(options);
+    const auto given = toolbox::parse_feel(options);
     ASSERT_TRUE(given);
     EXPECT_EQ(given->material.stiffness_N_per_m, 123.0);
     EXPECT_NEAR(given->material.static_friction, 0.5, 1e-12);

@@ -12,11 +12,11 @@
 #include "record/database.hpp"
 #include "scene/saved_objects.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/tool_options.hpp"
 #include "session/live/document_side.hpp"
 #include "session/work/journal_folder.hpp"
 #include "session/work/saved_world.hpp"
 #include "tests/support/run_command.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::session {
 namespace {
@@ -120,7 +120,7 @@ protected:
         keep(*kept);
     }
     void carve(sculpt::Sculpture& carving, int number) {
-        const sculpt::Tool tool{compute::BallTool{0.01}};
+        const toolbox::Tool tool{compute::BallTool{0.01}};
         const double turn = 0.9 * number;
         const Vec3 from(0.05 * std::cos(turn), 0.05 * std::sin(turn), 0.0);
         const std::array sweeps{tool.sweep(Pose{from}, Pose{from + Vec3(0.0, 0.0, 0.02)})};

@@ -13,9 +13,9 @@
 #include "record/database.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/tool_options.hpp"
 #include "session/work/opened_work.hpp"
 #include "tests/support/run_command.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::session {
 namespace {
@@ -39,7 +39,7 @@ protected:
     void carve(int number) {
         const auto material = carving->add_material({"colour " + std::to_string(number), {200, 10, 10}});
         ASSERT_TRUE(material);
-        sculpt::Tool tool{compute::BallTool{0.02}};
+        toolbox::Tool tool{compute::BallTool{0.02}};
         tool.material = *material;
         const double turn = 0.7 * number;
         const Vec3 from(0.1 * std::cos(turn), 0.1 * std::sin(turn), 0.0);

@@ -124,7 +124,7 @@ Result<void> run_line(SessionState& state, const std::string& line) {
 }
 
 void expect_same_work(const SessionState& is, const SessionState& wanted, const std::string& of) {
-    EXPECT_EQ(sculpt::text_of(is.led().tool.shape), sculpt::text_of(wanted.led().tool.shape)) << of;
+    EXPECT_EQ(toolbox::text_of(is.led().tool.shape), toolbox::text_of(wanted.led().tool.shape)) << of;
     EXPECT_EQ(is.led().tool, wanted.led().tool) << of;
     EXPECT_EQ(is.feel, wanted.feel) << of;
     EXPECT_EQ(is.mirror, wanted.mirror) << of;
@@ -224,10 +224,10 @@ TEST(SavedWords, GiveWayToWhatIsGivenOnOpening) {
         given.feel.stiffness_N_per_m = 777.0;
         given.mirror.across = {true, false, true};
         const SessionState is = work.opened(given);
-        EXPECT_EQ(sculpt::text_of(is.led().tool.shape), "cylinder:0.002,0.01");
+        EXPECT_EQ(toolbox::text_of(is.led().tool.shape), "cylinder:0.002,0.01");
         EXPECT_EQ(is.led().tool.colour, (std::array<std::uint8_t, 3>{1, 2, 3}));
-        EXPECT_EQ(is.feel, (sculpt::FeelSettings{
-                               .preset = sculpt::FeelPreset::ptfe, .stiffness_N_per_m = 777.0, .friction = 0.11}))
+        EXPECT_EQ(is.feel, (toolbox::FeelSettings{
+                               .preset = toolbox::FeelPreset::ptfe, .stiffness_N_per_m = 777.0, .friction = 0.11}))
             << hardness;
         EXPECT_EQ(is.mirror, given.mirror);
     }
@@ -252,7 +252,8 @@ TEST(SavedWords, KeepWhatOfTheFeelOptionsAloneSet) {
         SculptOptions given;
         given.feel.hardness = "ptfe";
         given.feel.grain_mm = 2.0;
-        EXPECT_EQ(work.opened(given).feel, (sculpt::FeelSettings{.preset = sculpt::FeelPreset::ptfe, .grain_mm = 2.0}))
+        EXPECT_EQ(work.opened(given).feel,
+                  (toolbox::FeelSettings{.preset = toolbox::FeelPreset::ptfe, .grain_mm = 2.0}))
             << "a material that is given brings its own yield";
     }
 }

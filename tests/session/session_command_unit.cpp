@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "sculpt/tool_options.hpp"
 #include "session/input/input_words.hpp"
 #include "session/state/command_table.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin::session {
 namespace {
@@ -22,9 +22,9 @@ const Descriptor& any_of(std::span<const Descriptor> table) {
     return table[*rc::gen::inRange<std::size_t>(0, table.size())];
 }
 
-sculpt::ToolSpec any_tool() {
-    const sculpt::ToolDescriptor& kind = any_of(sculpt::tool_kinds());
-    sculpt::ToolSpec tool{kind.kind, {}, {}};
+toolbox::ToolSpec any_tool() {
+    const toolbox::ToolDescriptor& kind = any_of(toolbox::tool_kinds());
+    toolbox::ToolSpec tool{kind.kind, {}, {}};
     if (kind.used_sizes().empty()) {
         tool.file = "folder with blanks/" + std::to_string(*rc::gen::inRange(0, 1000)) + ":\"#.stl";
         return tool;
@@ -38,7 +38,7 @@ SessionCommand any_command() {
     switch (*rc::gen::inRange(0, 27)) {
         case 0: return RunAction{static_cast<Action>(*rc::gen::inRange<std::size_t>(0, action_names().size()))};
         case 1: return SetTool{any_tool()};
-        case 2: return SetOperation{any_of(sculpt::operations()).operation};
+        case 2: return SetOperation{any_of(toolbox::operations()).operation};
         case 3: return SetColour{{between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)}};
         case 4: {
             const QuantityDescriptor& range = any_of(quantities());
@@ -55,7 +55,7 @@ SessionCommand any_command() {
         }
         case 15: return SetAmplifiers{*rc::gen::arbitrary<bool>()};
         case 14: return CalibrateHandle{*rc::gen::arbitrary<bool>()};
-        case 13: return SetMaterial{any_of(sculpt::feel_presets()).preset};
+        case 13: return SetMaterial{any_of(toolbox::feel_presets()).preset};
         case 12: return SetCatchDrill{*rc::gen::arbitrary<bool>()};
         case 25: return SetEdgeComfort{static_cast<EdgeComfort>(*rc::gen::inRange(0, 3))};
         case 11: return SetForceShown{*rc::gen::arbitrary<bool>()};
@@ -96,8 +96,8 @@ RC_GTEST_PROP(Commands, ReadBackAsTheyWerePrinted, ()) {
 
 // What is said of a tool is what the rest of the program understands.
 RC_GTEST_PROP(Commands, NameToolsAsTheOptionDoes, ()) {
-    const sculpt::ToolSpec tool = any_tool();
-    const auto settings = sculpt::parse_tool_settings({.shape = sculpt::text_of(tool)});
+    const toolbox::ToolSpec tool = any_tool();
+    const auto settings = toolbox::parse_tool_settings({.shape = toolbox::text_of(tool)});
     RC_ASSERT(settings.has_value());
     RC_ASSERT(settings->shape == tool);
 }
@@ -120,8 +120,8 @@ TEST(Commands, NameEveryKindOfToolOperationAndTechniqueInTheirHelp) {
     EXPECT_TRUE(help_of("tool").starts_with("Take a tool: ball:R, cylinder:R,L, cone:R0,R1,L, bullnose:R,C,L, box"));
     EXPECT_TRUE(help_of("operation").starts_with("What the tool does: cut, fill, paint"));
     EXPECT_TRUE(help_of("technique").starts_with("How the workspace moves: fixed, moving, scaling, clutching, bubble"));
-    for (const std::string& synopsis : sculpt::tool_synopses()) EXPECT_TRUE(help_of("tool").contains(synopsis));
-    for (const auto& operation : sculpt::operations()) EXPECT_TRUE(help_of("operation").contains(operation.name));
+    for (const std::string& synopsis : toolbox::tool_synopses()) EXPECT_TRUE(help_of("tool").contains(synopsis));
+    for (const auto& operation : toolbox::operations()) EXPECT_TRUE(help_of("operation").contains(operation.name));
     for (const auto& technique : techniques()) EXPECT_TRUE(help_of("technique").contains(technique.name));
 }
 

@@ -26,10 +26,10 @@ Room test_room() {
     return room;
 }
 
-constexpr sculpt::ToolSizes kBall_m{0.01};
+constexpr toolbox::ToolSizes kBall_m{0.01};
 
 SessionState test_state(const Room& room) {
-    return begin_session(room, {.shape = {sculpt::ToolKind::ball, kBall_m, {}}}, {}, {});
+    return begin_session(room, {.shape = {toolbox::ToolKind::ball, kBall_m, {}}}, {}, {});
 }
 
 Result<void> run(SessionState& state, SessionOrders& orders, const std::string& name,
@@ -118,7 +118,7 @@ TEST(SessionState, AMeshToolIsTakenUpIfItWasReadBeforeAndElseRefused) {
     const std::string known = testing::TempDir() + "held-tetrahedron.obj";
     std::ofstream(known) << "v 0 0 0\nv 0.02 0 0\nv 0 0.02 0\nv 0 0 0.02\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     auto meshes = std::make_shared<ToolMeshes>();
-    ASSERT_TRUE(meshes->read({sculpt::ToolKind::mesh, {}, known}));
+    ASSERT_TRUE(meshes->read({toolbox::ToolKind::mesh, {}, known}));
     for (const std::string& file : {known, std::string("no/such/file.stl")}) {
         SessionState state = test_state(room);
         state.meshes = meshes;
@@ -150,10 +150,10 @@ TEST(SessionState, AMaterialByNameTakesThePlaceOfNumbers) {
     SessionOrders orders;
     ASSERT_TRUE(run(state, orders, "hardness", {"500000"}));
     ASSERT_TRUE(run(state, orders, "friction", {"0.05"}));
-    for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets()) {
+    for (const toolbox::FeelPresetDescriptor& preset : toolbox::feel_presets()) {
         ASSERT_TRUE(run(state, orders, "material", {std::string(preset.name)}));
         const haptics::TouchMaterial now = parameters_of(state, room).materials[0];
-        const auto expected = sculpt::touch_material(sculpt::FeelSettings{.preset = preset.preset});
+        const auto expected = toolbox::touch_material(toolbox::FeelSettings{.preset = preset.preset});
         EXPECT_EQ(now.hardness_Ns_per_m3, expected.hardness_Ns_per_m3) << preset.name;
         EXPECT_EQ(now.cutting_yield_Pa, expected.cutting_yield_Pa) << preset.name;
         EXPECT_EQ(now.dynamic_friction, expected.dynamic_friction) << preset.name;
@@ -169,7 +169,7 @@ TEST(SessionState, TheRadiusScalesAllSizesOfAToolThatIsNoBall) {
     SessionOrders orders;
     ASSERT_TRUE(run(state, orders, "tool", {"bullnose:0.008,0.004,0.032"}));
     ASSERT_TRUE(run(state, orders, "radius", {"0.004"}));
-    EXPECT_EQ(sculpt::text_of(state.led().tool.shape), "bullnose:0.004,0.002,0.016");
+    EXPECT_EQ(toolbox::text_of(state.led().tool.shape), "bullnose:0.004,0.002,0.016");
     EXPECT_EQ(descriptor_of(Quantity::radius).value(state), 0.004);
 }
 
@@ -186,13 +186,13 @@ TEST(SessionState, CommandsSetToolAndFeelToTheBitsTheyAlwaysHad) {
     EXPECT_EQ(state.led().tool.shape.sizes_m[0], 0.00123456789);
     ASSERT_TRUE(run(state, orders, "tool", {"ball:0.00123456789123"}));
     EXPECT_EQ(state.led().tool.shape.sizes_m[0], 0.00123456789123) << "a tool's own sizes are kept as they are";
-    state.feel = {.preset = sculpt::FeelPreset::soft};
+    state.feel = {.preset = toolbox::FeelPreset::soft};
     ASSERT_TRUE(run(state, orders, "hardness", {"1234567.891234"}));
     const haptics::TouchMaterial material = parameters_of(state, room).materials[0];
     EXPECT_EQ(material.hardness_Ns_per_m3, 1.23456789 * 1e6);
     EXPECT_EQ(material.stiffness_N_per_m, 600.0) << "the medium preset's, as with --hardness and a number";
     ASSERT_TRUE(run(state, orders, "colour", {"0.1,0.5,1"}));
-    EXPECT_EQ(sculpt::material_of(state.led().tool).colour, (std::array<std::uint8_t, 3>{26, 128, 255}));
+    EXPECT_EQ(toolbox::material_of(state.led().tool).colour, (std::array<std::uint8_t, 3>{26, 128, 255}));
 }
 
 TEST(SessionState, EveryQuantityIsReadWhereItsCommandSetIt) {

@@ -14,9 +14,9 @@
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/tool_mesh.hpp"
-#include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
+#include "toolbox/tool_mesh.hpp"
+#include "toolbox/tool_options.hpp"
 
 namespace burin {
 namespace {
@@ -92,7 +92,7 @@ Vec3 on_ball(const Box& bounds, double across) {
 
 class Story {
 public:
-    Story(sculpt::Sculpture& carving, session::Pictures& pictures, sculpt::Tool paint, const Box& bounds)
+    Story(sculpt::Sculpture& carving, session::Pictures& pictures, toolbox::Tool paint, const Box& bounds)
         : carving_(carving), pictures_(pictures), paint_(std::move(paint)), bounds_(bounds) {}
 
     Result<std::vector<Image>> tell() {
@@ -139,7 +139,7 @@ private:
 
     sculpt::Sculpture& carving_;
     session::Pictures& pictures_;
-    sculpt::Tool paint_;
+    toolbox::Tool paint_;
     Box bounds_;
     LedHand hand_;
     std::vector<Image> images_;
@@ -176,19 +176,19 @@ Box bounds_of(const compute::Lattice& lattice) {
 }
 
 Result<void> make(const std::filesystem::path& file) {
-    const sculpt::ToolOptions options{.shape = "ball:" + std::to_string(kToolRadius_m),
-                                      .operation = compute::Operation::paint,
-                                      .material = "200,40,30"};
-    const Result<sculpt::ToolSettings> settings = sculpt::parse_tool_settings(options);
+    const toolbox::ToolOptions options{.shape = "ball:" + std::to_string(kToolRadius_m),
+                                       .operation = compute::Operation::paint,
+                                       .material = "200,40,30"};
+    const Result<toolbox::ToolSettings> settings = toolbox::parse_tool_settings(options);
     if (!settings) return std::unexpected(settings.error());
-    Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
+    Result<toolbox::Tool> tool = toolbox::make_tool(*settings);
     if (!tool) return std::unexpected(tool.error());
     WorkerPool pool(0);
     Result<sculpt::LoadedWorkpiece> workpiece =
         sculpt::load_workpiece({"assets/workpieces/soccer_ball.obj", 256, false}, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
-    workpiece->solid.materials.push_back(sculpt::material_of(*settings));
+    workpiece->solid.materials.push_back(toolbox::material_of(*settings));
     const Box bounds = bounds_of(workpiece->solid.lattice);
     compute::ChosenEngine chosen =
         compute::choose_engine(compute::EngineChoice::cpu, std::move(workpiece->solid), pool);

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "base/json.hpp"
-#include "sculpt/tool_kinds.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
+#include "toolbox/tool_kinds.hpp"
 
 namespace burin::app {
 namespace {
@@ -195,10 +195,10 @@ TEST(Command, EveryToolCutsFillsAndPaintsAndTheJudgeFindsNothing) {
     // Pressed, moved along, then turned.
     place.write("s.csv", kStrokeHeader + "0,0.4,0.5,0.9,0,0,0,1,1\n1,0.5,0.5,0.9,0,0,0,1,1\n2,0.6,0.5,0.9,0,0,0,1,1\n" +
                              "3,0.6,0.6,0.9,0.1,0.2,0,1,1\n");
-    for (const sculpt::ToolDescriptor& kind : sculpt::tool_kinds()) {
-        sculpt::ToolSpec spec{kind.kind, {}, kind.used_sizes().empty() ? "tool.off" : ""};
+    for (const toolbox::ToolDescriptor& kind : toolbox::tool_kinds()) {
+        toolbox::ToolSpec spec{kind.kind, {}, kind.used_sizes().empty() ? "tool.off" : ""};
         for (std::size_t i = 0; i < spec.sizes_m.size(); ++i) spec.sizes_m.at(i) = 0.2 * kind.proportions.at(i);
-        const std::string tool = sculpt::text_of(spec);
+        const std::string tool = toolbox::text_of(spec);
         for (const std::string operation : {"cut", "fill", "paint"}) {
             const auto outcome = place.run(kBurin + " sculpt --workpiece block:1,1,1 --tool " + tool + " --operation " +
                                            operation + " --material 10,250,20 --stroke s.csv --resolution 32" +

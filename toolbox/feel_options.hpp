@@ -15,7 +15,7 @@
 #include "devices/hand/simulated_hand.hpp"
 #include "haptics/forces/touch_force.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 // As the command line and the first line of an input log have it.
 struct FeelOptions {
@@ -74,4 +74,4 @@ inline constexpr double kHardnessUnit_Ns_per_m3 = 1e6;  // 1 kPa per mm/s
 [[nodiscard]] Result<Feel> parse_feel(const FeelOptions& options);
 [[nodiscard]] Json describe_feel_settings(const Feel& feel);
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 const Tool kSweptBall{compute::BallTool{0.01}, compute::Operation::cut, 3};
@@ -63,4 +63,4 @@ TEST(Sweeps, APointIsAStampAndNothingIsNothing) {
     EXPECT_TRUE(sweeps_along({}, kSweptBall, 1.0).empty());
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

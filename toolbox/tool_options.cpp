@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "compute/tools/turning_sweep.hpp"
-#include "sculpt/tool_mesh.hpp"
-#include "sculpt/workpiece.hpp"
+#include "toolbox/tool_mesh.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 // Bounds the poses that one sweep may replace, because the search for the next sweep looks at all of them.
@@ -72,7 +72,8 @@ double width_of(const ToolSpec& spec, const compute::ToolShape& shape) {
     if (const auto* mesh = std::get_if<compute::MeshTool>(&shape)) {
         Box box;
         for (const Vec3& p : mesh->mesh->positions_m) box.include(p);
-        return longest_side_m(box);
+        const Vec3 size_m = box.extent();
+        return std::max({size_m.x, size_m.y, size_m.z});
     }
     return 2.0 * half_width_m(spec);
 }
@@ -163,4 +164,4 @@ std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses, const 
     return sweeps;
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "haptics/contact/separation.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/support/property_cases.hpp"
+#include "toolbox/felt_tool.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 // What is felt of a tool, against the tool's own shape in closed form: the place of the felt surface farthest along a
 // direction, and that of the tool.
@@ -52,4 +52,4 @@ TEST(FeltShape, IsFeltAsItIsToWithinATwentiethOfItsWidth) {
     }
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

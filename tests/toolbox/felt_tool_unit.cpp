@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/felt_tool.hpp"
+#include "toolbox/felt_tool.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/tool_mesh.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 double area_of(const haptics::ToolSurface& surface) {
@@ -54,4 +54,4 @@ TEST(ToolMesh, ReachesAsFarAsTheShapeAndIsAsWide) {
     }
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

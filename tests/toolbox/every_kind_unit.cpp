@@ -10,13 +10,13 @@
 
 #include "geometry/mesh/mesh_health.hpp"
 #include "haptics/contact/separation.hpp"
-#include "sculpt/felt_tool.hpp"
-#include "sculpt/tool_kinds.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/session_tools.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_kinds.hpp"
+#include "toolbox/tool_mesh.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 struct KindExample {
@@ -141,4 +141,4 @@ TEST(EveryKindOfTool, IsFeltWithinItsBoundsAndWithoutALostCorner) {
     }
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/tool_mesh.hpp"
+#include "toolbox/tool_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "compute/tools/mesh_tool.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 using geometry::TriangleMesh;
@@ -205,4 +205,4 @@ TriangleMesh mesh_of(const compute::ToolShape& shape) {
     return std::visit(Triangles{step_m, kSegments, Seam::as_felt}, shape);
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/tool_kinds.hpp"
+#include "toolbox/tool_kinds.hpp"
+#include "geometry/files/closed_mesh.hpp"
 
 #include <algorithm>
 #include <charconv>
 
+#include "base/numbers.hpp"
 #include "base/try.hpp"
 #include "compute/tools/mesh_tool.hpp"
-#include "sculpt/workpiece.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 using Made = Result<compute::ToolShape>;
@@ -17,7 +18,7 @@ constexpr std::string_view kAboveZero = "give sizes above zero, in metres";
 constexpr std::string_view kConeSizes = "give a length above zero, and one radius above zero";
 
 Made read_mesh_tool(const ToolSpec& spec) {
-    BURIN_TRY(closed, load_closed_mesh({.source = spec.file, .units = spec.units}));
+    BURIN_TRY(closed, geometry::load_closed_mesh({.file = spec.file, .units = spec.units}));
     Result<compute::MeshTool> tool =
         compute::prepare_mesh_tool(std::make_shared<const geometry::TriangleMesh>(std::move(closed.mesh)));
     if (!tool) {
@@ -188,7 +189,7 @@ double half_width_m(const ToolSpec& tool) {
 }
 
 ToolSpec resized(ToolSpec tool, double half_width_m) {
-    const double now_m = sculpt::half_width_m(tool);
+    const double now_m = toolbox::half_width_m(tool);
     if (tool.kind == ToolKind::ball)
         tool.sizes_m[0] = half_width_m;  // to the bit
     else if (now_m > 0.0)
@@ -203,13 +204,4 @@ const OperationDescriptor& descriptor_of(compute::Operation operation) {
     return kOperations.at(static_cast<std::size_t>(operation));
 }
 
-std::string alternatives(std::span<const std::string> words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
-        text += words[i];
-    }
-    return text;
-}
-
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

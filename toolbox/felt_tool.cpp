@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/felt_tool.hpp"
+#include "toolbox/felt_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include "haptics/contact/half_spaces.hpp"
 #include "haptics/contact/separation.hpp"
 #include "haptics/tick_parameters.hpp"
-#include "sculpt/tool_mesh.hpp"
-#include "sculpt/tool_samples.hpp"
+#include "toolbox/tool_mesh.hpp"
+#include "toolbox/tool_samples.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 using haptics::HalfSpace;
@@ -259,4 +259,4 @@ FeltTool felt_tool(const compute::ToolShape& shape) {
     return std::visit([](const auto& tool) { return felt_as(tool); }, shape);
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

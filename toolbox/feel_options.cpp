@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/feel_options.hpp"
+#include "toolbox/feel_options.hpp"
 
 #include "base/try.hpp"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 constexpr double kStaticOverDynamic = 1.25;
@@ -174,4 +174,4 @@ Json describe_feel_settings(const Feel& feel) {
             {"grip_N_per_m", feel.grip.stiffness_N_per_m}};
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

@@ -15,7 +15,7 @@
 #include "haptics/contact/tool_shape.hpp"
 #include "haptics/forces/tool_surface.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 struct FeltTool {
     haptics::Probe probe;
@@ -26,4 +26,4 @@ struct FeltTool {
 
 [[nodiscard]] FeltTool felt_tool(const compute::ToolShape& shape);
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

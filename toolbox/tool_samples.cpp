@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/tool_samples.hpp"
+#include "toolbox/tool_samples.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 using haptics::ToolSample;
@@ -178,4 +178,4 @@ ToolSurface scaled(ToolSurface tool, double factor) {
     return tool;
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

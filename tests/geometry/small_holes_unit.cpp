@@ -7,10 +7,10 @@
 #include <numbers>
 #include <string>
 
-#include "sculpt/workpiece.hpp"
+#include "geometry/files/closed_mesh.hpp"
 #include "tests/support/run_command.hpp"
 
-namespace burin::sculpt {
+namespace burin::geometry {
 namespace {
 
 constexpr int kRings = 16, kSegments = 24;
@@ -34,9 +34,9 @@ void write_ball(const std::string& file, int open, bool torn) {
         }
 }
 
-WorkpieceOptions options_of(const std::string& file, bool close_small) {
-    WorkpieceOptions options;
-    options.source = file;
+ClosedMeshOptions options_of(const std::string& file, bool close_small) {
+    ClosedMeshOptions options;
+    options.file = file;
     options.close_small_holes = close_small;
     return options;
 }
@@ -74,4 +74,4 @@ TEST(SmallHoles, AClosedMeshHasNothingToTell) {
     EXPECT_TRUE(closed->closed.empty());
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::geometry

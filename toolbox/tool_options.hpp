@@ -14,9 +14,9 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "compute/tools/tool.hpp"
-#include "sculpt/tool_kinds.hpp"
+#include "toolbox/tool_kinds.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 // As the command line and the first line of an input log have it.
 struct ToolOptions {
@@ -91,4 +91,4 @@ struct Tool {
 [[nodiscard]] std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses_object, const Tool& tool,
                                                            double tolerance_m);
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

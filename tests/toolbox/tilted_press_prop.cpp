@@ -11,15 +11,15 @@
 
 #include "base/text.hpp"
 #include "haptics/forces/cutting.hpp"
-#include "sculpt/felt_tool.hpp"
-#include "sculpt/tool_mesh.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/session_tools.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/sculpt/area_in_plane.hpp"
 #include "tests/support/property_cases.hpp"
+#include "toolbox/felt_tool.hpp"
+#include "toolbox/tool_mesh.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 using compute::test::Random;
@@ -114,4 +114,4 @@ TEST(TiltedPress, HalfTheYieldHoldsStill) {
             }
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

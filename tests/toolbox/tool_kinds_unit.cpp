@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/tool_kinds.hpp"
+#include "toolbox/tool_kinds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <set>
 #include <sstream>
 
-#include "sculpt/tool_options.hpp"
+#include "toolbox/tool_options.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 // A tool as wide as a ball of radius 0.01, or one without a file.
@@ -161,4 +161,4 @@ TEST(Words, AreListedAsASentenceDoes) {
     EXPECT_EQ(alternatives(Words{"cut", "fill", "paint"}), "cut, fill or paint");
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

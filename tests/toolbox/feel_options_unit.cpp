@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/feel_options.hpp"
+#include "toolbox/feel_options.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 haptics::TouchMaterial material_with(const FeelOptions& options) {
@@ -92,4 +92,4 @@ TEST(FeelSettings, OutOfRangeAreRefused) {
     for (const double bad : {-0.1, 2.1, std::nan("")}) EXPECT_FALSE(check_feel({.friction = bad})) << bad;
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

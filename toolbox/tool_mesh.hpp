@@ -7,7 +7,7 @@
 
 #include "compute/tools/tool.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 // A point of the outline that is turned about +Y: its distance from the axis, and its height.
 struct OutlinePoint {
@@ -50,4 +50,4 @@ struct Spine {
 // outward; neighbours need not share vertices.
 [[nodiscard]] geometry::TriangleMesh mesh_of(const compute::ToolShape& shape);
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

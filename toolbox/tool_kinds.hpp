@@ -16,11 +16,12 @@
 #include <variant>
 #include <vector>
 
+#include "base/descriptor_table.hpp"
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "compute/tools/tool.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 // In the order of the alternatives of compute::ToolShape.
 enum class ToolKind : std::uint8_t { ball, cylinder, cone, bullnose, box, mesh };
@@ -101,20 +102,6 @@ inline constexpr double kMostToolSize_m = 10.0;
 // Returns the radius of the ball that the tool is; 0 for other tools.
 [[nodiscard]] double ball_radius_m(const ToolSpec& tool);
 
-// Makes a table of what a function says of each enumerator, in their order. The function is a switch over the
-// enumerators, so that the compiler warns of a missing case, and returns a descriptor without a name for other values.
-template <typename Enum, auto described>
-[[nodiscard]] consteval auto table_of() {
-    constexpr std::size_t kCount = [] {
-        std::size_t count = 0;
-        while (!described(static_cast<Enum>(count)).name.empty()) ++count;
-        return count;
-    }();
-    std::array<decltype(described(Enum{})), kCount> table;
-    for (std::size_t i = 0; i < kCount; ++i) table[i] = described(static_cast<Enum>(i));
-    return table;
-}
-
 struct OperationDescriptor {
     compute::Operation operation = compute::Operation::cut;
     std::string_view name;               // as --operation has it
@@ -125,13 +112,4 @@ struct OperationDescriptor {
 [[nodiscard]] std::span<const OperationDescriptor> operations();
 [[nodiscard]] const OperationDescriptor& descriptor_of(compute::Operation operation);
 
-// Lists words as a sentence does: "cut, fill or paint".
-[[nodiscard]] std::string alternatives(std::span<const std::string> words);
-// Returns the names in a table of descriptors.
-[[nodiscard]] std::vector<std::string> names_in(const auto& descriptors) {
-    std::vector<std::string> names;
-    for (const auto& descriptor : descriptors) names.emplace_back(descriptor.name);
-    return names;
-}
-
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

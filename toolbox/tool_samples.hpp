@@ -8,7 +8,7 @@
 #include "geometry/mesh/triangle_mesh.hpp"
 #include "haptics/forces/tool_surface.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 struct SurfacePoint {
     Vec3 position_m{0.0}, normal{0.0};
@@ -26,4 +26,4 @@ struct SurfacePoint {
 // The same tool in another size; a factor of 0 gives a tool that does not cut.
 [[nodiscard]] haptics::ToolSurface scaled(haptics::ToolSurface tool, double factor);
 
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox
