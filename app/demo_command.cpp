@@ -154,26 +154,26 @@ Result<void> demo_wand(const CubeDemo& o) {
 }
 
 // Returns what the demonstration carves where the command line says nothing else: an ornament in a soccer ball.
-session::SculptOptions ornament() {
-    session::SculptOptions options;
-    options.workpiece.source = asset_path("workpieces/soccer_ball.obj");
-    options.workpiece.resolution = 512;
-    options.tool.shape = "ball:0.003";
-    options.stroke = asset_path("strokes/ornament.csv");
-    options.hand = session::HandChoice::simulated;
-    options.feel.hardness = "medium";
-    options.feel.press_N = 1.5;
-    options.feel.grip_N_per_m = 1000.0;
+session::SessionSetup ornament() {
+    session::SessionSetup options;
+    options.carve.workpiece.source = asset_path("workpieces/soccer_ball.obj");
+    options.carve.workpiece.resolution = 512;
+    options.hands.tool.shape = "ball:0.003";
+    options.carve.stroke.file = asset_path("strokes/ornament.csv");
+    options.carve.stroke.hand = session::HandChoice::simulated;
+    options.carve.feel.hardness = "medium";
+    options.carve.feel.press_N = 1.5;
+    options.carve.feel.grip_N_per_m = 1000.0;
     return options;
 }
 
-Result<void> demo_ornament(const session::SculptOptions& sculpt, const std::string& out) {
-    session::SculptOptions options = sculpt;
+Result<void> demo_ornament(const session::SessionSetup& sculpt, const std::string& out) {
+    session::SessionSetup options = sculpt;
     const std::filesystem::path folder = out;
     BURIN_TRY_DO(session::make_picture_folder(out, "--out"));
-    for (const char* part : {"part.stl", "part.ply"}) options.exports.push_back((folder / part).string());
-    if (options.pictures.empty()) options.pictures = out;
-    if (options.report.empty()) options.report = (folder / "report.json").string();
+    for (const char* part : {"part.stl", "part.ply"}) options.carve.exports.files.push_back((folder / part).string());
+    if (options.carve.stroke.pictures.empty()) options.carve.stroke.pictures = out;
+    if (options.carve.stroke.report.empty()) options.carve.stroke.report = (folder / "report.json").string();
     session::settle_room(options, false);
     BURIN_TRY_DO(app::sculpt(options));
     std::printf("left in %s\n", out.c_str());
@@ -206,7 +206,7 @@ Result<void> demo_hand(const std::string& out) {
     HandSession session;
     prepare_hand(session);
     session.grasp = "whole";
-    session.session.live.outputs = out;
+    session.session.work.outputs = out;
     BURIN_TRY_DO(session::make_picture_folder(out, "--out"));
     return hand(session);
 }
@@ -246,7 +246,7 @@ CommandAction add_demo_wand(Command command) {
 
 // The ornament's options are those of burin sculpt, with another workpiece and stroke where none are given.
 struct OrnamentDemo {
-    session::SculptOptions sculpt = ornament();
+    session::SessionSetup sculpt = ornament();
     std::string out = "out/demo";
 };
 

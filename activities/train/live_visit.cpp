@@ -56,19 +56,19 @@ Result<void> check_visit_input(const std::string& file) {
         "give a written log, which begins with burin-input 1; burin study replay STUDY does recorded stages again");
 }
 
-session::SculptOptions participant_session(const session::LiveOptions& live, std::shared_ptr<StudyActivity> activity) {
-    session::SculptOptions session;
-    session.scene = activity->scene();
+session::SessionSetup participant_session(const session::SessionSetup& setup, std::shared_ptr<StudyActivity> activity) {
+    session::SessionSetup session = setup;
+    session.scene = {};
+    session.scene.given = activity->scene();
+    session.scene.no_workpiece = true;
     session.activity = std::move(activity);
-    session.no_workpiece = true;
-    session.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
-    session.live = live;
-    session.live.panel_window = true;
+    session.hands.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
+    session.desk.panel_window = true;
     return session;
 }
 
 Result<std::unique_ptr<LiveVisit>> LiveVisit::prepare(study::StudyFolder& study, const LiveVisitOptions& options) {
-    BURIN_TRY_DO(check_record(options.live.record, study.path()));
+    BURIN_TRY_DO(check_record(options.session.record.path, study.path()));
     BURIN_TRY(plan, plan_visit(study, options.participant, options.leave, study::now_utc_ns()));
     const auto people = study.participants();
     const auto person = std::ranges::find(people, options.participant, &study::Participant::id);
@@ -76,9 +76,9 @@ Result<std::unique_ptr<LiveVisit>> LiveVisit::prepare(study::StudyFolder& study,
     if (group == study.protocol().groups.end())
         return fail(options.participant, "is in a group that the protocol has not", "restore the journal from a copy");
     BURIN_TRY(worlds, felt_worlds(study.protocol()));
-    if (!options.live.hands.empty())
+    if (!options.session.hands.named.empty())
         return fail("--device", "gives several hands, and a participant's visit has one", "name one device");
-    BURIN_TRY(device, participant_device(options.live.device, study, *group));
+    BURIN_TRY(device, participant_device(options.session.hands.device, study, *group));
     if (group->feels_tube && !device.held.felt_by_person())
         plan.deviations.push_back("group " + group->code + " feels the tube, and the visit was with " +
                                   text_of(device.held));
@@ -90,7 +90,7 @@ LiveVisit::LiveVisit(study::StudyFolder& study, const LiveVisitOptions& options,
                      VisitPlan plan, FeltWorlds worlds, ParticipantDevice device)
     : study_(study),
       participant_(options.participant),
-      live_(options.live),
+      setup_(options.session),
       plan_(std::move(plan)),
       device_(std::move(device)),
       worlds_(std::move(worlds)),
@@ -101,7 +101,7 @@ LiveVisit::LiveVisit(study::StudyFolder& study, const LiveVisitOptions& options,
           study.protocol(), group, worlds_, plan_.places,
           visit_settings(study.facts().protocol_digest, group, plan_.places), StudyDevice{device_.wand, participant_},
           keeper(), std::vector<std::pair<std::string, std::string>>{{kProtocolTextFact, study.protocol_text()}})) {
-    live_.device = device_.opened;
+    setup_.hands.device = device_.opened;
 }
 
 Result<void> LiveVisit::begin(const TrainingRun& run) {
@@ -116,9 +116,9 @@ StageKeeper LiveVisit::keeper() {
             [this](const EndedStage& ended) { return disk_.end(ended); }, [this] { return disk_.close(); }};
 }
 
-session::SculptOptions LiveVisit::session() const {
-    session::SculptOptions session = participant_session(live_, activity_);
-    if (device_.wand) session.points = devices::usual_points(*device_.wand);
+session::SessionSetup LiveVisit::session() const {
+    session::SessionSetup session = participant_session(setup_, activity_);
+    if (device_.wand) session.hands.points = devices::usual_points(*device_.wand);
     return session;
 }
 

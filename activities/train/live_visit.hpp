@@ -10,7 +10,7 @@
 #include "activities/train/stage_on_disk.hpp"
 #include "activities/train/study_activity.hpp"
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "study/folder/study_folder.hpp"
 
 namespace burin::activities {
@@ -23,12 +23,12 @@ namespace burin::activities {
 
 // Gives the options of a participant's session: the study's worlds alone, touched with points; the operator's panel is
 // in a window of its own, whatever the options say, so that the participant's picture has the page and no more.
-[[nodiscard]] session::SculptOptions participant_session(const session::LiveOptions& live,
-                                                         std::shared_ptr<StudyActivity> activity);
+[[nodiscard]] session::SessionSetup participant_session(const session::SessionSetup& setup,
+                                                        std::shared_ptr<StudyActivity> activity);
 
 struct LiveVisitOptions {
     std::string participant;
-    session::LiveOptions live;
+    session::SessionSetup session;
     VisitLeave leave;
     bool records_motion = true;  // where the protocol has it recorded
     Provenance provenance;
@@ -46,7 +46,7 @@ public:
     LiveVisit& operator=(const LiveVisit&) = delete;
 
     // Returns what is to be run.
-    [[nodiscard]] session::SculptOptions session() const;
+    [[nodiscard]] session::SessionSetup session() const;
     [[nodiscard]] std::size_t stages_ended() const { return activity_->stages_ended(); }
     [[nodiscard]] std::size_t stages_left() const { return plan_.places.size() - stages_ended(); }  // of the day
 
@@ -58,7 +58,7 @@ private:
 
     study::StudyFolder& study_;
     std::string participant_;
-    session::LiveOptions live_;
+    session::SessionSetup setup_;
     VisitPlan plan_;
     ParticipantDevice device_;
     FeltWorlds worlds_;

@@ -20,7 +20,7 @@ namespace burin::app {
 namespace {
 
 struct ProfileOptions {
-    session::SculptOptions sculpt;
+    session::SessionSetup sculpt;
     bool window = false, simulated_hand = false;
     std::string driver_threads;  // "0,1,2"; empty: one run with as many as a live session has
     std::string json;
@@ -29,15 +29,15 @@ struct ProfileOptions {
 constexpr unsigned kMostDriverThreads = 32;
 
 // Returns the options for which the log that comes with the program was written.
-session::SculptOptions first_carve() {
-    session::SculptOptions options;
-    options.workpiece.source = "ball:0.1";
-    options.tool.shape = "ball:0.01";
-    options.live.input = asset_path("sessions/first-carve.txt");
+session::SessionSetup first_carve() {
+    session::SessionSetup options;
+    options.carve.workpiece.source = "ball:0.1";
+    options.hands.tool.shape = "ball:0.01";
+    options.record.input = asset_path("sessions/first-carve.txt");
     return options;
 }
 
-Result<ProfiledRun> run_once(const session::SculptOptions& options, bool for_a_device,
+Result<ProfiledRun> run_once(const session::SessionSetup& options, bool for_a_device,
                              std::optional<unsigned> driver_threads) {
     // The software driver reads the variable when the session opens its device.
     if (driver_threads)
@@ -66,9 +66,9 @@ Result<std::vector<std::optional<unsigned>>> parse_driver_threads(const std::str
 
 Result<void> profile(const ProfileOptions& o) {
     BURIN_TRY_DO(check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()));
-    session::SculptOptions options = o.sculpt;
-    options.live.offscreen = !o.window;
-    options.no_workpiece = !options.world.empty();
+    session::SessionSetup options = o.sculpt;
+    options.desk.offscreen = !o.window;
+    options.scene.no_workpiece = !options.scene.world.empty();
     BURIN_TRY(choices, parse_driver_threads(o.driver_threads));
     std::vector<Json> runs;
     for (const std::optional<unsigned> threads : choices) {
@@ -77,8 +77,8 @@ Result<void> profile(const ProfileOptions& o) {
         if (o.json != kStandardOutput) std::printf("%s\n", profile_table(runs.back()).c_str());
     }
     if (o.json != kStandardOutput) std::fputs(comparison_table(runs).c_str(), stdout);
-    Json all = {{"input", options.live.input}, {"workpiece", options.workpiece.source}, {"runs", runs}};
-    if (options.no_workpiece) all["workpiece"] = options.world;
+    Json all = {{"input", options.record.input}, {"workpiece", options.carve.workpiece.source}, {"runs", runs}};
+    if (options.scene.no_workpiece) all["workpiece"] = options.scene.world;
     return write_output(o.json, json_text(all));
 }
 
@@ -86,39 +86,39 @@ CommandAction add_profile(Command command) {
     const auto options = std::make_shared<ProfileOptions>();
     ProfileOptions& o = *options;
     o.sculpt = first_carve();
-    session::SculptOptions& s = o.sculpt;
-    command.option("--input", s.live.input, "A recorded or written log of a session's input; it leaves no files")
+    session::SessionSetup& s = o.sculpt;
+    command.option("--input", s.record.input, "A recorded or written log of a session's input; it leaves no files")
         .asset(AssetRoom::sessions)
         .show_default();
     command.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
     command.flag("--simulated-hand", o.simulated_hand,
                  "Ticks as a session without a device has them, which may rest; else as a device's user needs them");
-    command.option("--workpiece", s.workpiece.source, "As burin sculpt has it")
+    command.option("--workpiece", s.carve.workpiece.source, "As burin sculpt has it")
         .asset(AssetRoom::workpieces)
         .show_default();
-    command.option("--world", s.world, "A world, as burin world has it, in the workpiece's place")
+    command.option("--world", s.scene.world, "A world, as burin world has it, in the workpiece's place")
         .asset(AssetRoom::worlds);
-    command.option("--tool", s.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
-    command.flag("--close-holes", s.workpiece.close_holes, "As burin sculpt has it");
-    command.option("--weld", s.workpiece.weld_m, "As burin sculpt has it").within(session::kWeldBounds);
-    command.unit("--units", s.workpiece.units, "As burin sculpt has it");
-    command.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
+    command.option("--tool", s.hands.tool.shape, "As burin sculpt has it").asset(AssetRoom::tools).show_default();
+    command.flag("--close-holes", s.carve.workpiece.close_holes, "As burin sculpt has it");
+    command.option("--weld", s.carve.workpiece.weld_m, "As burin sculpt has it").within(session::kWeldBounds);
+    command.unit("--units", s.carve.workpiece.units, "As burin sculpt has it");
+    command.option("--resolution", s.carve.workpiece.resolution, "Lattice cells along the longest side")
         .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
-    command.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
-    command.option("--wall", s.live.wall, "A wall file: all its screens").asset(AssetRoom::walls);
-    command.flag("--windowed", s.live.windowed, "With --wall and --window: its screens in windows on the desktop");
-    command.option("--width", s.live.width, "Of the picture, in pixels").within(session::kPictureBounds).show_default();
-    command.option("--height", s.live.height, "Of the picture, in pixels")
+    command.option("--stereo", s.desk.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
+    command.option("--wall", s.desk.wall, "A wall file: all its screens").asset(AssetRoom::walls);
+    command.flag("--windowed", s.desk.windowed, "With --wall and --window: its screens in windows on the desktop");
+    command.option("--width", s.desk.width, "Of the picture, in pixels").within(session::kPictureBounds).show_default();
+    command.option("--height", s.desk.height, "Of the picture, in pixels")
         .within(session::kPictureBounds)
         .show_default();
-    command.option("--samples", s.live.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
+    command.option("--samples", s.desk.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
         .one_of(session::kSampleCounts)
         .show_default();
-    add_mouse_option(command, s.live);
-    add_detail_option(command, s.live);
-    add_shadows_option(command, s.live);
-    add_engine_option(command, s.engine);
+    add_mouse_option(command, s);
+    add_detail_option(command, s);
+    add_shadows_option(command, s);
+    add_engine_option(command, s.carve.engine);
     command.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
     command.option("--driver-threads", o.driver_threads,
                    "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");

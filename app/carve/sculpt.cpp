@@ -63,23 +63,24 @@ Result<void> write_plots(const std::string& report_path, const session::FeltFigu
 }
 
 // Checks all places of outputs; the plots' too, where a report is wanted of a stroke that is felt.
-Result<void> check_all_outputs(const session::SculptOptions& options) {
+Result<void> check_all_outputs(const session::SessionSetup& options) {
     const std::vector<std::string> inputs = session::inputs_of(options).list();
-    BURIN_TRY_DO(check_outputs(options.exports, options.report, inputs));
-    if (options.stroke.empty() || options.hand != session::HandChoice::simulated) return {};
-    return check_felt_report(options.report, inputs);
+    BURIN_TRY_DO(check_outputs(options.carve.exports.files, options.carve.stroke.report, inputs));
+    if (options.carve.stroke.file.empty() || options.carve.stroke.hand != session::HandChoice::simulated) return {};
+    return check_felt_report(options.carve.stroke.report, inputs);
 }
 
 // Refuses what only a session does: it would be left undone without a word.
-Result<void> check_for_a_stroke(const session::SculptOptions& options) {
+Result<void> check_for_a_stroke(const session::SessionSetup& options) {
     constexpr const char* kRemedy = "leave it out, or lead a session with --live or --input";
-    if (!options.world.empty()) return fail("--world", "belongs to a session and not to carving by itself", kRemedy);
-    if (options.no_workpiece) return fail("--no-workpiece", "leaves nothing to carve", kRemedy);
-    if (!options.points.empty()) return fail("--points", "belongs to a session with a wand", kRemedy);
-    if (!options.live.hands.empty())
+    if (!options.scene.world.empty())
+        return fail("--world", "belongs to a session and not to carving by itself", kRemedy);
+    if (options.scene.no_workpiece) return fail("--no-workpiece", "leaves nothing to carve", kRemedy);
+    if (!options.hands.points.empty()) return fail("--points", "belongs to a session with a wand", kRemedy);
+    if (!options.hands.named.empty())
         return fail("--device", "gives several hands, which belong to a session and not to carving by itself", kRemedy);
-    if (options.live.device != devices::kDefaultHapticDevice)
-        return fail("--device " + options.live.device, "belongs to a session and not to carving by itself", kRemedy);
+    if (options.hands.device != devices::kDefaultHapticDevice)
+        return fail("--device " + options.hands.device, "belongs to a session and not to carving by itself", kRemedy);
     return {};
 }
 
@@ -108,14 +109,14 @@ struct ChosenTool {
 };
 
 // Makes the tool. Where none is given the workpiece's longest side decides; before it is known a ball stands in.
-Result<ChosenTool> choose_tool(const session::SculptOptions& options, std::optional<double> longest_side_m) {
-    toolbox::ToolOptions wanted = options.tool;
-    wanted.units = options.workpiece.units;
+Result<ChosenTool> choose_tool(const session::SessionSetup& options, std::optional<double> longest_side_m) {
+    toolbox::ToolOptions wanted = options.hands.tool;
+    wanted.units = options.carve.workpiece.units;
     if (longest_side_m) wanted = toolbox::with_tool(wanted, *longest_side_m);
     BURIN_TRY(settings, toolbox::parse_tool_settings(wanted));
     BURIN_TRY(tool, toolbox::make_tool(settings));
     const bool is_a_file = settings.shape.kind == toolbox::ToolKind::mesh;
-    BURIN_TRY_DO(sculpt::check_units(options.workpiece, is_a_file));
+    BURIN_TRY_DO(sculpt::check_units(options.carve.workpiece, is_a_file));
     return ChosenTool{std::move(wanted), std::move(settings), std::move(tool)};
 }
 
@@ -156,20 +157,22 @@ Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
 }
 
 // What a session file says of the program and the settings that it comes from. Digests are of files that are read.
-std::vector<std::pair<std::string, std::string>> facts_of(const session::SculptOptions& options,
+std::vector<std::pair<std::string, std::string>> facts_of(const session::SessionSetup& options,
                                                           const toolbox::ToolOptions& tool, const std::string& engine) {
-    std::vector<std::pair<std::string, std::string>> facts{{"program", "burin"},
-                                                           {"version", BURIN_VERSION},
-                                                           {"compiler", __VERSION__},
-                                                           {"command", "sculpt --hand simulated"},
-                                                           {"workpiece", options.workpiece.source},
-                                                           {"stroke", options.stroke},
-                                                           {"time", options.real_time ? "real" : "simulated"},
-                                                           {"activity", kFeltActivity},
-                                                           {"settings", felt_settings(options, tool, engine)}};
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"program", "burin"},
+        {"version", BURIN_VERSION},
+        {"compiler", __VERSION__},
+        {"command", "sculpt --hand simulated"},
+        {"workpiece", options.carve.workpiece.source},
+        {"stroke", options.carve.stroke.file},
+        {"time", options.carve.stroke.real_time ? "real" : "simulated"},
+        {"activity", kFeltActivity},
+        {"settings", felt_settings(options, tool, engine)}};
     const std::string tool_file = tool.shape.starts_with("mesh:") ? tool.shape.substr(5) : std::string();
-    for (const auto& [fact, path] : {std::pair("workpiece sha256", options.workpiece.source),
-                                     std::pair("stroke sha256", options.stroke), std::pair("tool sha256", tool_file)}) {
+    for (const auto& [fact, path] :
+         {std::pair("workpiece sha256", options.carve.workpiece.source),
+          std::pair("stroke sha256", options.carve.stroke.file), std::pair("tool sha256", tool_file)}) {
         std::error_code ignored;
         if (!fs::is_regular_file(path, ignored)) continue;
         if (const auto digest = file_digest(path)) facts.emplace_back(fact, *digest);
@@ -194,16 +197,16 @@ struct StrokeInputs {
 };
 
 // Finds everything that can be wrong with the input before the first long step.
-Result<StrokeInputs> read_inputs(const session::SculptOptions& options) {
+Result<StrokeInputs> read_inputs(const session::SessionSetup& options) {
     BURIN_TRY_DO(check_for_a_stroke(options));
     BURIN_TRY(chosen, choose_tool(options, std::nullopt));
-    BURIN_TRY(feel, toolbox::parse_feel(options.feel));
+    BURIN_TRY(feel, toolbox::parse_feel(options.carve.feel));
     BURIN_TRY_DO(check_all_outputs(options));
-    BURIN_TRY_DO(record::check_new_place(options.live.record));
-    BURIN_TRY_DO(sculpt::check_simplification(options.simplify_m));
-    BURIN_TRY_DO(sculpt::check_crumbs(options.crumbs_m));
-    if (options.stroke.empty()) return StrokeInputs{std::move(chosen), std::move(feel), {}};
-    BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
+    BURIN_TRY_DO(record::check_new_place(options.record.path));
+    BURIN_TRY_DO(sculpt::check_simplification(options.carve.exports.simplify_m));
+    BURIN_TRY_DO(sculpt::check_crumbs(options.carve.exports.crumbs_m));
+    if (options.carve.stroke.file.empty()) return StrokeInputs{std::move(chosen), std::move(feel), {}};
+    BURIN_TRY(stroke, sculpt::read_stroke(options.carve.stroke.file));
     return StrokeInputs{std::move(chosen), std::move(feel), std::move(stroke)};
 }
 
@@ -215,13 +218,13 @@ struct TakenUp {
     double longest_side_m;
 };
 
-Result<TakenUp> take_up_workpiece(const session::SculptOptions& options, const ChosenTool& stand_in, WorkerPool& pool) {
-    BURIN_TRY(opened, session::open_work(options.workpiece, pool));
+Result<TakenUp> take_up_workpiece(const session::SessionSetup& options, const ChosenTool& stand_in, WorkerPool& pool) {
+    BURIN_TRY(opened, session::open_work(options.carve.workpiece, pool));
     if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());
-    for (const std::string& path : options.exports)
+    for (const std::string& path : options.carve.exports.files)
         BURIN_TRY_DO(sculpt::check_precision(path, opened.workpiece->solid.lattice));
     const double longest_side_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
-    BURIN_TRY(chosen, options.tool.shape.empty() ? choose_tool(options, longest_side_m) : stand_in);
+    BURIN_TRY(chosen, options.hands.tool.shape.empty() ? choose_tool(options, longest_side_m) : stand_in);
     BURIN_TRY(material, take_up(*opened.workpiece, chosen));
     return TakenUp{std::move(*opened.workpiece), std::move(chosen), material, longest_side_m};
 }
@@ -235,19 +238,19 @@ Result<std::optional<session::Pictures>> open_pictures(const std::string& folder
 
 // Leads the tool along the stroke: exactly, or as a simulated hand feels its way. Returns what that has felt.
 Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carving,
-                                                        const session::SculptOptions& options,
+                                                        const session::SessionSetup& options,
                                                         const StrokeInputs& inputs, const ChosenTool& chosen) {
     const toolbox::Tool& tool = chosen.tool;
     if (inputs.stroke.empty()) return std::optional<session::FeltFigures>();
-    if (options.hand == session::HandChoice::rigid) {
-        BURIN_TRY_DO(sculpt::carve_rigidly(carving, inputs.stroke, tool, options.merge_rows));
+    if (options.carve.stroke.hand == session::HandChoice::rigid) {
+        BURIN_TRY_DO(sculpt::carve_rigidly(carving, inputs.stroke, tool, options.carve.stroke.merge_rows));
         return std::optional<session::FeltFigures>();
     }
-    session::FeltOptions felt_options{inputs.feel, options.real_time, options.live.record};
-    if (!options.live.record.empty()) felt_options.facts = facts_of(options, chosen.options, carving.engine().name());
+    session::FeltOptions felt_options{inputs.feel, options.carve.stroke.real_time, options.record.path};
+    if (!options.record.path.empty()) felt_options.facts = facts_of(options, chosen.options, carving.engine().name());
     BURIN_TRY(carved, session::carve_by_feel(carving, inputs.stroke, tool, felt_options));
-    if (!options.live.record.empty())
-        std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved.ticks).c_str());
+    if (!options.record.path.empty())
+        std::printf("%s: %s ticks recorded\n", options.record.path.c_str(), std::to_string(carved.ticks).c_str());
     return std::optional<session::FeltFigures>(std::move(carved));
 }
 
@@ -259,14 +262,14 @@ struct CarvedStroke {
 };
 
 // Carves along the stroke, and takes back what is asked.
-Result<CarvedStroke> carve(sculpt::Sculpture& carving, const session::SculptOptions& options,
-                           const StrokeInputs& inputs, const ChosenTool& chosen) {
-    carving.mirror(options.mirror);
-    if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
+Result<CarvedStroke> carve(sculpt::Sculpture& carving, const session::SessionSetup& options, const StrokeInputs& inputs,
+                           const ChosenTool& chosen) {
+    carving.mirror(options.carve.mirror);
+    if (options.carve.stroke.undo > 0) carving.keep_history(options.carve.undo_memory_MiB << 20);
     BURIN_TRY(felt, carve_along(carving, options, inputs, chosen));
     CarvedStroke carved{std::move(felt), tell_notices(carving), {}};
-    if (options.undo == 0) return carved;
-    BURIN_TRY(taken_back, take_back(carving, options.undo));
+    if (options.carve.stroke.undo == 0) return carved;
+    BURIN_TRY(taken_back, take_back(carving, options.carve.stroke.undo));
     carved.undone = std::move(taken_back);
     return carved;
 }
@@ -282,16 +285,16 @@ void describe_finished(Json& report, const sculpt::FinishedMesh& finished, Lengt
 }
 
 // Writes the exports, and their names into the report.
-Result<void> export_all(const session::SculptOptions& options, const sculpt::FinishedMesh& finished,
+Result<void> export_all(const session::SessionSetup& options, const sculpt::FinishedMesh& finished,
                         LengthUnit export_unit, Json& report) {
-    if (options.exports.empty()) return {};
+    if (options.carve.exports.files.empty()) return {};
     if (finished.mesh.triangles.empty() && !finished.too_thin.empty())
-        return fail(options.workpiece.source, "has nothing to export: " + finished.too_thin,
+        return fail(options.carve.workpiece.source, "has nothing to export: " + finished.too_thin,
                     "raise --resolution, or make it thicker");
     if (finished.mesh.triangles.empty())
-        return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
+        return fail(options.carve.workpiece.source, "has been carved away altogether, so there is nothing to export",
                     "use a smaller tool or a shorter stroke");
-    for (const std::string& path : options.exports) {
+    for (const std::string& path : options.carve.exports.files) {
         BURIN_TRY_DO(sculpt::export_finished(finished, path));
         report["exports"].push_back(fs::path(path).filename().string());
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
@@ -311,25 +314,25 @@ Result<void> write_sculpt_report(const std::string& path, const std::optional<se
 
 }  // namespace
 
-bool records_a_felt_stroke(const session::SculptOptions& options) {
-    const session::LiveOptions& live = options.live;
-    const bool is_live = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() ||
-                         !live.outputs.empty() || session::wants_streams(live);
-    return !live.record.empty() && !is_live && !options.stroke.empty() &&
-           options.hand == session::HandChoice::simulated;
+bool records_a_felt_stroke(const session::SessionSetup& options) {
+    const bool is_live = options.desk.live || options.desk.offscreen || !options.desk.wall.empty() ||
+                         !options.record.input.empty() || !options.work.outputs.empty() ||
+                         session::wants_streams(options.record);
+    return !options.record.path.empty() && !is_live && !options.carve.stroke.file.empty() &&
+           options.carve.stroke.hand == session::HandChoice::simulated;
 }
 
-Result<void> sculpt(const session::SculptOptions& options) {
+Result<void> sculpt(const session::SessionSetup& options) {
     BURIN_TRY(inputs, read_inputs(options));
     WorkerPool pool(options.threads);
     BURIN_TRY(taken_up, take_up_workpiece(options, inputs.chosen, pool));
     const ChosenTool& tool = taken_up.chosen;
     const Box bounds_object = taken_up.workpiece.bounds_object;
-    BURIN_TRY(pictures, open_pictures(options.pictures, bounds_object));
+    BURIN_TRY(pictures, open_pictures(options.carve.stroke.pictures, bounds_object));
     // One device draws and carves, where both are asked for.
     const compute::DeviceSource device = [&pictures] { return pictures ? pictures->lane() : compute::own_device(); };
     compute::ChosenEngine engine =
-        compute::choose_engine(options.engine, std::move(taken_up.workpiece.solid), pool, device);
+        compute::choose_engine(options.carve.engine, std::move(taken_up.workpiece.solid), pool, device);
     sculpt::Sculpture carving(std::move(engine.engine), pool);
     if (pictures) BURIN_TRY_DO((pictures)->take_before(carving));
     const double cell_m = carving.surface().lattice().spacing_m;
@@ -337,10 +340,10 @@ Result<void> sculpt(const session::SculptOptions& options) {
     std::printf("%s\n", taken_up.workpiece.size.c_str());
     BURIN_TRY(carved, carve(carving, options, inputs, tool));
 
-    const LengthUnit export_unit = options.export_units.value_or(taken_up.workpiece.unit);
-    BURIN_TRY(finished,
-              sculpt::finish_mesh(carving.surface(), carving.engine().solid(), export_unit, options.simplify_m,
-                                  options.crumbs_m.value_or(sculpt::kCrumbCells * cell_m), pool));
+    const LengthUnit export_unit = options.carve.exports.units.value_or(taken_up.workpiece.unit);
+    BURIN_TRY(finished, sculpt::finish_mesh(
+                            carving.surface(), carving.engine().solid(), export_unit, options.carve.exports.simplify_m,
+                            options.carve.exports.crumbs_m.value_or(sculpt::kCrumbCells * cell_m), pool));
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", taken_up.workpiece.report}};
     report["tool"] = std::move(tool_report);
     report["engine"] = {
@@ -361,24 +364,24 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (!taken) return taken;
         report["pictures"] = {{"device", (pictures)->device_name()}, {"scene_scale", (pictures)->scene_scale()}};
     }
-    BURIN_TRY_DO(write_sculpt_report(options.report, felt, report));
+    BURIN_TRY_DO(write_sculpt_report(options.carve.stroke.report, felt, report));
     print_table(report);
     return {};
 }
 
-Result<void> record_again(const session::SculptOptions& options) {
-    BURIN_TRY(feel, toolbox::parse_feel(options.feel));
-    BURIN_TRY(stroke, sculpt::read_stroke(options.stroke));
+Result<void> record_again(const session::SessionSetup& options) {
+    BURIN_TRY(feel, toolbox::parse_feel(options.carve.feel));
+    BURIN_TRY(stroke, sculpt::read_stroke(options.carve.stroke.file));
     WorkerPool pool(options.threads);
-    BURIN_TRY(opened, session::open_work(options.workpiece, pool));
+    BURIN_TRY(opened, session::open_work(options.carve.workpiece, pool));
     sculpt::LoadedWorkpiece* const workpiece = &*opened.workpiece;
     BURIN_TRY(chosen_tool, choose_tool(options, std::nullopt));
     BURIN_TRY_DO(take_up(*workpiece, chosen_tool));
-    compute::ChosenEngine chosen = compute::choose_engine(options.engine, std::move(workpiece->solid), pool);
+    compute::ChosenEngine chosen = compute::choose_engine(options.carve.engine, std::move(workpiece->solid), pool);
     sculpt::Sculpture carving(std::move(chosen.engine), pool);
-    carving.mirror(options.mirror);
-    if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    const session::FeltOptions felt{feel, false, options.live.record};
+    carving.mirror(options.carve.mirror);
+    if (options.carve.stroke.undo > 0) carving.keep_history(options.carve.undo_memory_MiB << 20);
+    const session::FeltOptions felt{feel, false, options.record.path};
     const auto carved = session::carve_by_feel(carving, stroke, chosen_tool.tool, felt);
     static_cast<void>(tell_notices(carving));
     if (!carved) return std::unexpected(carved.error());

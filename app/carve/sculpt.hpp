@@ -5,16 +5,16 @@
 
 #include "app/cli/command_table.hpp"
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
 [[nodiscard]] CommandRow sculpt_row();
 
 // Carves along a stroke. Writes nothing before all input has been read and all output places have been checked.
-[[nodiscard]] Result<void> sculpt(const session::SculptOptions& options);
+[[nodiscard]] Result<void> sculpt(const session::SessionSetup& options);
 // Returns whether --record is of a stroke that a simulated hand feels, which sculpt() records, and not of a live
 // session.
-[[nodiscard]] bool records_a_felt_stroke(const session::SculptOptions& options);
+[[nodiscard]] bool records_a_felt_stroke(const session::SessionSetup& options);
 
 }  // namespace burin::app

@@ -10,7 +10,7 @@
 namespace burin::app {
 namespace {
 
-Result<void> carve_or_open(session::SculptOptions& options) {
+Result<void> carve_or_open(session::SessionSetup& options) {
     if (!records_a_felt_stroke(options) && session::wants_session(options))
         return run_recorded_session(options, "sculpt");
     session::settle_room(options, false);
@@ -18,9 +18,9 @@ Result<void> carve_or_open(session::SculptOptions& options) {
 }
 
 CommandAction add_sculpt(Command command) {
-    const auto options = std::make_shared<session::SculptOptions>();
+    const auto options = std::make_shared<session::SessionSetup>();
     add_sculpt_options(command, *options);
-    add_live_options(command, options->live);
+    add_live_options(command, *options);
     return action([options] { return carve_or_open(*options); });
 }
 

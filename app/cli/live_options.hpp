@@ -7,7 +7,7 @@
 
 #include "app/cli/command_line.hpp"
 #include "compute/engine/chosen_engine.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
@@ -16,15 +16,15 @@ inline constexpr const char* kInputHelp =
 
 // Adds the options to a command. Both must outlive the command line. Returns their names. `device_help` goes behind the
 // help of --device.
-std::vector<std::string> add_live_options(Command command, session::LiveOptions& options,
+std::vector<std::string> add_live_options(Command command, session::SessionSetup& options,
                                           const char* input_help = kInputHelp, const char* device_help = "");
 
 // Three of them, for a command that has no others.
-void add_mouse_option(Command command, session::LiveOptions& options);
-void add_detail_option(Command command, session::LiveOptions& options);
+void add_mouse_option(Command command, session::SessionSetup& options);
+void add_detail_option(Command command, session::SessionSetup& options);
 void add_engine_option(Command command, compute::EngineChoice& engine);
-void add_shadows_option(Command command, session::LiveOptions& options);
+void add_shadows_option(Command command, session::SessionSetup& options);
 // The mirror planes of a workpiece.
-void add_mirror_option(Command command, session::SculptOptions& options);
+void add_mirror_option(Command command, session::SessionSetup& options);
 
 }  // namespace burin::app

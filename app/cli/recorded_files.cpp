@@ -100,16 +100,16 @@ std::vector<std::string> files_named_by(const std::string& recording) {
     return session::is_database(recording) ? named_by_session_file(recording) : named_by_text_log(recording);
 }
 
-std::string repeated_activity(const session::LiveOptions& live) {
-    if (live.input.empty() || !live.record.empty() || session::wants_streams(live)) return {};
-    return session::activity_on(settings_of(live.input)).value_or("");
+std::string repeated_activity(const session::SessionSetup& setup) {
+    if (setup.record.input.empty() || !setup.record.path.empty() || session::wants_streams(setup.record)) return {};
+    return session::activity_on(settings_of(setup.record.input)).value_or("");
 }
 
-void leave_to_recording(session::SculptOptions& options, bool world_given) {
-    const session::SculptOptions nothing;
-    if (!world_given) options.world.clear();
-    if (!options.live.device_given) options.live.device = nothing.live.device;
-    options.tool.shape = nothing.tool.shape;
+void leave_to_recording(session::SessionSetup& options, bool world_given) {
+    const session::SessionSetup nothing;
+    if (!world_given) options.scene.world.clear();
+    if (!options.hands.device_given) options.hands.device = nothing.hands.device;
+    options.hands.tool.shape = nothing.hands.tool.shape;
 }
 
 }  // namespace burin::app

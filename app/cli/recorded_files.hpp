@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
@@ -17,9 +17,9 @@ namespace burin::app {
 
 // Returns the settings of the activity (session::Activity::settings()) of a recording that is done again: of --input,
 // where nothing is recorded besides. Empty where that is no recording, or one without an activity.
-[[nodiscard]] std::string repeated_activity(const session::LiveOptions& live);
+[[nodiscard]] std::string repeated_activity(const session::SessionSetup& setup);
 // Takes the defaults of an activity's command out of its session, which stand for nothing that its user has said: what
 // is done again has its own. Without it the user was told that they do not count. `world_given`: by the user.
-void leave_to_recording(session::SculptOptions& options, bool world_given);
+void leave_to_recording(session::SessionSetup& options, bool world_given);
 
 }  // namespace burin::app

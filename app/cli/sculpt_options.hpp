@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/cli/command_line.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
@@ -16,8 +16,8 @@ inline constexpr const char* kWeldHelp =
     "precise";
 
 // Adds WORKPIECE, which is also --workpiece, and all that add_carving_options() adds.
-void add_sculpt_options(Command command, session::SculptOptions& options);
+void add_sculpt_options(Command command, session::SessionSetup& options);
 // Adds what says how a workpiece is carved and what is made of it.
-void add_carving_options(Command command, session::SculptOptions& options);
+void add_carving_options(Command command, session::SessionSetup& options);
 
 }  // namespace burin::app

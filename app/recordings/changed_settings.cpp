@@ -30,12 +30,12 @@ constexpr std::array<std::string_view, 11> kOfTheView{"--wall",    "--stereo",  
 // An option of every session that no recording keeps, since no tick depends on it.
 struct Unrecorded {
     std::string_view name;
-    void (*take)(const session::SculptOptions& from, session::SculptOptions& to);
+    void (*take)(const session::SessionSetup& from, session::SessionSetup& to);
 };
 constexpr std::array kUnrecorded{
-    Unrecorded{"--shadows", [](const auto& from, auto& to) { to.live.shadows = from.live.shadows; }},
-    Unrecorded{"--detail", [](const auto& from, auto& to) { to.live.detail = from.live.detail; }},
-    Unrecorded{"--engine", [](const auto& from, auto& to) { to.engine = from.engine; }},
+    Unrecorded{"--shadows", [](const auto& from, auto& to) { to.desk.shadows = from.desk.shadows; }},
+    Unrecorded{"--detail", [](const auto& from, auto& to) { to.desk.detail = from.desk.detail; }},
+    Unrecorded{"--engine", [](const auto& from, auto& to) { to.carve.engine = from.carve.engine; }},
     Unrecorded{"--threads", [](const auto& from, auto& to) { to.threads = from.threads; }},
 };
 
@@ -79,28 +79,28 @@ std::unexpected<Error> no_such_option(const Change& change, const std::vector<st
 }
 
 // Takes what the command line of burin sculpt takes.
-Result<void> take(const Change& change, session::SculptOptions& options) {
+Result<void> take(const Change& change, session::SessionSetup& options) {
     CommandLine line("");
     add_sculpt_options(line.program(), options);
-    add_live_options(line.program(), options.live, kInputHelp, "");
+    add_live_options(line.program(), options, kInputHelp, "");
     const auto taken = line.take(change.name + "=" + change.value);
     if (taken) return {};
     return fail(change.where, taken.error().what, "write what burin sculpt " + change.name + " takes");
 }
 
 // Each device may be an asset, as it may behind --device.
-Result<void> take_hands(const Change& change, session::SculptOptions& options) {
+Result<void> take_hands(const Change& change, session::SessionSetup& options) {
     BURIN_TRY(words, session::words_of(change.value, change.where));
     std::vector<std::string> devices;
     for (const std::string& word : words) {
-        session::SculptOptions one;
+        session::SessionSetup one;
         BURIN_TRY_DO(take({change.where, "--device", word}, one));
-        if (one.live.hands.empty())
+        if (one.hands.named.empty())
             return fail(change.where, "'" + word + "' does not say whose device it is",
                         "write such as 'hands=right=simulated left=simulated-wand'");
-        devices.push_back(one.live.hands.front().hand + "=" + one.live.device);
+        devices.push_back(one.hands.named.front().hand + "=" + one.hands.device);
     }
-    const auto set = session::set_devices(options.live, devices);
+    const auto set = session::set_devices(options.hands, devices);
     return set ? set : fail(change.where, set.error().what, set.error().remedy);
 }
 
@@ -113,7 +113,7 @@ Result<void> apply(const std::string& text, ChangedSettings& to) {
     if (!is_among(recorded, change.name) && unrecorded == kUnrecorded.end()) return no_such_option(change, recorded);
     if (change.value.empty() && is_among(kSettled, change.name))
         return fail(change.where, "names no value, and the recording needs one", "write it behind the =");
-    session::SculptOptions options;
+    session::SessionSetup options;
     if (change.name == kHands) {
         BURIN_TRY_DO(take_hands(change, options));
     } else if (!change.value.empty()) {
@@ -134,7 +134,7 @@ Result<void> apply(const std::string& text, ChangedSettings& to) {
 }  // namespace
 
 Result<ChangedSettings> with_changes(std::string settings, const std::vector<std::string>& changes,
-                                     const session::SculptOptions& given) {
+                                     const session::SessionSetup& given) {
     ChangedSettings changed{std::move(settings), given, false};
     for (const std::string& change : changes) BURIN_TRY_DO(apply(change, changed));
     return changed;

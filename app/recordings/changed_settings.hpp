@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
 struct ChangedSettings {
-    std::string settings;            // of the recording's first line, with all changes
-    session::SculptOptions options;  // with those of a session that no recording keeps, such as --shadows
-    bool another_view = false;       // what is seen has changed, and from where
+    std::string settings;           // of the recording's first line, with all changes
+    session::SessionSetup options;  // with those of a session that no recording keeps, such as --shadows
+    bool another_view = false;      // what is seen has changed, and from where
 };
 // A flag takes on and off; no value at all leaves an option out. Fails on what the command line refuses, and on options
 // of the recording's activity, whose course they are.
 [[nodiscard]] Result<ChangedSettings> with_changes(std::string settings, const std::vector<std::string>& changes,
-                                                   const session::SculptOptions& given);
+                                                   const session::SessionSetup& given);
 
 }  // namespace burin::app

@@ -92,16 +92,16 @@ Result<void> check_same_file(const record::RecordReader& reader, const char* fac
 
 }  // namespace
 
-std::string felt_settings(const session::SculptOptions& options, const toolbox::ToolOptions& tool,
+std::string felt_settings(const session::SessionSetup& options, const toolbox::ToolOptions& tool,
                           const std::string& engine) {
-    const toolbox::FeelOptions& feel = options.feel;
-    const auto& units = options.workpiece.units;
+    const toolbox::FeelOptions& feel = options.carve.feel;
+    const auto& units = options.carve.workpiece.units;
     const Json json{{"workpiece",
-                     {{"source", options.workpiece.source},
-                      {"resolution", options.workpiece.resolution},
-                      {"close_holes", options.workpiece.close_holes},
-                      {"weld_m", optional_json(options.workpiece.weld_m)},
-                      {"room", optional_json(options.workpiece.room)},
+                     {{"source", options.carve.workpiece.source},
+                      {"resolution", options.carve.workpiece.resolution},
+                      {"close_holes", options.carve.workpiece.close_holes},
+                      {"weld_m", optional_json(options.carve.workpiece.weld_m)},
+                      {"room", optional_json(options.carve.workpiece.room)},
                       {"units", units ? std::string(name_of(*units)) : std::string()}}},
                     {"tool",
                      {{"shape", tool.shape},
@@ -109,7 +109,7 @@ std::string felt_settings(const session::SculptOptions& options, const toolbox::
                       {"material", tool.material},
                       {"sweep_tolerance_cells", tool.sweep_tolerance_cells},
                       {"smooth_strength", tool.smooth_strength},
-                      {"mirror", sculpt::name_of(options.mirror)}}},
+                      {"mirror", sculpt::name_of(options.carve.mirror)}}},
                     {"feel",
                      {{"hardness", feel.hardness},
                       {"yield_kPa", optional_json(feel.yield_kPa)},
@@ -119,60 +119,60 @@ std::string felt_settings(const session::SculptOptions& options, const toolbox::
                       {"press_N", feel.press_N},
                       {"grip_N_per_m", feel.grip_N_per_m}}},
                     {"session",
-                     {{"stroke", options.stroke},
+                     {{"stroke", options.carve.stroke.file},
                       {"engine", engine},
-                      {"undo", options.undo > 0},
-                      {"real_time", options.real_time}}}};
+                      {"undo", options.carve.stroke.undo > 0},
+                      {"real_time", options.carve.stroke.real_time}}}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Result<session::SculptOptions> read_felt_settings(const std::string& text, const std::string& where) {
+Result<session::SessionSetup> read_felt_settings(const std::string& text, const std::string& where) {
     const Json json = Json::parse(text, nullptr, false);
     FeltReader reader(json);
-    session::SculptOptions o;
+    session::SessionSetup o;
     std::string units, operation, engine, mirror = "none";
     bool undo = false;
-    reader.text("workpiece", "source", o.workpiece.source);
-    reader.number("workpiece", "resolution", o.workpiece.resolution, session::kResolutionBounds);
-    reader.flag("workpiece", "close_holes", o.workpiece.close_holes);
-    reader.maybe_later("workpiece", "weld_m", o.workpiece.weld_m);
-    reader.maybe_later("workpiece", "room", o.workpiece.room);
+    reader.text("workpiece", "source", o.carve.workpiece.source);
+    reader.number("workpiece", "resolution", o.carve.workpiece.resolution, session::kResolutionBounds);
+    reader.flag("workpiece", "close_holes", o.carve.workpiece.close_holes);
+    reader.maybe_later("workpiece", "weld_m", o.carve.workpiece.weld_m);
+    reader.maybe_later("workpiece", "room", o.carve.workpiece.room);
     reader.text("workpiece", "units", units);
-    reader.text("tool", "shape", o.tool.shape);
+    reader.text("tool", "shape", o.hands.tool.shape);
     reader.text("tool", "operation", operation);
-    reader.text("tool", "material", o.tool.material);
-    reader.number("tool", "sweep_tolerance_cells", o.tool.sweep_tolerance_cells, session::kSweepToleranceBounds);
-    reader.number("tool", "smooth_strength", o.tool.smooth_strength, session::kSmoothStrengthBounds);
+    reader.text("tool", "material", o.hands.tool.material);
+    reader.number("tool", "sweep_tolerance_cells", o.hands.tool.sweep_tolerance_cells, session::kSweepToleranceBounds);
+    reader.number("tool", "smooth_strength", o.hands.tool.smooth_strength, session::kSmoothStrengthBounds);
     reader.text_later("tool", "mirror", mirror);
-    reader.text("feel", "hardness", o.feel.hardness);
-    reader.maybe("feel", "yield_kPa", o.feel.yield_kPa);
-    reader.maybe("feel", "grain_mm", o.feel.grain_mm);
-    reader.maybe("feel", "stiffness_N_per_m", o.feel.stiffness_N_per_m);
-    reader.maybe("feel", "friction", o.feel.friction);
-    reader.number("feel", "press_N", o.feel.press_N, -1e300, 1e300);
-    reader.number("feel", "grip_N_per_m", o.feel.grip_N_per_m, -1e300, 1e300);
-    reader.text("session", "stroke", o.stroke);
+    reader.text("feel", "hardness", o.carve.feel.hardness);
+    reader.maybe("feel", "yield_kPa", o.carve.feel.yield_kPa);
+    reader.maybe("feel", "grain_mm", o.carve.feel.grain_mm);
+    reader.maybe("feel", "stiffness_N_per_m", o.carve.feel.stiffness_N_per_m);
+    reader.maybe("feel", "friction", o.carve.feel.friction);
+    reader.number("feel", "press_N", o.carve.feel.press_N, -1e300, 1e300);
+    reader.number("feel", "grip_N_per_m", o.carve.feel.grip_N_per_m, -1e300, 1e300);
+    reader.text("session", "stroke", o.carve.stroke.file);
     reader.text("session", "engine", engine);
     reader.flag("session", "undo", undo);
-    reader.flag("session", "real_time", o.real_time);
+    reader.flag("session", "real_time", o.carve.stroke.real_time);
     BURIN_TRY(planes, sculpt::parse_mirror(mirror, where));
-    o.mirror = planes;
+    o.carve.mirror = planes;
     if (!reader.missing().empty())
         return fail(where, "its settings have no sound value for " + reader.missing(),
                     "replay a recording that burin sculpt --hand simulated --record has written");
-    o.workpiece.units = length_unit(units);
+    o.carve.workpiece.units = length_unit(units);
     for (const toolbox::OperationDescriptor& known : toolbox::operations())
-        if (known.name == operation) o.tool.operation = known.operation;
-    o.engine = engine == "vulkan" ? compute::EngineChoice::vulkan : compute::EngineChoice::cpu;
-    o.undo = undo ? 1 : 0;
-    o.hand = session::HandChoice::simulated;
+        if (known.name == operation) o.hands.tool.operation = known.operation;
+    o.carve.engine = engine == "vulkan" ? compute::EngineChoice::vulkan : compute::EngineChoice::cpu;
+    o.carve.stroke.undo = undo ? 1 : 0;
+    o.carve.stroke.hand = session::HandChoice::simulated;
     return o;
 }
 
 std::optional<double> felt_ball_radius_m(const std::string& settings) {
     const auto options = read_felt_settings(settings, "");
-    if (!options || !options->tool.shape.starts_with("ball:")) return {};
-    const auto tool = toolbox::parse_tool(options->tool);
+    if (!options || !options->hands.tool.shape.starts_with("ball:")) return {};
+    const auto tool = toolbox::parse_tool(options->hands.tool);
     if (!tool || !(tool->ball_radius_m() > 0.0)) return {};
     return tool->ball_radius_m();
 }
@@ -181,22 +181,22 @@ Result<record::Comparison> replay_felt(record::RecordReader& reader, const FeltF
                                        const record::TickRange& range) {
     const auto settings = reader.facts().find("settings");
     BURIN_TRY(options, read_felt_settings(settings == reader.facts().end() ? "" : settings->second, reader.path()));
-    if (options.real_time)
+    if (options.carve.stroke.real_time)
         return fail(reader.path(), "was felt in real time, and does not hold which tick saw which carving",
                     "replay a stroke that was felt in simulated time; the data can be read and converted");
-    if (!files.stroke.empty()) options.stroke = files.stroke;
-    if (!files.workpiece.empty()) options.workpiece.source = files.workpiece;
-    if (files.engine) options.engine = *files.engine;
-    const std::string& shape = options.tool.shape;
+    if (!files.stroke.empty()) options.carve.stroke.file = files.stroke;
+    if (!files.workpiece.empty()) options.carve.workpiece.source = files.workpiece;
+    if (files.engine) options.carve.engine = *files.engine;
+    const std::string& shape = options.hands.tool.shape;
     const std::string tool_file = shape.starts_with("mesh:") ? shape.substr(5) : std::string();
-    for (const auto& ok : {check_same_file(reader, "stroke sha256", options.stroke, "--stroke"),
-                           check_same_file(reader, "workpiece sha256", options.workpiece.source, "--workpiece"),
+    for (const auto& ok : {check_same_file(reader, "stroke sha256", options.carve.stroke.file, "--stroke"),
+                           check_same_file(reader, "workpiece sha256", options.carve.workpiece.source, "--workpiece"),
                            check_same_file(reader, "tool sha256", tool_file, "putting it where it was")})
         if (!ok) return std::unexpected(ok.error());
     BURIN_TRY(folder, TemporaryFolder::create());
-    options.live.record = folder / "again.session";
+    options.record.path = folder / "again.session";
     BURIN_TRY_DO(record_again(options));
-    BURIN_TRY(again, record::RecordReader::open(options.live.record));
+    BURIN_TRY(again, record::RecordReader::open(options.record.path));
     return record::compare(reader, again, {}, range);
 }
 

@@ -10,7 +10,7 @@
 #include "compute/engine/chosen_engine.hpp"
 #include "record/compare.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
@@ -19,10 +19,10 @@ inline constexpr const char* kFeltActivity = "felt stroke";
 
 // Returns the settings as JSON, for the fact "settings": all options that decide what is felt. `engine` is the one that
 // was chosen, `tool` the one that was taken where none was given.
-[[nodiscard]] std::string felt_settings(const session::SculptOptions& options, const toolbox::ToolOptions& tool,
+[[nodiscard]] std::string felt_settings(const session::SessionSetup& options, const toolbox::ToolOptions& tool,
                                         const std::string& engine);
 // Reads what felt_settings() has written; `where` names the file.
-[[nodiscard]] Result<session::SculptOptions> read_felt_settings(const std::string& text, const std::string& where);
+[[nodiscard]] Result<session::SessionSetup> read_felt_settings(const std::string& text, const std::string& where);
 // Returns the radius of a ball that carved; none: the settings are unsound, or the tool was another.
 [[nodiscard]] std::optional<double> felt_ball_radius_m(const std::string& settings);
 
@@ -38,6 +38,6 @@ struct FeltFiles {
                                                      const record::TickRange& range);
 
 // Carves the stroke of the options by feel and records it, and nothing else (app/carve/sculpt.cpp).
-[[nodiscard]] Result<void> record_again(const session::SculptOptions& options);
+[[nodiscard]] Result<void> record_again(const session::SessionSetup& options);
 
 }  // namespace burin::app

@@ -45,8 +45,8 @@ std::string hands_text(const std::vector<session::NamedDevice>& hands) {
     return text;
 }
 
-std::string tool_file_of(const session::SculptOptions& options) {
-    const std::string& shape = options.tool.shape;
+std::string tool_file_of(const session::SessionSetup& options) {
+    const std::string& shape = options.hands.tool.shape;
     return shape.starts_with("mesh:") ? shape.substr(5) : std::string();
 }
 
@@ -105,11 +105,11 @@ std::vector<std::string> changes_of(const LiveReplay& how) {
 }
 
 // Checks that the files which the session read are those that were recorded.
-Result<void> check_files(const record::RecordReader& reader, const session::SculptOptions& own,
+Result<void> check_files(const record::RecordReader& reader, const session::SessionSetup& own,
                          const std::string& first_device, const std::vector<std::string>& sets) {
-    const std::string tool = tool_file_of(own), &workpiece = own.workpiece.source, &device = own.live.device;
-    if (const auto same = check_recorded_file(reader, {record::kWorldDigestFact, "world", "world"}, own.world,
-                                              digest_of_world(own.world, own.world_reading), sets);
+    const std::string tool = tool_file_of(own), &workpiece = own.carve.workpiece.source, &device = own.hands.device;
+    if (const auto same = check_recorded_file(reader, {record::kWorldDigestFact, "world", "world"}, own.scene.world,
+                                              digest_of_world(own.scene.world, own.scene.reading), sets);
         !same)
         return same;
     if (const auto same = check_recorded_file(reader, {kWorkpieceDigestFact, "workpiece", "workpiece"}, workpiece,
@@ -120,19 +120,19 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
             check_recorded_file(reader, {kToolDigestFact, "tool", "tool"}, "mesh:" + tool, digest_of(tool), sets);
         !same)
         return same;
-    for (std::size_t i = 1; i < own.live.hands.size(); ++i) {
-        const session::NamedDevice& hand = own.live.hands[i];
+    for (std::size_t i = 1; i < own.hands.named.size(); ++i) {
+        const session::NamedDevice& hand = own.hands.named[i];
         const std::string fact = wand_fact_of(hand), what = "wand of hand " + hand.hand;
         if (const auto same = check_recorded_file(reader, {fact.c_str(), what.c_str(), "hands"}, hand.device,
                                                   digest_of(activities::wand_file_of(hand.device)), sets);
             !same)
             return same;
     }
-    const bool several = !own.live.hands.empty();
+    const bool several = !own.hands.named.empty();
     if (device == first_device)
         return activities::check_wand_file(
             reader, device,
-            several ? "say where it is now by --set 'hands=" + hands_text(own.live.hands) +
+            several ? "say where it is now by --set 'hands=" + hands_text(own.hands.named) +
                           "', with its place in there, or put it back"
                     : "say where it is now by --set device=simulated-wand:FILE, or put it back");
     return check_recorded_file(reader, {record::kWandDigestFact, "wand", "device"}, device,
@@ -140,20 +140,20 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
 }
 
 // Refuses changes that would have no effect on this recording: they would count as tried.
-Result<void> check_changes(const LiveReplay& how, const session::SculptOptions& recorded, bool brings_scene) {
-    const bool several = !recorded.live.hands.empty();
+Result<void> check_changes(const LiveReplay& how, const session::SessionSetup& recorded, bool brings_scene) {
+    const bool several = !recorded.hands.named.empty();
     for (const std::string& set : how.sets)
         if (several && set.starts_with("device="))
             return fail("--set " + set, "the recording has several hands, each with its device",
-                        "change them by --set 'hands=" + hands_text(recorded.live.hands) + "'");
-        else if (set.starts_with("device=") && kind_of(set.substr(7)) != kind_of(recorded.live.device))
+                        "change them by --set 'hands=" + hands_text(recorded.hands.named) + "'");
+        else if (set.starts_with("device=") && kind_of(set.substr(7)) != kind_of(recorded.hands.device))
             return fail("--set " + set,
-                        "is another device than the recorded one, " + recorded.live.device +
+                        "is another device than the recorded one, " + recorded.hands.device +
                             ": where the hand was and what it gave is that one's",
                         "feel the motion elsewhere by --through a world, or record a session with that device");
     if (brings_scene && !how.world.empty())
         return fail("--world " + how.world, "has no effect: the recording's scene is its study's", "leave it out");
-    if (recorded.no_workpiece && !how.workpiece.empty())
+    if (recorded.scene.no_workpiece && !how.workpiece.empty())
         return fail("--workpiece " + how.workpiece, "has no effect: the recording has no workpiece", "leave it out");
     return {};
 }
@@ -170,7 +170,7 @@ Result<session::MadeActivity> activity_of(const record::RecordReader& reader, co
 // Holds the log and the options with which a recorded session is replayed.
 struct PreparedReplay {
     session::InputLog log;
-    session::SculptOptions options;
+    session::SessionSetup options;
     bool another_view = false;  // than the recorded one
 };
 
@@ -180,11 +180,11 @@ Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
     if (log.torn_line || !log.threads)
         return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
     PreparedReplay prepared{std::move(log), {}, false};
-    prepared.options.live.input = reader.path();
-    prepared.options.live.offscreen = true;
+    prepared.options.record.input = reader.path();
+    prepared.options.desk.offscreen = true;
     BURIN_TRY(made, activity_of(reader, prepared.log.settings));
     prepared.options.activity = std::move(made.activity);
-    prepared.options.scene = std::move(made.scene);
+    prepared.options.scene.given = std::move(made.scene);
     return prepared;
 }
 
@@ -192,18 +192,18 @@ Result<PreparedReplay> read_recorded_session(record::RecordReader& reader) {
 // recorded where nobody has put others in their place.
 Result<void> change_settings(const record::RecordReader& reader, const LiveReplay& how, PreparedReplay& prepared) {
     session::InputLog& log = prepared.log;
-    session::SculptOptions& options = prepared.options;
+    session::SessionSetup& options = prepared.options;
     BURIN_TRY(first, session::options_as_recorded(log.settings, options));
-    BURIN_TRY_DO(check_changes(how, first.options, options.scene != nullptr));
+    BURIN_TRY_DO(check_changes(how, first.options, options.scene.given != nullptr));
     BURIN_TRY(changed, with_changes(log.settings, changes_of(how), options));
     log.settings = std::move(changed.settings);
     options = std::move(changed.options);
     prepared.another_view = changed.another_view;
-    options.live.refuses_exports = true;
-    options.live.screenshots = how.pictures;
+    options.work.refuses_exports = true;
+    options.desk.screenshots = how.pictures;
     if (!how.pictures.empty()) BURIN_TRY_DO(session::make_picture_folder(how.pictures, "--pictures"));
     BURIN_TRY(recorded, session::options_as_recorded(log.settings, options));
-    const std::string &device = first.options.live.device, &now = recorded.options.live.device;
+    const std::string &device = first.options.hands.device, &now = recorded.options.hands.device;
     BURIN_TRY_DO(check_files(reader, recorded.options, device, how.sets));
     if (now != device) log.device.clear();  // chosen anew
     return session::check_commands(log, reader.path(), options.activity.get());
@@ -217,36 +217,36 @@ Result<void> compare_notes(record::RecordReader& reader, const session::SessionN
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
+std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SessionSetup& options,
                                                                const std::string& command) {
     std::vector<std::pair<std::string, std::string>> facts{{"program", "burin"},
                                                            {"version", BURIN_VERSION},
                                                            {"compiler", __VERSION__},
                                                            {"command", command},
                                                            {"time", "real"}};
-    if (!options.world.empty()) facts.emplace_back("world", options.world);
-    if (!options.no_workpiece) facts.emplace_back("workpiece", options.workpiece.source);
+    if (!options.scene.world.empty()) facts.emplace_back("world", options.scene.world);
+    if (!options.scene.no_workpiece) facts.emplace_back("workpiece", options.carve.workpiece.source);
     const auto add = [&](const char* fact, const std::optional<std::string>& digest) {
         if (digest) facts.emplace_back(fact, *digest);
     };
-    add(record::kWorldDigestFact, digest_of_world(options.world, options.world_reading));
-    if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
+    add(record::kWorldDigestFact, digest_of_world(options.scene.world, options.scene.reading));
+    if (!options.scene.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.carve.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
-    std::ranges::move(activities::facts_of_wand_file(options.live.device), std::back_inserter(facts));
-    for (std::size_t i = 1; i < options.live.hands.size(); ++i)
-        if (const auto digest = digest_of(activities::wand_file_of(options.live.hands[i].device)))
-            facts.emplace_back(wand_fact_of(options.live.hands[i]), *digest);
+    std::ranges::move(activities::facts_of_wand_file(options.hands.device), std::back_inserter(facts));
+    for (std::size_t i = 1; i < options.hands.named.size(); ++i)
+        if (const auto digest = digest_of(activities::wand_file_of(options.hands.named[i].device)))
+            facts.emplace_back(wand_fact_of(options.hands.named[i]), *digest);
     return facts;
 }
 
-Result<void> run_recorded_session(const session::SculptOptions& given, const std::string& command) {
-    session::SculptOptions options = given;
-    options.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
-    NewFolders folders({options.live.outputs, options.live.screenshots});
+Result<void> run_recorded_session(const session::SessionSetup& given, const std::string& command) {
+    session::SessionSetup options = given;
+    options.work.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
+    NewFolders folders({options.work.outputs, options.desk.screenshots});
     Result<void> done;
-    if (session::is_session_file(options.live.record)) {
+    if (session::is_session_file(options.record.path)) {
         BURIN_TRY_DO(session::settle_document(options));
-        BURIN_TRY_DO(record::check_new_place(options.live.record));
+        BURIN_TRY_DO(record::check_new_place(options.record.path));
         done = session::run_session(options, facts_of_live(options, command));
     } else {
         done = session::run_session(options);

@@ -9,18 +9,18 @@
 #include <vector>
 
 #include "record/compare.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
 // Returns what a session file says of the program and of the files that the session read. Digests are of files and
 // worlds that can be read; one that cannot be read has none.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SessionSetup& options,
                                                                              const std::string& command);
 
 // Runs a session (desk/run/session.hpp). Where a session file is recorded, checks its place first, and gives it
 // its facts.
-[[nodiscard]] Result<void> run_recorded_session(const session::SculptOptions& options, const std::string& command);
+[[nodiscard]] Result<void> run_recorded_session(const session::SessionSetup& options, const std::string& command);
 
 // Returns the radius of the ball with which a live session's recording began; nothing where its tool was another.
 [[nodiscard]] std::optional<double> live_ball_radius_m(const record::RecordReader& reader);

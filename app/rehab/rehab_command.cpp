@@ -54,11 +54,12 @@ Result<SettingValues> settings_in(const std::string& path, const ExerciseKind& k
     return fail(path, formatted("%zu mistakes", read.errors.size()), "correct them; they are listed above");
 }
 
-Result<void> check_glove(const session::LiveOptions& live) {
-    if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
-    BURIN_TRY(nature, devices::nature_of_device(live.device, &session::session_recordings()));
+Result<void> check_glove(const session::SessionSetup& setup) {
+    if (!setup.hands.named.empty())
+        return fail("--device", "gives several hands, and one is drawn here", "name one device");
+    BURIN_TRY(nature, devices::nature_of_device(setup.hands.device, &session::session_recordings()));
     if (nature.is_worn) return {};
-    return fail("--device " + live.device, "is no glove",
+    return fail("--device " + setup.hands.device, "is no glove",
                 "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
 }
 
@@ -82,20 +83,20 @@ double usual_start(const ExerciseKind& kind, bool is_simulated, bool led) {
 }
 
 // Writes the script that a participant of that seed follows, and has the session follow it.
-Result<TemporaryFolder> have_scripted(session::LiveOptions& live, const ExerciseKind& kind, const SettingValues& values,
-                                      const std::string& hand, std::uint64_t seed) {
-    if (!live.input.empty()) return fail("--hand " + hand, "is led by no --input", "leave one of them out");
-    if (live.device != devices::kSimulatedGlove)
-        return fail("--hand " + hand, "is a simulated hand, and --device names " + live.device,
+Result<TemporaryFolder> have_scripted(session::SessionSetup& setup, const ExerciseKind& kind,
+                                      const SettingValues& values, const std::string& hand, std::uint64_t seed) {
+    if (!setup.record.input.empty()) return fail("--hand " + hand, "is led by no --input", "leave one of them out");
+    if (setup.hands.device != devices::kSimulatedGlove)
+        return fail("--hand " + hand, "is a simulated hand, and --device names " + setup.hands.device,
                     "leave one of them out");
     BURIN_TRY(script, read_text_file(asset_path(kind.script)));
     BURIN_TRY(folder, TemporaryFolder::create());
-    live.input = folder / ("rehab-" + std::string(kind.name) + ".txt");
-    if (live.outputs.empty()) live.outputs = "rehab-" + std::string(kind.name) + "-outputs";
-    BURIN_TRY_DO(write_text(live.input, kind.scripted(values, seed, script)));
+    setup.record.input = folder / ("rehab-" + std::string(kind.name) + ".txt");
+    if (setup.work.outputs.empty()) setup.work.outputs = "rehab-" + std::string(kind.name) + "-outputs";
+    BURIN_TRY_DO(write_text(setup.record.input, kind.scripted(values, seed, script)));
     if (kind.course == nullptr) return std::move(folder);
     const std::string course = folder / (std::string(kind.name) + devices::kFingerCourseFiles);
-    live.device += ":" + course;
+    setup.hands.device += ":" + course;
     const auto person = hand == kWeakHand ? activities::SimulatedPerson::weak : activities::SimulatedPerson::healthy;
     BURIN_TRY_DO(write_text(course, kind.course(person)));
     return std::move(folder);
@@ -156,7 +157,7 @@ struct AskedExercise {
     explicit AskedExercise(const ExerciseKind& of) : kind(of), numbers(of.settings.size()), words(numbers.size()) {}
 
     const ExerciseKind& kind;
-    session::SculptOptions session;
+    session::SessionSetup session;
     // Of each of the kind's settings; they overrule the file.
     std::vector<std::optional<double>> numbers;
     std::vector<std::string> words;
@@ -186,7 +187,7 @@ struct AskedExercise {
         Result<SettingValues> values = settings_in(settings, kind);
         if (!values) return values;
         // A recording that is done again has its own, of which the user need give none.
-        const std::string repeated = settings.empty() ? repeated_activity(session.live) : "";
+        const std::string repeated = settings.empty() ? repeated_activity(session) : "";
         if (repeated.starts_with("rehab " + std::string(kind.name) + " ")) {
             BURIN_TRY(recorded, activities::exercise_of(repeated));
             *values = recorded->settings();
@@ -220,26 +221,27 @@ Result<FittedRun> fitted_run(SettingValues values, const AskedExercise& of, bool
 
 // Has the session's glove be led as asked: by nobody's script, by the scripted hand, or by the script of the exercise
 // where nobody sees it. Returns the folder of a script that was written; it must outlive the session.
-Result<std::optional<TemporaryFolder>> lead_glove(session::LiveOptions& live, const AskedExercise& of,
+Result<std::optional<TemporaryFolder>> lead_glove(session::SessionSetup& setup, const AskedExercise& of,
                                                   SettingValues& values, bool is_simulated) {
     const bool scripted = !of.hand.empty();
     std::optional<TemporaryFolder> folder;
     if (values.has("start") && values.number("start") == activities::kStartsByDevice)
-        values.set("start", usual_start(of.kind, is_simulated, scripted || live.offscreen || !live.input.empty()));
+        values.set("start",
+                   usual_start(of.kind, is_simulated, scripted || setup.desk.offscreen || !setup.record.input.empty()));
     if (scripted) {
-        BURIN_TRY(made, have_scripted(live, of.kind, values, of.hand, of.seed));
+        BURIN_TRY(made, have_scripted(setup, of.kind, values, of.hand, of.seed));
         folder.emplace(std::move(made));
     }
-    if (live.offscreen && live.input.empty()) live.input = asset_path(of.kind.script);
-    if (is_simulated && of.kind.grip != nullptr) live.device += ":" + std::string(of.kind.grip(values));
+    if (setup.desk.offscreen && setup.record.input.empty()) setup.record.input = asset_path(of.kind.script);
+    if (is_simulated && of.kind.grip != nullptr) setup.hands.device += ":" + std::string(of.kind.grip(values));
     return folder;
 }
 
 // Names the hand of a run. A run that a script led is kept as the script's, so that it never counts as a person's.
-std::string hand_of_run(const AskedExercise& of, const session::LiveOptions& live) {
+std::string hand_of_run(const AskedExercise& of, const session::SessionSetup& setup) {
     if (of.hand == kWeakHand) return "scripted, a weak hand";
     if (!of.hand.empty()) return formatted("scripted, seed %llu", static_cast<unsigned long long>(of.seed));
-    return !live.input.empty() ? "scripted, " + live.input : live.device;
+    return !setup.record.input.empty() ? "scripted, " + setup.record.input : setup.hands.device;
 }
 
 // Keeps what the person has done, even where the session missed something else (`done`). One that never began leaves
@@ -266,8 +268,8 @@ Result<void> keep_run(const AskedExercise& of, const activities::Rehab& exercise
 Result<void> run_exercise(const AskedExercise& of) {
     BURIN_TRY(given, of.values());
     // A recording is done again, and is whose it was; any other input is a script.
-    const bool is_again = session::is_database(of.session.live.input);
-    const std::string recording = is_again ? of.session.live.input : "";
+    const bool is_again = session::is_database(of.session.record.input);
+    const std::string recording = is_again ? of.session.record.input : "";
     BURIN_TRY_DO(check_results(of.results, !of.hand.empty(), recording));
     BURIN_TRY_DO(check_remarks(of.remarks, !of.results.folder.empty()));
     BURIN_TRY(run, fitted_run(std::move(given), of, is_again));
@@ -277,20 +279,20 @@ Result<void> run_exercise(const AskedExercise& of) {
         return {};
     }
     NewFolders folders(of.results.folders());  // before all that keeps files there, a lock among them
-    session::SculptOptions session = of.session;
-    session::LiveOptions& live = session.live;
-    BURIN_TRY_DO(check_glove(live));
-    const bool is_simulated = live.device == devices::kSimulatedGlove;
-    BURIN_TRY(folder, lead_glove(live, of, values, is_simulated));
+    session::SessionSetup session = of.session;
+    session::SessionSetup& setup = session;
+    BURIN_TRY_DO(check_glove(setup));
+    const bool is_simulated = setup.hands.device == devices::kSimulatedGlove;
+    BURIN_TRY(folder, lead_glove(setup, of, values, is_simulated));
     BURIN_TRY_DO(check_places(std::array{of.report}, session::inputs_of(session).list()));
     const auto exercise = std::make_shared<activities::Rehab>(of.kind.make(values));
     BURIN_TRY_DO(check_target(exercise->exercise(), is_simulated));
     exercise->describe(json_of(of.remarks));
     if (!run.fitted.is_null()) exercise->fitted_by(std::move(run.fitted));
     BURIN_TRY(results, is_again ? ResultsOfRun::again(of.results, recording)
-                                : ResultsOfRun::begin(of.results, hand_of_run(of, live), exercise));
+                                : ResultsOfRun::begin(of.results, hand_of_run(of, setup), exercise));
     session.activity = exercise;
-    if (!repeated_activity(live).empty()) leave_to_recording(session, false);
+    if (!repeated_activity(setup).empty()) leave_to_recording(session, false);
     const Result<void> done = run_recorded_session(session, "rehab");
     if (!exercise->exercise().course().events.empty()) folders.keep();
     return keep_run(of, *exercise, results, is_again, done);
@@ -324,10 +326,10 @@ void add_hand_option(Command command, AskedExercise& of) {
 CommandAction add_exercise(Command command, const ExerciseKind& kind) {
     const auto asked = std::make_shared<AskedExercise>(kind);
     AskedExercise& of = *asked;
-    of.session.world = asset_path(kind.world);
-    of.session.no_workpiece = true;
-    of.session.live.device = devices::kSimulatedGlove;
-    of.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+    of.session.scene.world = asset_path(kind.world);
+    of.session.scene.no_workpiece = true;
+    of.session.hands.device = devices::kSimulatedGlove;
+    of.session.hands.tool.shape = "ball:0.006";  // around a fingertip's patch
     add_setting_options(command, of);
     command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
     add_hand_option(command, of);
@@ -335,7 +337,7 @@ CommandAction add_exercise(Command command, const ExerciseKind& kind) {
     command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
     add_results_options(command, of.results);
     add_remark_options(command, of.remarks);
-    add_live_options(command, of.session.live);
+    add_live_options(command, of.session);
     return action([asked] { return run_exercise(*asked); });
 }
 

@@ -26,14 +26,15 @@ namespace {
 constexpr std::uint64_t kMostScriptBytes = std::uint64_t{16} << 20;
 
 bool is_live(const StudyRunOptions& options) {
-    return !options.simulated && (options.live.input.empty() || activities::is_session_log(options.live.input));
+    return !options.simulated &&
+           (options.session.record.input.empty() || activities::is_session_log(options.session.record.input));
 }
 
 // Program, version, compiler, command and settings of a run; no file's name, which may name somebody.
 activities::Provenance provenance_of(const StudyRunOptions& options) {
-    std::string settings = options.simulated            ? formatted("simulated learners, effect %g SD", options.effect)
-                           : options.live.input.empty() ? "a participant in a live session"
-                           : activities::is_session_log(options.live.input)
+    std::string settings = options.simulated ? formatted("simulated learners, effect %g SD", options.effect)
+                           : options.session.record.input.empty() ? "a participant in a live session"
+                           : activities::is_session_log(options.session.record.input)
                                ? "a participant in a live session, by a log"
                                : "a participant by a script";
     if (options.resume) settings += ", --resume";
@@ -81,7 +82,7 @@ Result<void> check_usage(const StudyRunOptions& options) {
     if (options.pictures && options.without_motion)
         return fail(kRun, "--pictures are drawn from the motion that --without-motion leaves out",
                     "give one of the two");
-    if (options.simulated && !options.live.input.empty())
+    if (options.simulated && !options.session.record.input.empty())
         return fail(kRun, "simulated learners need no script", "give --participant ID with --input");
     return {};
 }
@@ -146,8 +147,8 @@ private:
 };
 
 Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& options) {
-    BURIN_TRY(text, read_text_file(options.live.input, kMostScriptBytes));
-    BURIN_TRY(script, activities::parse_visit_script(text, options.live.input));
+    BURIN_TRY(text, read_text_file(options.session.record.input, kMostScriptBytes));
+    BURIN_TRY(script, activities::parse_visit_script(text, options.session.record.input));
     std::printf("%s by a script, in simulated time: hand and wand are simulated.\n", options.participant.c_str());
     activities::VisitOptions visit;
     visit.records = !options.without_motion;
@@ -169,7 +170,8 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
         std::printf("%s/trials.csv: %s\n", options.study.c_str(), made->count_text().c_str());
     if (went.without_effect == 0) return {};
     std::fflush(stdout);
-    return fail(options.live.input, formatted("%zu of its words had no effect, as told above", went.without_effect),
+    return fail(options.session.record.input,
+                formatted("%zu of its words had no effect, as told above", went.without_effect),
                 "correct the script; the visit's stages are kept");
 }
 
@@ -177,7 +179,7 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
 Result<void> take_live_participant(study::StudyFolder& study, const StudyRunOptions& options) {
     BURIN_TRY(visit, activities::LiveVisit::prepare(
                          study, {.participant = options.participant,
-                                 .live = options.live,
+                                 .session = options.session,
                                  .leave = {.resumes_late = options.resume, .any_delay = options.any_delay},
                                  .records_motion = !options.without_motion,
                                  .provenance = provenance_of(options)}));
@@ -193,7 +195,7 @@ Result<void> take_live_participant(study::StudyFolder& study, const StudyRunOpti
 Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given) {
     BURIN_TRY_DO(check_usage(options));
     BURIN_TRY_DO(check_effect(options, given));
-    BURIN_TRY_DO(activities::check_visit_input(options.live.input));
+    BURIN_TRY_DO(activities::check_visit_input(options.session.record.input));
     BURIN_TRY(study, study::StudyFolder::open(options.study, study::StudyAccess::write));
     warn_of_journal(study);
     study.use_key(options.key);
@@ -214,7 +216,7 @@ CommandAction add_study_run(Command command) {
     command.option("--participant", options->participant,
                    "Takes one participant, who is enrolled, through the next day's stages");
     options->live_names =
-        add_live_options(command, options->live,
+        add_live_options(command, options->session,
                          "A written log of a session's input, in its user's place, in a live session; or a "
                          "script of a visit, in simulated time (docs/study.md)",
                          ". In a study \"simulated\" is not the Omni but the wand, simulated, with the "

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
 struct StudyRunOptions {
     std::string study, key;
     std::string participant;              // one participant; empty: simulated learners
-    session::LiveOptions live;            // its input: of a live session, or a script of simulated time
+    session::SessionSetup session;        // its input: of a live session, or a script of simulated time
     std::vector<std::string> live_names;  // of its options
     bool simulated = false, without_motion = false, pictures = false;
     bool resume = false, any_delay = false;  // what of the protocol's calendar need not be kept

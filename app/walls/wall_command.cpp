@@ -27,9 +27,9 @@ struct ShownWall {
 
 // Returns the setup with its tracker's description written out, its address as --tracker says.
 Result<wall::WallSetup> with_tracker(wall::WallSetup setup, const std::string& file, const std::string& tracker) {
-    session::LiveOptions options;
-    options.wall = file;
-    options.tracker = tracker;
+    session::SessionSetup options;
+    options.desk.wall = file;
+    options.desk.tracker = tracker;
     BURIN_TRY(heard, session::session_tracker(options, setup));
     setup.tracker_toml.clear();
     if (heard.described) {

@@ -45,31 +45,32 @@ void print_grasps(const activities::Grasp& hand) {
 }
 
 // Has the hand go by the script of a grasp. Refuses what says otherwise.
-Result<void> lead_by_grasp(session::SculptOptions& session, const std::string& grasp) {
-    session::LiveOptions& live = session.live;
-    if (live.device != devices::kSimulatedGlove)
-        return fail("--grasp", "is of a simulated hand, and --device names " + live.device, "leave one of them out");
-    if (!live.input.empty())
+Result<void> lead_by_grasp(session::SessionSetup& session, const std::string& grasp) {
+    session::SessionSetup& setup = session;
+    if (setup.hands.device != devices::kSimulatedGlove)
+        return fail("--grasp", "is of a simulated hand, and --device names " + setup.hands.device,
+                    "leave one of them out");
+    if (!setup.record.input.empty())
         return fail("--grasp " + grasp, "leads the hand by a script, and --input names another",
                     "leave one of them out");
-    if (!is_scripted_world(session.world))
+    if (!is_scripted_world(session.scene.world))
         return fail("--grasp " + grasp,
-                    "goes by a script for " + scripted_world() + ", and " + session.world + " is another world",
+                    "goes by a script for " + scripted_world() + ", and " + session.scene.world + " is another world",
                     "lead the hand there with --input");
-    live.device = std::string(devices::kSimulatedGlove) + ":" + grasp;
-    live.input = arm_script(grasp);
-    live.offscreen = true;
+    setup.hands.device = std::string(devices::kSimulatedGlove) + ":" + grasp;
+    setup.record.input = arm_script(grasp);
+    setup.desk.offscreen = true;
     return {};
 }
 
 // Checks that the device is a glove which can render as asked.
-Result<void> check_worn(const session::LiveOptions& live, activities::GloveRendering rendering, bool has_line) {
-    BURIN_TRY(nature, devices::nature_of_device(live.device, &session::session_recordings()));
+Result<void> check_worn(const session::SessionSetup& setup, activities::GloveRendering rendering, bool has_line) {
+    BURIN_TRY(nature, devices::nature_of_device(setup.hands.device, &session::session_recordings()));
     if (!nature.is_worn)
-        return fail("--device " + live.device, "is no glove",
+        return fail("--device " + setup.hands.device, "is no glove",
                     "name glove:PORT, or " + std::string(devices::kSimulatedGlove));
     if (rendering == activities::GloveRendering::local && !has_line)
-        return fail("--rendering local", "needs a glove's controller, and " + live.device + " has none",
+        return fail("--rendering local", "needs a glove's controller, and " + setup.hands.device + " has none",
                     "name --device glove:PORT, or leave it out");
     return {};
 }
@@ -78,7 +79,8 @@ CommandAction add_hand(Command command) {
     const auto options = std::make_shared<HandSession>();
     HandSession& hand = *options;
     prepare_hand(hand);
-    command.option("FILE", hand.session.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
+    command
+        .option("FILE", hand.session.scene.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)")
         .asset(AssetRoom::worlds)
         .show_default();
     command
@@ -102,7 +104,7 @@ CommandAction add_hand(Command command) {
         "Where the force of a contact that rests is made: distributed: here; local: at the controller of a "
         "glove on a line, which knows the piston's length alone",
         {{"distributed", activities::GloveRendering::distributed}, {"local", activities::GloveRendering::local}});
-    add_live_options(command, hand.session.live);
+    add_live_options(command, hand.session);
     return action([options, command] {
         options->given = command.given();
         return app::hand(*options);
@@ -125,27 +127,29 @@ Result<activities::GraspOptions> grasp_of(const HandSession& hand, const std::st
 }  // namespace
 
 void prepare_hand(HandSession& hand) {
-    hand.session.world = scripted_world();
-    hand.session.live.device = devices::kSimulatedGlove;
-    hand.session.tool.shape = "ball:0.006";  // around a fingertip's patch
+    hand.session.scene.world = scripted_world();
+    hand.session.hands.device = devices::kSimulatedGlove;
+    hand.session.hands.tool.shape = "ball:0.006";  // around a fingertip's patch
 }
 
 Result<void> hand(const HandSession& options) {
-    session::SculptOptions session = options.session;
-    session::LiveOptions& live = session.live;
-    session.no_workpiece = true;
-    if (!live.hands.empty()) return fail("--device", "gives several hands, and one is drawn here", "name one device");
+    session::SessionSetup session = options.session;
+    session::SessionSetup& setup = session;
+    session.scene.no_workpiece = true;
+    if (!setup.hands.named.empty())
+        return fail("--device", "gives several hands, and one is drawn here", "name one device");
     if (!options.grasp.empty()) BURIN_TRY_DO(lead_by_grasp(session, options.grasp));
-    const bool has_line = live.device.starts_with(std::string(devices::kGlove) + ":");
-    BURIN_TRY_DO(check_worn(live, options.options.rendering, has_line));
+    const bool has_line = setup.hands.device.starts_with(std::string(devices::kGlove) + ":");
+    BURIN_TRY_DO(check_worn(setup, options.options.rendering, has_line));
     // A glove whose arm nobody leads grasps by a script; a simulated one closes by its script's buttons.
-    if (live.offscreen && live.input.empty() && !is_scripted_world(session.world))
+    if (setup.desk.offscreen && setup.record.input.empty() && !is_scripted_world(session.scene.world))
         return fail(
             "--offscreen",
-            "has the arm go by a script for " + scripted_world() + ", and " + session.world + " is another world",
+            "has the arm go by a script for " + scripted_world() + ", and " + session.scene.world + " is another world",
             "lead the hand there with --input");
-    if (live.offscreen && live.input.empty()) live.input = arm_script(has_line ? "glove" : "whole");
-    const std::string repeated = repeated_activity(live);
+    if (setup.desk.offscreen && setup.record.input.empty())
+        setup.record.input = arm_script(has_line ? "glove" : "whole");
+    const std::string repeated = repeated_activity(setup);
     BURIN_TRY(grasp, grasp_of(options, repeated));
     if (!repeated.empty()) leave_to_recording(session, std::ranges::find(options.given, "FILE") != options.given.end());
     const auto activity = std::make_shared<activities::Grasp>(grasp);

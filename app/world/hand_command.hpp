@@ -8,14 +8,14 @@
 #include "activities/grasp/grasp_options.hpp"
 #include "app/cli/command_table.hpp"
 #include "base/error.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::app {
 
 [[nodiscard]] CommandRow hand_row();
 
 struct HandSession {
-    session::SculptOptions session;
+    session::SessionSetup session;
     std::string grasp;  // a scripted hand that closes so; empty: none
     activities::GraspOptions options;
     std::vector<std::string> given;  // names of the options that the command line gave

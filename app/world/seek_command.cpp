@@ -22,7 +22,7 @@ namespace {
 
 // Its report is a JSON file; empty: none.
 struct SeekSession {
-    session::SculptOptions session;
+    session::SessionSetup session;
     unsigned targets = 0;
     std::uint64_t seed = 1;
     std::string report;
@@ -40,10 +40,10 @@ Result<activities::SeekOptions> sought(const SeekSession& options, const std::st
 }
 
 Result<void> seek_objects(const SeekSession& options, const std::vector<std::string>& given) {
-    session::SculptOptions session = options.session;
-    const std::string repeated = repeated_activity(session.live);
-    session.no_workpiece = true;
-    if (!session.live.hands.empty())
+    session::SessionSetup session = options.session;
+    const std::string repeated = repeated_activity(session);
+    session.scene.no_workpiece = true;
+    if (!session.hands.named.empty())
         return fail("--device", "gives several hands, and a search is one hand's", "name one device");
     BURIN_TRY_DO(check_places(std::array{options.report}, session::inputs_of(session).list()));
     BURIN_TRY(targets, sought(options, repeated, given));
@@ -61,16 +61,16 @@ CommandAction add_seek(Command command) {
     const auto options = std::make_shared<SeekSession>();
     SeekSession& seek = *options;
     command
-        .option("FILE", seek.session.world,
+        .option("FILE", seek.session.scene.world,
                 "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF); a recording has its own")
         .asset(AssetRoom::worlds);
     command.option("--targets", seek.targets, "How many objects are sought; 0: each that is seen and felt, once")
         .show_default();
     command.option("--seed", seek.seed, "Of the order in which they are named").show_default();
     command.option("--report", seek.report, "A JSON file for the times and paths; - for standard output");
-    add_live_options(command, seek.session.live);
+    add_live_options(command, seek.session);
     return [options, command]() -> Result<int> {
-        if (options->session.world.empty() && repeated_activity(options->session.live).empty())
+        if (options->session.scene.world.empty() && repeated_activity(options->session).empty())
             return wrong_usage("seek", "FILE is required");
         return action([&] { return seek_objects(*options, command.given()); })();
     };

@@ -88,59 +88,61 @@ CommandAction add_world_check(Command command) {
 // Options of a world that is opened, in a live session or along a stroke.
 struct WorldVisit {
     WorldExploration exploration;
-    session::SculptOptions session;  // live
+    session::SessionSetup session;  // live
 };
 
 // Returns what is wrong with options that belong to a session and were given along a stroke; empty where nothing is.
 std::string misuse_along_a_stroke(const WorldVisit& visit) {
-    const session::SculptOptions& session = visit.session;
-    if (!session.workpiece.source.empty())
+    const session::SessionSetup& session = visit.session;
+    if (!session.carve.workpiece.source.empty())
         return "--workpiece belongs to a session, and along a --stroke nothing is carved";
-    if (session.mirror.any()) return "--mirror belongs to a session, and along a --stroke nothing is carved";
-    if (!session.tool.shape.empty()) return "--tool belongs to a session: along a --stroke a ball touches, of --radius";
-    if (!session.world_reading.unit.empty())
+    if (session.carve.mirror.any()) return "--mirror belongs to a session, and along a --stroke nothing is carved";
+    if (!session.hands.tool.shape.empty())
+        return "--tool belongs to a session: along a --stroke a ball touches, of --radius";
+    if (!session.scene.reading.unit.empty())
         return "--units belongs to a session: along a --stroke [world] unit in the settings beside the world says it";
-    if (!session.world_reading.root.empty())
+    if (!session.scene.reading.root.empty())
         return "--root belongs to a session: for a --stroke, copy what the world inlines into its folder";
-    if (session::wants_streams(session.live))
+    if (session::wants_streams(session.record))
         return "--lsl and --lsl-markers belong to a session in real time, and a --stroke is felt in simulated time";
-    if (!session.live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
+    if (!session.record.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
     return "";
 }
 
 // Returns what is wrong with the devices along a stroke, which one hand follows; empty where nothing is.
-std::string misuse_of_devices(const session::LiveOptions& live) {
-    if (!live.hands.empty()) return "world explores with one hand: name one --device";
-    if (live.device == devices::kDefaultHapticDevice ||
-        devices::has_handle(live.device, &session::session_recordings()))
+std::string misuse_of_devices(const session::SessionSetup& setup) {
+    if (!setup.hands.named.empty()) return "world explores with one hand: name one --device";
+    if (setup.hands.device == devices::kDefaultHapticDevice ||
+        devices::has_handle(setup.hands.device, &session::session_recordings()))
         return "";
     return "world explores with --device " + std::string(devices::kDefaultHapticDevice) + " or " +
-           devices::devices_with_handles() + ", not " + live.device;
+           devices::devices_with_handles() + ", not " + setup.hands.device;
 }
 
 // Returns what is wrong with the usage; empty where nothing is.
 std::string misuse_of(const WorldVisit& visit) {
-    const session::LiveOptions& live = visit.session.live;
+    const session::SessionSetup& setup = visit.session;
     const WorldExploration& exploration = visit.exploration;
-    if (exploration.world.empty() && live.input.empty()) return "world needs a file, or the word check and files";
+    if (exploration.world.empty() && setup.record.input.empty())
+        return "world needs a file, or the word check and files";
     const bool along_a_stroke = !exploration.stroke.empty();
     if (along_a_stroke)
         if (const std::string misuse = misuse_along_a_stroke(visit); !misuse.empty()) return misuse;
     if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
-    const bool has_points = std::ranges::any_of(session::devices_of(live), [](const auto& hand) {
+    const bool has_points = std::ranges::any_of(session::devices_of(setup.hands), [](const auto& hand) {
         return devices::has_handle(hand.device, &session::session_recordings());
     });
     if (!exploration.points.empty() && !has_points)
         return "--points belongs to a wand: give --device " + devices::devices_with_handles();
-    return along_a_stroke ? misuse_of_devices(live) : "";
+    return along_a_stroke ? misuse_of_devices(setup) : "";
 }
 
 // Explores along a stroke by a simulated hand.
 Result<void> explore(const WorldVisit& visit) {
     WorldExploration exploration = visit.exploration;
-    exploration.record = visit.session.live.record;
-    exploration.device = visit.session.live.device;
+    exploration.record = visit.session.record.path;
+    exploration.device = visit.session.hands.device;
     if (devices::has_handle(exploration.device, &session::session_recordings()))
         return explore_world_with_wand(exploration);
     return explore_world(exploration);
@@ -148,21 +150,22 @@ Result<void> explore(const WorldVisit& visit) {
 
 // Opens the world in a live session.
 Result<void> open_session(const WorldVisit& visit) {
-    session::SculptOptions session = visit.session;
-    session.world = visit.exploration.world;
-    if (devices::has_handle(session.live.device, &session::session_recordings())) {
-        session.points = visit.exploration.points;
-        if (session.points.empty()) {
-            BURIN_TRY(nature, devices::nature_of_device(session.live.device, &session::session_recordings()));
-            session.points = devices::usual_points(*nature.handle);
+    session::SessionSetup session = visit.session;
+    session.scene.world = visit.exploration.world;
+    if (devices::has_handle(session.hands.device, &session::session_recordings())) {
+        session.hands.points = visit.exploration.points;
+        if (session.hands.points.empty()) {
+            BURIN_TRY(nature, devices::nature_of_device(session.hands.device, &session::session_recordings()));
+            session.hands.points = devices::usual_points(*nature.handle);
         }
-        if (session.tool.shape.empty()) session.tool.shape = formatted("ball:%g", visit.exploration.radius_m);
+        if (session.hands.tool.shape.empty())
+            session.hands.tool.shape = formatted("ball:%g", visit.exploration.radius_m);
     }
     // A recording says itself what it was of; a script does not.
-    const bool says_itself = session.world.empty() && is_recording(session.live.input);
-    session.no_workpiece = !says_itself && session.workpiece.source.empty();
+    const bool says_itself = session.scene.world.empty() && is_recording(session.record.input);
+    session.scene.no_workpiece = !says_itself && session.carve.workpiece.source.empty();
     const sculpt::WorkpieceOptions usual;
-    if (session.workpiece.source.empty()) session.workpiece.source = usual.source;
+    if (session.carve.workpiece.source.empty()) session.carve.workpiece.source = usual.source;
     return run_recorded_session(session, "world");
 }
 
@@ -171,19 +174,20 @@ void add_opened_options(Command command, WorldVisit& o) {
     command
         .option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, a mesh (STL, OBJ, PLY, OFF), .burin")
         .asset(AssetRoom::worlds);
-    command.option("--units", o.session.world_reading.unit,
+    command.option("--units", o.session.scene.reading.unit,
                    "What a number of the world's file is: m, cm, mm, in, ft, or 2.54mm; else as it states");
-    command.option("--root", o.session.world_reading.root,
+    command.option("--root", o.session.scene.reading.root,
                    "A folder around a world in VRML, of which it may inline files; else its own");
     command
-        .option("--workpiece", o.session.workpiece.source,
+        .option("--workpiece", o.session.carve.workpiece.source,
                 "A workpiece that stands in the world and is carved: FILE, block:X,Y,Z or ball:R; else none")
         .asset(AssetRoom::workpieces);
-    command.option("--resolution", o.session.workpiece.resolution, "Of the workpiece: cells along its longest side")
+    command
+        .option("--resolution", o.session.carve.workpiece.resolution, "Of the workpiece: cells along its longest side")
         .within(session::kResolutionBounds)
         .show_default();
     command
-        .option("--tool", o.session.tool.shape,
+        .option("--tool", o.session.hands.tool.shape,
                 alternatives(toolbox::tool_synopses()) +
                     ", in metres; else a ball whose radius is 1.5 % of the world's longest side")
         .asset(AssetRoom::tools);
@@ -210,10 +214,10 @@ void add_exploration_options(Command command, WorldExploration& exploration) {
 
 CommandAction add_world(Command command) {
     const auto visit = std::make_shared<WorldVisit>();
-    visit->session.workpiece.source.clear();
+    visit->session.carve.workpiece.source.clear();
     add_opened_options(command, *visit);
     add_exploration_options(command, visit->exploration);
-    add_live_options(command, visit->session.live);
+    add_live_options(command, visit->session);
     const CommandAction opens = [visit]() -> Result<int> {
         if (const std::string misuse = misuse_of(*visit); !misuse.empty()) return wrong_usage("world", misuse);
         return action([&] { return visit->exploration.stroke.empty() ? open_session(*visit) : explore(*visit); })();

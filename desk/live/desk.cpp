@@ -17,30 +17,30 @@ namespace burin::session {
 
 // ---- Opening
 
-Result<std::unique_ptr<Desk>> Desk::create(const SculptOptions& options, const SessionWall& wall, Clock& clock,
+Result<std::unique_ptr<Desk>> Desk::create(const SessionSetup& options, const SessionWall& wall, Clock& clock,
                                            double pace, std::optional<sculpt::MadeWorkpiece> made) {
-    BURIN_TRY(output, first_output(wall, options.live));
+    BURIN_TRY(output, first_output(wall, options.desk));
     auto desk = std::unique_ptr<Desk>(new Desk(clock, wall));
     const auto place = [&](const Room& room, const HeldHandle* held) {
         desk->room_ = open_desk(options, wall, room);
         desk->viewer_ = begin_viewer(desk->room_, output);
-        desk->viewer_.edge_comfort = options.live.edge_comfort;
+        desk->viewer_.edge_comfort = options.desk.edge_comfort;
         return placed_before(desk->viewer_, room, desk->room_, held);
     };
-    SculptOptions with_device = options;
-    if (!with_device.make_engine) with_device.make_engine = compute::engine_maker(options.engine);
+    SessionSetup with_device = options;
+    if (!with_device.carve.make_engine) with_device.carve.make_engine = compute::engine_maker(options.carve.engine);
     BURIN_TRY(session, Session::create(with_device, clock, pace, std::move(made), place));
     desk->session_ = std::move(session);
     take_hand(desk->viewer_, desk->session_->state());
     desk->viewer_.seen_from = seen_from(desk->seen());
-    if (!options.from_before_units)
+    if (!options.record.from_before_units)
         desk->tool_sizes_ = tool_sizes_for(sculpt::longest_side_m(desk->session_->room().workpiece_object));
     if (const sculpt::Sculpture* workpiece = desk->session_->scene_side().workpiece())
         desk->surface_ = SeenSurface(workpiece->surface().lattice());
     return desk;
 }
 
-Result<std::unique_ptr<Desk>> Desk::create_as_recorded(const SculptOptions& options, const SessionWall& wall,
+Result<std::unique_ptr<Desk>> Desk::create_as_recorded(const SessionSetup& options, const SessionWall& wall,
                                                        const ThreadLog& log, const std::string& name,
                                                        SimulatedClock& clock) {
     clock.sleep_until(log.clock.start_ns);
@@ -178,7 +178,7 @@ std::optional<picture::Picture> Desk::scene_on(std::size_t screen) const {
     if (activity.draws_hands()) scene->tool.visible = false;
     activity.stage(*scene, screen);
     // What an activity shows is its own: a shadow would tell of a study's tube that nobody may see.
-    if (!session_->options().live.shadows || activity.is_there())
+    if (!session_->options().desk.shadows || activity.is_there())
         for (picture::DrawnObject& object : scene->objects) object.casts_shadow = false;
     return scene;
 }

@@ -28,13 +28,13 @@ namespace burin::session {
 class Desk {
 public:
     // Opens a session before this wall; as Session::create().
-    [[nodiscard]] static Result<std::unique_ptr<Desk>> create(const SculptOptions& options, const SessionWall& wall,
+    [[nodiscard]] static Result<std::unique_ptr<Desk>> create(const SessionSetup& options, const SessionWall& wall,
                                                               Clock& clock, double pace = 1.0,
                                                               std::optional<sculpt::MadeWorkpiece> made = {});
     // Opens the session that a log was recorded of: with its start on the clock, so that all times are equal to the
     // bit, and with its machine's pace. Fails where the options do not open, or its device ticks at another rate. name:
     // the log's file name.
-    [[nodiscard]] static Result<std::unique_ptr<Desk>> create_as_recorded(const SculptOptions& options,
+    [[nodiscard]] static Result<std::unique_ptr<Desk>> create_as_recorded(const SessionSetup& options,
                                                                           const SessionWall& wall, const ThreadLog& log,
                                                                           const std::string& name,
                                                                           SimulatedClock& clock);

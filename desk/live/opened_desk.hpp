@@ -4,14 +4,14 @@
 #pragma once
 
 #include "desk/viewer/viewer.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::session {
 
 // room: of the session's hands (open_room()).
-[[nodiscard]] DeskRoom open_desk(const SculptOptions& options, const SessionWall& wall, const Room& room);
+[[nodiscard]] DeskRoom open_desk(const SessionSetup& options, const SessionWall& wall, const Room& room);
 
 // Returns how the main screen is shown at first. Fails on an unknown stereo mode.
-[[nodiscard]] Result<wall::OutputSettings> first_output(const SessionWall& wall, const LiveOptions& live);
+[[nodiscard]] Result<wall::OutputSettings> first_output(const SessionWall& wall, const DeskOptions& options);
 
 }  // namespace burin::session

@@ -48,7 +48,7 @@ bool ends_opening(const Input& input) {
     return key->key == Key::escape || (key->key == Key::q && key->modifiers.ctrl);
 }
 
-Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& presenter, const SculptOptions& options,
+Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& presenter, const SessionSetup& options,
                                                               const SessionWall& wall, OpeningWork::Make make) {
     BURIN_TRY(picture, OpeningPicture::create(options, wall));
     OpeningFrames frames(presenter, std::move(picture));

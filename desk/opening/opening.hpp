@@ -19,7 +19,7 @@ namespace burin::session {
 // Returns the workpiece; nothing where the user has ended it. Errors are those of the work. Where no picture can be
 // made the work goes on without. The presenter has a window, and the options a workpiece.
 [[nodiscard]] Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& presenter,
-                                                                            const SculptOptions& options,
+                                                                            const SessionSetup& options,
                                                                             const SessionWall& wall,
                                                                             OpeningWork::Make make);
 

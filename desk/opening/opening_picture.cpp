@@ -22,19 +22,19 @@ constexpr std::uint64_t kCardsAtlases = 1ull << 32;
 
 }  // namespace
 
-OpeningPicture::OpeningPicture(const SculptOptions& options, const SessionWall& wall, Room room,
+OpeningPicture::OpeningPicture(const SessionSetup& options, const SessionWall& wall, Room room,
                                wall::OutputSettings output)
     : options_(options),
       room_(std::move(room)),
       desk_(open_desk(options, wall, room_)),
       output_(output),
-      name_(std::filesystem::path(options.workpiece.source).filename().string()) {
+      name_(std::filesystem::path(options.carve.workpiece.source).filename().string()) {
     room_.workpiece_object = kUnknownBox;
 }
 
-Result<OpeningPicture> OpeningPicture::create(const SculptOptions& options, const SessionWall& wall) {
+Result<OpeningPicture> OpeningPicture::create(const SessionSetup& options, const SessionWall& wall) {
     BURIN_TRY(opened, open_room(options));
-    BURIN_TRY(output, first_output(wall, options.live));
+    BURIN_TRY(output, first_output(wall, options.desk));
     return OpeningPicture(options, wall, std::move(opened.room), output);
 }
 

@@ -18,7 +18,7 @@ namespace burin::session {
 class OpeningPicture {
 public:
     // Fails as the session would: where a device or the stereo mode is unknown.
-    [[nodiscard]] static Result<OpeningPicture> create(const SculptOptions& options, const SessionWall& wall);
+    [[nodiscard]] static Result<OpeningPicture> create(const SessionSetup& options, const SessionWall& wall);
 
     // Has the mesh stand before the viewer from now on.
     void take(FirstLook look);
@@ -26,10 +26,10 @@ public:
     [[nodiscard]] Result<StillPicture> lay_out(const WorkWatch::Seen& seen, Nanoseconds time_ns, ImageSize window);
 
 private:
-    OpeningPicture(const SculptOptions& options, const SessionWall& wall, Room room, wall::OutputSettings output);
+    OpeningPicture(const SessionSetup& options, const SessionWall& wall, Room room, wall::OutputSettings output);
     [[nodiscard]] picture::Picture scene() const;
 
-    SculptOptions options_;
+    SessionSetup options_;
     Room room_;
     DeskRoom desk_;
     wall::OutputSettings output_;

@@ -17,8 +17,9 @@ std::optional<scene::SceneOrder> FrameOutput::offer() {
     return scene::SceneOrder::aside([to = offered_, lane = *opened] { to->offer(lane); });
 }
 
-SculptOptions carving_with(FrameOutput& output, SculptOptions options) {
-    if (!options.make_engine && has_workpiece(options)) options.make_engine = output.engine_maker(options.engine);
+SessionSetup carving_with(FrameOutput& output, SessionSetup options) {
+    if (!options.carve.make_engine && has_workpiece(options))
+        options.carve.make_engine = output.engine_maker(options.carve.engine);
     return options;
 }
 

@@ -18,7 +18,7 @@
 #include "compute/vulkan/engine_choice.hpp"
 #include "scene/scene_order.hpp"
 #include "session/input/input_event.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "wall/output_settings.hpp"
 
 namespace burin::session {
@@ -70,6 +70,6 @@ private:
 };
 
 // Has the session of these options carve with an output's device, unless they have a maker of its engine.
-[[nodiscard]] SculptOptions carving_with(FrameOutput& output, SculptOptions options);
+[[nodiscard]] SessionSetup carving_with(FrameOutput& output, SessionSetup options);
 
 }  // namespace burin::session

@@ -10,7 +10,7 @@
 
 namespace burin::session {
 
-OffscreenOutput::OffscreenOutput(const LiveOptions& options, const SessionWall& wall)
+OffscreenOutput::OffscreenOutput(const DeskOptions& options, const SessionWall& wall)
     : options_(options), wall_(&wall) {
     for (const SessionScreen& screen : wall.screens) places_.emplace_back().size = screen.size;
 }
@@ -53,7 +53,7 @@ Result<void> OffscreenOutput::fit_modes(Desk& desk) {
     return presenter_ ? presenter_->fit_modes(desk) : Result<void>{};
 }
 
-Result<std::unique_ptr<FrameOutput>> open_output(const LiveOptions& options, const SessionWall& wall,
+Result<std::unique_ptr<FrameOutput>> open_output(const DeskOptions& options, const SessionWall& wall,
                                                  bool asks_for_pictures) {
     if (options.offscreen && !asks_for_pictures) return std::make_unique<OffscreenOutput>(options, wall);
     BURIN_TRY(opened, Presenter::open(options, wall));

@@ -10,7 +10,7 @@
 
 #include "desk/present/frame_output.hpp"
 #include "desk/view/session_screens.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/desk_options.hpp"
 
 namespace burin::session {
 
@@ -19,7 +19,7 @@ class Presenter;  // desk/present/presenter.hpp
 class OffscreenOutput final : public FrameOutput {
 public:
     // The wall must outlive it.
-    OffscreenOutput(const LiveOptions& options, const SessionWall& wall);
+    OffscreenOutput(const DeskOptions& options, const SessionWall& wall);
     ~OffscreenOutput() override;
 
     void look() override {}
@@ -38,7 +38,7 @@ public:
 private:
     [[nodiscard]] Result<gpu::Device> lane() override;
 
-    LiveOptions options_;
+    DeskOptions options_;
     const SessionWall* wall_;
     std::vector<wall::OutputPlace> places_;
     std::optional<gpu::Device> device_;     // the presenter's to be, where it was opened for the engine
@@ -47,7 +47,7 @@ private:
 
 // Opens the outputs of a session: with a graphics device at once where somebody sees its pictures, or where some are
 // asked for already, so that a missing driver is told of before anything is done.
-[[nodiscard]] Result<std::unique_ptr<FrameOutput>> open_output(const LiveOptions& options, const SessionWall& wall,
+[[nodiscard]] Result<std::unique_ptr<FrameOutput>> open_output(const DeskOptions& options, const SessionWall& wall,
                                                                bool asks_for_pictures);
 
 }  // namespace burin::session

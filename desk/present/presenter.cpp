@@ -84,7 +84,7 @@ std::vector<PlacedWindow> places_of(std::span<const SessionScreen> screens) {
 
 // ---- Opening
 
-Result<Presenter> Presenter::open(const LiveOptions& options, const SessionWall& wall, DirectDriver driver,
+Result<Presenter> Presenter::open(const DeskOptions& options, const SessionWall& wall, DirectDriver driver,
                                   std::optional<gpu::Device> opened) {
     gpu::leave_a_core_to_touch();
     Presenter stage(options, wall, std::move(driver));

@@ -26,7 +26,7 @@
 #include "desk/present/session_window.hpp"
 #include "desk/view/session_screens.hpp"
 #include "picture/picture.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/desk_options.hpp"
 #include "wall/output_settings.hpp"
 #include "wall/parity.hpp"
 
@@ -45,7 +45,7 @@ struct StillPicture {
 class Presenter final : public FrameOutput {
 public:
     // The wall must outlive it. opened: a device to begin with, where the session has one and shows no window.
-    [[nodiscard]] static Result<Presenter> open(const LiveOptions& options, const SessionWall& wall,
+    [[nodiscard]] static Result<Presenter> open(const DeskOptions& options, const SessionWall& wall,
                                                 DirectDriver driver = direct_driver(),
                                                 std::optional<gpu::Device> opened = {});
 
@@ -136,7 +136,7 @@ private:
         wall::OutputPlace shown_place;
     };
 
-    Presenter(const LiveOptions& options, const SessionWall& wall, DirectDriver driver)
+    Presenter(const DeskOptions& options, const SessionWall& wall, DirectDriver driver)
         : options_(options), wall_(&wall), driver_(std::move(driver)) {}
     [[nodiscard]] Result<void> open_outputs();
     [[nodiscard]] Result<void> open_device(std::optional<gpu::Device> opened = {});
@@ -167,7 +167,7 @@ private:
     void take_screenshots(Desk& desk);
     void photograph(std::size_t screen, Desk& desk, const std::vector<Asked>& wanted);
 
-    LiveOptions options_;
+    DeskOptions options_;
     const SessionWall* wall_;
     DirectDriver driver_;
     std::optional<gpu::Device> device_;

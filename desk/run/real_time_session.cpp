@@ -51,10 +51,10 @@ void add_threads(SessionRecord& record, Session& session) {
 }
 
 // Begins the recording that the options ask for.
-Result<void> begin_recording(InputSource& input, const SculptOptions& options, const SessionFacts& facts,
+Result<void> begin_recording(InputSource& input, const SessionSetup& options, const SessionFacts& facts,
                              Session& session, SessionStreams* streams) {
     if (input.records()) return {};
-    if (options.live.record.empty()) {
+    if (options.record.path.empty()) {
         if (streams != nullptr) streams->read_rings();
         return {};
     }
@@ -65,25 +65,25 @@ Result<void> begin_recording(InputSource& input, const SculptOptions& options, c
 }
 
 // Completes the options by what the display says: the size of letters, and that of the window, which follows it.
-SculptOptions as_displayed(SculptOptions options, const SessionWall& wall, Presenter& presenter) {
-    if (!options.live.panel_scale) options.live.panel_scale = presenter.display_scale();
+SessionSetup as_displayed(SessionSetup options, const SessionWall& wall, Presenter& presenter) {
+    if (!options.desk.panel_scale) options.desk.panel_scale = presenter.display_scale();
     presenter.look();
     const ImageSize size = presenter.place().size;
     if (!wall.desk || !presenter.has_windows() || is_empty(size)) return options;
-    options.live.width = std::clamp(static_cast<int>(size.width), kPictureBounds.least, kPictureBounds.most);
-    options.live.height = std::clamp(static_cast<int>(size.height), kPictureBounds.least, kPictureBounds.most);
+    options.desk.width = std::clamp(static_cast<int>(size.width), kPictureBounds.least, kPictureBounds.most);
+    options.desk.height = std::clamp(static_cast<int>(size.height), kPictureBounds.least, kPictureBounds.most);
     return options;
 }
 
 // Makes the workpiece while the window shows it; nothing where its user has ended that.
-Result<std::optional<sculpt::MadeWorkpiece>> open_workpiece(Presenter& presenter, const SculptOptions& options,
+Result<std::optional<sculpt::MadeWorkpiece>> open_workpiece(Presenter& presenter, const SessionSetup& options,
                                                             const SessionWall& wall) {
-    presenter.name_windows(std::filesystem::path(options.workpiece.source).filename().string());
+    presenter.name_windows(std::filesystem::path(options.carve.workpiece.source).filename().string());
     auto made = open_before_eyes(presenter, options, wall, [&options](OpeningSight& sight) {
-        return make_in_sight(options.workpiece, options.make_engine, options.threads, sight);
+        return make_in_sight(options.carve.workpiece, options.carve.make_engine, options.threads, sight);
     });
-    if (made && !*made && !options.live.record.empty())
-        std::fprintf(stderr, "burin: ended while it was opened: %s was not begun\n", options.live.record.c_str());
+    if (made && !*made && !options.record.path.empty())
+        std::fprintf(stderr, "burin: ended while it was opened: %s was not begun\n", options.record.path.c_str());
     return made;
 }
 
@@ -106,18 +106,18 @@ struct RealTimeSession {
 using Wake = std::function<void()>;  // ends a wait of the frames' thread; any thread
 
 // made: the workpiece, where it is ready already.
-Result<RealTimeSession> open_in_real_time(const SculptOptions& options, const SessionWall& wall, Clock& clock,
+Result<RealTimeSession> open_in_real_time(const SessionSetup& options, const SessionWall& wall, Clock& clock,
                                           InputSource input, const RealTimeRun& run, const Wake& wake,
                                           std::optional<sculpt::MadeWorkpiece> made = {}) {
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
     BURIN_TRY(opened, Desk::create(options, wall, clock, machine_pace, std::move(made)));
     RealTimeSession whole{
         .desk = std::move(opened), .streams = {}, .input = std::move(input), .tracker = {}, .tracker_name = {}};
-    BURIN_TRY(streams, SessionStreams::open(options.live, whole.desk->session(), clock));
+    BURIN_TRY(streams, SessionStreams::open(options.record, whole.desk->session(), clock));
     whole.streams = std::move(streams);
     BURIN_TRY_DO(begin_recording(whole.input, options, run.facts, whole.desk->session(), whole.streams.get()));
     if (run.keep_frames) whole.desk->times().keep_frames();
-    BURIN_TRY(heard, session_tracker(options.live, wall.setup));
+    BURIN_TRY(heard, session_tracker(options, wall.setup));
     whole.tracker_name = heard.where;
     if (heard.where.empty()) return whole;
     BURIN_TRY(port, open_tracker(heard, wall.setup, {clock, wake, parse_tracker_line}));
@@ -163,16 +163,16 @@ Result<SessionRecord> run_to_its_end(RealTimeSession& whole, RealTimeFrames& fra
 }
 
 // Runs a session that nobody sees, whose pictures, if any are asked for after all, are files.
-Result<SessionRecord> run_unseen(const SculptOptions& options, const SessionWall& wall, InputSource input,
+Result<SessionRecord> run_unseen(const SessionSetup& options, const SessionWall& wall, InputSource input,
                                  const RealTimeRun& run) {
     MonotonicClock clock;
-    OffscreenOutput output(options.live, wall);
+    OffscreenOutput output(options.desk, wall);
     const Wake wake = [] {};  // its frames come by themselves
     BURIN_TRY(whole, open_in_real_time(carving_with(output, options), wall, clock, std::move(input), run, wake));
     if (!run.needs.panel) whole.desk->leave_panel_out();
     const std::shared_ptr<SessionRecording> recording = whole.input.recording();
     UnseenFrames frames(*whole.desk, output, std::move(whole.input), clock, whole.tracker.get(), whole.tracker_name);
-    return run_to_its_end(whole, frames, output, clock, options.live.lsl, run.pace, wake, recording);
+    return run_to_its_end(whole, frames, output, clock, options.record.lsl, run.pace, wake, recording);
 }
 
 }  // namespace
@@ -182,17 +182,17 @@ haptics::LoopPace pace_of(haptics::LoopPace asked, bool felt_by_person, bool has
     return asked;
 }
 
-Result<SessionRecord> run_in_real_time(const SculptOptions& given, const SessionWall& wall, InputSource input,
+Result<SessionRecord> run_in_real_time(const SessionSetup& given, const SessionWall& wall, InputSource input,
                                        RealTimeRun run) {
-    if (given.live.offscreen && !run.keep_frames && !run.needs.pictures)
+    if (given.desk.offscreen && !run.keep_frames && !run.needs.pictures)
         return run_unseen(given, wall, std::move(input), run);
     MonotonicClock clock;
-    BURIN_TRY(presenter, Presenter::open(given.live, wall, std::move(run.driver)));
-    const SculptOptions options = carving_with(presenter, as_displayed(given, wall, presenter));
+    BURIN_TRY(presenter, Presenter::open(given.desk, wall, std::move(run.driver)));
+    const SessionSetup options = carving_with(presenter, as_displayed(given, wall, presenter));
     const Wake wake = [&to = presenter] { to.wake(); };
     std::optional<sculpt::MadeWorkpiece> made;
     // A document is there at once: nothing has to be read, checked and converted.
-    const bool takes_long = has_workpiece(options) && !is_document(options.workpiece);
+    const bool takes_long = has_workpiece(options) && !is_document(options.carve.workpiece);
     if (run.opens_before_eyes && wall.desk && presenter.has_windows() && takes_long) {
         BURIN_TRY(opening, open_workpiece(presenter, options, wall));
         if (!opening) return SessionRecord{};
@@ -200,11 +200,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& given, const Session
     }
     BURIN_TRY(whole, open_in_real_time(options, wall, clock, std::move(input), run, wake, std::move(made)));
     presenter.name_windows(whole.desk->session().found().name);
-    if (options.live.first_steps) remember_first_time();
+    if (options.desk.first_steps) remember_first_time();
     const std::shared_ptr<SessionRecording> recording = whole.input.recording();
-    if (options.live.detail == DetailChoice::automatic) presenter.draw_less_in_motion();
+    if (options.desk.detail == DetailChoice::automatic) presenter.draw_less_in_motion();
     LiveFrames frames(*whole.desk, presenter, std::move(whole.input), clock, whole.tracker.get(), whole.tracker_name);
-    auto record = run_to_its_end(whole, frames, presenter, clock, options.live.lsl, run.pace, wake, recording);
+    auto record = run_to_its_end(whole, frames, presenter, clock, options.record.lsl, run.pace, wake, recording);
     if (!record) return record;
     record->device = presenter.device_name();
     const gpu::WorkAsked drawn = presenter.device().asked();

@@ -136,21 +136,21 @@ Result<void> check_screens(const FrameOutput& outputs, const ThreadLog& log, con
 
 }  // namespace
 
-Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& wall, InputLog log,
+Result<void> replay_as_recorded(const SessionSetup& given, const SessionWall& wall, InputLog log,
                                 const ReplayManner& manner) {
-    SculptOptions options = given;
-    options.live.stands_in = true;
+    SessionSetup options = given;
+    options.record.stands_in = true;
     const LogNeeds needs = needs_of(log.events);
     const ThreadLog threads = std::move(*log.threads);
-    const std::string& name = options.live.input;
+    const std::string& name = options.record.input;
     InputSource input = InputSource::replay(std::move(log));
     SimulatedClock clock;
     const bool asks_for_pictures = manner.draws && (needs.pictures || manner.picture_every_ns > 0);
-    BURIN_TRY(output, open_output(options.live, wall, asks_for_pictures));
+    BURIN_TRY(output, open_output(options.desk, wall, asks_for_pictures));
     BURIN_TRY(opened, Desk::create_as_recorded(carving_with(*output, options), wall, threads, name, clock));
     Desk& desk = *opened;
     Session& session = desk.session();
-    if (options.live.offscreen && !needs.panel && !asks_for_pictures) desk.leave_panel_out();
+    if (options.desk.offscreen && !needs.panel && !asks_for_pictures) desk.leave_panel_out();
     BURIN_TRY_DO(check_screens(*output, threads, name));
 
     BURIN_TRY(ticks, ticks_for(session, threads, name, manner));

@@ -122,14 +122,14 @@ void ScriptedFrames::stepped() {
     if (!is_drawn && shown_on_.has_drawn()) static_cast<void>(shown_on_.fit_modes(desk_));
 }
 
-Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputLog log) {
+Result<void> run_in_simulated_time(const SessionSetup& options, const SessionWall& wall, InputLog log) {
     SimulatedClock clock;
     const LogNeeds needs = needs_of(log.events);
-    BURIN_TRY(output, open_output(options.live, wall, needs.pictures));
+    BURIN_TRY(output, open_output(options.desk, wall, needs.pictures));
     BURIN_TRY(opened, Desk::create(carving_with(*output, options), wall, clock));
     Desk& desk = *opened;
     Session& session = desk.session();
-    if (options.live.offscreen && !needs.panel) desk.leave_panel_out();
+    if (options.desk.offscreen && !needs.panel) desk.leave_panel_out();
     ScriptedFrames frames(desk, *output, InputSource::replay(std::move(log)));
     SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });

@@ -20,11 +20,11 @@ constexpr double kDeskHeight_m = 2.286;
 
 constexpr ImageSize kPanelScreen_px{340, 900};
 
-ImageSize asked_size(const LiveOptions& options) {
+ImageSize asked_size(const DeskOptions& options) {
     return {static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height)};
 }
 
-SessionWall desk_wall(const LiveOptions& options) {
+SessionWall desk_wall(const DeskOptions& options) {
     SessionWall wall;
     wall.setup.name = "desk";
     wall.setup.screens.emplace_back();
@@ -64,7 +64,7 @@ gpu::DisplayChoice display_of(const wall::WallScreen& screen, const wall::Displa
 }
 
 Result<SessionScreen> screen_shown(const wall::WallScreen& screen, const wall::DisplayTiming& timing,
-                                   const LiveOptions& options) {
+                                   const DeskOptions& options) {
     SessionScreen shown;
     shown.name = screen.name;
     const auto mode = wall::parse_stereo_mode(screen.mode);
@@ -107,7 +107,7 @@ std::size_t faced_screen(const wall::WallSetup& setup) {
     return best;
 }
 
-Result<SessionWall> wall_of_file(const LiveOptions& options) {
+Result<SessionWall> wall_of_file(const DeskOptions& options) {
     SessionWall wall;
     wall.desk = false;
     BURIN_TRY(setup, wall::read_wall(options.wall));
@@ -128,7 +128,7 @@ Result<SessionWall> wall_of_file(const LiveOptions& options) {
 
 }  // namespace
 
-Result<SessionWall> session_wall(const LiveOptions& options) {
+Result<SessionWall> session_wall(const DeskOptions& options) {
     Result<SessionWall> wall = options.wall.empty() ? desk_wall(options) : wall_of_file(options);
     if (!wall || !options.panel_window) return wall;
     wall->screens.push_back({.name = "panel", .monitor = {}, .direct = {}, .size = kPanelScreen_px, .shown = {}});

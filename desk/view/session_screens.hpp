@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gpu/display_choice.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/desk_options.hpp"
 #include "wall/output_settings.hpp"
 #include "wall/wall.hpp"
 
@@ -35,7 +35,7 @@ struct SessionWall {
 
 // Builds the wall that the options ask for. Errors: those of the wall file; a screen whose mode is unknown or
 // contradicts how the screen is driven.
-[[nodiscard]] Result<SessionWall> session_wall(const LiveOptions& options);
+[[nodiscard]] Result<SessionWall> session_wall(const DeskOptions& options);
 
 // Gives a desktop window's screen the shape of an eye's picture; changes no other wall.
 void fit_desk_screen(SessionWall& wall, ImageSize eye);

@@ -11,7 +11,7 @@ namespace {
 
 // A wall's file may put the eyes elsewhere than at the head's sensor, or a tracker's description the sensor to the
 // eyes; both together are a mistake.
-Result<void> check_eyes(const LiveOptions& options, const SessionTracker& tracker, const wall::WallSetup& setup) {
+Result<void> check_eyes(const DeskOptions& options, const SessionTracker& tracker, const wall::WallSetup& setup) {
     constexpr double kNoticeable_m = 1e-6;
     if (!tracker.described || !tracker.described->bodies.head) return {};
     const Vec3 middle = 0.5 * (setup.eyes.left_sensor + setup.eyes.right_sensor);
@@ -26,16 +26,16 @@ Result<void> check_eyes(const LiveOptions& options, const SessionTracker& tracke
 
 }  // namespace
 
-Result<SessionTracker> session_tracker(const LiveOptions& options, const wall::WallSetup& setup) {
-    const std::string& given = options.tracker;
-    const bool hears = options.input.empty() || !options.record.empty();
+Result<SessionTracker> session_tracker(const SessionSetup& options, const wall::WallSetup& setup) {
+    const std::string& given = options.desk.tracker;
+    const bool hears = options.record.input.empty() || !options.record.path.empty();
     if (given == kNoTracker || !hears) return SessionTracker{};
     SessionTracker tracker;
     if (given.ends_with(".toml")) {
         BURIN_TRY(read, devices::read_tracker(given));
         tracker.described = std::move(read);
-    } else if (!options.wall.empty() && !setup.tracker_toml.empty()) {
-        BURIN_TRY(read, devices::tracker_of_wall(options.wall));
+    } else if (!options.desk.wall.empty() && !setup.tracker_toml.empty()) {
+        BURIN_TRY(read, devices::tracker_of_wall(options.desk.wall));
         tracker.described = std::move(read);
         const bool is_of_its_kind = tracker.described && devices::tracker_kind_of(given) ==
                                                              devices::tracker_kind_of(tracker.described->address);
@@ -43,7 +43,7 @@ Result<SessionTracker> session_tracker(const LiveOptions& options, const wall::W
     }
     tracker.where =
         tracker.described && (given.empty() || given == tracker.described->file) ? tracker.described->address : given;
-    BURIN_TRY_DO(check_eyes(options, tracker, setup));
+    BURIN_TRY_DO(check_eyes(options.desk, tracker, setup));
     return tracker;
 }
 

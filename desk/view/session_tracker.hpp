@@ -6,7 +6,7 @@
 #include <string>
 
 #include "devices/trackers/tracker_file.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "wall/wall.hpp"
 
 namespace burin::session {
@@ -24,7 +24,7 @@ struct SessionTracker {
 // another kind replaces the tracker. Where nothing is heard from outside (an --input in simulated time) there is none,
 // and no file of a description is read. Errors: those of a description; eyes that both the wall and the tracker's head
 // move from the sensor.
-[[nodiscard]] Result<SessionTracker> session_tracker(const LiveOptions& options, const wall::WallSetup& setup);
+[[nodiscard]] Result<SessionTracker> session_tracker(const SessionSetup& options, const wall::WallSetup& setup);
 
 // Opens it.
 [[nodiscard]] Result<std::unique_ptr<devices::Tracker>> open_tracker(const SessionTracker& tracker,

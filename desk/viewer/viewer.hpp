@@ -50,7 +50,7 @@ struct DeskRoom {
     std::string no_surface;              // why it cannot lead a hand along a surface; empty: it can
     bool first_steps = false;            // are shown at first
     double panel_scale = 1.0;            // of the panel's letters on a desktop
-    bool frames_world = false;           // LiveOptions::frames_world
+    bool frames_world = false;           // DeskOptions::frames_world
     double free_width = 1.0;             // of the main screen's picture, that the panel leaves free at its left
 
     [[nodiscard]] wall::Screen screen() const { return wall::screen_world(wall.setup, wall.setup.screens[wall.main]); }

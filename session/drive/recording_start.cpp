@@ -28,14 +28,14 @@ std::vector<std::pair<std::int64_t, std::string>> touchable_in(const Session& se
 
 }  // namespace
 
-Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, Session& session,
+Result<InputLogWriter> create_recording(const SessionSetup& options, const SessionFacts& facts, Session& session,
                                         record::OnRecord also) {
-    const SculptOptions settled = session.settled(options);
+    const SessionSetup settled = session.settled(options);
     const std::string settings = settings_line(settled);
     SessionHands& hands = session.hands();
-    if (!is_session_file(options.live.record)) {
-        if (hands.parts() == 1) return InputLogWriter::create(options.live.record, settings);
-        return fail(options.live.record, "is a log as text, which has the ticks of one hand with one part alone",
+    if (!is_session_file(options.record.path)) {
+        if (hands.parts() == 1) return InputLogWriter::create(options.record.path, settings);
+        return fail(options.record.path, "is a log as text, which has the ticks of one hand with one part alone",
                     "record into a session file: --record FILE.session");
     }
     RecordingOf of;
@@ -48,10 +48,10 @@ Result<InputLogWriter> create_recording(const SculptOptions& options, const Sess
     of.settings = settings;
     of.facts = facts;
     if (options.activity) std::ranges::move(options.activity->facts(), std::back_inserter(of.facts));
-    of.facts.emplace_back(kDeviceFact, settled.live.device);
+    of.facts.emplace_back(kDeviceFact, settled.hands.device);
     of.objects = touchable_in(session);
     of.also = std::move(also);
-    BURIN_TRY(recording, SessionRecording::create(options.live.record, std::move(of)));
+    BURIN_TRY(recording, SessionRecording::create(options.record.path, std::move(of)));
     return InputLogWriter::into(std::move(recording));
 }
 

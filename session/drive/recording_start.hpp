@@ -13,15 +13,15 @@ namespace burin::session {
 
 class InputLogWriter;  // session/record/input_log.hpp
 class Session;         // session/live/session.hpp
-struct SculptOptions;  // session/options/session_options.hpp
+struct SessionSetup;   // session/options/session_setup.hpp
 
 // Facts of a session file, which the session does not know itself: of the program and of the files that were read.
 using SessionFacts = std::vector<std::pair<std::string, std::string>>;
 
-// Makes the file that options.live.record names, of a session whose threads have not started. Fails where there is one.
+// Makes the file that options.record.path names, of a session whose threads have not started. Fails where there is one.
 // A session file reads the session's ring of tick records from now on; the session must outlive it. also: takes every
 // tick that a session file takes.
-[[nodiscard]] Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts,
+[[nodiscard]] Result<InputLogWriter> create_recording(const SessionSetup& options, const SessionFacts& facts,
                                                       Session& session, record::OnRecord also = {});
 
 }  // namespace burin::session

@@ -10,7 +10,7 @@
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "session/live/session.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/stream/lsl_streams.hpp"
 #include "session/stream/stream_text.hpp"
@@ -36,34 +36,35 @@ std::vector<StreamedPart> streamed_parts(SessionHands& hands) {
 
 }  // namespace
 
-Result<void> check_streams(const LiveOptions& live) {
-    if (!wants_streams(live)) return {};
-    if (live.lsl && !live.record.empty() && !is_session_file(live.record))
+Result<void> check_streams(const RecordSetup& record) {
+    if (!wants_streams(record)) return {};
+    if (record.lsl && !record.path.empty() && !is_session_file(record.path))
         return fail("--lsl", "has no ticks of a session that is recorded as text, whose log alone reads them",
                     "record into a session file: --record FILE.session");
-    if (live.lsl_markers && !live.record.empty() && !is_session_file(live.record))
+    if (record.lsl_markers && !record.path.empty() && !is_session_file(record.path))
         return fail("--lsl-markers", "hears markers for the events of a recording, and a log as text has none",
                     "record into a session file: --record FILE.session");
-    if (live.lsl_markers && live.record.empty())
+    if (record.lsl_markers && record.path.empty())
         return fail("--lsl-markers", "hears markers for the events of a recording, and there is none",
                     "give --record FILE.session as well");
-    if (live.lsl_markers) BURIN_TRY_DO(marker_predicate(*live.lsl_markers));
+    if (record.lsl_markers) BURIN_TRY_DO(marker_predicate(*record.lsl_markers));
     const auto api = devices::load_lsl_api();
     return api ? Result<void>{} : std::unexpected(api.error());
 }
 
-Result<std::unique_ptr<SessionStreams>> SessionStreams::open(const LiveOptions& live, Session& session, Clock& clock) {
-    if (!wants_streams(live)) return std::unique_ptr<SessionStreams>();
+Result<std::unique_ptr<SessionStreams>> SessionStreams::open(const RecordSetup& record, Session& session,
+                                                             Clock& clock) {
+    if (!wants_streams(record)) return std::unique_ptr<SessionStreams>();
     BURIN_TRY(api, devices::load_lsl_api());
     StreamPlan plan;
-    if (live.lsl) plan.parts = streamed_parts(session.hands());
-    if (live.lsl_markers) {
-        BURIN_TRY(predicate, marker_predicate(*live.lsl_markers));
+    if (record.lsl) plan.parts = streamed_parts(session.hands());
+    if (record.lsl_markers) {
+        BURIN_TRY(predicate, marker_predicate(*record.lsl_markers));
         plan.markers = std::move(predicate);
     }
     plan.source = own_source(clock.now_ns());
     BURIN_TRY(lsl, LslStreams::open(api, std::move(plan), clock));
-    return std::unique_ptr<SessionStreams>(new SessionStreams(session, std::move(lsl), live.lsl));
+    return std::unique_ptr<SessionStreams>(new SessionStreams(session, std::move(lsl), record.lsl));
 }
 
 SessionStreams::SessionStreams(Session& session, std::unique_ptr<LslStreams> lsl, bool gives)

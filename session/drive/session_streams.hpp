@@ -13,7 +13,7 @@
 
 namespace burin::session {
 
-struct LiveOptions;    // session/options/session_options.hpp
+struct RecordSetup;    // session/options/session_setup.hpp
 class LslStreams;      // session/stream/lsl_streams.hpp
 class Session;         // session/live/session.hpp
 struct StreamFigures;  // session/stream/lsl_streams.hpp
@@ -21,13 +21,13 @@ class TickPump;        // session/stream/tick_pump.hpp
 
 // Fails where a session of these options cannot have the streams that they ask for: a text log has the ring that a
 // stream would read, markers have no recording to go into, or there is no library.
-[[nodiscard]] Result<void> check_streams(const LiveOptions& live);
+[[nodiscard]] Result<void> check_streams(const RecordSetup& record);
 
 class SessionStreams {
 public:
     // Opens them for a session whose threads have not started; null: none are asked for. Session and clock must
     // outlive them.
-    [[nodiscard]] static Result<std::unique_ptr<SessionStreams>> open(const LiveOptions& live, Session& session,
+    [[nodiscard]] static Result<std::unique_ptr<SessionStreams>> open(const RecordSetup& record, Session& session,
                                                                       Clock& clock);
     ~SessionStreams();
     SessionStreams(const SessionStreams&) = delete;

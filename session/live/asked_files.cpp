@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "picture/png.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/record/input_files.hpp"
 #include "session/work/opened_work.hpp"
 
@@ -23,8 +23,8 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 
 }  // namespace
 
-AskedFiles::AskedFiles(const SculptOptions& options, MessageLog& log)
-    : log_(log), outputs_(options.live, inputs_of(options).list()), log_name_(options.live.input) {
+AskedFiles::AskedFiles(const SessionSetup& options, MessageLog& log)
+    : log_(log), outputs_(options, inputs_of(options).list()), log_name_(options.record.input) {
     if (log_name_.empty()) opened_ = document_of(options);
 }
 

@@ -19,12 +19,12 @@
 
 namespace burin::session {
 
-struct SculptOptions;  // session/options/session_options.hpp
+struct SessionSetup;  // session/options/session_setup.hpp
 
 class AskedFiles {
 public:
     // The log of messages must outlive it.
-    AskedFiles(const SculptOptions& options, MessageLog& log);
+    AskedFiles(const SessionSetup& options, MessageLog& log);
 
     // Notes the line of the input that a step has come to.
     void note_line(std::size_t line) { last_line_ = line; }

@@ -14,8 +14,8 @@ namespace burin::session {
 namespace {
 
 // The name of work that has none: that of its source.
-std::string name_from(const SculptOptions& options) {
-    const std::string& source = options.no_workpiece ? options.world : options.workpiece.source;
+std::string name_from(const SessionSetup& options) {
+    const std::string& source = options.scene.no_workpiece ? options.scene.world : options.carve.workpiece.source;
     const std::string shape = source.substr(0, source.find(':'));
     const std::string stem = shape != source ? shape : std::filesystem::path(source).stem().string();
     return (stem.empty() ? "work" : stem) + std::string(document::kEnding);
@@ -51,7 +51,7 @@ void DocumentSide::began_with(const std::string& source) {
     });
 }
 
-document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& files, const SculptOptions& options,
+document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& files, const SessionSetup& options,
                                             document::Content content) {
     std::error_code ignored;
     const bool is_there = std::filesystem::exists(path_, ignored);
@@ -69,7 +69,7 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
         request.refused = place.error();
         return request;
     }
-    const bool is_of_log = !options.live.input.empty();
+    const bool is_of_log = !options.record.input.empty();
     request.name = place->shown;
     request.changed_alone = place->is_current && !is_gone;  // else the whole, as a new file
     request.path = place->is_current ? path_ : place->path;
@@ -86,13 +86,13 @@ document::SaveRequest DocumentSide::request(const Asked& wanted, AskedFiles& fil
     return request;
 }
 
-std::string DocumentSide::name(const SculptOptions& options) const {
+std::string DocumentSide::name(const SessionSetup& options) const {
     return !name_.empty() ? name_ : name_from(options);
 }
 
 bool DocumentSide::has_file() const { return !path_.empty() && state_ != FileState::failed; }
 
-Result<void> DocumentSide::keep_journal(const std::string& folder, const SculptOptions& options,
+Result<void> DocumentSide::keep_journal(const std::string& folder, const SessionSetup& options,
                                         const OpenedWork& opened, document::Content beginning) {
     const std::string name = !opened.name.empty() ? opened.name : name_from(options);
     if (name_.empty()) name_ = opened.name;

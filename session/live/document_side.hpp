@@ -34,7 +34,7 @@ public:
     void began_with(const std::string& source);
 
     // Returns the name of the document's file, or of work that has none the one that it would get.
-    [[nodiscard]] std::string name(const SculptOptions& options) const;
+    [[nodiscard]] std::string name(const SessionSetup& options) const;
     [[nodiscard]] bool has_file() const;  // or is about to have it
     // Returns whether another file has this name, which the document is to get.
     [[nodiscard]] bool is_taken(const std::string& name, const AskedFiles& files) const {
@@ -42,13 +42,13 @@ public:
     }
 
     // Keeps a journal of the work in the folder. beginning: all as it is now. The work is what was opened, if it was.
-    [[nodiscard]] Result<void> keep_journal(const std::string& folder, const SculptOptions& options,
+    [[nodiscard]] Result<void> keep_journal(const std::string& folder, const SessionSetup& options,
                                             const OpenedWork& opened, document::Content beginning);
     // Ends the journal. Returns its path where it holds what was not saved; discards: that is not wanted.
     [[nodiscard]] std::string end_journal(bool discards);
     // Returns what to save, but for the pages of the scene, to the place that was asked for: a name, or empty for the
     // document's own.
-    [[nodiscard]] document::SaveRequest request(const Asked& wanted, AskedFiles& files, const SculptOptions& options,
+    [[nodiscard]] document::SaveRequest request(const Asked& wanted, AskedFiles& files, const SessionSetup& options,
                                                 document::Content content);
     [[nodiscard]] std::vector<document::SaveOutcome> take_outcomes();
     // Waits until all is written.

@@ -9,14 +9,14 @@
 #include "session/state/session_room.hpp"
 
 namespace burin::session {
-Result<void> HandSide::open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock) {
+Result<void> HandSide::open(const SessionSetup& setup, const SessionState& state, const Room& room, Clock& clock) {
     std::vector<HandToOpen> wanted;
-    for (const NamedDevice& hand : devices_of(live)) {
+    for (const NamedDevice& hand : devices_of(setup.hands)) {
         const std::size_t i = wanted.size();
         wanted.push_back(
             {hand.hand, hand.device, {state.hands[i].target.position_device_m, room.hands[i].rest_device}});
     }
-    BURIN_TRY_DO(hands_.open(wanted, clock, live.stands_in));
+    BURIN_TRY_DO(hands_.open(wanted, clock, setup.record.stands_in));
     tools_.resize(hands_.parts());
     return {};
 }
@@ -96,9 +96,10 @@ Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const 
     return inverse(state.world_from_object) * (state.hands[hand].world_from_device * first_device_m);
 }
 
-void HandSide::settle(LiveOptions& live) const {
-    live.device = hands_.settled_device(0);
-    for (std::size_t hand = 0; hand < live.hands.size(); ++hand) live.hands[hand].device = hands_.settled_device(hand);
+void HandSide::settle(HandsSetup& setup) const {
+    setup.device = hands_.settled_device(0);
+    for (std::size_t hand = 0; hand < setup.named.size(); ++hand)
+        setup.named[hand].device = hands_.settled_device(hand);
 }
 
 }  // namespace burin::session

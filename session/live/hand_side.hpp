@@ -11,7 +11,7 @@
 #include "session/hands/session_hands.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/scene_side.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
@@ -26,7 +26,8 @@ public:
 
     void use(Handles handles) { handles_ = std::move(handles); }
     // Opens the devices, each with its hand where the state has it.
-    [[nodiscard]] Result<void> open(const LiveOptions& live, const SessionState& state, const Room& room, Clock& clock);
+    [[nodiscard]] Result<void> open(const SessionSetup& setup, const SessionState& state, const Room& room,
+                                    Clock& clock);
     // Returns where the hands' tools are before the first tick. spacing_m: of the workpiece's lattice.
     [[nodiscard]] std::vector<SceneSide::Beginning> beginnings(const SessionState& state, const Room& room,
                                                                double spacing_m) const;
@@ -45,7 +46,7 @@ public:
     };
     [[nodiscard]] Switched switch_amplifiers(std::size_t hand, bool on);
     // Writes the devices as --device names them, with what was found when they were opened, into the options.
-    void settle(LiveOptions& live) const;
+    void settle(HandsSetup& setup) const;
     // The tools that a step has, of each part.
     void take_tools(std::span<const haptics::ToolState> tools) { tools_.assign(tools.begin(), tools.end()); }
     [[nodiscard]] std::span<const haptics::ToolState> tools() const { return tools_; }

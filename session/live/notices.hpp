@@ -20,7 +20,7 @@ namespace burin::session {
 
 class Notices {
 public:
-    explicit Notices(const SculptOptions& options) : files_(options, log_) {}
+    explicit Notices(const SessionSetup& options) : files_(options, log_) {}
 
     [[nodiscard]] MessageLog& log() { return log_; }
     [[nodiscard]] const MessageLog& log() const { return log_; }

@@ -43,11 +43,11 @@ haptics::FillPlace fill_place_of(const devices::DeviceNature& nature) {
 
 }  // namespace
 
-Result<OpenedRoom> open_room(const SculptOptions& options) {
+Result<OpenedRoom> open_room(const SessionSetup& options) {
     OpenedRoom opened;
-    opened.room.mouse = options.live.mouse.value_or(MouseMode::free);
-    opened.room.mouse_chosen = options.live.mouse.has_value();
-    const std::vector<NamedDevice> hands = devices_of(options.live);
+    opened.room.mouse = options.hands.mouse.value_or(MouseMode::free);
+    opened.room.mouse_chosen = options.hands.mouse.has_value();
+    const std::vector<NamedDevice> hands = devices_of(options.hands);
     opened.room.hands.assign(hands.size(), {});
     opened.handles.assign(hands.size(), nullptr);
     for (std::size_t i = 0; i < hands.size(); ++i) {
@@ -66,8 +66,8 @@ Result<OpenedRoom> open_room(const SculptOptions& options) {
             }
         if (!nature->handle) continue;
         reach_over(room, devices::device_of(*nature->handle).workspace_m);
-        if (options.points.empty()) continue;
-        BURIN_TRY(points, devices::points_named(*nature->handle, options.points));
+        if (options.hands.points.empty()) continue;
+        BURIN_TRY(points, devices::points_named(*nature->handle, options.hands.points));
         opened.handles[i] = std::make_shared<const HeldHandle>(std::move(*nature->handle), std::move(points));
     }
     return opened;

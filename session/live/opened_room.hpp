@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/state/session_room.hpp"
 #include "session/state/session_state.hpp"
 
@@ -19,6 +19,6 @@ struct OpenedRoom {
 
 // Fits a room to the devices of all hands, and makes the handles ready whose points touch. Fails where there is no such
 // device, where its description cannot be read, and where that has not the points.
-[[nodiscard]] Result<OpenedRoom> open_room(const SculptOptions& options);
+[[nodiscard]] Result<OpenedRoom> open_room(const SessionSetup& options);
 
 }  // namespace burin::session

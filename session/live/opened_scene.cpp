@@ -21,12 +21,13 @@ constexpr double kExploringBall = 0.015;
 
 }  // namespace
 
-Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options, OpenedWork& opened) {
-    if (!options.make_engine && options.engine == compute::EngineChoice::vulkan)
+Result<sculpt::MadeWorkpiece> make_workpiece(const SessionSetup& options, OpenedWork& opened) {
+    if (!options.carve.make_engine && options.carve.engine == compute::EngineChoice::vulkan)
         return fail("--engine vulkan", "this session was opened without a device that carves",
                     "take --engine cpu, or open it with engine_maker() of compute/vulkan/engine_choice.hpp");
-    const compute::EngineMaker make_engine = options.make_engine ? options.make_engine : compute::on_processor;
-    if (!opened.workpiece) return sculpt::make_workpiece(options.workpiece, make_engine, options.threads);
+    const compute::EngineMaker make_engine =
+        options.carve.make_engine ? options.carve.make_engine : compute::on_processor;
+    if (!opened.workpiece) return sculpt::make_workpiece(options.carve.workpiece, make_engine, options.threads);
     auto made = sculpt::ready_to_carve(std::move(*opened.workpiece), make_engine,
                                        std::make_unique<WorkerPool>(options.threads));
     if (!made) return made;
@@ -36,7 +37,7 @@ Result<sculpt::MadeWorkpiece> make_workpiece(const SculptOptions& options, Opene
     return made;
 }
 
-void note_workpiece(const sculpt::MadeWorkpiece& made, const SculptOptions& options, Room& room, FoundOut& found) {
+void note_workpiece(const sculpt::MadeWorkpiece& made, const SessionSetup& options, Room& room, FoundOut& found) {
     const sculpt::LoadedWorkpiece& workpiece = made.loaded;
     std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     found.unit = workpiece.unit;
@@ -45,20 +46,20 @@ void note_workpiece(const sculpt::MadeWorkpiece& made, const SculptOptions& opti
     room.carved_object = room.workpiece_object;
     room.lattice_object = sculpt::lattice_bounds(made.lattice);
     const double cells = sculpt::longest_side_m(workpiece.bounds_object) / made.lattice.spacing_m;
-    const auto resolution =
-        is_document(options.workpiece) ? static_cast<int>(std::lround(cells)) : options.workpiece.resolution;
-    found.name = std::filesystem::path(options.workpiece.source).filename().string();
+    const auto resolution = is_document(options.carve.workpiece) ? static_cast<int>(std::lround(cells))
+                                                                 : options.carve.workpiece.resolution;
+    found.name = std::filesystem::path(options.carve.workpiece.source).filename().string();
     found.size = in_millimetres(workpiece.size_m) + ", " + std::to_string(resolution) + " cells";
 }
 
-Result<std::unique_ptr<WorldSide>> open_world(const SculptOptions& options, OpenedWork& opened) {
-    BURIN_TRY(read, options.scene  ? Result<scene::World>(*options.scene)
-                    : opened.world ? Result<scene::World>(std::move(*std::exchange(opened.world, std::nullopt)))
-                                   : read_sound_world(options.world, options.world_reading));
+Result<std::unique_ptr<WorldSide>> open_world(const SessionSetup& options, OpenedWork& opened) {
+    BURIN_TRY(read, options.scene.given ? Result<scene::World>(*options.scene.given)
+                    : opened.world      ? Result<scene::World>(std::move(*std::exchange(opened.world, std::nullopt)))
+                                        : read_sound_world(options.scene.world, options.scene.reading));
     return WorldSide::create(std::move(read));
 }
 
-void note_world(const WorldSide& world, const SculptOptions& options, Room& room, FoundOut& found) {
+void note_world(const WorldSide& world, const SessionSetup& options, Room& room, FoundOut& found) {
     const Box seen = world.drawn().bounds_scene();
     Box& all = room.workpiece_object;
     if (!seen.empty()) {
@@ -70,31 +71,32 @@ void note_world(const WorldSide& world, const SculptOptions& options, Room& room
     if (room.carved_object) return;
     const std::size_t count = world.objects()->objects.size();
     const std::string objects = std::to_string(count) + (count == 1 ? " object" : " objects");
-    found.name = options.scene ? options.scene->name : std::filesystem::path(options.world).filename().string();
+    found.name = options.scene.given ? options.scene.given->name
+                                     : std::filesystem::path(options.scene.world).filename().string();
     found.size = in_millimetres(all.extent()) + ", " + objects;
 }
 
-void note_tool(const SculptOptions& options, const Room& room, FoundOut& found) {
+void note_tool(const SessionSetup& options, const Room& room, FoundOut& found) {
     const double longest_side_m = sculpt::longest_side_m(room.workpiece_object);
-    found.tool_options = options.tool;
+    found.tool_options = options.hands.tool;
     if (!room.carved_object && found.tool_options.shape.empty())
         found.tool_options.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
     found.tool_options = toolbox::with_tool(found.tool_options, longest_side_m);
 }
 
-Result<SessionState> first_state(const SculptOptions& options, const FoundOut& found, const Room& room,
+Result<SessionState> first_state(const SessionSetup& options, const FoundOut& found, const Room& room,
                                  const HandSide::Handles& handles, const Similarity& placed) {
     BURIN_TRY(tool, toolbox::parse_tool_settings(found.tool_options));
     auto meshes = std::make_shared<ToolMeshes>();
     BURIN_TRY_DO(meshes->read(tool.shape));
-    for (const toolbox::ToolSpec& other : options.live.tools_of_input) BURIN_TRY_DO(meshes->read(other));
-    BURIN_TRY(feel, toolbox::parse_feel_settings(options.feel));
+    for (const toolbox::ToolSpec& other : options.record.tools_of_input) BURIN_TRY_DO(meshes->read(other));
+    BURIN_TRY(feel, toolbox::parse_feel_settings(options.carve.feel));
     std::vector<std::string> names;
-    for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
+    for (const NamedDevice& hand : options.hands.named) names.push_back(hand.hand);
     SessionState state = begin_session(room, tool, feel, placed, std::move(meshes), handles, names);
-    state.export_unit = options.export_units.value_or(found.unit);
-    state.saves = options.scene == nullptr && options.activity == nullptr;
-    state.mirror = options.mirror;
+    state.export_unit = options.carve.exports.units.value_or(found.unit);
+    state.saves = options.scene.given == nullptr && options.activity == nullptr;
+    state.mirror = options.carve.mirror;
     return state;
 }
 

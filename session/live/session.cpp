@@ -128,10 +128,10 @@ document::Content Session::saved_content() const {
             .commands = saved_commands(state_)};
 }
 
-SculptOptions Session::settled(SculptOptions options) const {
+SessionSetup Session::settled(SessionSetup options) const {
     found_.settle(options);
-    if (state_.crumbs_m > 0.0) options.crumbs_m = state_.crumbs_m;
-    hands_.settle(options.live);
+    if (state_.crumbs_m > 0.0) options.carve.exports.crumbs_m = state_.crumbs_m;
+    hands_.settle(options.hands);
     return options;
 }
 

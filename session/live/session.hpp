@@ -25,7 +25,7 @@
 #include "session/live/notices.hpp"
 #include "session/live/scene_side.hpp"
 #include "session/live/work_side.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/state/leader.hpp"
 #include "session/state/session_room.hpp"
 
@@ -40,7 +40,7 @@ public:
     // (haptics::WorkSettings); as measured where time is real (session/hands/machine_pace.hpp), as recorded in a
     // replay, and 1 where results must depend on no machine. made: the workpiece of the options, where it is ready
     // already. place: none, where the scene's frame is the world's.
-    [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SculptOptions& options, Clock& clock,
+    [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SessionSetup& options, Clock& clock,
                                                                  double pace = 1.0,
                                                                  std::optional<sculpt::MadeWorkpiece> made = {},
                                                                  const Place& place = {});
@@ -81,7 +81,7 @@ public:
 
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
-    [[nodiscard]] const SculptOptions& options() const { return options_; }
+    [[nodiscard]] const SessionSetup& options() const { return options_; }
     [[nodiscard]] const FoundOut& found() const { return found_; }
     [[nodiscard]] Nanoseconds start_ns() const { return time_.start_ns; }
     [[nodiscard]] Nanoseconds step_ns() const { return time_.step_ns; }  // session time of the last step
@@ -90,7 +90,7 @@ public:
     [[nodiscard]] const haptics::ToolState& tool_in_use() const { return hands_.tool_of(state_.hand); }
     // Returns the options with what the session found out in place of what they leave open: the unit of the workpiece's
     // file, the tool, and the models of devices.
-    [[nodiscard]] SculptOptions settled(SculptOptions options) const;
+    [[nodiscard]] SessionSetup settled(SessionSetup options) const;
 
     // ---- Shorthands
     void notify(const std::string& message, MessageKind kind = MessageKind::warning) { log().notify(message, kind); }
@@ -112,7 +112,7 @@ public:
     [[nodiscard]] std::optional<Nanoseconds> changes_ns() const { return notices_.changes_ns(); }
 
 private:
-    Session(Clock& clock, const SculptOptions& options, double pace);
+    Session(Clock& clock, const SessionSetup& options, double pace);
     [[nodiscard]] Result<void> load(std::optional<sculpt::MadeWorkpiece> made);
     [[nodiscard]] Result<void> begin(const Place& place);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
@@ -128,7 +128,7 @@ private:
 
     Clock& clock_;
     Time time_;
-    SculptOptions options_;
+    SessionSetup options_;
     FoundOut found_;
     HandSide hands_;
     ActivitySide activity_;

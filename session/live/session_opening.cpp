@@ -18,22 +18,22 @@ namespace {
 // session file's by its writer, which waits for the disk.
 constexpr std::size_t kTicksToLog = 8192;
 
-std::size_t ring_for(const LiveOptions& live) {
-    if (live.record.empty()) return live.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
-    return is_session_file(live.record) ? record::kRingTicks : kTicksToLog;
+std::size_t ring_for(const SessionSetup& setup) {
+    if (setup.record.path.empty()) return setup.record.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
+    return is_session_file(setup.record.path) ? record::kRingTicks : kTicksToLog;
 }
 
 }  // namespace
 
-Session::Session(Clock& clock, const SculptOptions& options, double pace)
+Session::Session(Clock& clock, const SessionSetup& options, double pace)
     : clock_(clock),
       options_(options),
-      hands_(ring_for(options.live), pace),
+      hands_(ring_for(options), pace),
       activity_(options.activity),
       notices_(options),
       work_(options_, scene_, notices_.files(), notices_.log(), [this] { return saved_content(); }) {}
 
-Result<std::unique_ptr<Session>> Session::create(const SculptOptions& options, Clock& clock, double pace,
+Result<std::unique_ptr<Session>> Session::create(const SessionSetup& options, Clock& clock, double pace,
                                                  std::optional<sculpt::MadeWorkpiece> made, const Place& place) {
     auto session = std::unique_ptr<Session>(new Session(clock, options, pace));
     BURIN_TRY_DO(session->load(std::move(made)));
@@ -62,7 +62,7 @@ Result<void> Session::load(std::optional<sculpt::MadeWorkpiece> made) {
     }
     work_.has_begun();
     note_tool(options_, room_, found_);
-    notices_.begin(options_.from_before_units || scene_.workpiece() == nullptr);
+    notices_.begin(options_.record.from_before_units || scene_.workpiece() == nullptr);
     return {};
 }
 
@@ -72,18 +72,19 @@ Result<void> Session::begin(const Place& place) {
     state_ = std::move(first);
     state_.carves = scene_.workpiece() != nullptr;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
-    const double usual_m = options_.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
-    state_.crumbs_m = options_.crumbs_m.value_or(usual_m);
+    const double usual_m = options_.carve.exports.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
+    state_.crumbs_m = options_.carve.exports.crumbs_m.value_or(usual_m);
     if (const auto& view = work_.opened().view) state_.world_from_object = *view;
     BURIN_TRY(use, tool_of(state_));
     notices_.look_at_tool(state_.led().tool, use.tool, room_.workpiece_object, scene_.spacing_m());
     time_.start_ns = clock_.now_ns();
-    BURIN_TRY_DO(hands_.open(options_.live, state_, room_, clock_));
+    BURIN_TRY_DO(hands_.open(options_, state_, room_, clock_));
     publish_parameters();
     if (!activity_.is_there())
         for (const std::string& more : hands_.more_than_rendered(state_, room_)) notify(more, MessageKind::info);
-    BURIN_TRY_DO(scene_.begin(use, options_.undo_memory_MiB << 20, hands_.beginnings(state_, room_, scene_.spacing_m()),
-                              activity_.scene_part(), activity_.tap(), time_.start_ns));
+    BURIN_TRY_DO(scene_.begin(use, options_.carve.undo_memory_MiB << 20,
+                              hands_.beginnings(state_, room_, scene_.spacing_m()), activity_.scene_part(),
+                              activity_.tap(), time_.start_ns));
     if (scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
     work_.begin_journal(state_);
     return {};

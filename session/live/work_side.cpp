@@ -14,16 +14,16 @@ constexpr Nanoseconds kEditsNoted_ns = 500'000'000;  // how often the journal ha
 
 }  // namespace
 
-void FoundOut::settle(SculptOptions& options) const {
-    options.workpiece.units = unit;
-    options.workpiece.close_holes = options.workpiece.close_holes || holes_closed;
-    options.tool = tool_options;
+void FoundOut::settle(SessionSetup& options) const {
+    options.carve.workpiece.units = unit;
+    options.carve.workpiece.close_holes = options.carve.workpiece.close_holes || holes_closed;
+    options.hands.tool = tool_options;
 }
 
 Result<void> WorkSide::open() {
     const std::string path = document_of(options_);
-    if (path.empty() || options_.scene != nullptr) return {};
-    BURIN_TRY(opened, open_document_and_journal(path, options_.live.journal, options_.undo_memory_MiB << 20));
+    if (path.empty() || options_.scene.given != nullptr) return {};
+    BURIN_TRY(opened, open_document_and_journal(path, options_.work.journal, options_.carve.undo_memory_MiB << 20));
     opened_ = std::move(opened);
     if (!opened_.lost.empty()) log_.notify(opened_.lost, MessageKind::error);
     if (!opened_.recovered.empty()) log_.notify_of_event(opened_.recovered, MessageKind::warning);
@@ -33,8 +33,8 @@ Result<void> WorkSide::open() {
         opened_.workpiece.has_value() == has_workpiece(options_) && opened_.world.has_value() == has_world(options_);
     // A world of which something is lost is saved elsewhere, so that what may yet be saved of the file stays.
     const bool is_whole = !opened_.world || opened_.lost.empty();
-    const bool is_own = opened_.version && options_.live.input.empty() && has_all && is_whole;
-    const auto holder = is_own ? document_.hold(options_.live.journal, opened_.document) : std::nullopt;
+    const bool is_own = opened_.version && options_.record.input.empty() && has_all && is_whole;
+    const auto holder = is_own ? document_.hold(options_.work.journal, opened_.document) : std::nullopt;
     if (holder)
         log_.notify_of_event(opened_.document + " is open in another window, " + text_of(*holder) +
                                  ": it can be read here, and is saved under another name",
@@ -45,16 +45,16 @@ Result<void> WorkSide::open() {
 }
 
 void WorkSide::has_begun() {
-    if (options_.scene == nullptr) {
-        document_.began_with(has_workpiece(options_) ? options_.workpiece.source : options_.world);
-        if (document_of(options_).empty()) opened_.kept = unsaved_work_in(options_.live.journal);
+    if (options_.scene.given == nullptr) {
+        document_.began_with(has_workpiece(options_) ? options_.carve.workpiece.source : options_.scene.world);
+        if (document_of(options_).empty()) opened_.kept = unsaved_work_in(options_.work.journal);
     }
     for (const std::string& line : opened_.kept) log_.notify_of_event(line);
 }
 
 void WorkSide::begin_journal(const SessionState& state) {
-    const bool keeps = !options_.live.journal.empty() && state.saves;
-    if (state.saves && options_.live.input.empty()) news_.begin(keeps, !opened_.recovered.empty());
+    const bool keeps = !options_.work.journal.empty() && state.saves;
+    if (state.saves && options_.record.input.empty()) news_.begin(keeps, !opened_.recovered.empty());
     const bool begins_at_once = scene_.carved() != nullptr || !opened_.journal.empty();
     if (keeps && begins_at_once) keep_journal(state.world.get());
     begins_journal_ = keeps && !begins_at_once;
@@ -78,7 +78,7 @@ void WorkSide::keep_journal(const WorldObjects* world) {
     document::Content beginning = beginning_();
     if (scene_.workpiece() != nullptr) scene_.workpiece()->copy(beginning.parts.emplace_back());
     if (world != nullptr) beginning.parts.push_back(saved_world_.all(*world));
-    if (const auto kept = document_.keep_journal(options_.live.journal, options_, opened_, std::move(beginning));
+    if (const auto kept = document_.keep_journal(options_.work.journal, options_, opened_, std::move(beginning));
         !kept) {
         news_.journal_keeps(false);
         return log_.notify(kept.error().line());
@@ -92,7 +92,7 @@ void WorkSide::keep_journal(const WorldObjects* world) {
 // Notes for the journal what was done to objects. By way of the scene's thread, as saves go: one that was asked for
 // before would take the place of what was noted since.
 void WorkSide::note_edits(const WorldObjects* world, const SessionState& state, const Give& give) {
-    if (world == nullptr || !state.saves || options_.live.journal.empty()) return;
+    if (world == nullptr || !state.saves || options_.work.journal.empty()) return;
     std::optional<scene::Pages> change = saved_world_.take_change(*world);
     if (!change) return;
     if (std::exchange(begins_journal_, false)) keep_journal(world);
@@ -126,7 +126,7 @@ void WorkSide::take_outcomes() {
 }
 
 void WorkSide::watch_journal(const SessionState& state, const Give& give) {
-    if (options_.live.journal.empty()) return;
+    if (options_.work.journal.empty()) return;
     for (const document::JournalNews& news : document_.writer().take_journal_news()) {
         news_.journal_keeps(!news.failed);
         if (news.failed)
@@ -152,7 +152,7 @@ void WorkSide::finish(const SessionState& state) {
     for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
     if (const std::string kept = document_.end_journal(state.discards); !kept.empty())
         log_.notify("what was not saved is kept: burin sculpt " + kept);
-    if (!options_.live.journal.empty())
+    if (!options_.work.journal.empty())
         for (const document::JournalNews& news : document_.writer().take_journal_news())
             if (news.failed) log_.notify_of_event(news.failed->line(), MessageKind::error);
 }

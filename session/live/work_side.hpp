@@ -25,7 +25,7 @@ struct FoundOut {
     toolbox::ToolOptions tool_options;  // as the session began
 
     // Writes it into options that leave it open.
-    void settle(SculptOptions& options) const;
+    void settle(SessionSetup& options) const;
 };
 
 class WorkSide {
@@ -35,7 +35,7 @@ public:
     using Beginning = std::function<document::Content()>;
 
     // All must outlive it.
-    WorkSide(const SculptOptions& options, SceneSide& scene, AskedFiles& files, MessageLog& log, Beginning beginning)
+    WorkSide(const SessionSetup& options, SceneSide& scene, AskedFiles& files, MessageLog& log, Beginning beginning)
         : options_(options), scene_(scene), files_(files), log_(log), beginning_(std::move(beginning)) {}
 
     // Opens the document that the options name, if they name one. What of it the session is made of is taken out.
@@ -68,7 +68,7 @@ private:
     void keep_journal(const WorldObjects* world);
     void watch_journal(const SessionState& state, const Give& give);
 
-    const SculptOptions& options_;
+    const SessionSetup& options_;
     SceneSide& scene_;
     AskedFiles& files_;
     MessageLog& log_;

@@ -6,7 +6,7 @@
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "scene/world_inputs.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/record/input_log.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
@@ -62,16 +62,15 @@ InputFiles& InputFiles::script(const std::string& path) {
     return *this;
 }
 
-InputFiles inputs_of(const SculptOptions& options) {
+InputFiles inputs_of(const SessionSetup& options) {
     InputFiles inputs;
-    const std::string& workpiece = options.workpiece.source;
+    const std::string& workpiece = options.carve.workpiece.source;
     const bool is_a_shape = workpiece.starts_with("block:") || workpiece.starts_with("ball:");
-    if (!options.no_workpiece && !is_a_shape) inputs.mesh(workpiece);
-    inputs.world(options.world).tool(options.tool.shape).file(options.stroke);
-    const LiveOptions& live = options.live;
-    inputs.script(live.input).file(live.record).file(live.wall).device(live.device);
-    for (const NamedDevice& hand : live.hands) inputs.device(hand.device);
-    for (const toolbox::ToolSpec& tool : live.tools_of_input) inputs.mesh(tool.file);
+    if (!options.scene.no_workpiece && !is_a_shape) inputs.mesh(workpiece);
+    inputs.world(options.scene.world).tool(options.hands.tool.shape).file(options.carve.stroke.file);
+    inputs.script(options.record.input).file(options.record.path).file(options.desk.wall).device(options.hands.device);
+    for (const NamedDevice& hand : options.hands.named) inputs.device(hand.device);
+    for (const toolbox::ToolSpec& tool : options.record.tools_of_input) inputs.mesh(tool.file);
     return inputs;
 }
 

@@ -9,7 +9,7 @@
 
 namespace burin::session {
 
-struct SculptOptions;  // session/options/session_options.hpp
+struct SessionSetup;  // session/options/session_setup.hpp
 
 // A list that grows; an empty path adds nothing.
 class InputFiles {
@@ -28,7 +28,7 @@ private:
 };
 
 // Returns all that the options name, the recording included: it is no input, and yet no place for another output.
-[[nodiscard]] InputFiles inputs_of(const SculptOptions& options);
+[[nodiscard]] InputFiles inputs_of(const SessionSetup& options);
 
 // Returns whether two names are of one file, by whatever path, whether it is there or not.
 [[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -21,7 +21,7 @@
 #include "session/input/command_input.hpp"
 #include "session/input/input_event.hpp"
 #include "session/input/input_words.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/input_log.hpp"
 #include "session/state/command_table.hpp"
@@ -200,17 +200,18 @@ Result<void> check_commands(const InputLog& log, const std::string& name, const 
 
 // ---- Places
 
-SessionOutputs::SessionOutputs(const LiveOptions& live, std::vector<std::string> inputs)
-    : refuses_meshes_(live.refuses_exports), inputs_(std::move(inputs)) {
-    if (live.writes_nothing) {
+SessionOutputs::SessionOutputs(const SessionSetup& setup, std::vector<std::string> inputs)
+    : refuses_meshes_(setup.work.refuses_exports), inputs_(std::move(inputs)) {
+    if (setup.work.writes_nothing) {
         rule_ = Rule::nothing;
-    } else if (!live.input.empty()) {
+    } else if (!setup.record.input.empty()) {
         rule_ = Rule::in_folder;
-        const bool named = !live.outputs.empty();
-        meshes_ = {named ? live.outputs : fs::path(live.input).stem().string() + "-outputs", "--outputs", named};
-        pictures_ = live.screenshots.empty() ? meshes_ : Folder{live.screenshots, "--screenshots", true};
+        const bool named = !setup.work.outputs.empty();
+        meshes_ = {named ? setup.work.outputs : fs::path(setup.record.input).stem().string() + "-outputs", "--outputs",
+                   named};
+        pictures_ = setup.desk.screenshots.empty() ? meshes_ : Folder{setup.desk.screenshots, "--screenshots", true};
     } else {
-        pictures_.path = live.screenshots;
+        pictures_.path = setup.desk.screenshots;
     }
 }
 

@@ -26,10 +26,10 @@ struct ToolSpec;  // toolbox/tool_kinds.hpp
 
 namespace burin::session {
 
-class Activity;      // session/activity/activity.hpp
-struct InputEvent;   // session/input/input_event.hpp
-struct InputLog;     // session/record/input_log.hpp
-struct LiveOptions;  // session/options/session_options.hpp
+class Activity;       // session/activity/activity.hpp
+struct InputEvent;    // session/input/input_event.hpp
+struct InputLog;      // session/record/input_log.hpp
+struct SessionSetup;  // session/options/session_setup.hpp
 
 enum class OutputKind : std::uint8_t { picture, mesh, document };
 
@@ -57,13 +57,13 @@ struct LogNeeds {
 class SessionOutputs {
 public:
     // inputs: files of the session, none of which is overwritten (session/record/input_files.hpp).
-    explicit SessionOutputs(const LiveOptions& live, std::vector<std::string> inputs = {});
+    explicit SessionOutputs(const SessionSetup& setup, std::vector<std::string> inputs = {});
 
     // Returns whether files are written at all.
     [[nodiscard]] bool write() const { return rule_ != Rule::nothing; }
     // Returns whether they are a log's, below one folder, where a file takes the place of the run's before.
     [[nodiscard]] bool are_of_log() const { return rule_ == Rule::in_folder; }
-    // Returns whether meshes and documents are refused, whatever they are called (LiveOptions::refuses_exports).
+    // Returns whether meshes and documents are refused, whatever they are called (WorkSetup::refuses_exports).
     [[nodiscard]] bool refuse_meshes() const { return refuses_meshes_; }
     // Makes the folders that the log's commands need, and checks that files can be written there.
     [[nodiscard]] Result<void> prepare(const InputLog& log, const std::string& name) const;

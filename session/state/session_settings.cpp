@@ -23,45 +23,45 @@ constexpr const char* kActivity = "--activity";  // behind it Activity::settings
 // All options by name; behind a number its bounds.
 template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
-    visit("--world", o.world);
-    visit("--world-units", o.world_reading.unit);
-    visit("--world-root", o.world_reading.root);
-    visit("--no-workpiece", o.no_workpiece);
-    visit("--points", o.points);
-    visit("--workpiece", o.workpiece.source);
-    visit("--units", o.workpiece.units);
-    visit("--export-units", o.export_units);
-    visit("--close-holes", o.workpiece.close_holes);
-    visit("--weld", o.workpiece.weld_m, kWeldBounds);
-    visit("--resolution", o.workpiece.resolution, kResolutionBounds);
-    visit("--room", o.workpiece.room, kRoomBounds);
-    visit("--crumbs", o.crumbs_m);
-    visit("--tool", o.tool.shape);
-    visit("--operation", o.tool.operation);
-    visit("--material", o.tool.material);
-    visit("--sweep-tolerance", o.tool.sweep_tolerance_cells, kSweepToleranceBounds);
-    visit("--smooth-strength", o.tool.smooth_strength, kSmoothStrengthBounds);
-    visit("--mirror", o.mirror);
-    visit("--hardness", o.feel.hardness);
-    visit("--yield", o.feel.yield_kPa);
-    visit("--grain", o.feel.grain_mm);
-    visit("--stiffness", o.feel.stiffness_N_per_m);
-    visit("--friction", o.feel.friction);
-    visit("--undo-memory", o.undo_memory_MiB, kUndoMemoryBounds);
-    visit("--device", o.live.device);
-    visit("--hands", o.live.hands);
-    visit("--mouse", o.live.mouse);
-    visit("--wall", o.live.wall);
-    visit("--stereo", o.live.stereo);
-    visit("--swap-eyes", o.live.swap_eyes);
-    visit("--edge-comfort", o.live.edge_comfort);
-    visit("--width", o.live.width, kPictureBounds);
-    visit("--height", o.live.height, kPictureBounds);
-    visit("--panel-window", o.live.panel_window);
-    visit("--panel-scale", o.live.panel_scale, kPanelScaleBounds);
-    visit("--first-steps", o.live.first_steps);
-    visit("--frames-world", o.live.frames_world);
-    visit("--samples", o.live.samples, kSampleCounts);
+    visit("--world", o.scene.world);
+    visit("--world-units", o.scene.reading.unit);
+    visit("--world-root", o.scene.reading.root);
+    visit("--no-workpiece", o.scene.no_workpiece);
+    visit("--points", o.hands.points);
+    visit("--workpiece", o.carve.workpiece.source);
+    visit("--units", o.carve.workpiece.units);
+    visit("--export-units", o.carve.exports.units);
+    visit("--close-holes", o.carve.workpiece.close_holes);
+    visit("--weld", o.carve.workpiece.weld_m, kWeldBounds);
+    visit("--resolution", o.carve.workpiece.resolution, kResolutionBounds);
+    visit("--room", o.carve.workpiece.room, kRoomBounds);
+    visit("--crumbs", o.carve.exports.crumbs_m);
+    visit("--tool", o.hands.tool.shape);
+    visit("--operation", o.hands.tool.operation);
+    visit("--material", o.hands.tool.material);
+    visit("--sweep-tolerance", o.hands.tool.sweep_tolerance_cells, kSweepToleranceBounds);
+    visit("--smooth-strength", o.hands.tool.smooth_strength, kSmoothStrengthBounds);
+    visit("--mirror", o.carve.mirror);
+    visit("--hardness", o.carve.feel.hardness);
+    visit("--yield", o.carve.feel.yield_kPa);
+    visit("--grain", o.carve.feel.grain_mm);
+    visit("--stiffness", o.carve.feel.stiffness_N_per_m);
+    visit("--friction", o.carve.feel.friction);
+    visit("--undo-memory", o.carve.undo_memory_MiB, kUndoMemoryBounds);
+    visit("--device", o.hands.device);
+    visit("--hands", o.hands.named);
+    visit("--mouse", o.hands.mouse);
+    visit("--wall", o.desk.wall);
+    visit("--stereo", o.desk.stereo);
+    visit("--swap-eyes", o.desk.swap_eyes);
+    visit("--edge-comfort", o.desk.edge_comfort);
+    visit("--width", o.desk.width, kPictureBounds);
+    visit("--height", o.desk.height, kPictureBounds);
+    visit("--panel-window", o.desk.panel_window);
+    visit("--panel-scale", o.desk.panel_scale, kPanelScaleBounds);
+    visit("--first-steps", o.desk.first_steps);
+    visit("--frames-world", o.desk.frames_world);
+    visit("--samples", o.desk.samples, kSampleCounts);
 }
 
 // ---- Text of an option's value; none: the option is absent. A flag that is present has an empty text.
@@ -184,7 +184,7 @@ bool is_usual(const std::string& option, const std::string& value) {
 using OptionWords = std::map<std::string, std::string>;
 
 // Returns the values of all options that are present, by option.
-OptionWords words_behind(const SculptOptions& options) {
+OptionWords words_behind(const SessionSetup& options) {
     OptionWords words;
     visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
         if (const auto behind = text(value); behind && !is_usual(name, *behind)) words.emplace(name, *behind);
@@ -233,11 +233,11 @@ Result<void> check_activity(OptionWords& words, const Activity* given) {
 
 // Completes the options of a recording that names no unit. Every recording has named one since there are units; before,
 // files were read in metres, and a session without a --tool had a ball of 10 mm.
-void as_before_units(SculptOptions& options) {
-    options.from_before_units = !options.workpiece.units.has_value();
-    if (!options.from_before_units) return;
-    options.workpiece.units = LengthUnit::m;
-    if (options.tool.shape.empty()) options.tool.shape = "ball:0.01";
+void as_before_units(SessionSetup& options) {
+    options.record.from_before_units = !options.carve.workpiece.units.has_value();
+    if (!options.record.from_before_units) return;
+    options.carve.workpiece.units = LengthUnit::m;
+    if (options.hands.tool.shape.empty()) options.hands.tool.shape = "ball:0.01";
 }
 
 // Returns whether options stand behind the program and its command.
@@ -248,12 +248,12 @@ bool has_options(std::string_view line) {
 }
 
 // Returns the command that begins such a session.
-std::string command_of(const SculptOptions& options) {
+std::string command_of(const SessionSetup& options) {
     if (options.activity) {
         const std::string settings = options.activity->settings();
         return settings.substr(0, settings.find(' '));
     }
-    return options.no_workpiece && !options.world.empty() ? "world" : "sculpt";
+    return options.scene.no_workpiece && !options.scene.world.empty() ? "world" : "sculpt";
 }
 
 }  // namespace
@@ -263,7 +263,7 @@ std::string settings_on(const std::string& header) {
     return at == std::string::npos ? std::string() : header.substr(at + 1);
 }
 
-std::string settings_line(const SculptOptions& options) {
+std::string settings_line(const SessionSetup& options) {
     std::string line = std::string(kProgram) + command_of(options);
     visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
         const auto behind = text(value);
@@ -295,12 +295,12 @@ Result<std::vector<NamedDevice>> hands_on(const std::string& line) {
 
 std::vector<std::string> setting_names() {
     std::vector<std::string> names;
-    const SculptOptions defaults;
+    const SessionSetup defaults;
     visit_settings(defaults, [&](const char* name, const auto&...) { names.emplace_back(name); });
     return names;
 }
 
-Result<std::string> with_setting_of(const SculptOptions& from, const std::string& option, const std::string& line) {
+Result<std::string> with_setting_of(const SessionSetup& from, const std::string& option, const std::string& line) {
     BURIN_TRY(words, words_of(line, "the recording's first line"));
     std::string changed;
     for (auto word = words.begin(); word != words.end(); ++word) {
@@ -324,7 +324,7 @@ Result<void> check_activity_on(const std::string& line, const Activity* given) {
 
 Result<std::string> activity_on(const std::string& line) { return option_on(line, kActivity); }
 
-Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
+Result<RecordedOptions> options_as_recorded(const std::string& line, const SessionSetup& given) {
     RecordedOptions recorded{given, {}};
     if (!has_options(line)) {  // recorded without options
         as_before_units(recorded.options);
@@ -332,7 +332,7 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     }
     BURIN_TRY(words, words_on(line));
     BURIN_TRY_DO(check_activity(words, given.activity.get()));
-    const SculptOptions defaults;
+    const SessionSetup defaults;
     const OptionWords given_words = words_behind(given), left_out = words_behind(defaults);
     std::string wrong;
     visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value, const auto&... bounds) {
@@ -350,8 +350,9 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     });
     if (!words.empty()) wrong = words.begin()->first + " is no option that a session knows";
     if (!wrong.empty()) return fail("the recording's first line", wrong, "replay it with the program that recorded it");
-    if (recorded.options.live.device.empty()) recorded.options.live.device = devices::kDefaultHapticDevice;
-    if (!recorded.options.live.hands.empty()) recorded.options.live.device = recorded.options.live.hands.front().device;
+    if (recorded.options.hands.device.empty()) recorded.options.hands.device = devices::kDefaultHapticDevice;
+    if (!recorded.options.hands.named.empty())
+        recorded.options.hands.device = recorded.options.hands.named.front().device;
     as_before_units(recorded.options);
     return recorded;
 }

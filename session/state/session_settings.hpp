@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 namespace burin::session {
 
 // Returns the settings within a recording's first line, from the command on; empty where there are none.
 [[nodiscard]] std::string settings_on(const std::string& header);
-[[nodiscard]] std::string settings_line(const SculptOptions& options);
+[[nodiscard]] std::string settings_line(const SessionSetup& options);
 // Returns what stands behind an option ("--device") of a recording's line; empty where it is not there, or is a flag.
 [[nodiscard]] Result<std::string> option_on(const std::string& line, const std::string& option);
 // Returns the devices of all hands of a recording's line, the only hand's without a name.
@@ -25,7 +25,7 @@ namespace burin::session {
 // Returns the names of all options that such lines may hold, "--world" first; the activity is none.
 [[nodiscard]] std::vector<std::string> setting_names();
 // Returns the line with one of those options as `from` has it, last; without it where `from` leaves it out.
-[[nodiscard]] Result<std::string> with_setting_of(const SculptOptions& from, const std::string& option,
+[[nodiscard]] Result<std::string> with_setting_of(const SessionSetup& from, const std::string& option,
                                                   const std::string& line);
 
 // Checks that a recording's line is of the given activity; null: of none. The Error names the command that recorded it.
@@ -35,9 +35,9 @@ namespace burin::session {
 // without a unit is read in metres, as it was made. The Error names an option that is unknown or wrong, or says that
 // the recording is of another activity than the given one.
 struct RecordedOptions {
-    SculptOptions options;
+    SessionSetup options;
     std::vector<std::string> overruled;  // a message for each given option that the recording contradicts
 };
-[[nodiscard]] Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given);
+[[nodiscard]] Result<RecordedOptions> options_as_recorded(const std::string& line, const SessionSetup& given);
 
 }  // namespace burin::session

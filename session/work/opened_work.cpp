@@ -179,39 +179,40 @@ constexpr const char* kCannotBeCut = "inf";  // a hardness that no command sets
 
 // Puts what a command sets into the options; commands that set something else change nothing.
 struct IntoOptions {
-    SculptOptions& options;
+    SessionSetup& options;
     bool keeps_tool, keeps_hardness;  // that the options have
 
     void operator()(const SetTool& set) const {
         if (keeps_tool) return;
         const std::string shape = toolbox::text_of(set.tool);
         if (const auto read = ToolMeshes().read(set.tool); read)
-            options.tool.shape = shape;
+            options.hands.tool.shape = shape;
         else  // its file lies elsewhere now; the work is no less there
             std::fprintf(stderr, "burin: %s: its tool %s cannot be taken up, the usual one is: %s\n",
                          document_of(options).c_str(), shape.c_str(), read.error().line().c_str());
     }
     void operator()(const SetOperation& set) const {
-        if (!keeps_tool) options.tool.operation = set.operation;
+        if (!keeps_tool) options.hands.tool.operation = set.operation;
     }
     void operator()(const SetColour& set) const {
-        if (keeps_tool || !options.tool.material.empty()) return;
+        if (keeps_tool || !options.hands.tool.material.empty()) return;
         std::array<double, 3> of_255{};  // as --material has it
         for (std::size_t k = 0; k < 3; ++k) of_255[k] = std::round(255.0 * std::clamp(set.srgb[k], 0.0, 1.0));
-        options.tool.material = exact(of_255);
+        options.hands.tool.material = exact(of_255);
     }
     void operator()(const SetMaterial& set) const {
-        if (!keeps_hardness) options.feel.hardness = toolbox::feel_presets()[static_cast<std::size_t>(set.preset)].name;
+        if (!keeps_hardness)
+            options.carve.feel.hardness = toolbox::feel_presets()[static_cast<std::size_t>(set.preset)].name;
     }
     void operator()(const SetQuantity& set) const {
         if (set.quantity == Quantity::hardness && !keeps_hardness)
-            options.feel.hardness = number_in(set.value / toolbox::kHardnessUnit_Ns_per_m3);
-        if (set.quantity == Quantity::stiffness && !options.feel.stiffness_N_per_m)
-            options.feel.stiffness_N_per_m = set.value;
-        if (set.quantity == Quantity::friction && !options.feel.friction) options.feel.friction = set.value;
+            options.carve.feel.hardness = number_in(set.value / toolbox::kHardnessUnit_Ns_per_m3);
+        if (set.quantity == Quantity::stiffness && !options.carve.feel.stiffness_N_per_m)
+            options.carve.feel.stiffness_N_per_m = set.value;
+        if (set.quantity == Quantity::friction && !options.carve.feel.friction) options.carve.feel.friction = set.value;
     }
     void operator()(const SetMirror& set) const {
-        if (!options.mirror.any()) options.mirror = set.mirror;
+        if (!options.carve.mirror.any()) options.carve.mirror = set.mirror;
     }
     void operator()(const auto&) const {}
 };
@@ -239,27 +240,28 @@ std::string line_of(const SessionCommand& command) {
 
 bool is_document(const sculpt::WorkpieceOptions& options) { return document::is_document_name(options.source); }
 
-std::string document_of(const SculptOptions& options) {
-    if (!options.no_workpiece && is_document(options.workpiece)) return options.workpiece.source;
-    return document::is_document_name(options.world) ? options.world : std::string();
+std::string document_of(const SessionSetup& options) {
+    if (!options.scene.no_workpiece && is_document(options.carve.workpiece)) return options.carve.workpiece.source;
+    return document::is_document_name(options.scene.world) ? options.scene.world : std::string();
 }
 
-Result<void> settle_document(SculptOptions& options) {
+Result<void> settle_document(SessionSetup& options) {
     const std::string path = document_of(options);
-    if (path.empty() || options.scene != nullptr) return {};
+    if (path.empty() || options.scene.given != nullptr) return {};
     BURIN_TRY(reader, document::DocumentReader::open(path));
     const bool has_solid = has_part(reader, sculpt::kSolidPart), has_objects = has_part(reader, scene::kObjectsPart);
     if (!has_solid && !has_objects)
         return fail(path, "holds neither a workpiece nor a world", "open it with the program that has saved it");
-    const bool brings_other = (has_objects && !options.world.empty() && options.world != path) ||
-                              (has_solid && !options.no_workpiece && options.workpiece.source != path);
+    const bool brings_other = (has_objects && !options.scene.world.empty() && options.scene.world != path) ||
+                              (has_solid && !options.scene.no_workpiece && options.carve.workpiece.source != path);
     if (brings_other)
-        return fail(path, "brings its own " + std::string(has_objects && options.world != path ? "world" : "workpiece"),
+        return fail(path,
+                    "brings its own " + std::string(has_objects && options.scene.world != path ? "world" : "workpiece"),
                     "leave the other out");
-    if (has_objects) options.world = path;
-    options.no_workpiece = options.no_workpiece && !has_solid;
-    if (has_solid) options.workpiece.source = path;
-    if (!has_solid && options.workpiece.source == path) options.no_workpiece = true;
+    if (has_objects) options.scene.world = path;
+    options.scene.no_workpiece = options.scene.no_workpiece && !has_solid;
+    if (has_solid) options.carve.workpiece.source = path;
+    if (!has_solid && options.carve.workpiece.source == path) options.scene.no_workpiece = true;
     return {};
 }
 
@@ -305,16 +307,16 @@ Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool
     return OpenedWork{.workpiece = std::move(workpiece), .version = {}};
 }
 
-Result<void> take_settings_of_document(SculptOptions& options) {
+Result<void> take_settings_of_document(SessionSetup& options) {
     const std::string path = document_of(options);
     if (path.empty()) return {};
     BURIN_TRY(reader, document::DocumentReader::open(path));
-    const IntoOptions into{options, !options.tool.shape.empty(),
-                           options.feel.hardness != toolbox::FeelOptions{}.hardness};
+    const IntoOptions into{options, !options.hands.tool.shape.empty(),
+                           options.carve.feel.hardness != toolbox::FeelOptions{}.hardness};
     // A command that this program does not know is left out: what it set is not there either.
     for (const std::string& line : reader.commands())
         if (const Result<SessionCommand> command = parse_command_line(line)) std::visit(into, *command);
-    take_feel(reader, into.keeps_hardness, options.feel);
+    take_feel(reader, into.keeps_hardness, options.carve.feel);
     return {};
 }
 
@@ -339,9 +341,9 @@ std::vector<std::string> saved_commands(const SessionState& state) {
     return lines;
 }
 
-std::map<std::string, std::string> saved_facts(const SculptOptions& options, const SessionState& state,
+std::map<std::string, std::string> saved_facts(const SessionSetup& options, const SessionState& state,
                                                const Box& workpiece_object) {
-    std::map<std::string, std::string> facts(options.provenance.begin(), options.provenance.end());
+    std::map<std::string, std::string> facts(options.work.provenance.begin(), options.work.provenance.end());
     const Similarity& view = state.world_from_object;
     facts[kUnit] = name_of(state.export_unit);
     // Empty where there is none: a fact that is not written stays as it was.
@@ -355,7 +357,7 @@ std::map<std::string, std::string> saved_facts(const SculptOptions& options, con
     facts[kView] = exact(std::array{view.position_m.x, view.position_m.y, view.position_m.z, view.orientation.w,
                                     view.orientation.x, view.orientation.y, view.orientation.z, view.scale});
     if (!document_of(options).empty()) return facts;  // whose source is known already
-    facts[kSource] = options.no_workpiece ? options.world : options.workpiece.source;
+    facts[kSource] = options.scene.no_workpiece ? options.scene.world : options.carve.workpiece.source;
     facts[kSettings] = settings_line(options);
     return facts;
 }

@@ -14,7 +14,7 @@
 #include "document/document_reader.hpp"
 #include "scene/world_file.hpp"
 #include "sculpt/workpiece.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
@@ -39,10 +39,10 @@ struct OpenedWork {
 [[nodiscard]] bool is_document(const sculpt::WorkpieceOptions& options);
 
 // Returns the document that the options are of, in workpiece or world; empty: of none.
-[[nodiscard]] std::string document_of(const SculptOptions& options);
+[[nodiscard]] std::string document_of(const SessionSetup& options);
 // Has the options be of all that their document holds, a workpiece, a world or both, whichever of them they name. Fails
 // where it cannot be read.
-[[nodiscard]] Result<void> settle_document(SculptOptions& options);
+[[nodiscard]] Result<void> settle_document(SessionSetup& options);
 
 // Opens a document with all that it holds. It needs no file but itself. undo_bytes: the memory for what led to its
 // solid; 0: that is not wanted.
@@ -53,13 +53,13 @@ struct OpenedWork {
 
 // Takes over from the document, which is the options' workpiece, what it says of tool, material and mirror, where the
 // options leave it open. Changes nothing where the workpiece is no document.
-[[nodiscard]] Result<void> take_settings_of_document(SculptOptions& options);
+[[nodiscard]] Result<void> take_settings_of_document(SessionSetup& options);
 
 // Returns the commands that bring tool, material and mirror of a session back.
 [[nodiscard]] std::vector<std::string> saved_commands(const SessionState& state);
 // Returns the facts that a document needs besides them.
 // Empty bounds: there is no workpiece.
-[[nodiscard]] std::map<std::string, std::string> saved_facts(const SculptOptions& options, const SessionState& state,
+[[nodiscard]] std::map<std::string, std::string> saved_facts(const SessionSetup& options, const SessionState& state,
                                                              const Box& workpiece_object);
 
 }  // namespace burin::session

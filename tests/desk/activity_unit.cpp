@@ -72,12 +72,12 @@ const std::string kPyramid = "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 
 struct WatchedSession {
     explicit WatchedSession(std::shared_ptr<Watching> watching, bool panel_window = false)
         : activity(std::move(watching)) {
-        options.live.panel_window = panel_window;
+        options.desk.panel_window = panel_window;
         place.write("t.off", kPyramid);
-        options.world = (place / "t.off").string();
-        options.no_workpiece = true;
+        options.scene.world = (place / "t.off").string();
+        options.scene.no_workpiece = true;
         options.activity = activity;
-        auto made = Desk::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.desk).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);
         executor.emplace(clock, desk->session().loop(), desk->session().channels_of_parts(), desk->session().scene(),
@@ -96,7 +96,7 @@ struct WatchedSession {
         desk->step(
             {until_ns, until_ns, events}, {.size = output}, desk->session().newest_tool(),
             [&](Executor::Order order) { executor->order(std::move(order)); },
-            options.live.panel_window ? ImageSize{340, 700} : ImageSize{});
+            options.desk.panel_window ? ImageSize{340, 700} : ImageSize{});
         const Result<Executor::Taken> taken = executor->take_updates();
         EXPECT_TRUE(taken);
         if (taken) desk->take_news(taken->collected);
@@ -105,7 +105,7 @@ struct WatchedSession {
 
     Workplace place;
     std::shared_ptr<Watching> activity;
-    SculptOptions options;
+    SessionSetup options;
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
     std::optional<SteppedExecutor> executor;
@@ -458,7 +458,7 @@ TEST(SessionActivity, WhatItCannotDoIsToldByName) {
 }
 
 TEST(SessionActivity, ARecordingIsDoneAgainWithTheSameActivityAlone) {
-    SculptOptions watched, plain;
+    SessionSetup watched, plain;
     watched.activity = std::make_shared<Watching>();
     const std::string line = settings_line(watched);
     EXPECT_TRUE(options_as_recorded(line, watched));

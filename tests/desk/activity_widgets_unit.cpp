@@ -264,8 +264,8 @@ public:
 
 constexpr ImageSize kWithPanel{1280, 720};
 
-SculptOptions stepping_options(const std::string& record, std::shared_ptr<Stepping> activity) {
-    SculptOptions options = short_options(record);
+SessionSetup stepping_options(const std::string& record, std::shared_ptr<Stepping> activity) {
+    SessionSetup options = short_options(record);
     options.activity = std::move(activity);
     return options;
 }
@@ -277,8 +277,8 @@ TEST(ActivityWidgets, AreLedInEitherHalfOfASideBySidePicture) {
     for (const char* const mode : {"side_by_side_half", "side_by_side"}) {
         const auto stepping = std::make_shared<Stepping>();
         SimulatedClock clock;
-        const SculptOptions options = stepping_options("", stepping);
-        auto desk = *Desk::create(options, *session_wall(options.live), clock);
+        const SessionSetup options = stepping_options("", stepping);
+        auto desk = *Desk::create(options, *session_wall(options.desk), clock);
         Nanoseconds now_ns = 0;
         const auto send = [&](const std::vector<Input>& inputs) {
             std::vector<InputEvent> events;
@@ -316,8 +316,8 @@ TEST(ActivityWidgets, SessionWhoseSliderWasDraggedIsDoneAgainToTheBit) {
     std::string script;
     {
         SimulatedClock clock;
-        const SculptOptions options = stepping_options("", std::make_shared<Stepping>());
-        auto desk = *Desk::create(options, *session_wall(options.live), clock);
+        const SessionSetup options = stepping_options("", std::make_shared<Stepping>());
+        auto desk = *Desk::create(options, *session_wall(options.desk), clock);
         desk->step({0, 0, {}}, {.size = kWithPanel}, desk->session().newest_tool(), [](Executor::Order) {});
         const auto slider = desk->place_on_panel("do apart");
         ASSERT_TRUE(slider);

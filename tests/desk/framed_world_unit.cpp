@@ -27,12 +27,12 @@ public:
             "w.toml",
             "[[object]]\nname = \"left\"\nmesh = \"t.off\"\nmesh_units = \"m\"\n"
             "[[object]]\nname = \"right\"\nmesh = \"t.off\"\nmesh_units = \"m\"\nposition = [0.3, 0.0, 0.0]\n");
-        options.world = (place_ / "w.toml").string();
-        options.no_workpiece = true;
-        options.live.frames_world = framed;
-        options.live.width = static_cast<int>(kFramedWindow.width);
-        options.live.height = static_cast<int>(kFramedWindow.height);
-        auto made = Desk::create(options, session_wall(options.live).value(), clock);
+        options.scene.world = (place_ / "w.toml").string();
+        options.scene.no_workpiece = true;
+        options.desk.frames_world = framed;
+        options.desk.width = static_cast<int>(kFramedWindow.width);
+        options.desk.height = static_cast<int>(kFramedWindow.height);
+        auto made = Desk::create(options, session_wall(options.desk).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);
         desk->take_loaded();
@@ -77,7 +77,7 @@ public:
     [[nodiscard]] double free_px() const { return desk->viewer().seen_from.free_width * kFramedWindow.width; }
     [[nodiscard]] const SessionState& state() const { return desk->session().state(); }
 
-    SculptOptions options;
+    SessionSetup options;
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
 

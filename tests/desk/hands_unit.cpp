@@ -28,12 +28,12 @@ namespace {
 class HandsAtABall {
 public:
     explicit HandsAtABall(const std::vector<std::string>& devices) {
-        SculptOptions options;
-        options.workpiece.source = "ball:0.1";
-        options.workpiece.resolution = 32;
-        options.tool.shape = "ball:0.012";
-        if (const auto set = set_devices(options.live, devices); !set) throw std::runtime_error(set.error().line());
-        auto made = Desk::create(options, session_wall(options.live).value(), clock_);
+        SessionSetup options;
+        options.carve.workpiece.source = "ball:0.1";
+        options.carve.workpiece.resolution = 32;
+        options.hands.tool.shape = "ball:0.012";
+        if (const auto set = set_devices(options.hands, devices); !set) throw std::runtime_error(set.error().line());
+        auto made = Desk::create(options, session_wall(options.desk).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);
         executor_.emplace(clock_, desk->session().loop(), desk->session().channels_of_parts(), desk->session().scene(),
@@ -414,8 +414,8 @@ TEST(SessionHands, SayWhichHandsThereAreWhereAnotherIsAskedFor) {
 
 TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
     const auto refused = [](const std::vector<std::string>& given) {
-        LiveOptions live;
-        const auto set = set_devices(live, given);
+        HandsSetup hands;
+        const auto set = set_devices(hands, given);
         return set ? "nothing" : set.error().line();
     };
     EXPECT_TRUE(refused({"right=simulated", "simulated"}).contains("does not say whose device it is"));
@@ -425,10 +425,10 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
     EXPECT_TRUE(
         refused({"a=simulated", "b=simulated", "c=simulated", "d=simulated", "e=simulated"}).contains("4 hands"));
     EXPECT_EQ(refused({"simulated-wand:left=right.toml"}), "nothing") << "a file's name";
-    SculptOptions options;
-    ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulatd"}));
+    SessionSetup options;
+    ASSERT_TRUE(set_devices(options.hands, {"right=simulated", "left=simulatd"}));
     SimulatedClock clock;
-    const auto opened = Desk::create(options, session_wall(options.live).value(), clock);
+    const auto opened = Desk::create(options, session_wall(options.desk).value(), clock);
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("hand left: haptic device simulatd")) << opened.error().line();
     EXPECT_TRUE(opened.error().line().contains("did you mean simulated?")) << opened.error().line();
@@ -456,12 +456,12 @@ TEST(SessionHands, ThePanelSaysWhoHoldsEachDevice) {
 }
 
 TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
-    SculptOptions options;
-    options.workpiece.source = "ball:0.1";
-    options.workpiece.resolution = 16;
-    ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulated", "third=glove:/dev/none-there"}));
+    SessionSetup options;
+    options.carve.workpiece.source = "ball:0.1";
+    options.carve.workpiece.resolution = 16;
+    ASSERT_TRUE(set_devices(options.hands, {"right=simulated", "left=simulated", "third=glove:/dev/none-there"}));
     MonotonicClock clock;
-    const auto opened = Desk::create(options, session_wall(options.live).value(), clock);
+    const auto opened = Desk::create(options, session_wall(options.desk).value(), clock);
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("hand third: ")) << opened.error().line();
     EXPECT_TRUE(opened.error().line().contains("/dev/none-there")) << opened.error().line();
@@ -469,13 +469,13 @@ TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
 }
 
 TEST(SessionHands, AreKeptInTheFirstLineOfARecording) {
-    SculptOptions options;
-    options.live.input = "x";
-    ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulated-wand:my wand.toml"}));
-    const auto again = options_as_recorded(settings_line(options), SculptOptions{});
+    SessionSetup options;
+    options.record.input = "x";
+    ASSERT_TRUE(set_devices(options.hands, {"right=simulated", "left=simulated-wand:my wand.toml"}));
+    const auto again = options_as_recorded(settings_line(options), SessionSetup{});
     ASSERT_TRUE(again) << again.error().line();
-    EXPECT_EQ(again->options.live.hands, options.live.hands);
-    EXPECT_FALSE(options_as_recorded("burin sculpt --hands right", SculptOptions{}));
+    EXPECT_EQ(again->options.hands.named, options.hands.named);
+    EXPECT_FALSE(options_as_recorded("burin sculpt --hands right", SessionSetup{}));
 }
 
 }  // namespace burin::session

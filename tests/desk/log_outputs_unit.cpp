@@ -24,11 +24,11 @@ std::string complaint_about(const std::string& lines) {
     return checked ? "" : checked.error().line();
 }
 
-LiveOptions led_by(const std::string& log, const std::string& outputs) {
-    LiveOptions live;
-    live.input = log;
-    live.outputs = outputs;
-    return live;
+SessionSetup led_by(const std::string& log, const std::string& outputs) {
+    SessionSetup setup;
+    setup.record.input = log;
+    setup.work.outputs = outputs;
+    return setup;
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ TEST(SessionOutputs, LieBesideWhereTheProgramRunsUnlessAFolderIsNamed) {
 TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
     const Workplace place;
     place.write("part.stl", "x");
-    const SessionOutputs outputs(LiveOptions{}, {(place / "part.stl").string()});
+    const SessionOutputs outputs(SessionSetup{}, {(place / "part.stl").string()});
     const auto refused = outputs.place_of((place / "./part.stl").string(), OutputKind::mesh);
     ASSERT_FALSE(refused);
     EXPECT_TRUE(refused.error().line().contains("is a file that this session reads")) << refused.error().line();
@@ -138,9 +138,9 @@ TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
 }
 
 TEST(SessionOutputs, OfAUserLieWhereTheUserSays) {
-    LiveOptions live;
-    live.screenshots = "shots";
-    const SessionOutputs outputs(live);
+    SessionSetup setup;
+    setup.desk.screenshots = "shots";
+    const SessionOutputs outputs(setup);
     EXPECT_EQ(outputs.place_of("/elsewhere/a.png", OutputKind::picture).value(), "/elsewhere/a.png");
     EXPECT_EQ(outputs.place_of("a.png", OutputKind::picture).value(), "shots/a.png");
     EXPECT_EQ(outputs.place_of("../part.stl", OutputKind::mesh).value(), "../part.stl");
@@ -164,27 +164,27 @@ TEST(SessionOutputs, AreFoundUnusableBeforeTheSession) {
 
 TEST(RunSession, RefusesALogWhoseCommandsAreWrongBeforeItLoadsAnything) {
     const Workplace place;
-    SculptOptions options;
-    options.workpiece.source = "missing.off";
-    options.live.input = (place / "script.txt").string();
-    options.live.offscreen = true;
+    SessionSetup options;
+    options.carve.workpiece.source = "missing.off";
+    options.record.input = (place / "script.txt").string();
+    options.desk.offscreen = true;
     for (const std::string wrong : {"export /tmp/x.stl", "radios 3", "screenshot ../x.png"}) {
         for (const std::string record : {"", "new.log"}) {
             place.write("script.txt", kHead + "0.1 command " + wrong + "\n");
-            options.live.record = record.empty() ? "" : (place / record).string();
+            options.record.path = record.empty() ? "" : (place / record).string();
             const auto outcome = run_session(options);
             ASSERT_FALSE(outcome);
-            EXPECT_TRUE(outcome.error().where.starts_with(options.live.input + ":2")) << outcome.error().line();
+            EXPECT_TRUE(outcome.error().where.starts_with(options.record.input + ":2")) << outcome.error().line();
             EXPECT_FALSE(fs::exists(place / "new.log"));
         }
         EXPECT_FALSE(time_session(options, false));
-        EXPECT_TRUE(time_session(options, false).error().where.starts_with(options.live.input + ":2"));
+        EXPECT_TRUE(time_session(options, false).error().where.starts_with(options.record.input + ":2"));
     }
 }
 
 TEST(RunSession, RefusesAFolderOfOutputsWithoutALog) {
-    SculptOptions options;
-    options.live.outputs = "out";
+    SessionSetup options;
+    options.work.outputs = "out";
     EXPECT_TRUE(wants_session(options));
     const auto outcome = run_session(options);
     ASSERT_FALSE(outcome);
@@ -195,9 +195,9 @@ TEST(RunSession, RefusesAFolderOfOutputsWithoutALog) {
 // still being written.
 TEST(SessionOutputs, OfAUserTakeNoFilesPlaceButANumber) {
     const Workplace place;
-    LiveOptions live;
-    live.screenshots = (place / "").string();
-    SessionOutputs outputs(live);
+    SessionSetup setup;
+    setup.desk.screenshots = (place / "").string();
+    SessionOutputs outputs(setup);
     const auto name = [&] {
         const auto at = outputs.new_place_of("wall.png", OutputKind::picture);
         return at ? at->filename().string() : at.error().line();

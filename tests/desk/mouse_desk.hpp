@@ -62,11 +62,11 @@ public:
                        int resolution = 128, double room = 0.0)
         : frame_ns_(1'000'000'000 / frames_per_s) {
         place_.write("part.stl", part_stl);
-        options.workpiece.source = part_stl.empty() ? "ball:0.04" : (place_ / "part.stl").string();
-        options.workpiece.resolution = resolution;
-        options.workpiece.room = room;
-        options.tool.shape = tool;
-        options.live.mouse = MouseMode::surface;
+        options.carve.workpiece.source = part_stl.empty() ? "ball:0.04" : (place_ / "part.stl").string();
+        options.carve.workpiece.resolution = resolution;
+        options.carve.workpiece.room = room;
+        options.hands.tool.shape = tool;
+        options.hands.mouse = MouseMode::surface;
         open();
         run({{CommandInput{"toggle-panel", {}}, 0}});
     }
@@ -139,7 +139,7 @@ public:
     [[nodiscard]] Session& session() const { return desk->session(); }
     [[nodiscard]] const Viewer& viewer() const { return desk->viewer(); }
 
-    SculptOptions options;
+    SessionSetup options;
     wall::OutputPlace output{.size = kWindow};
     bool draws = true;   // the frames take what has changed of the surface
     bool tells = false;  // the session is told of its document, as a window's is
@@ -150,9 +150,9 @@ protected:
     // A desk that is opened later, with options of its own.
     MouseDesk() = default;
     void open() {
-        options.engine = compute::EngineChoice::cpu;
+        options.carve.engine = compute::EngineChoice::cpu;
         if (const auto settled = settle_mouse(options); !settled) throw std::runtime_error(settled.error().line());
-        auto made = Desk::create(options, session_wall(options.live).value(), clock);
+        auto made = Desk::create(options, session_wall(options.desk).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);
         desk->take_loaded();

@@ -11,10 +11,10 @@ namespace {
 struct ModesDesk : MouseDesk {
     explicit ModesDesk(const std::string& stereo = {}) {
         place().write("part.stl", plate(12.0));
-        options.workpiece.source = (place() / "part.stl").string();
-        options.workpiece.resolution = 64;
-        options.live.mouse = MouseMode::surface;
-        options.live.stereo = stereo;
+        options.carve.workpiece.source = (place() / "part.stl").string();
+        options.carve.workpiece.resolution = 64;
+        options.hands.mouse = MouseMode::surface;
+        options.desk.stereo = stereo;
         open();
         rest(0.2);
     }

@@ -363,19 +363,19 @@ TEST(MouseOnSurface, MaterialIsAddedAboveTheTopAndTheBorderOfTheRoomIsShownNearI
 }
 
 TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
-    SculptOptions person, log, cut, added, given, untouched;
-    log.live.input = "log.txt";
-    cut.stroke = added.stroke = "stroke.csv";
-    added.tool.operation = compute::Operation::fill;
-    given.workpiece.room = 0.4;
-    for (SculptOptions* options : {&person, &log, &given}) settle_room(*options, true);
-    for (SculptOptions* options : {&cut, &added, &untouched}) settle_room(*options, false);
-    EXPECT_EQ(person.workpiece.room, sculpt::kUsualRoom);
-    EXPECT_EQ(log.workpiece.room, 0.0);
-    EXPECT_EQ(cut.workpiece.room, 0.0);
-    EXPECT_EQ(untouched.workpiece.room, 0.0);
-    EXPECT_EQ(added.workpiece.room, sculpt::kUsualRoom);
-    EXPECT_EQ(given.workpiece.room, 0.4);
+    SessionSetup person, log, cut, added, given, untouched;
+    log.record.input = "log.txt";
+    cut.carve.stroke.file = added.carve.stroke.file = "stroke.csv";
+    added.hands.tool.operation = compute::Operation::fill;
+    given.carve.workpiece.room = 0.4;
+    for (SessionSetup* options : {&person, &log, &given}) settle_room(*options, true);
+    for (SessionSetup* options : {&cut, &added, &untouched}) settle_room(*options, false);
+    EXPECT_EQ(person.carve.workpiece.room, sculpt::kUsualRoom);
+    EXPECT_EQ(log.carve.workpiece.room, 0.0);
+    EXPECT_EQ(cut.carve.workpiece.room, 0.0);
+    EXPECT_EQ(untouched.carve.workpiece.room, 0.0);
+    EXPECT_EQ(added.carve.workpiece.room, sculpt::kUsualRoom);
+    EXPECT_EQ(given.carve.workpiece.room, 0.4);
 }
 
 // Off screen it once kept every tile as often as it had changed: some megabytes a stroke.
@@ -396,36 +396,36 @@ TEST(MouseOnSurface, StrokesThatNobodyDrawsKeepEachTileOnce) {
 }
 
 TEST(MouseOnSurface, IsForWhoHasAMouseAndLogsOfBeforeFlyFreely) {
-    SculptOptions options;
+    SessionSetup options;
     ASSERT_TRUE(settle_mouse(options));
-    EXPECT_EQ(options.live.mouse, MouseMode::surface);
-    EXPECT_EQ(options.live.device, "mouse");
-    SculptOptions log;
-    log.live.input = "log.txt";
+    EXPECT_EQ(options.hands.mouse, MouseMode::surface);
+    EXPECT_EQ(options.hands.device, "mouse");
+    SessionSetup log;
+    log.record.input = "log.txt";
     ASSERT_TRUE(settle_mouse(log));
-    EXPECT_EQ(log.live.mouse, std::nullopt);
-    EXPECT_EQ(log.live.device, "simulated");
-    SculptOptions given;
-    ASSERT_TRUE(set_devices(given.live, {"simulated"}));
+    EXPECT_EQ(log.hands.mouse, std::nullopt);
+    EXPECT_EQ(log.hands.device, "simulated");
+    SessionSetup given;
+    ASSERT_TRUE(set_devices(given.hands, {"simulated"}));
     ASSERT_TRUE(settle_mouse(given));
-    EXPECT_EQ(given.live.device, "simulated") << "who gives a device has it";
-    SculptOptions felt;
-    ASSERT_TRUE(set_devices(felt.live, {"omni:emulated"}));
+    EXPECT_EQ(given.hands.device, "simulated") << "who gives a device has it";
+    SessionSetup felt;
+    ASSERT_TRUE(set_devices(felt.hands, {"omni:emulated"}));
     ASSERT_TRUE(settle_mouse(felt));
-    EXPECT_EQ(felt.live.mouse, std::nullopt) << "a hand leads it";
-    felt.live.mouse = MouseMode::surface;
+    EXPECT_EQ(felt.hands.mouse, std::nullopt) << "a hand leads it";
+    felt.hands.mouse = MouseMode::surface;
     const auto refused = settle_mouse(felt);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("omni:emulated"), std::string::npos);
     // A hand that a SpaceMouse or a recording leads is none for the mouse, and what it touches does not wait for a
     // button.
     for (const char* device : {"spacemouse", "spacemouse:emulated"}) {
-        SculptOptions led;
-        led.live.device = device;
-        led.live.device_given = true;
+        SessionSetup led;
+        led.hands.device = device;
+        led.hands.device_given = true;
         ASSERT_TRUE(settle_mouse(led));
-        EXPECT_EQ(led.live.mouse.value_or(MouseMode::free), MouseMode::free) << device;
-        led.live.mouse = MouseMode::surface;
+        EXPECT_EQ(led.hands.mouse.value_or(MouseMode::free), MouseMode::free) << device;
+        led.hands.mouse = MouseMode::surface;
         const auto no = settle_mouse(led);
         ASSERT_FALSE(no);
         EXPECT_TRUE(no.error().what.contains("leads itself")) << no.error().line();

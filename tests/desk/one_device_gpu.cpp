@@ -65,8 +65,8 @@ protected:
     };
     // Carves the short script with threads, draws it, and records it.
     Carved carve(std::optional<int> lost_at = {}) {
-        SculptOptions options = drawn_options();
-        options.engine = compute::EngineChoice::vulkan;
+        SessionSetup options = drawn_options();
+        options.carve.engine = compute::EngineChoice::vulkan;
         testing::internal::CaptureStderr();
         Carved carved;
         const Result<void> done = run(options, lost_at, carved);
@@ -76,18 +76,18 @@ protected:
     }
     // Expects that the processor gives what was recorded: ticks, frames, and the solid at the end.
     void expect_the_processors() const {
-        SculptOptions options = drawn_options();
-        options.engine = compute::EngineChoice::cpu;
-        options.live.record.clear();
-        options.live.input = (place / "it.session").string();
-        auto reader = record::RecordReader::open(options.live.input);
+        SessionSetup options = drawn_options();
+        options.carve.engine = compute::EngineChoice::cpu;
+        options.record.path.clear();
+        options.record.input = (place / "it.session").string();
+        auto reader = record::RecordReader::open(options.record.input);
         ASSERT_TRUE(reader) << reader.error().line();
         auto log = read_session_log(*reader);
         ASSERT_TRUE(log) << log.error().line();
         auto judge = TickComparison::create(*reader, {});
         ASSERT_TRUE(judge) << judge.error().line();
         const ReplayManner manner{.witness = &*judge, .ticks = &*reader};
-        const auto done = replay_as_recorded(options, session_wall(options.live).value(), std::move(*log), manner);
+        const auto done = replay_as_recorded(options, session_wall(options.desk).value(), std::move(*log), manner);
         EXPECT_TRUE(done) << done.error().line();
         EXPECT_FALSE(judge->found().difference) << judge->found().difference->line();
         EXPECT_GT(judge->found().ticks, 300u);
@@ -96,18 +96,18 @@ protected:
     Workplace place;
 
 private:
-    [[nodiscard]] SculptOptions drawn_options() const {
-        SculptOptions options = short_options((place / "it.session").string());
-        options.live.offscreen = true;
-        options.live.width = static_cast<int>(kShownSize.width);
-        options.live.height = static_cast<int>(kShownSize.height);
+    [[nodiscard]] SessionSetup drawn_options() const {
+        SessionSetup options = short_options((place / "it.session").string());
+        options.desk.offscreen = true;
+        options.desk.width = static_cast<int>(kShownSize.width);
+        options.desk.height = static_cast<int>(kShownSize.height);
         return options;
     }
-    static Result<void> run(const SculptOptions& options, std::optional<int> lost_at, Carved& carved) {
+    static Result<void> run(const SessionSetup& options, std::optional<int> lost_at, Carved& carved) {
         PacedClock clock(2);  // the hand's thread and the frames
-        const auto wall = session_wall(options.live);
+        const auto wall = session_wall(options.desk);
         if (!wall) return std::unexpected(wall.error());
-        auto presenter = Presenter::open(options.live, *wall);
+        auto presenter = Presenter::open(options.desk, *wall);
         if (!presenter) return std::unexpected(presenter.error());
         auto desk = Desk::create(carving_with(*presenter, options), *wall, clock);
         if (!desk) return std::unexpected(desk.error());

@@ -24,21 +24,21 @@ protected:
         const std::string& display = window::Xvfb::running().name();
         if (display.empty()) GTEST_SKIP() << "Xvfb is not installed or does not start";
         setenv("DISPLAY", display.c_str(), 1);
-        options.workpiece.source = "assets/workpieces/soccer_ball.obj";
-        options.workpiece.resolution = 32;
-        options.live.width = 480;
-        options.live.height = 360;
-        wall = session_wall(options.live).value();
+        options.carve.workpiece.source = "assets/workpieces/soccer_ball.obj";
+        options.carve.workpiece.resolution = 32;
+        options.desk.width = 480;
+        options.desk.height = 360;
+        wall = session_wall(options.desk).value();
     }
-    [[nodiscard]] Result<Presenter> present() const { return Presenter::open(options.live, wall); }
+    [[nodiscard]] Result<Presenter> present() const { return Presenter::open(options.desk, wall); }
     [[nodiscard]] Result<sculpt::MadeWorkpiece> make(OpeningSight& sight) const {
-        return make_in_sight(options.workpiece, compute::engine_maker(options.engine), 1, sight);
+        return make_in_sight(options.carve.workpiece, compute::engine_maker(options.carve.engine), 1, sight);
     }
     static bool can_run(const std::string& program) {
         return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
     }
 
-    SculptOptions options;
+    SessionSetup options;
     SessionWall wall;
 };
 
@@ -60,7 +60,7 @@ TEST_F(Opening, ShowsPicturesBeforeTheSolidIsThere) {
             EXPECT_TRUE(sight.wait_for_pictures(so_far + 1)) << "the file's mesh is seen";
             with_the_mesh = sight.pictures();
         };
-        return sculpt::make_workpiece(options.workpiece, compute::engine_maker(options.engine), 1, watch);
+        return sculpt::make_workpiece(options.carve.workpiece, compute::engine_maker(options.carve.engine), 1, watch);
     });
     ASSERT_TRUE(made) << made.error().line();
     ASSERT_TRUE(*made);
@@ -102,7 +102,7 @@ TEST_F(Opening, TellsTheFaultsOfAFileInTheWordsOfASessionWithoutPictures) {
     EXPECT_EQ(seen.status, 1);
     EXPECT_EQ(seen.output, unseen.output);
     EXPECT_TRUE(seen.output.contains("cut.stl:")) << seen.output;
-    options.workpiece.source = place / "cut.stl";
+    options.carve.workpiece.source = place / "cut.stl";
     auto presenter = present();
     ASSERT_TRUE(presenter) << presenter.error().line();
     const auto made = open_before_eyes(*presenter, options, wall, [&](OpeningSight& sight) { return make(sight); });
@@ -112,7 +112,7 @@ TEST_F(Opening, TellsTheFaultsOfAFileInTheWordsOfASessionWithoutPictures) {
 
 TEST_F(Opening, LeavesTheSessionTheSamePictureAsWithoutIt) {
     Workplace place;
-    options.live.screenshots = place / "shots";
+    options.desk.screenshots = place / "shots";
     std::filesystem::create_directories(place / "shots");
     auto presenter = present();
     ASSERT_TRUE(presenter) << presenter.error().line();

@@ -38,11 +38,11 @@ TEST(PanelHeader, KeepsALongNameOffTheFramesPerSecond) {
 }
 
 TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
-    SculptOptions options;
-    options.workpiece = {"block:0.05,0.04,0.0305", 32, false};
-    options.engine = compute::EngineChoice::cpu;
+    SessionSetup options;
+    options.carve.workpiece = {"block:0.05,0.04,0.0305", 32, false};
+    options.carve.engine = compute::EngineChoice::cpu;
     SimulatedClock clock;
-    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.desk).value(), clock).value();
     desk->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, haptics::ToolState{},
                [](const scene::SceneThread::Order&) {});
     Panel alike = Panel::create({.size = desk->panel_on(0).value().size}).value();

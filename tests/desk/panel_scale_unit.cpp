@@ -11,11 +11,11 @@ namespace burin::session {
 namespace {
 
 DeskRoom desk_of_scale(std::optional<double> scale) {
-    SculptOptions options;
-    options.live.panel_scale = scale;
-    options.live.width = 3840;
-    options.live.height = 2160;
-    return open_desk(options, session_wall(options.live).value(), open_room(options).value().room);
+    SessionSetup options;
+    options.desk.panel_scale = scale;
+    options.desk.width = 3840;
+    options.desk.height = 2160;
+    return open_desk(options, session_wall(options.desk).value(), open_room(options).value().room);
 }
 
 // Returns whether the panel has letters for the text; what it lacks it tells.

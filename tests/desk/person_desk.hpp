@@ -20,11 +20,11 @@ public:
     explicit PersonDesk(const std::string& source = {}, const Workplace* among = nullptr) {
         tells = true;
         place().write("plate.stl", plate(kTop_mm));
-        options.workpiece.source = source.empty() ? (place() / "plate.stl").string() : source;
-        options.workpiece.resolution = 96;
-        options.tool.shape = "ball:0.004";
-        options.live.mouse = MouseMode::surface;
-        options.live.journal = ((among != nullptr ? *among : place()) / "journals").string();
+        options.carve.workpiece.source = source.empty() ? (place() / "plate.stl").string() : source;
+        options.carve.workpiece.resolution = 96;
+        options.hands.tool.shape = "ball:0.004";
+        options.hands.mouse = MouseMode::surface;
+        options.work.journal = ((among != nullptr ? *among : place()) / "journals").string();
         open();
         rest(0.2);
     }

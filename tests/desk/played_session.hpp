@@ -95,15 +95,15 @@ class PlayedSession : public ValidatedDesk {
 protected:
     // As run_session(), in simulated time. Folders have one letter: their names are on the panel, and lines of one
     // length are broken alike.
-    Played play(const std::string& folder, LiveOptions live, const Mishap& mishap = {},
+    Played play(const std::string& folder, DeskOptions shown, const Mishap& mishap = {},
                 const std::set<int>& minimised = {}, const DirectDriver& driver = direct_driver()) {
         std::filesystem::create_directory(place / folder);
-        live.screenshots = (place / folder).string();
-        SculptOptions options;
-        options.workpiece = {"ball:0.1", 32, false};
-        options.tool.shape = "ball:0.012";
-        options.live = live;
-        options.engine = engine;
+        shown.screenshots = (place / folder).string();
+        SessionSetup options;
+        options.carve.workpiece = {"ball:0.1", 32, false};
+        options.hands.tool.shape = "ball:0.012";
+        options.desk = shown;
+        options.carve.engine = engine;
         std::string script = kScript;
         script.replace(script.find("carved.stl"), 10, (place / folder).string() + "/carved.stl");
         testing::internal::CaptureStderr();
@@ -129,12 +129,12 @@ protected:
     compute::EngineChoice engine = compute::EngineChoice::automatic;
 
 private:
-    static Result<void> run(const SculptOptions& options, InputSource input, const Mishap& mishap,
+    static Result<void> run(const SessionSetup& options, InputSource input, const Mishap& mishap,
                             const std::set<int>& minimised, const DirectDriver& driver, Played& played) {
         SimulatedClock clock;
-        const Result<SessionWall> wall = session_wall(options.live);
+        const Result<SessionWall> wall = session_wall(options.desk);
         if (!wall) return std::unexpected(wall.error());
-        Result<Presenter> presenter = Presenter::open(options.live, *wall, driver);
+        Result<Presenter> presenter = Presenter::open(options.desk, *wall, driver);
         if (!presenter) return std::unexpected(presenter.error());
         auto desk = Desk::create(carving_with(*presenter, options), *wall, clock);
         if (!desk) return std::unexpected(desk.error());

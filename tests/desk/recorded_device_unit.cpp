@@ -49,7 +49,7 @@ private:
 };
 
 // Records a session in simulated time; returns the checksum of the surface that it leaves.
-std::uint64_t recorded_in_steps(const SculptOptions& options, const std::string& script) {
+std::uint64_t recorded_in_steps(const SessionSetup& options, const std::string& script) {
     SimulatedClock clock;
     Recorded recorded(options, clock, Recorded::Of::script, script);
     Session& s = recorded.desk->session();
@@ -77,12 +77,12 @@ std::vector<record::Word> words_of(const std::string& path, std::size_t table, c
 }
 
 std::string recorded_refusal(const std::string& device) {
-    LiveOptions live;
-    live.device = device;
-    SculptOptions options = short_options({});
-    options.live.device = device;
+    SessionSetup setup;
+    setup.hands.device = device;
+    SessionSetup options = short_options({});
+    options.hands.device = device;
     SimulatedClock clock;
-    const auto desk = Desk::create(options, *session_wall(options.live), clock);
+    const auto desk = Desk::create(options, *session_wall(options.desk), clock);
     return desk ? "nothing" : desk.error().line();
 }
 
@@ -90,24 +90,24 @@ std::string recorded_refusal(const std::string& device) {
 
 TEST(RecordedHand, CarvesAgainWhatItCarvedToTheBit) {
     const Workplace at;
-    SculptOptions options = short_options((at / "first.session").string());
+    SessionSetup options = short_options((at / "first.session").string());
     const std::uint64_t carved = recorded_in_steps(options, kCarves);
-    SculptOptions again = short_options((at / "again.session").string());
-    again.live.device = "recorded:" + options.live.record;
+    SessionSetup again = short_options((at / "again.session").string());
+    again.hands.device = "recorded:" + options.record.path;
     const std::uint64_t carved_again = recorded_in_steps(again, kNobody);
     const std::uint64_t untouched = recorded_in_steps(short_options((at / "nobody.session").string()), kNobody);
     EXPECT_EQ(carved_again, carved) << "the same is removed";
     EXPECT_NE(carved, untouched) << "and something is";
     const std::string device = "sample_time_ns,position_device*,orientation_device*,rotation_device*,buttons,fault";
-    const auto first = words_of(options.live.record, 0, device), second = words_of(again.live.record, 0, device);
+    const auto first = words_of(options.record.path, 0, device), second = words_of(again.record.path, 0, device);
     ASSERT_GE(first.size(), 480u * 13u);
     EXPECT_EQ(first.size(), second.size());
     EXPECT_TRUE(first == second);
     // The same samples before the same surface ask for the same forces, although nobody feels them.
     const std::string felt = "hip*,proxy*,force*,penetration*,time_ns";
-    EXPECT_TRUE(words_of(options.live.record, 0, felt) == words_of(again.live.record, 0, felt));
+    EXPECT_TRUE(words_of(options.record.path, 0, felt) == words_of(again.record.path, 0, felt));
     std::printf("%zu ticks, %zu words of the device: equal to the bit; surface %016llx\n",
-                words_of(again.live.record, 0, "tick").size(), second.size(),
+                words_of(again.record.path, 0, "tick").size(), second.size(),
                 static_cast<unsigned long long>(carved_again));
 }
 
@@ -116,14 +116,14 @@ TEST(RecordedHand, IsRecordedAndReplayedItself) {
     const Workplace at;
     const std::string first = (at / "first.session").string();
     static_cast<void>(recorded_in_steps(short_options(first), kCarves));
-    SculptOptions again = short_options((at / "again.session").string());
-    again.live.device = "recorded:" + first;
+    SessionSetup again = short_options((at / "again.session").string());
+    again.hands.device = "recorded:" + first;
     EXPECT_GT(record_live(again, kNobody), 0u);
-    auto reader = record::RecordReader::open(again.live.record);
+    auto reader = record::RecordReader::open(again.record.path);
     ASSERT_TRUE(reader) << reader.error().line();
     auto log = read_session_log(*reader);
     ASSERT_TRUE(log) << log.error().line();
-    const Judged found = judged(std::move(*log), again.live.record, again);
+    const Judged found = judged(std::move(*log), again.record.path, again);
     EXPECT_TRUE(found.done) << found.done.error().line();
     EXPECT_FALSE(found.found.difference);
     EXPECT_GE(found.found.ticks, 100u);
@@ -131,25 +131,25 @@ TEST(RecordedHand, IsRecordedAndReplayedItself) {
 
 TEST(RecordedHand, IsChosenByNameOfSeveral) {
     const Workplace at;
-    SculptOptions options = short_options((at / "two.session").string());
-    options.live.hands = {{"right", "simulated"}, {"left", "simulated-fingers"}};
-    options.live.device = "simulated";
+    SessionSetup options = short_options((at / "two.session").string());
+    options.hands.named = {{"right", "simulated"}, {"left", "simulated-fingers"}};
+    options.hands.device = "simulated";
     static_cast<void>(recorded_in_steps(options, kCarves));
     const devices::Recordings& recordings = session_recordings();
-    const auto left = recordings.hand_of(options.live.record, "left");
+    const auto left = recordings.hand_of(options.record.path, "left");
     ASSERT_TRUE(left) << left.error().line();
     EXPECT_EQ(left->device, "simulated-fingers");
     ASSERT_EQ(left->parts.size(), 4u);
     EXPECT_EQ(left->parts[1].name, "index");
-    EXPECT_EQ(recordings.hand_of(options.live.record, "right")->parts.size(), 1u);
-    EXPECT_EQ(recordings.device_of(options.live.record, "").value(), "simulated") << "the first";
-    EXPECT_TRUE(recorded_refusal("recorded:" + options.live.record + ":middle").contains("its hands are right, left"))
-        << recorded_refusal("recorded:" + options.live.record + ":middle");
-    SculptOptions again = short_options((at / "again.session").string());
-    again.live.device = "recorded:" + options.live.record + ":right";
+    EXPECT_EQ(recordings.hand_of(options.record.path, "right")->parts.size(), 1u);
+    EXPECT_EQ(recordings.device_of(options.record.path, "").value(), "simulated") << "the first";
+    EXPECT_TRUE(recorded_refusal("recorded:" + options.record.path + ":middle").contains("its hands are right, left"))
+        << recorded_refusal("recorded:" + options.record.path + ":middle");
+    SessionSetup again = short_options((at / "again.session").string());
+    again.hands.device = "recorded:" + options.record.path + ":right";
     static_cast<void>(recorded_in_steps(again, kNobody));
-    EXPECT_TRUE(words_of(options.live.record, 0, "position_device*") ==
-                words_of(again.live.record, 0, "position_device*"));
+    EXPECT_TRUE(words_of(options.record.path, 0, "position_device*") ==
+                words_of(again.record.path, 0, "position_device*"));
 }
 
 TEST(RecordedHand, SaysWhatIsWrongWithAFile) {

@@ -49,13 +49,13 @@ inline const std::string kShortScript = R"(burin-input 1 test
 0.5 close
 )";
 
-inline SculptOptions short_options(const std::string& record) {
-    SculptOptions options;
-    options.workpiece.resolution = 32;
-    options.tool.shape = "ball:0.012";
-    options.engine = compute::EngineChoice::cpu;
+inline SessionSetup short_options(const std::string& record) {
+    SessionSetup options;
+    options.carve.workpiece.resolution = 32;
+    options.hands.tool.shape = "ball:0.012";
+    options.carve.engine = compute::EngineChoice::cpu;
     options.threads = 1;
-    options.live.record = record;
+    options.record.path = record;
     return options;
 }
 
@@ -63,9 +63,9 @@ inline SculptOptions short_options(const std::string& record) {
 struct Recorded {
     enum class Of { script, nobody };
     Recorded(const std::string& path, Clock& clock, Of of) : Recorded(short_options(path), clock, of) {}
-    Recorded(const SculptOptions& options, Clock& clock, Of of, const std::string& of_script = kShortScript)
+    Recorded(const SessionSetup& options, Clock& clock, Of of, const std::string& of_script = kShortScript)
         : script(of_script) {
-        auto created = Desk::create(options, *session_wall(options.live), clock);
+        auto created = Desk::create(options, *session_wall(options.desk), clock);
         if (!created) throw std::runtime_error(created.error().line());
         desk = std::move(*created);
         auto writer = create_recording(options, {{"program", "a test"}}, desk->session());
@@ -74,8 +74,8 @@ struct Recorded {
     }
     // Of nobody, into a file of a disk that fails.
     Recorded(const std::string& path, Clock& clock, const std::string& vfs) : script(kShortScript) {
-        const SculptOptions options = short_options(path);
-        desk = std::move(*Desk::create(options, *session_wall(options.live), clock));
+        const SessionSetup options = short_options(path);
+        desk = std::move(*Desk::create(options, *session_wall(options.desk), clock));
         RecordingOf of;
         of.parts.push_back({"", desk->session().hands().device(0), desk->session().channels().parameters.newest().probe,
                             &desk->session().channels().records});
@@ -136,7 +136,7 @@ private:
 };
 
 // Records it with its threads, at the machine's pace. Returns how many ticks it had.
-inline std::uint64_t record_live(const SculptOptions& options, const std::string& script = kShortScript,
+inline std::uint64_t record_live(const SessionSetup& options, const std::string& script = kShortScript,
                                  ImageSize shown = kShownSize) {
     PacedClock clock(2);  // the hand's thread and the frames
     Recorded recorded(options, clock, Recorded::Of::script, script);
@@ -197,13 +197,12 @@ struct Judged {
 };
 
 // Does a log again, and compares its ticks with those of a file.
-inline Judged judged(InputLog log, const std::string& path, const SculptOptions& options,
-                     ImageSize shown = kShownSize) {
+inline Judged judged(InputLog log, const std::string& path, const SessionSetup& options, ImageSize shown = kShownSize) {
     const ThreadLog threads = *log.threads;
     auto reader = record::RecordReader::open(path);
     auto judge = TickComparison::create(*reader, {});
     SimulatedClock clock;
-    auto desk = Desk::create_as_recorded(options, *session_wall(options.live), threads, path, clock);
+    auto desk = Desk::create_as_recorded(options, *session_wall(options.desk), threads, path, clock);
     auto ticks = threads.ticks.count > 0 ? ticks_of_lines(threads, path) : std::move(*ticks_of_columns(*reader));
     ThreadReplay replay((*desk)->session(), threads, std::move(ticks), path);
     replay.judge_ticks(&*judge);
@@ -277,13 +276,13 @@ private:
 };
 
 // A block between the fingers of a hand.
-inline SculptOptions grasp_options(const std::string& record, std::shared_ptr<Grasping> activity) {
-    SculptOptions options;
-    options.no_workpiece = true;
+inline SessionSetup grasp_options(const std::string& record, std::shared_ptr<Grasping> activity) {
+    SessionSetup options;
+    options.scene.no_workpiece = true;
     options.threads = 1;
-    options.tool.shape = "ball:0.005";
-    options.live.device = "simulated-fingers";
-    options.live.record = record;
+    options.hands.tool.shape = "ball:0.005";
+    options.hands.device = "simulated-fingers";
+    options.record.path = record;
     options.activity = std::move(activity);
     auto world = std::make_shared<scene::World>();
     world->name = "a block";
@@ -299,7 +298,7 @@ inline SculptOptions grasp_options(const std::string& record, std::shared_ptr<Gr
     around.mesh = std::make_shared<const geometry::TriangleMesh>(geometry::test::cube(0.1));
     around.felt = false;
     world->objects.push_back(around);
-    options.scene = world;
+    options.scene.given = world;
     return options;
 }
 

@@ -77,23 +77,23 @@ protected:
     }
 
     // The power wall, small, and driven directly.
-    LiveOptions wall(DisplayStereo stereo, bool offscreen) {
+    DeskOptions wall(DisplayStereo stereo, bool offscreen) {
         wall::WallSetup setup = *wall::read_wall(std::string(kWallsFolder) + "/powerwall.toml");
         setup.screens[0].pixels = {240, 180};
         setup.screens[0].output = "projector";
         setup.screens[0].direct = stereo;
         setup.screens[0].mode = stereo == DisplayStereo::none ? "side_by_side_half" : "two_layers";
         place.write("wall.toml", wall::wall_text(setup));
-        LiveOptions live;
+        DeskOptions live;
         live.wall = (place / "wall.toml").string();
         live.offscreen = offscreen;
         return live;
     }
-    SculptOptions sculpt(const LiveOptions& live) {
-        SculptOptions options;
-        options.workpiece = {"ball:0.1", 32, false};
-        options.tool.shape = "ball:0.012";
-        options.live = live;
+    SessionSetup sculpt(const DeskOptions& live) {
+        SessionSetup options;
+        options.carve.workpiece = {"ball:0.1", 32, false};
+        options.hands.tool.shape = "ball:0.012";
+        options.desk = live;
         return options;
     }
 
@@ -221,7 +221,7 @@ TEST_F(DirectSession, KeepsStereoAfterTheSurfaceOrTheDeviceWasLost) {
 
 TEST_F(DirectSession, AsksForStereoOnlyWhileItShowsTwoLayers) {
     displays.stereo.emplace(2);
-    LiveOptions live = wall(DisplayStereo::onboard_din, false);
+    DeskOptions live = wall(DisplayStereo::onboard_din, false);
     live.stereo = "anaglyph_red_cyan";
     ASSERT_TRUE(play("a", live, {}, {}, displays.driver()).outcome);
     ASSERT_EQ(displays.asked.size(), 2u);
@@ -243,7 +243,7 @@ TEST_F(DirectSession, SaysAtOnceWhatTheDisplayCannotDo) {
 }
 
 TEST_F(DirectSession, RefusesAWindowForTheRightEyeAndGoesOn) {
-    LiveOptions live = wall(DisplayStereo::none, false);
+    DeskOptions live = wall(DisplayStereo::none, false);
     live.stereo = "two_windows";
     const Played played = play("a", live, {}, {}, displays.driver());
     ASSERT_TRUE(played.outcome) << played.outcome.error().line();
@@ -261,7 +261,7 @@ TEST_F(DirectSession, StandsBesideWindows) {
         if (screen.name == "front") screen.direct = DisplayStereo::none;
     }
     place.write("wall.toml", wall::wall_text(setup));
-    LiveOptions live;
+    DeskOptions live;
     live.wall = (place / "wall.toml").string();
     const Played played = play("a", live, {}, {}, displays.driver());
     ASSERT_TRUE(played.outcome) << played.outcome.error().line();
@@ -283,7 +283,7 @@ TEST_F(DirectSession, WaitsUntilItIsWokenWithoutAnyWindow) {
     waker.wake();
     EXPECT_TRUE(waker.wait(600.0)) << "also when that came before";
 
-    const LiveOptions live = wall(DisplayStereo::none, false);
+    const DeskOptions live = wall(DisplayStereo::none, false);
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room);
     auto stage = Presenter::open(live, *room, displays.driver());
@@ -295,7 +295,7 @@ TEST_F(DirectSession, WaitsUntilItIsWokenWithoutAnyWindow) {
 }
 
 TEST_F(DirectSession, RunsInRealTimeUntilTheScriptQuits) {
-    LiveOptions live = wall(DisplayStereo::none, false);
+    DeskOptions live = wall(DisplayStereo::none, false);
     live.screenshots = (place / "").string();
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room);
@@ -310,7 +310,7 @@ TEST_F(DirectSession, RunsInRealTimeUntilTheScriptQuits) {
 }
 
 TEST_F(DirectSession, EndsAtASignalAndFinishesItsRecording) {
-    const LiveOptions live = wall(DisplayStereo::none, false);
+    const DeskOptions live = wall(DisplayStereo::none, false);
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room);
     auto writer = InputLogWriter::create((place / "live.log").string(), "settings");

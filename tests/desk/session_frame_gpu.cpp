@@ -19,7 +19,7 @@ protected:
     };
     // Plays the script in a cave of four screens.
     Cost play_cave(const std::string& folder, bool offscreen) {
-        LiveOptions cave;
+        DeskOptions cave;
         cave.offscreen = offscreen;
         cave.wall = std::string(kWallsFolder) + "/cave.toml";
         cave.stereo = "side_by_side_half";
@@ -63,14 +63,14 @@ TEST_F(SessionFrame, OfFourScreensIsOneSubmissionAndOneWaitUnlessItIsPhotographe
 // Which eye an interlaced row belongs to depends on where the window is on its monitor.
 TEST_F(SessionFrame, OfAWindowThatIsMovedIsAnotherOneOnlyWhereItsPlaceChoosesTheEyes) {
     const auto idle_frames = [&](const std::string& folder, const char* mode) {
-        LiveOptions live;
-        live.offscreen = true;
-        live.stereo = mode;
-        live.width = 240;
-        live.height = 160;
+        DeskOptions shown;
+        shown.offscreen = true;
+        shown.stereo = mode;
+        shown.width = 240;
+        shown.height = 160;
         std::uint64_t before = 0;
         int idle = 0;
-        const Played played = play(folder, live, [&](int frame, Presenter& stage) {
+        const Played played = play(folder, shown, [&](int frame, Presenter& stage) {
             const std::uint64_t now = stage.device().core()->submitted;
             if (frame > 0 && now == before) ++idle;
             before = now;

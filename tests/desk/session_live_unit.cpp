@@ -15,7 +15,7 @@ namespace burin::session {
 namespace {
 
 Viewed before(const std::string& wall) {
-    LiveOptions options;
+    DeskOptions options;
     options.wall = std::string(kWallsFolder) + "/" + wall;
     return block_before_wall(session_wall(options).value());
 }
@@ -23,12 +23,12 @@ Viewed before(const std::string& wall) {
 // Returns how far the scene moved with a wand that pressed its first button where it pointed at the main screen from x,
 // y, and was then raised by 10 cm.
 double carried_m(double x_world, double y_world) {
-    SculptOptions options;
-    options.workpiece = {"ball:0.1", 32, false};
-    options.engine = compute::EngineChoice::cpu;
-    options.live.wall = std::string(kWallsFolder) + "/powerwall.toml";
+    SessionSetup options;
+    options.carve.workpiece = {"ball:0.1", 32, false};
+    options.carve.engine = compute::EngineChoice::cpu;
+    options.desk.wall = std::string(kWallsFolder) + "/powerwall.toml";
     SimulatedClock clock;
-    const SessionWall wall = session_wall(options.live).value();
+    const SessionWall wall = session_wall(options.desk).value();
     const auto desk = Desk::create(options, wall, clock).value();
     const auto step = [&](Nanoseconds time_ns, const std::vector<InputEvent>& events) {
         desk->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, haptics::ToolState{},
@@ -45,14 +45,14 @@ double carried_m(double x_world, double y_world) {
 // Returns how many files a session asks for when a log wants a mesh and a picture in each of two ways.
 std::size_t files_asked_for(bool writes_nothing) {
     const Workplace place;
-    SculptOptions options;
-    options.workpiece = {"ball:0.1", 32, false};
-    options.engine = compute::EngineChoice::cpu;
-    options.live.input = "script.txt";
-    options.live.outputs = (place / "out").string();
-    options.live.writes_nothing = writes_nothing;
+    SessionSetup options;
+    options.carve.workpiece = {"ball:0.1", 32, false};
+    options.carve.engine = compute::EngineChoice::cpu;
+    options.record.input = "script.txt";
+    options.work.outputs = (place / "out").string();
+    options.work.writes_nothing = writes_nothing;
     SimulatedClock clock;
-    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.desk).value(), clock).value();
     std::size_t meshes = 0;
     const std::vector<InputEvent> events{{0, CommandInput{"export", {"a.stl"}}},
                                          {0, CommandInput{"export-mesh", {}}},
@@ -224,11 +224,11 @@ TEST(Desk, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
 }
 
 TEST(Desk, OffersToolSizesThatSuitItsWorkpiece) {
-    SculptOptions options;
-    options.workpiece = {"ball:0.01", 32, false};
-    options.engine = compute::EngineChoice::cpu;
+    SessionSetup options;
+    options.carve.workpiece = {"ball:0.01", 32, false};
+    options.carve.engine = compute::EngineChoice::cpu;
     SimulatedClock clock;
-    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.desk).value(), clock).value();
     // Where the slider is, by a panel of the same size; on a desk it is at the right of the window.
     const ImageSize window{1280, 900}, size{static_cast<std::uint32_t>(kPanelWidth_px), window.height};
     Panel alike = Panel::create({.size = size}).value();
@@ -253,13 +253,13 @@ TEST(Desk, OffersToolSizesThatSuitItsWorkpiece) {
 
 // The mouse in the panel's own window works the panel and not the scene, and the other way round; the picture has none.
 TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
-    SculptOptions options;
-    options.workpiece = {"ball:0.02", 16, false};
-    options.tool.shape = "ball:0.001";
-    options.engine = compute::EngineChoice::cpu;
-    options.live.panel_window = true;
+    SessionSetup options;
+    options.carve.workpiece = {"ball:0.02", 16, false};
+    options.hands.tool.shape = "ball:0.001";
+    options.carve.engine = compute::EngineChoice::cpu;
+    options.desk.panel_window = true;
     SimulatedClock clock;
-    const auto desk = Desk::create(options, session_wall(options.live).value(), clock).value();
+    const auto desk = Desk::create(options, session_wall(options.desk).value(), clock).value();
     const ImageSize window{1280, 900}, size{static_cast<std::uint32_t>(kPanelWidth_px), 700}, own{400, 700};
     Panel alike = Panel::create({.size = size}).value();
     PanelModel model;
@@ -304,12 +304,12 @@ TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {
 namespace {
 
 // A script that refuses to begin needs no graphics device.
-SculptOptions scripted(const Workplace& place, const std::string& script) {
+SessionSetup scripted(const Workplace& place, const std::string& script) {
     place.write("script.txt", "burin-input 1\n" + script);
-    SculptOptions options;
-    options.workpiece = {"ball:0.1", 32, false};
-    options.live.input = (place / "script.txt").string();
-    options.live.offscreen = true;
+    SessionSetup options;
+    options.carve.workpiece = {"ball:0.1", 32, false};
+    options.record.input = (place / "script.txt").string();
+    options.desk.offscreen = true;
     return options;
 }
 
@@ -317,35 +317,35 @@ SculptOptions scripted(const Workplace& place, const std::string& script) {
 
 TEST(RunSession, RefusesWhatOnlyCarvingAlongAStrokeDoesAndSaysWhatToDoInstead) {
     const Workplace place;
-    const SculptOptions plain = scripted(place, "0.1 command quit\n");
-    const auto refused = [&](const std::string& option, const SculptOptions& options) {
+    const SessionSetup plain = scripted(place, "0.1 command quit\n");
+    const auto refused = [&](const std::string& option, const SessionSetup& options) {
         const auto outcome = run_session(options);
         ASSERT_FALSE(outcome) << option;
         EXPECT_EQ(outcome.error().where, option);
         EXPECT_FALSE(outcome.error().remedy.empty()) << option;
     };
-    SculptOptions options = plain;
-    options.stroke = "stroke.csv";
+    SessionSetup options = plain;
+    options.carve.stroke.file = "stroke.csv";
     refused("--stroke", options);
     options = plain;
-    options.exports = {"part.stl"};
+    options.carve.exports.files = {"part.stl"};
     refused("--export", options);
     options = plain;
-    options.pictures = "pictures";
+    options.carve.stroke.pictures = "pictures";
     refused("--pictures", options);
     options = plain;
-    options.report = "report.json";
+    options.carve.stroke.report = "report.json";
     refused("--report", options);
 }
 
 TEST(RunSession, NamesAFolderForScreenshotsThatCannotBeMade) {
     const Workplace place;
-    SculptOptions options = scripted(place, "0.1 command quit\n");
+    SessionSetup options = scripted(place, "0.1 command quit\n");
     place.write("file", "");
-    options.live.screenshots = (place / "file").string() + "/shots";
+    options.desk.screenshots = (place / "file").string() + "/shots";
     const auto outcome = run_session(options);
     ASSERT_FALSE(outcome);
-    EXPECT_EQ(outcome.error().where, options.live.screenshots);
+    EXPECT_EQ(outcome.error().where, options.desk.screenshots);
     EXPECT_TRUE(outcome.error().line().contains("--screenshots")) << outcome.error().line();
 }
 

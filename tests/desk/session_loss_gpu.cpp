@@ -31,22 +31,22 @@ protected:
     }
 };
 
-LiveOptions desk(bool offscreen) {
-    LiveOptions live;
-    live.offscreen = offscreen;
-    live.width = 720;
-    live.height = 360;
-    return live;
+DeskOptions desk(bool offscreen) {
+    DeskOptions shown;
+    shown.offscreen = offscreen;
+    shown.width = 720;
+    shown.height = 360;
+    return shown;
 }
 
-LiveOptions cave(bool offscreen) {
-    LiveOptions live = desk(offscreen);
-    live.wall = std::string(kWallsFolder) + "/cave.toml";
-    live.stereo = "side_by_side_half";
-    live.windowed = true;
-    live.width = 240;
-    live.height = 160;
-    return live;
+DeskOptions cave(bool offscreen) {
+    DeskOptions shown = desk(offscreen);
+    shown.wall = std::string(kWallsFolder) + "/cave.toml";
+    shown.stereo = "side_by_side_half";
+    shown.windowed = true;
+    shown.width = 240;
+    shown.height = 160;
+    return shown;
 }
 
 // At the first picture, while carving (twice, one right after the other), in the frame of carving.png, which has to be
@@ -137,11 +137,11 @@ TEST_F(SessionLoss, BeforeAWallTakesEveryScreenAndThePanelThatStandsThereUpAgain
 
 // A hand that goes on carving is measured as before.
 TEST_F(SessionLoss, OfAllSizeForAWhileIsNoLossOfWhatIsDoneMeanwhile) {
-    for (const LiveOptions& live : {desk(true), cave(true)}) {
-        const bool stands = !live.wall.empty();
+    for (const DeskOptions& shown : {desk(true), cave(true)}) {
+        const bool stands = !shown.wall.empty();
         const std::string before = stands ? "c" : "a", after = stands ? "d" : "b";
-        ASSERT_TRUE(play(before, live).outcome);
-        const Played played = play(after, live, {}, {20, 21, 22, 23, 24, 25, 26});
+        ASSERT_TRUE(play(before, shown).outcome);
+        const Played played = play(after, shown, {}, {20, 21, 22, 23, 24, 25, 26});
         ASSERT_TRUE(played.outcome) << played.outcome.error().line();
         expect_same(before, after, {"carved.stl", stands ? "end-front.png" : "end.png"});
     }

@@ -44,9 +44,9 @@ std::string told_by(Recorded& of) {
 TEST(SessionRecording, OfAMouseOnTheSurfaceIsDoneAgainToTheBit) {
     const Workplace place;
     const std::string path = (place / "a.session").string();
-    SculptOptions options = short_options(path);
-    options.live.mouse = MouseMode::surface;
-    options.mirror.across[0] = true;
+    SessionSetup options = short_options(path);
+    options.hands.mouse = MouseMode::surface;
+    options.carve.mirror.across[0] = true;
     ASSERT_TRUE(settle_mouse(options));
     const std::uint64_t ticks = record_live(options,
                                             "burin-input 1 test\n0.02 mouse 320 180\n0.1 command mirror xz\n"
@@ -59,10 +59,10 @@ TEST(SessionRecording, OfAMouseOnTheSurfaceIsDoneAgainToTheBit) {
     EXPECT_NE(log->settings.find("--mouse surface"), std::string::npos) << log->settings;
     const auto recorded = options_as_recorded(log->settings, short_options(""));
     ASSERT_TRUE(recorded) << recorded.error().line();
-    EXPECT_EQ(recorded->options.live.mouse, MouseMode::surface);
-    EXPECT_EQ(recorded->options.live.device, "mouse");
-    SculptOptions again = recorded->options;
-    again.engine = compute::EngineChoice::cpu;
+    EXPECT_EQ(recorded->options.hands.mouse, MouseMode::surface);
+    EXPECT_EQ(recorded->options.hands.device, "mouse");
+    SessionSetup again = recorded->options;
+    again.carve.engine = compute::EngineChoice::cpu;
     const Judged is = judged(std::move(*log), path, again);
     ASSERT_TRUE(is.done) << is.done.error().line();
     EXPECT_EQ(is.found.ticks, ticks);
@@ -79,7 +79,7 @@ TEST(SessionRecording, OfADeskIsDoneAgainToTheBitInEveryColumn) {
     ASSERT_TRUE(log) << log.error().line();
     EXPECT_EQ(log->threads->ticks.count, 0u) << "they are in the columns alone";
     EXPECT_TRUE(log->threads->end_check);
-    EXPECT_EQ(log->device, short_options("").live.device);
+    EXPECT_EQ(log->device, short_options("").hands.device);
     const Judged is = judged(*log, path, short_options(""));
     ASSERT_TRUE(is.done) << is.done.error().line();
     EXPECT_EQ(is.found.ticks, ticks);
@@ -101,8 +101,8 @@ TEST(SessionRecording, OfADeskIsDoneAgainToTheBitInEveryColumn) {
 
     // Another workpiece tells where it first differs: its workspace is another, also where a busy machine left the hand
     // no time to touch it.
-    SculptOptions other = short_options("");
-    other.workpiece.source = "ball:0.12";
+    SessionSetup other = short_options("");
+    other.carve.workpiece.source = "ball:0.12";
     const Judged changed = judged(std::move(*log), path, other);
     ASSERT_FALSE(changed.done);
     ASSERT_TRUE(changed.found.difference);
@@ -260,8 +260,8 @@ TEST(SessionRecording, LeavesAnExistingFileAlone) {
     const Workplace place;
     place.write("a.session", "mine");
     SimulatedClock clock;
-    const SculptOptions options = short_options((place / "a.session").string());
-    auto desk = Desk::create(options, *session_wall(options.live), clock);
+    const SessionSetup options = short_options((place / "a.session").string());
+    auto desk = Desk::create(options, *session_wall(options.desk), clock);
     ASSERT_TRUE(desk);
     const auto writer = create_recording(options, {}, (*desk)->session());
     ASSERT_FALSE(writer);

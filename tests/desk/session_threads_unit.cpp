@@ -40,13 +40,13 @@ const std::string kScript = R"(burin-input 1 test
 1.15 close
 )";
 
-SculptOptions options_for(const std::string& record) {
-    SculptOptions options;
-    options.workpiece.resolution = 32;
-    options.tool.shape = "ball:0.012";
-    options.engine = compute::EngineChoice::cpu;
+SessionSetup options_for(const std::string& record) {
+    SessionSetup options;
+    options.carve.workpiece.resolution = 32;
+    options.hands.tool.shape = "ball:0.012";
+    options.carve.engine = compute::EngineChoice::cpu;
     options.threads = 1;
-    options.live.record = record;
+    options.record.path = record;
     return options;
 }
 
@@ -61,8 +61,8 @@ class RecordedSession {
 public:
     RecordedSession(const Workplace& place, Clock& clock, double pace = 1.0) : place_(place) {
         const std::string path = (place / "live.log").string();
-        const SculptOptions options = options_for(path);
-        desk = Desk::create(options, *session_wall(options.live), clock, pace).value();
+        const SessionSetup options = options_for(path);
+        desk = Desk::create(options, *session_wall(options.desk), clock, pace).value();
         auto writer = InputLogWriter::create(path, settings_line(options));
         auto script = parse_input_log(kScript, "script");
         if (!writer || !script) throw std::runtime_error("the session does not open");
@@ -233,8 +233,8 @@ Again again(const std::string& text) {
     }
     const ThreadLog threads = *log->threads;
     SimulatedClock clock;
-    const SculptOptions options = options_for("");
-    auto desk = Desk::create_as_recorded(options, *session_wall(options.live), threads, "live.log", clock);
+    const SessionSetup options = options_for("");
+    auto desk = Desk::create_as_recorded(options, *session_wall(options.desk), threads, "live.log", clock);
     if (!desk) {
         result.error = desk.error();
         return result;
@@ -370,9 +370,9 @@ TEST(ThreadReplay, NamesTheLineThatContradictsTheOthers) {
 TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     const Workplace place;
     const std::string path = (place / "live.log").string();
-    const SculptOptions options = options_for(path);
+    const SessionSetup options = options_for(path);
     SimulatedClock clock;
-    const auto wall = session_wall(options.live);
+    const auto wall = session_wall(options.desk);
     auto desk = Desk::create(options, *wall, clock);
     ASSERT_TRUE(desk);
     auto writer = InputLogWriter::create(path, settings_line(options));
@@ -443,58 +443,58 @@ TEST(ThreadRecorder, WritesTheModeThatAScreenWentBackTo) {
 // ---- Settings
 
 TEST(SessionSettings, AreThoseOfTheRecording) {
-    SculptOptions recorded = options_for("x.log");
-    recorded.workpiece.source = "a file, with \"blanks\".stl";
-    recorded.workpiece.close_holes = true;
-    recorded.tool.operation = compute::Operation::paint;
-    recorded.feel.friction = 0.1;
-    recorded.live.swap_eyes = true;
-    recorded.workpiece.units = LengthUnit::mm;
-    recorded.export_units = LengthUnit::inch;
+    SessionSetup recorded = options_for("x.log");
+    recorded.carve.workpiece.source = "a file, with \"blanks\".stl";
+    recorded.carve.workpiece.close_holes = true;
+    recorded.hands.tool.operation = compute::Operation::paint;
+    recorded.carve.feel.friction = 0.1;
+    recorded.desk.swap_eyes = true;
+    recorded.carve.workpiece.units = LengthUnit::mm;
+    recorded.carve.exports.units = LengthUnit::inch;
     const std::string line = settings_line(recorded);
-    const SculptOptions defaults;
+    const SessionSetup defaults;
     const auto same = options_as_recorded(line, defaults);
     ASSERT_TRUE(same) << same.error().line();
     EXPECT_EQ(settings_line(same->options), line);
     EXPECT_TRUE(same->overruled.empty());  // nothing else was asked for
 
-    SculptOptions other;
-    other.tool.shape = "ball:0.02";
-    other.live.screenshots = "here";
+    SessionSetup other;
+    other.hands.tool.shape = "ball:0.02";
+    other.desk.screenshots = "here";
     const auto overruled = options_as_recorded(line, other);
     ASSERT_TRUE(overruled);
     EXPECT_EQ(settings_line(overruled->options), line);
-    EXPECT_EQ(overruled->options.live.screenshots, "here");
+    EXPECT_EQ(overruled->options.desk.screenshots, "here");
     ASSERT_EQ(overruled->overruled.size(), 1u);
     EXPECT_TRUE(log_has(overruled->overruled[0], "--tool ball:0.012")) << overruled->overruled[0];
     EXPECT_TRUE(log_has(overruled->overruled[0], "--tool ball:0.02 "));
 
-    EXPECT_EQ(options_as_recorded("somebody's own", other)->options.tool.shape, "ball:0.02");
+    EXPECT_EQ(options_as_recorded("somebody's own", other)->options.hands.tool.shape, "ball:0.02");
     EXPECT_FALSE(options_as_recorded(line + " --flavour sweet", other));
     EXPECT_FALSE(options_as_recorded("burin sculpt --resolution many", other));
     EXPECT_FALSE(options_as_recorded("burin sculpt --units yards", other));
 }
 
 TEST(Recordings, FromBeforeThereWereUnitsAreReadInMetresWhateverTheFileLooksLike) {
-    const SculptOptions none;
-    SculptOptions given;
-    given.workpiece.units = LengthUnit::mm;
+    const SessionSetup none;
+    SessionSetup given;
+    given.carve.workpiece.units = LengthUnit::mm;
     for (const std::string line : {"burin sculpt --workpiece part.stl --tool ball:0.02", "somebody's own"}) {
         const auto old = options_as_recorded(line, none);
         ASSERT_TRUE(old) << old.error().line();
-        EXPECT_EQ(old->options.workpiece.units, LengthUnit::m) << line;
-        EXPECT_TRUE(old->options.from_before_units) << line;
+        EXPECT_EQ(old->options.carve.workpiece.units, LengthUnit::m) << line;
+        EXPECT_TRUE(old->options.record.from_before_units) << line;
     }
     const auto old = options_as_recorded("burin sculpt --workpiece part.stl", given);
     ASSERT_TRUE(old) << old.error().line();
-    EXPECT_EQ(old->options.workpiece.units, LengthUnit::m);
-    EXPECT_EQ(old->options.tool.shape, "ball:0.01");  // the tool of that time
+    EXPECT_EQ(old->options.carve.workpiece.units, LengthUnit::m);
+    EXPECT_EQ(old->options.hands.tool.shape, "ball:0.01");  // the tool of that time
     EXPECT_EQ(old->overruled.size(), 1u);
     const auto one_of_today =
         options_as_recorded("burin sculpt --workpiece part.stl --units mm --tool ball:0.02", none);
     ASSERT_TRUE(one_of_today);
-    EXPECT_EQ(one_of_today->options.workpiece.units, LengthUnit::mm);
-    EXPECT_FALSE(one_of_today->options.from_before_units);
+    EXPECT_EQ(one_of_today->options.carve.workpiece.units, LengthUnit::mm);
+    EXPECT_FALSE(one_of_today->options.record.from_before_units);
 }
 
 }  // namespace burin::session

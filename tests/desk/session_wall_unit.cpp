@@ -15,8 +15,8 @@ namespace {
 
 std::string wall_file(const std::string& name) { return std::string(kWallsFolder) + "/" + name; }
 
-SessionWall wall_of(const std::string& name, const LiveOptions& more = {}) {
-    LiveOptions options = more;
+SessionWall wall_of(const std::string& name, const DeskOptions& more = {}) {
+    DeskOptions options = more;
     options.wall = wall_file(name);
     auto wall = session_wall(options);
     EXPECT_TRUE(wall) << (wall ? "" : wall.error().line());
@@ -28,7 +28,7 @@ InputEvent head_at(Nanoseconds t, const Vec3& place) { return {t, HeadInput{{pla
 }  // namespace
 
 TEST(SessionWall, OfADeskIsOneScreenOfItsWindowsShape) {
-    LiveOptions options;
+    DeskOptions options;
     options.width = 640;
     options.height = 320;
     auto wall = session_wall(options);
@@ -79,7 +79,7 @@ TEST(SessionWall, OfACaveIsFacedAtItsFrontAndShownOnItsMonitors) {
     EXPECT_EQ(wall.screens[0].monitor, "0");
     EXPECT_EQ(wall.screens[0].size, (ImageSize{1080, 1080}));
     EXPECT_EQ(wall.screens[0].shown.mode, wall::StereoMode::two_layers);
-    LiveOptions small;
+    DeskOptions small;
     small.windowed = true;
     small.width = 800;
     small.height = 270;
@@ -95,7 +95,7 @@ TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
     setup.screens[0].output = "HDMI";
     setup.screens[0].direct = DisplayStereo::hdmi_3d;
     place.write("wall.toml", wall::wall_text(setup));
-    LiveOptions options;
+    DeskOptions options;
     options.wall = (place / "wall.toml").string();
     const auto wall = session_wall(options);
     ASSERT_TRUE(wall) << wall.error().line();
@@ -107,8 +107,8 @@ TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
     EXPECT_EQ(screen.direct->height, 1080u);
     EXPECT_EQ(screen.direct->stereo, DisplayStereo::hdmi_3d);
     EXPECT_EQ(screen.direct->refresh_Hz, 60.0) << "a frame holds both of 120 fields a second";
-    for (bool LiveOptions::* const option : {&LiveOptions::windowed, &LiveOptions::offscreen}) {
-        LiveOptions other = options;
+    for (bool DeskOptions::* const option : {&DeskOptions::windowed, &DeskOptions::offscreen}) {
+        DeskOptions other = options;
         other.*option = true;
         EXPECT_FALSE(session_wall(other).value().screens[0].direct);
     }
@@ -136,7 +136,7 @@ TEST(SessionWall, TellsAllScreensWhatIsChosenAndKeepsTheirOwn) {
 }
 
 TEST(SessionWall, NamesTheFileTheScreenAndTheRemedy) {
-    LiveOptions options;
+    DeskOptions options;
     options.wall = wall_file("no-such.toml");
     const auto missing = session_wall(options);
     ASSERT_FALSE(missing);

@@ -62,10 +62,10 @@ struct Opened {
 };
 Opened opened(const std::string& description, Clock& clock, const std::string& option = {}) {
     static_cast<void>(written("tracker_of_wall.toml", description));
-    LiveOptions options;
-    options.wall = written("wall_of_tracker.toml", std::string(kWall) + "[tracker]\nfile = \"tracker_of_wall.toml\"\n");
-    options.tracker = option;
-    Opened made{wall::read_wall(options.wall).value(), nullptr};
+    SessionSetup options;
+    options.desk.wall = written("wall_of_tracker.toml", std::string(kWall) + "[tracker]\nfile = \"tracker_of_wall.toml\"\n");
+    options.desk.tracker = option;
+    Opened made{wall::read_wall(options.desk.wall).value(), nullptr};
     const auto resolved = session_tracker(options, made.setup);
     EXPECT_TRUE(resolved) << resolved.error().line();
     auto tracker = open_tracker(*resolved, made.setup, {clock, {}, parse_tracker_line});
@@ -201,10 +201,10 @@ TEST(TrackerDescription, P2HeadsWithoutADescriptionStandWhereTheWallSaysTheTrack
     ASSERT_TRUE(server) << server.error().line();
     const Running serves([&](const auto& ends) { server->run({.rate_Hz = 200.0}, ends); });
     MonotonicClock clock;
-    LiveOptions options;
-    options.wall = written("bare_wall.toml", kWall);
-    options.tracker = "vrpn:127.0.0.1:" + std::to_string(server->address().port);
-    const auto setup = wall::read_wall(options.wall).value();
+    SessionSetup options;
+    options.desk.wall = written("bare_wall.toml", kWall);
+    options.desk.tracker = "vrpn:127.0.0.1:" + std::to_string(server->address().port);
+    const auto setup = wall::read_wall(options.desk.wall).value();
     const auto tracker =
         open_tracker(session_tracker(options, setup).value(), setup, {clock, {}, parse_tracker_line}).value();
     const auto heard = heard_until(*tracker, [](const auto& all) { return all.size() >= 20; });
@@ -220,11 +220,11 @@ TEST(SessionTracker, IsWhatTheOptionSaysOrElseTheWall) {
     const std::string description =
         "address = \"vrpn:a\"\nunits = \"m\"\n[head]\nbody = \"G/1\"\nposition = [0, 0, 0.1]\n";
     const std::string file = written("named.toml", description);
-    LiveOptions options;
-    options.wall = written("walled.toml", std::string(kWall) + "[tracker]\nfile = \"named.toml\"\n");
-    const wall::WallSetup setup = wall::read_wall(options.wall).value();
+    SessionSetup options;
+    options.desk.wall = written("walled.toml", std::string(kWall) + "[tracker]\nfile = \"named.toml\"\n");
+    const wall::WallSetup setup = wall::read_wall(options.desk.wall).value();
     const auto resolved = [&](const std::string& option) {
-        options.tracker = option;
+        options.desk.tracker = option;
         return session_tracker(options, setup).value();
     };
     EXPECT_EQ(resolved("").where, "vrpn:a");
@@ -234,20 +234,20 @@ TEST(SessionTracker, IsWhatTheOptionSaysOrElseTheWall) {
     EXPECT_TRUE(resolved("vrpn:b,wand0=W").described) << "the same kind: another address";
     EXPECT_EQ(resolved("dtrack:5000").where, "dtrack:5000");
     EXPECT_FALSE(resolved("dtrack:5000").described) << "another kind: another tracker";
-    options.input = "script.txt";
+    options.record.input = "script.txt";
     EXPECT_EQ(resolved("").where, "") << "nothing is heard in simulated time";
-    options.record = "x.session";
+    options.record.path = "x.session";
     EXPECT_EQ(resolved("").where, "vrpn:a");
-    options.input.clear();
+    options.record.input.clear();
     const wall::WallSetup bare = wall::read_wall(written("bare.toml", kWall)).value();
-    options.wall.clear();
-    options.tracker = file;
+    options.desk.wall.clear();
+    options.desk.tracker = file;
     EXPECT_EQ(session_tracker(options, bare).value().where, "vrpn:a") << "a description without a wall's file";
-    options.tracker = "no.such.toml";
+    options.desk.tracker = "no.such.toml";
     EXPECT_FALSE(session_tracker(options, bare));
     wall::WallSetup far_eyes = bare;
     far_eyes.eyes = wall::eyes_about({0.0, -0.07, -0.09}, 0.063);
-    options.tracker = file;
+    options.desk.tracker = file;
     const auto twice = session_tracker(options, far_eyes);
     ASSERT_FALSE(twice);
     EXPECT_TRUE(twice.error().line().contains("moves the head's point to the eyes")) << twice.error().line();
@@ -283,10 +283,10 @@ TEST(SessionTracker, IsHeardWhileALogIsPlayed) {
 
 TEST(SessionTracker, SaysHowToDoWithoutATrackerThatTheWallNames) {
     MonotonicClock clock;
-    LiveOptions options;
+    SessionSetup options;
     static_cast<void>(written("gone.toml", "address = \"vrpn:127.0.0.1:1\"\nunits = \"m\"\n[head]\nbody = \"G\"\n"));
-    options.wall = written("walled.toml", std::string(kWall) + "[tracker]\nfile = \"gone.toml\"\n");
-    const wall::WallSetup setup = wall::read_wall(options.wall).value();
+    options.desk.wall = written("walled.toml", std::string(kWall) + "[tracker]\nfile = \"gone.toml\"\n");
+    const wall::WallSetup setup = wall::read_wall(options.desk.wall).value();
     const auto opened = open_tracker(session_tracker(options, setup).value(), setup, {clock, {}, parse_tracker_line});
     ASSERT_FALSE(opened);
     EXPECT_TRUE(opened.error().line().contains("--tracker none does without")) << opened.error().line();

@@ -31,12 +31,12 @@ public:
                      "[[object]]\nname = \"block\"\nmesh = \"b.off\"\nmesh_units = \"m\"\n"
                      "position = [0.0, 0.13, 0.05]\nmaterial = { stiffness = 700 }\n");
         place_.write("wand.toml", description);
-        options.world = (place_ / "w.toml").string();
-        options.no_workpiece = true;
-        options.tool.shape = "ball:0.004";
-        options.points = points;
-        options.live.device = "simulated-wand:" + (place_ / "wand.toml").string();
-        auto made = Desk::create(options, session_wall(options.live).value(), clock);
+        options.scene.world = (place_ / "w.toml").string();
+        options.scene.no_workpiece = true;
+        options.hands.tool.shape = "ball:0.004";
+        options.hands.points = points;
+        options.hands.device = "simulated-wand:" + (place_ / "wand.toml").string();
+        auto made = Desk::create(options, session_wall(options.desk).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);
         frame({});
@@ -65,7 +65,7 @@ public:
         return testing::internal::GetCapturedStderr();
     }
 
-    SculptOptions options;
+    SessionSetup options;
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
     haptics::TickRecord last;
@@ -169,9 +169,9 @@ TEST(WandSession, HoldsBallsAlone) {
     EXPECT_NE(desk.told_by({"tool", {"cylinder:0.004,0.02"}}).find("is no ball"), std::string::npos);
     EXPECT_EQ(desk.told_by({"radius", {"0.006"}}), "");
     EXPECT_EQ(desk.parameters().probe.points[1].radius_m, 0.006);
-    SculptOptions options = desk.options;
-    options.points = "tpo";
-    const auto refused = Desk::create(options, session_wall(options.live).value(), desk.clock);
+    SessionSetup options = desk.options;
+    options.hands.points = "tpo";
+    const auto refused = Desk::create(options, session_wall(options.desk).value(), desk.clock);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("did you mean top?"), std::string::npos);
 }
@@ -201,23 +201,23 @@ TEST(WandSession, IsCalibratedInItsJigWithinTheToleranceAlone) {
 // ---- Options of a recording
 
 TEST(WandSession, ARecordingNamesDeviceAndPoints) {
-    SculptOptions options;
-    options.points = "top,centre";
-    options.live.device = "simulated-wand:w.toml";
+    SessionSetup options;
+    options.hands.points = "top,centre";
+    options.hands.device = "simulated-wand:w.toml";
     const std::string line = settings_line(options);
     EXPECT_NE(line.find("--points top,centre"), std::string::npos) << line;
     EXPECT_NE(line.find("--device simulated-wand:w.toml"), std::string::npos) << line;
     const auto again = options_as_recorded(line, {});
     ASSERT_TRUE(again);
-    EXPECT_EQ(again->options.points, options.points);
-    EXPECT_EQ(again->options.live.device, options.live.device);
+    EXPECT_EQ(again->options.hands.points, options.hands.points);
+    EXPECT_EQ(again->options.hands.device, options.hands.device);
     EXPECT_TRUE(again->overruled.empty());
     // Recordings of the usual device do not name it: older programs read them, and theirs are read.
     EXPECT_EQ(settings_line({}).find("--device"), std::string::npos);
     const auto usual = options_as_recorded(settings_line({}), options);
     ASSERT_TRUE(usual);
-    EXPECT_EQ(usual->options.live.device, devices::kDefaultHapticDevice);
-    EXPECT_EQ(usual->options.points, "");
+    EXPECT_EQ(usual->options.hands.device, devices::kDefaultHapticDevice);
+    EXPECT_EQ(usual->options.hands.points, "");
     EXPECT_EQ(usual->overruled.size(), 2u);
 }
 

@@ -33,11 +33,11 @@ public:
                                                "position = [0.2, 0.1, 0.0]\nmaterial = { stiffness = 200 }\n"
                                                "[[object.path]]\ntime = 0.0\n[[object.path]]\ntime = 1.0\n"
                                                "position = [0.0, 0.05, 0.0]\n[[object.path]]\ntime = 2.0"));
-        options.world = (place_ / "w.toml").string();
-        options.no_workpiece = !with_workpiece;
-        options.workpiece = {"ball:0.03", 32, false};
-        options.engine = compute::EngineChoice::cpu;
-        auto made = Desk::create(options, session_wall(options.live).value(), clock);
+        options.scene.world = (place_ / "w.toml").string();
+        options.scene.no_workpiece = !with_workpiece;
+        options.carve.workpiece = {"ball:0.03", 32, false};
+        options.carve.engine = compute::EngineChoice::cpu;
+        auto made = Desk::create(options, session_wall(options.desk).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         desk = std::move(*made);
         desk->take_loaded();
@@ -64,7 +64,7 @@ public:
         return std::ranges::find(all, stiffness_N_per_m) != all.end();
     }
 
-    SculptOptions options;
+    SessionSetup options;
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
 
@@ -221,11 +221,11 @@ TEST(SessionSettings, NameTheWorldOfARecording) {
     const std::string line = settings_line(world.options);
     EXPECT_TRUE(line.contains("--world ")) << line;
     EXPECT_TRUE(line.contains("--no-workpiece")) << line;
-    const SculptOptions none;
+    const SessionSetup none;
     const auto again = options_as_recorded(line, none);
     ASSERT_TRUE(again) << again.error().line();
-    EXPECT_EQ(again->options.world, world.options.world);
-    EXPECT_TRUE(again->options.no_workpiece);
+    EXPECT_EQ(again->options.scene.world, world.options.scene.world);
+    EXPECT_TRUE(again->options.scene.no_workpiece);
 }
 
 TEST(WorldSession, StrokesAndEditsOfObjectsAreUndoneInTheOrderInWhichTheyWereDone) {

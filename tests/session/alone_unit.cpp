@@ -15,10 +15,10 @@
 namespace burin::session {
 namespace {
 
-SculptOptions small_ball(compute::EngineChoice engine) {
-    SculptOptions options;
-    options.workpiece = {.source = "ball:0.1", .resolution = 16};
-    options.engine = engine;
+SessionSetup small_ball(compute::EngineChoice engine) {
+    SessionSetup options;
+    options.carve.workpiece = {.source = "ball:0.1", .resolution = 16};
+    options.carve.engine = engine;
     options.threads = 1;
     return options;
 }
@@ -45,9 +45,9 @@ TEST(SessionAlone, CarvesWithTheProcessorAndRefusesADeviceThatNobodyGaveIt) {
 
 TEST(SessionAlone, CarvesWithTheEngineThatItsOpenerMakes) {
     SimulatedClock clock;
-    SculptOptions options = small_ball(compute::EngineChoice::vulkan);
+    SessionSetup options = small_ball(compute::EngineChoice::vulkan);
     std::size_t made = 0;
-    options.make_engine = [&](compute::Solid solid, WorkerPool& pool) {
+    options.carve.make_engine = [&](compute::Solid solid, WorkerPool& pool) {
         ++made;
         return compute::on_processor(std::move(solid), pool);
     };

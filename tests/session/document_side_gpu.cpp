@@ -39,7 +39,7 @@ protected:
     }
     Workplace at;
     MessageLog log;
-    SculptOptions options;
+    SessionSetup options;
     AskedFiles files{options, log};
     DocumentSide side;
     const std::string path = at / "ball.burin", second = at / "ball-2.burin";
@@ -86,7 +86,7 @@ TEST_F(DocumentOfAUser, StaysTheSessionsWhereASaveElsewhereFails) {
 
 TEST_F(DocumentOfAUser, ThatWasOpenedMayBeReplacedByWhatCameOfIt) {
     expect_saved(save(path, 1), path, 2);
-    options.workpiece.source = path;
+    options.carve.workpiece.source = path;
     AskedFiles of_opened{options, log};
     EXPECT_TRUE(of_opened.is_taken(path, second)) << "it is asked about";
     EXPECT_FALSE(of_opened.place_document(path, second));

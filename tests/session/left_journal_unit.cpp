@@ -58,7 +58,7 @@ protected:
         if (opened->version) side.opened(opened->document, *opened->version);
         document::Content now;
         now.parts.push_back({.part = "a thing", .pages = {{{"head", 0}, {std::byte{1}}}}});
-        ASSERT_TRUE(side.keep_journal(folder, SculptOptions{}, *opened, now));
+        ASSERT_TRUE(side.keep_journal(folder, SessionSetup{}, *opened, now));
         side.writer().note({.part = 0, .pages = {.part = "a thing", .whole = false, .pages = {{{"rays", 0}, {}}}}});
         side.writer().save({.path = (place / "other.burin").string(), .name = "other.burin", .content = now});
         side.finish();

@@ -26,9 +26,9 @@ TEST(MachinePace, AsMeasuredIsSensible) {
 }
 
 TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
-    SculptOptions options;
-    options.workpiece.resolution = 16;
-    options.engine = compute::EngineChoice::cpu;
+    SessionSetup options;
+    options.carve.workpiece.resolution = 16;
+    options.carve.engine = compute::EngineChoice::cpu;
     for (const double pace : {1.0, 1.7}) {
         SimulatedClock clock;
         auto session = pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace);

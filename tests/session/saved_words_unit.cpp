@@ -56,17 +56,17 @@ public:
         place_.write("w.toml", "[[object]]\nname = \"rock\"\nmesh = \"t.off\"\nmesh_units = \"m\"\n");
     }
     // Returns the first state of a session of new work.
-    SessionState begun(SculptOptions options = {}) {
+    SessionState begun(SessionSetup options = {}) {
         if (carves_)
-            options.workpiece = {"ball:0.03", 16, false};
+            options.carve.workpiece = {"ball:0.03", 16, false};
         else
-            options.world = (place_ / "w.toml").string();
-        options.no_workpiece = !carves_;
+            options.scene.world = (place_ / "w.toml").string();
+        options.scene.no_workpiece = !carves_;
         return state_of(std::move(options));
     }
     // Saves the work with what the state has of it, and the workpiece's bounds.
     void save(const SessionState& state, const Box& bounds_object = {}) {
-        document::Content content{.facts = saved_facts(SculptOptions{}, state, bounds_object),
+        document::Content content{.facts = saved_facts(SessionSetup{}, state, bounds_object),
                                   .commands = saved_commands(state)};
         if (carves_) {
             auto ball = sculpt::load_workpiece({"ball:0.03", 16, false}, pool_);
@@ -84,16 +84,16 @@ public:
     }
     // Saves what the state has into the document that is there already, as each save after the first does.
     void save_again(const SessionState& state) {
-        const document::Content changed{.facts = saved_facts(SculptOptions{}, state, {}),
+        const document::Content changed{.facts = saved_facts(SessionSetup{}, state, {}),
                                         .commands = saved_commands(state)};
         const auto saved = document::update_document(document_, changed, version_);
         ASSERT_TRUE(saved);
         version_ = saved->version;
     }
     // Returns the first state of a session that opens what was saved, as the program does; of what is given besides.
-    SessionState opened(SculptOptions options = {}) {
-        (carves_ ? options.workpiece.source : options.world) = document_;
-        options.no_workpiece = !carves_;
+    SessionState opened(SessionSetup options = {}) {
+        (carves_ ? options.carve.workpiece.source : options.scene.world) = document_;
+        options.scene.no_workpiece = !carves_;
         EXPECT_TRUE(settle_document(options));
         EXPECT_TRUE(take_settings_of_document(options));
         return state_of(std::move(options));
@@ -101,8 +101,8 @@ public:
     [[nodiscard]] Result<OpenedWork> read() const { return open_document(document_, 0); }
 
 private:
-    SessionState state_of(SculptOptions options) {
-        options.engine = compute::EngineChoice::cpu;
+    SessionState state_of(SessionSetup options) {
+        options.carve.engine = compute::EngineChoice::cpu;
         SimulatedClock clock;
         testing::internal::CaptureStderr();
         auto made = Session::create(options, clock);
@@ -216,20 +216,20 @@ TEST(SavedWords, GiveWayToWhatIsGivenOnOpening) {
     for (const char* const hardness : {"material oak", "hardness 3e6"}) {
         ASSERT_TRUE(run_line(state, hardness));
         work.save(state);
-        SculptOptions given;
-        given.tool.shape = "cylinder:0.002,0.01";
-        given.tool.material = "1,2,3";
-        given.feel.hardness = "ptfe";
-        given.feel.friction = 0.11;
-        given.feel.stiffness_N_per_m = 777.0;
-        given.mirror.across = {true, false, true};
+        SessionSetup given;
+        given.hands.tool.shape = "cylinder:0.002,0.01";
+        given.hands.tool.material = "1,2,3";
+        given.carve.feel.hardness = "ptfe";
+        given.carve.feel.friction = 0.11;
+        given.carve.feel.stiffness_N_per_m = 777.0;
+        given.carve.mirror.across = {true, false, true};
         const SessionState is = work.opened(given);
         EXPECT_EQ(toolbox::text_of(is.led().tool.shape), "cylinder:0.002,0.01");
         EXPECT_EQ(is.led().tool.colour, (std::array<std::uint8_t, 3>{1, 2, 3}));
         EXPECT_EQ(is.feel, (toolbox::FeelSettings{
                                .preset = toolbox::FeelPreset::ptfe, .stiffness_N_per_m = 777.0, .friction = 0.11}))
             << hardness;
-        EXPECT_EQ(is.mirror, given.mirror);
+        EXPECT_EQ(is.mirror, given.carve.mirror);
     }
 }
 
@@ -237,21 +237,21 @@ TEST(SavedWords, GiveWayToWhatIsGivenOnOpening) {
 TEST(SavedWords, KeepWhatOfTheFeelOptionsAloneSet) {
     for (const bool carves : {true, false}) {
         KeptWords work(carves);
-        SculptOptions uncut, yields, grained;
-        uncut.feel.hardness = "inf";
-        yields.feel.yield_kPa = 12.5;
-        grained.feel.grain_mm = 3.5;
-        for (const SculptOptions& given : {uncut, yields, grained, SculptOptions{}}) {
+        SessionSetup uncut, yields, grained;
+        uncut.carve.feel.hardness = "inf";
+        yields.carve.feel.yield_kPa = 12.5;
+        grained.carve.feel.grain_mm = 3.5;
+        for (const SessionSetup& given : {uncut, yields, grained, SessionSetup{}}) {
             const SessionState state = work.begun(given);
             work.save(state);
-            expect_same_work(work.opened(), state, given.feel.hardness);
+            expect_same_work(work.opened(), state, given.carve.feel.hardness);
         }
-        SculptOptions both = yields;
-        both.feel.grain_mm = 3.5;
+        SessionSetup both = yields;
+        both.carve.feel.grain_mm = 3.5;
         work.save(work.begun(both));
-        SculptOptions given;
-        given.feel.hardness = "ptfe";
-        given.feel.grain_mm = 2.0;
+        SessionSetup given;
+        given.carve.feel.hardness = "ptfe";
+        given.carve.feel.grain_mm = 2.0;
         EXPECT_EQ(work.opened(given).feel,
                   (toolbox::FeelSettings{.preset = toolbox::FeelPreset::ptfe, .grain_mm = 2.0}))
             << "a material that is given brings its own yield";
@@ -264,10 +264,10 @@ TEST(SavedWords, AreGoneWithTheNextSaveWhereTheyAreSetNoMore) {
         KeptWords work(carves);
         const SessionState plain = work.begun();
         work.save(plain);
-        SculptOptions uncut, yields, grained;
-        uncut.feel.hardness = "inf";
-        yields.feel.yield_kPa = 12.5;
-        grained.feel.grain_mm = 3.5;
+        SessionSetup uncut, yields, grained;
+        uncut.carve.feel.hardness = "inf";
+        yields.carve.feel.yield_kPa = 12.5;
+        grained.carve.feel.grain_mm = 3.5;
         std::vector<std::pair<SessionState, std::string>> states{
             {work.begun(uncut), "inf"}, {work.begun(yields), "yield"}, {work.begun(grained), "grain"}};
         for (const char* const line : {"hardness 3e6", "friction 0.73", "stiffness 321", "mirror x", "material oak"})

@@ -15,7 +15,7 @@ namespace burin::session {
 namespace {
 
 std::string refusal_of(const std::string& settings) {
-    const auto read = options_as_recorded("burin sculpt " + settings, SculptOptions{});
+    const auto read = options_as_recorded("burin sculpt " + settings, SessionSetup{});
     return read ? "" : read.error().line();
 }
 
@@ -45,14 +45,14 @@ namespace {
 // An option of a session: puts it away from its default, and tells its value as text.
 struct SetOption {
     const char* name;
-    std::function<void(SculptOptions&)> change;
-    std::function<std::string(const SculptOptions&)> value;
+    std::function<void(SessionSetup&)> change;
+    std::function<std::string(const SessionSetup&)> value;
 };
 
 template <typename Member>
 SetOption option(const char* name, Member member, auto other) {
-    return {name, [=](SculptOptions& o) { member(o) = other; },
-            [=](const SculptOptions& o) {
+    return {name, [=](SessionSetup& o) { member(o) = other; },
+            [=](const SessionSetup& o) {
                 std::ostringstream text;
                 const auto& value = member(o);
                 if constexpr (requires { value.has_value(); }) {
@@ -78,36 +78,36 @@ SetOption option(const char* name, Member member, auto other) {
 
 const std::vector<SetOption>& every_option() {
     static const std::vector<SetOption> options{
-        option("--world", BURIN_OF(world), "a b.wrl"),
-        option("--no-workpiece", BURIN_OF(no_workpiece), true),
-        option("--points", BURIN_OF(points), "top,bottom"),
-        option("--workpiece", BURIN_OF(workpiece.source), "my part.stl"),
-        option("--units", BURIN_OF(workpiece.units), LengthUnit::mm),
-        option("--export-units", BURIN_OF(export_units), LengthUnit::cm),
-        option("--close-holes", BURIN_OF(workpiece.close_holes), true),
-        option("--resolution", BURIN_OF(workpiece.resolution), 97),
-        option("--room", BURIN_OF(workpiece.room), 0.25),
-        option("--tool", BURIN_OF(tool.shape), "box:0.01,0.02,0.03"),
-        option("--operation", BURIN_OF(tool.operation), compute::Operation::fill),
-        option("--material", BURIN_OF(tool.material), "1,2,3"),
-        option("--sweep-tolerance", BURIN_OF(tool.sweep_tolerance_cells), 0.25),
-        option("--smooth-strength", BURIN_OF(tool.smooth_strength), 0.75),
-        option("--mirror", BURIN_OF(mirror), sculpt::Mirror{{true, false, true}}),
-        option("--hardness", BURIN_OF(feel.hardness), "oak"),
-        option("--yield", BURIN_OF(feel.yield_kPa), 12.5),
-        option("--grain", BURIN_OF(feel.grain_mm), 1.5),
-        option("--stiffness", BURIN_OF(feel.stiffness_N_per_m), 433.0),
-        option("--friction", BURIN_OF(feel.friction), 0.31),
-        option("--undo-memory", BURIN_OF(undo_memory_MiB), std::size_t{77}),
-        option("--device", BURIN_OF(live.device), "simulated-wand:w.toml"),
-        option("--wall", BURIN_OF(live.wall), "cave.toml"),
-        option("--stereo", BURIN_OF(live.stereo), "side-by-side"),
-        option("--swap-eyes", BURIN_OF(live.swap_eyes), true),
-        option("--edge-comfort", BURIN_OF(live.edge_comfort), EdgeComfort::off),
-        option("--width", BURIN_OF(live.width), 640),
-        option("--height", BURIN_OF(live.height), 480),
-        option("--panel-window", BURIN_OF(live.panel_window), true),
-        option("--samples", BURIN_OF(live.samples), 4u),
+        option("--world", BURIN_OF(scene.world), "a b.wrl"),
+        option("--no-workpiece", BURIN_OF(scene.no_workpiece), true),
+        option("--points", BURIN_OF(hands.points), "top,bottom"),
+        option("--workpiece", BURIN_OF(carve.workpiece.source), "my part.stl"),
+        option("--units", BURIN_OF(carve.workpiece.units), LengthUnit::mm),
+        option("--export-units", BURIN_OF(carve.exports.units), LengthUnit::cm),
+        option("--close-holes", BURIN_OF(carve.workpiece.close_holes), true),
+        option("--resolution", BURIN_OF(carve.workpiece.resolution), 97),
+        option("--room", BURIN_OF(carve.workpiece.room), 0.25),
+        option("--tool", BURIN_OF(hands.tool.shape), "box:0.01,0.02,0.03"),
+        option("--operation", BURIN_OF(hands.tool.operation), compute::Operation::fill),
+        option("--material", BURIN_OF(hands.tool.material), "1,2,3"),
+        option("--sweep-tolerance", BURIN_OF(hands.tool.sweep_tolerance_cells), 0.25),
+        option("--smooth-strength", BURIN_OF(hands.tool.smooth_strength), 0.75),
+        option("--mirror", BURIN_OF(carve.mirror), sculpt::Mirror{{true, false, true}}),
+        option("--hardness", BURIN_OF(carve.feel.hardness), "oak"),
+        option("--yield", BURIN_OF(carve.feel.yield_kPa), 12.5),
+        option("--grain", BURIN_OF(carve.feel.grain_mm), 1.5),
+        option("--stiffness", BURIN_OF(carve.feel.stiffness_N_per_m), 433.0),
+        option("--friction", BURIN_OF(carve.feel.friction), 0.31),
+        option("--undo-memory", BURIN_OF(carve.undo_memory_MiB), std::size_t{77}),
+        option("--device", BURIN_OF(hands.device), "simulated-wand:w.toml"),
+        option("--wall", BURIN_OF(desk.wall), "cave.toml"),
+        option("--stereo", BURIN_OF(desk.stereo), "side-by-side"),
+        option("--swap-eyes", BURIN_OF(desk.swap_eyes), true),
+        option("--edge-comfort", BURIN_OF(desk.edge_comfort), EdgeComfort::off),
+        option("--width", BURIN_OF(desk.width), 640),
+        option("--height", BURIN_OF(desk.height), 480),
+        option("--panel-window", BURIN_OF(desk.panel_window), true),
+        option("--samples", BURIN_OF(desk.samples), 4u),
     };
     return options;
 }
@@ -117,16 +117,16 @@ const std::vector<SetOption>& every_option() {
 
 // A recording that forgets one of them is done again as another session, and nobody is told.
 TEST(SettingsOfARecording, HoldEveryOptionAndGiveItBack) {
-    SculptOptions all;
-    all.workpiece.units = LengthUnit::m;  // a line without a unit is an old one
-    all.tool.shape = "ball:0.01";
+    SessionSetup all;
+    all.carve.workpiece.units = LengthUnit::m;  // a line without a unit is an old one
+    all.hands.tool.shape = "ball:0.01";
     for (const SetOption& one : every_option()) {
-        SculptOptions changed = all;
+        SessionSetup changed = all;
         const std::string usual = one.value(changed);
         one.change(changed);
         ASSERT_NE(one.value(changed), usual) << one.name << " was to be away from its default";
         const std::string line = settings_line(changed);
-        const auto back = options_as_recorded(line, SculptOptions{});
+        const auto back = options_as_recorded(line, SessionSetup{});
         ASSERT_TRUE(back) << back.error().line();
         for (const SetOption& each : every_option())
             EXPECT_EQ(each.value(back->options), each.value(changed)) << each.name << " of " << line;

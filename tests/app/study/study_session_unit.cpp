@@ -23,14 +23,14 @@ public:
     ParticipantSession(const std::string& stage, std::size_t group, bool asks_for_panel_window) {
         protocol_ = study::parse_protocol(*study::known_protocol("kinesthetic-path")).protocol;
         worlds_ = activities::felt_worlds(protocol_).value();
-        session::LiveOptions live;
-        live.panel_window = asks_for_panel_window;
-        const session::SculptOptions options = activities::participant_session(
-            live,
+        session::SessionSetup setup;
+        setup.desk.panel_window = asks_for_panel_window;
+        const session::SessionSetup options = activities::participant_session(
+            setup,
             std::make_shared<activities::StudyActivity>(protocol_, protocol_.groups.at(group), worlds_,
                                                         std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}},
                                                         "study", activities::StudyDevice{}, activities::StageKeeper{}));
-        auto made = session::Desk::create(options, session::session_wall(options.live).value(), clock_);
+        auto made = session::Desk::create(options, session::session_wall(options.desk).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
         desk_ = std::move(*made);
         executor_.emplace(clock_, desk_->session().loop(), desk_->session().channels_of_parts(),

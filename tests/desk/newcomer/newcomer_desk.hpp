@@ -74,19 +74,19 @@ inline double changed(const Image& one, const Image& other, const PixelRect& in,
 
 class NewcomerDesk : public MouseDesk {
 public:
-    explicit NewcomerDesk(LiveOptions live = {}, int resolution = 112) {
+    explicit NewcomerDesk(DeskOptions shown = {}, int resolution = 112) {
         place().write("bracket.stl", bracket());
-        options.workpiece.source = (place() / "bracket.stl").string();
-        options.workpiece.resolution = resolution;
-        options.workpiece.close_small_holes = true;
-        options.live = live;
-        options.live.offscreen = true;
+        options.carve.workpiece.source = (place() / "bracket.stl").string();
+        options.carve.workpiece.resolution = resolution;
+        options.carve.workpiece.close_small_holes = true;
+        options.desk = shown;
+        options.desk.offscreen = true;
         settle_room(options, true);
-        wall_ = session_wall(options.live).value();
-        options.live.first_steps = wall_.desk;
+        wall_ = session_wall(options.desk).value();
+        options.desk.first_steps = wall_.desk;
         open();
         draws = false;
-        Result<Presenter> opened = Presenter::open(options.live, wall_);
+        Result<Presenter> opened = Presenter::open(options.desk, wall_);
         if (!opened) throw std::runtime_error(opened.error().line());
         presenter_.emplace(std::move(*opened));
         presenter_->look();

@@ -44,18 +44,18 @@ TEST_F(NewcomerElsewhere, WorksInEachStereoModeChosenOnThePanel) {
 }
 
 TEST_F(NewcomerElsewhere, WorksWithLettersTwiceAsLarge) {
-    LiveOptions live;
-    live.panel_scale = 2.0;
-    NewcomerDesk desk(live);
+    DeskOptions shown;
+    shown.panel_scale = 2.0;
+    NewcomerDesk desk(shown);
     desk.picture("192-opened");
     cut_and_undo(desk, "192", 30.0);
 }
 
 TEST_F(NewcomerElsewhere, WorksInACavesWindowsOnOneMonitor) {
-    LiveOptions live;
-    live.wall = std::string(kWallsFolder) + "/cave.toml";
-    live.windowed = true;
-    NewcomerDesk desk(live);
+    DeskOptions shown;
+    shown.wall = std::string(kWallsFolder) + "/cave.toml";
+    shown.windowed = true;
+    NewcomerDesk desk(shown);
     cut_and_undo(desk, "cave", 30.0);
 }
 

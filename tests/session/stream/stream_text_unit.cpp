@@ -11,7 +11,7 @@
 #include "devices/lsl/lsl_api.hpp"
 #include "haptics/tick_record.hpp"
 #include "session/drive/session_streams.hpp"
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/stream/stream_text.hpp"
 #include "session/stream/streamed_columns.hpp"
@@ -78,9 +78,9 @@ TEST(LslLibrary, ThatIsAbsentIsNamedWithWhereItCanBeHadAndItsVariable) {
     ::setenv(devices::kLslPathVariable, "/nowhere/liblsl.so", 1);
     const auto api = devices::load_lsl_api();
     const devices::DevicePresence presence = devices::look_for_lsl();
-    LiveOptions live;
-    live.lsl = true;
-    const auto checked = check_streams(live);
+    RecordSetup record;
+    record.lsl = true;
+    const auto checked = check_streams(record);
     ::unsetenv(devices::kLslPathVariable);
     ASSERT_FALSE(api);
     for (const char* words : {"/nowhere/liblsl.so", "github.com/sccn/liblsl/releases", "BURIN_LIBLSL"})
@@ -108,16 +108,16 @@ TEST(LslLibrary, ThatLacksAFunctionOrSpeaksAnotherProtocolIsUnusable) {
 }
 
 TEST(StreamOptions, AreRefusedWhereNothingCouldBeStreamedOrKept) {
-    LiveOptions live;
-    EXPECT_TRUE(check_streams(live));
-    live.lsl = true;
-    live.record = "log.txt";
-    const auto as_text = check_streams(live);
+    RecordSetup record;
+    EXPECT_TRUE(check_streams(record));
+    record.lsl = true;
+    record.path = "log.txt";
+    const auto as_text = check_streams(record);
     ASSERT_FALSE(as_text);
     EXPECT_TRUE(as_text.error().line().contains("FILE.session")) << as_text.error().line();
-    live = {};
-    live.lsl_markers = "";
-    const auto nowhere = check_streams(live);
+    record = {};
+    record.lsl_markers = "";
+    const auto nowhere = check_streams(record);
     ASSERT_FALSE(nowhere);
     EXPECT_TRUE(nowhere.error().line().contains("--record FILE.session")) << nowhere.error().line();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/options/session_options.hpp"
+#include "session/options/session_setup.hpp"
 
 #include <algorithm>
 
@@ -39,8 +39,8 @@ Result<NamedDevice> parse_named_device(const std::string& text) {
     return named;
 }
 
-std::vector<NamedDevice> devices_of(const LiveOptions& live) {
-    return live.hands.empty() ? std::vector<NamedDevice>{{"", live.device}} : live.hands;
+std::vector<NamedDevice> devices_of(const HandsSetup& hands) {
+    return hands.named.empty() ? std::vector<NamedDevice>{{"", hands.device}} : hands.named;
 }
 
 Result<MouseMode> parse_mouse_mode(const std::string& text, const std::string& where) {
@@ -52,66 +52,67 @@ Result<MouseMode> parse_mouse_mode(const std::string& text, const std::string& w
     return static_cast<MouseMode>(at - names.begin());
 }
 
-std::optional<Error> no_surface(const SculptOptions& options) {
+std::optional<Error> no_surface(const SessionSetup& setup) {
     const std::string where = "--mouse surface";
-    if (options.activity != nullptr || options.no_workpiece || !options.world.empty() || options.scene != nullptr)
+    if (setup.activity != nullptr || setup.scene.no_workpiece || !setup.scene.world.empty() ||
+        setup.scene.given != nullptr)
         return Error{"follows the surface of a workpiece alone, and the session has other things to touch", where,
                      "leave it out, and the mouse flies freely"};
-    if (!options.live.hands.empty())
+    if (!setup.hands.named.empty())
         return Error{"leads one hand, and the session has several", where, "leave it out, and the mouse flies freely"};
-    const Result<devices::DeviceNature> nature = devices::nature_of_device(options.live.device);
+    const Result<devices::DeviceNature> nature = devices::nature_of_device(setup.hands.device);
     if (!nature) return nature.error();
     if (nature->leads_itself)
-        return Error{"leads the hand, and that of " + options.live.device + " leads itself", where,
+        return Error{"leads the hand, and that of " + setup.hands.device + " leads itself", where,
                      "leave --mouse out, or --device"};
     if (nature->handle || nature->is_worn || nature->felt_by_person || nature->is_emulated || nature->parts != 1)
-        return Error{"leads a tool that nobody holds, and the device is " + options.live.device, where,
+        return Error{"leads a tool that nobody holds, and the device is " + setup.hands.device, where,
                      "leave --device out, or --mouse"};
     return std::nullopt;
 }
 
-Result<void> settle_mouse(SculptOptions& options) {
-    const std::optional<Error> cannot = no_surface(options);
-    if (!options.live.mouse && options.live.input.empty() && !cannot) options.live.mouse = MouseMode::surface;
-    if (options.live.mouse != MouseMode::surface) return {};
+Result<void> settle_mouse(SessionSetup& setup) {
+    const std::optional<Error> cannot = no_surface(setup);
+    if (!setup.hands.mouse && setup.record.input.empty() && !cannot) setup.hands.mouse = MouseMode::surface;
+    if (setup.hands.mouse != MouseMode::surface) return {};
     if (cannot) return std::unexpected(*cannot);
-    if (!options.live.device_given) options.live.device = devices::kMouseArm;
+    if (!setup.hands.device_given) setup.hands.device = devices::kMouseArm;
     return {};
 }
 
-void settle_view(SculptOptions& options) {
-    const LiveOptions& live = options.live;
-    const bool has_world = !options.world.empty() || options.scene != nullptr;
-    if (has_world && live.input.empty() && live.wall.empty() && options.activity == nullptr)
-        options.live.frames_world = true;
+void settle_view(SessionSetup& setup) {
+    const bool has_world = !setup.scene.world.empty() || setup.scene.given != nullptr;
+    if (has_world && setup.record.input.empty() && setup.desk.wall.empty() && setup.activity == nullptr)
+        setup.desk.frames_world = true;
 }
 
-void settle_room(SculptOptions& options, bool in_session) {
-    if (options.workpiece.room) return;
-    const bool adds = in_session ? options.live.input.empty()
-                                 : !options.stroke.empty() && options.tool.operation == compute::Operation::fill;
-    options.workpiece.room = adds ? sculpt::kUsualRoom : 0.0;
+void settle_room(SessionSetup& setup, bool in_session) {
+    if (setup.carve.workpiece.room) return;
+    const bool adds = in_session
+                          ? setup.record.input.empty()
+                          : !setup.carve.stroke.file.empty() && setup.hands.tool.operation == compute::Operation::fill;
+    setup.carve.workpiece.room = adds ? sculpt::kUsualRoom : 0.0;
 }
 
-Result<void> set_devices(LiveOptions& live, const std::vector<std::string>& given) {
+Result<void> set_devices(HandsSetup& hands, const std::vector<std::string>& given) {
     if (given.empty()) return {};
-    live.device_given = true;
+    hands.device_given = true;
     if (given.size() == 1 && hand_ends_at(given.front()) == std::string::npos) {
-        live.device = given.front();
+        hands.device = given.front();
         return {};
     }
     if (given.size() > kMostHands)
         return fail("--device", "is given " + std::to_string(given.size()) + " times",
                     "a session has " + std::to_string(kMostHands) + " hands at most");
-    std::vector<NamedDevice> hands;
+    std::vector<NamedDevice> all;
     for (const std::string& text : given) {
         BURIN_TRY(named, parse_named_device(text));
-        if (std::ranges::find(hands, named.hand, &NamedDevice::hand) != hands.end())
+        if (std::ranges::find(all, named.hand, &NamedDevice::hand) != all.end())
             return fail("--device " + text, "is a second device of one name", "give each hand a name of its own");
-        hands.push_back(std::move(named));
+        all.push_back(std::move(named));
     }
-    live.device = hands.front().device;
-    live.hands = std::move(hands);
+    hands.device = all.front().device;
+    hands.named = std::move(all);
     return {};
 }
 
