@@ -18,10 +18,10 @@ namespace burin::sculpt {
 namespace {
 
 // Finishes and writes the mesh on a worker of its own, so that carving keeps its pool.
-ExportOutcome export_surface(const compute::Surface& surface, const compute::Solid& solid,
-                             const ExportSurface& wanted) {
+scene::ExportOutcome export_surface(const compute::Surface& surface, const compute::Solid& solid,
+                                    const ExportSurface& wanted) {
     const std::string& name = wanted.name.empty() ? wanted.path : wanted.name;
-    ExportOutcome outcome{"", wanted.path, wanted.asked_by};
+    scene::ExportOutcome outcome{"", wanted.path, wanted.asked_by};
     const auto ended = [&](std::string message) {
         outcome.message = std::move(message);
         return outcome;
@@ -191,11 +191,11 @@ bool CarvedPart::has_news() const {
 
 void CarvedPart::take_changes(scene::SceneChanges& changes) {
     if (auto update = take_surface_update())
-        changes.drawn.push_back(std::make_shared<CarvedChange>(std::move(*update)));
+        changes.drawn.push_back(std::make_shared<scene::SurfaceChange>(std::move(*update)));
 }
 
-std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
-    SurfaceUpdate update;
+std::optional<scene::SurfaceUpdate> CarvedPart::take_surface_update() {
+    scene::SurfaceUpdate update;
     const compute::SurfaceLight* light = sculpture_.light();
     for (const std::uint32_t tile : sculpture_.take_changed_tiles()) {
         update.tiles.push_back(
@@ -311,35 +311,6 @@ void CarvedPart::finish() {
     if (!export_.valid()) return;
     exports_.push_back(export_.get());
     status_changed_ = true;
-}
-
-// ---- Merging what has not been taken
-
-void add(std::optional<SurfaceUpdate>& to, std::optional<SurfaceUpdate> later) {
-    if (to && later) {
-        merge(*to, std::move(*later));
-    } else if (later) {
-        to = std::move(later);
-    }
-}
-
-void merge(SurfaceUpdate& into, SurfaceUpdate later) {
-    for (TileUpdate& tile : later.tiles) {
-        const auto known = std::ranges::find(into.tiles, tile.tile, &TileUpdate::tile);
-        if (known == into.tiles.end()) {
-            into.tiles.push_back(std::move(tile));
-        } else {
-            *known = std::move(tile);
-        }
-    }
-    into.inner_boxes_object = std::move(later.inner_boxes_object);
-    into.cut_ns = std::max(into.cut_ns, later.cut_ns);
-    into.undoable = later.undoable;
-    into.redoable = later.redoable;
-    into.state = later.state;
-    into.exporting = later.exporting;
-    std::ranges::move(later.messages, std::back_inserter(into.messages));
-    std::ranges::move(later.exports, std::back_inserter(into.exports));
 }
 
 }  // namespace burin::sculpt

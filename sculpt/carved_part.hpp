@@ -20,20 +20,13 @@
 
 #include "scene/drawn_change.hpp"
 #include "scene/scene_part.hpp"
+#include "scene/surface_update.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/sculpt_order.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/stroke_reader.hpp"
-#include "sculpt/surface_update.hpp"
 
 namespace burin::sculpt {
-
-// A surface update on its way to the frames.
-class CarvedChange final : public scene::DrawnChange {
-public:
-    explicit CarvedChange(SurfaceUpdate changed) : update(std::move(changed)) {}
-    SurfaceUpdate update;
-};
 
 class CarvedPart final : public scene::ScenePart {
 public:
@@ -86,10 +79,10 @@ public:
     void finish() override;
     [[nodiscard]] Result<void> save(scene::Pages& pages) override { return sculpture_.save(pages); }
 
-    // As a CarvedChange.
+    // As a scene::SurfaceChange.
     void take_changes(scene::SceneChanges& changes) override;
     // Returns nullopt when nothing has changed.
-    [[nodiscard]] std::optional<SurfaceUpdate> take_surface_update();
+    [[nodiscard]] std::optional<scene::SurfaceUpdate> take_surface_update();
 
 private:
     // A hand that carves.
@@ -133,9 +126,9 @@ private:
     std::optional<Nanoseconds> waiting_since_ns_;
     TakeChange journal_;  // null: nobody keeps one
     Nanoseconds journal_told_ns_ = 0;
-    std::future<ExportOutcome> export_;
+    std::future<scene::ExportOutcome> export_;
     std::vector<std::string> messages_;
-    std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of
+    std::vector<scene::ExportOutcome> exports_;  // that have ended and nobody knows of
     scene::PartSeen seen_;
 };
 

@@ -27,7 +27,7 @@ public:
         service_.use_probe(0, part_.around_m());
     }
     [[nodiscard]] Result<void> update(Nanoseconds now_ns) { return service_.update(now_ns); }
-    [[nodiscard]] std::optional<SurfaceUpdate> take_surface_update() { return part_.take_surface_update(); }
+    [[nodiscard]] std::optional<scene::SurfaceUpdate> take_surface_update() { return part_.take_surface_update(); }
     void finish_export() { part_.finish(); }
     // Returns the number of local surfaces published so far.
     [[nodiscard]] std::uint64_t published() const { return service_.published(0); }

@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <functional>
 
+#include "base/progress.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
-#include "sculpt/progress.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -115,7 +115,7 @@ Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute:
     finished.too_thin = too_thin(slivers, solid.lattice);
     finished.thin_places = slivers.count();
     if (!finished.too_thin.empty()) std::printf("  %s\n", finished.too_thin.c_str());
-    finished.crumbs = drop_crumbs(finished.mesh, unit, crumbs_m);
+    finished.crumbs = geometry::drop_crumbs(finished.mesh, unit, crumbs_m);
     if (simplify_bound_m) {
         BURIN_TRY(simplified, simplify_with_progress(finished.mesh, unit, *simplify_bound_m, pool));
         finished.mesh = std::move(simplified.mesh);

@@ -12,7 +12,7 @@
 #include "base/json.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/repair/decimate.hpp"
-#include "sculpt/crumbs.hpp"
+#include "geometry/mesh/crumbs.hpp"
 
 namespace burin::sculpt {
 
@@ -20,10 +20,10 @@ struct FinishedMesh {
     geometry::TriangleMesh mesh;  // its positions are numbers in `unit`, as every format writes them
     LengthUnit unit = LengthUnit::m;
     // Parts of the report; docs/formats.md lists their keys.
-    Json self_intersections;  // pairs of triangles found, repaired and left, and what the repair changed
-    Json slivers;             // places thinner than the mesh can show, with the first of them
-    Json simplification;      // null unless it was asked for
-    DroppedCrumbs crumbs;     // of all shells, before that
+    Json self_intersections;         // pairs of triangles found, repaired and left, and what the repair changed
+    Json slivers;                    // places thinner than the mesh can show, with the first of them
+    Json simplification;             // null unless it was asked for
+    geometry::DroppedCrumbs crumbs;  // of all shells, before that
     // Says in a sentence how much is thinner than the mesh can show, and from which resolution on it does; empty where
     // nothing is.
     std::string too_thin;

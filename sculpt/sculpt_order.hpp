@@ -12,7 +12,7 @@
 #include "base/length_unit.hpp"
 #include "compute/light/lamp.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
-#include "sculpt/mirror.hpp"
+#include "toolbox/mirror.hpp"
 #include "toolbox/tool_options.hpp"
 
 namespace burin::sculpt {
@@ -23,7 +23,7 @@ struct UseTool {
     double hardness_Ns_per_m3 = 0.0;
 };
 struct MirrorStrokes {
-    Mirror mirror;  // of all hands, from the next update on
+    toolbox::Mirror mirror;  // of all hands, from the next update on
 };
 struct UndoStroke {};
 struct RedoStroke {};

@@ -22,9 +22,9 @@
 #include "compute/light/surface_light.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/tools/apply.hpp"
-#include "sculpt/mirror.hpp"
 #include "sculpt/saved_changes.hpp"
 #include "sculpt/saved_solid.hpp"
+#include "sculpt/stroke_mirror.hpp"
 
 namespace burin::sculpt {
 
@@ -37,7 +37,7 @@ struct SculptFigures {
     std::uint64_t tiles_remeshed = 0;
     std::uint64_t cells_remeshed = 0;
     std::uint64_t triangles_remeshed = 0;  // of whole tiles
-    std::vector<double> update_ms;  // wall time of each update
+    std::vector<double> update_ms;         // wall time of each update
     // Parts of each update's time: changing the rays, with the making of cells where a device makes them, and meshing.
     // The rest is history and light.
     std::vector<double> carve_ms, mesh_ms;
@@ -60,7 +60,7 @@ public:
     [[nodiscard]] std::size_t under_way() const { return engine_->under_way(); }
     // Has the sweeps of later updates carved on the other sides of these planes as well; they go through the middle of
     // the workpiece as it was made. An update with its images is undone as one.
-    void mirror(const Mirror& mirror) { mirror_.set(mirror); }
+    void mirror(const toolbox::Mirror& mirror) { mirror_.set(mirror); }
     // Sets `out` to the surface within a ball, ready for contact; leaves its sequence and time as they are.
     void local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) const;
 

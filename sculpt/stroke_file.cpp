@@ -8,8 +8,8 @@
 
 #include "base/csv.hpp"
 #include "base/file_io.hpp"
+#include "base/progress.hpp"
 #include "base/try.hpp"
-#include "sculpt/progress.hpp"
 
 namespace burin::sculpt {
 namespace {

@@ -11,36 +11,20 @@ namespace burin::sculpt {
 namespace {
 
 constexpr double kSweepTolerance = 0.05;  // of a cell
-// What the tick looks at around a tool (haptics/forces/tool_surface.hpp), of the tool's size.
-constexpr double kSurroundings = 1.0;
 // Of a tool's size, in a tick: a hand that goes deeper by less has come down.
 constexpr double kComesDown = 0.001;
 
 }  // namespace
 
-double around_m(const toolbox::Tool& tool) {
-    return toolbox::reach_of(tool.shape) + kSurroundings * toolbox::size_of(tool.shape);
-}
-
-haptics::ToolAction action_of(compute::Operation operation) {
-    switch (operation) {
-        case compute::Operation::cut: return haptics::ToolAction::cut;
-        case compute::Operation::fill: return haptics::ToolAction::fill;
-        case compute::Operation::paint: return haptics::ToolAction::paint;
-        case compute::Operation::smooth: break;
-    }
-    return haptics::ToolAction::touch;
-}
-
 StrokeReader::StrokeReader(const toolbox::Tool& tool, double hardness_Ns_per_m3, double cell_m)
     : tool_(tool),
       hardness_Ns_per_m3_(hardness_Ns_per_m3),
-      around_m_(sculpt::around_m(tool)),
+      around_m_(toolbox::around_m(tool)),
       tolerance_m_(kSweepTolerance * cell_m) {}
 
 void StrokeReader::use_tool(const toolbox::Tool& tool, double hardness_Ns_per_m3) {
     tool_ = tool;
-    around_m_ = sculpt::around_m(tool);
+    around_m_ = toolbox::around_m(tool);
     hardness_Ns_per_m3_ = hardness_Ns_per_m3;
     working_ = false;
 }

@@ -30,13 +30,6 @@ namespace burin::sculpt {
 // fills at the hand touches what it has just added, and would go on adding into the air.
 inline constexpr std::uint32_t kOverAir = 1u << 2;
 
-// Returns what the tick does while the tool works with this operation. Smoothing has no force of its own: its tool only
-// touches.
-[[nodiscard]] haptics::ToolAction action_of(compute::Operation operation);
-
-// Returns the radius of a ball about a tool's place that holds the tool and what the tick looks at around it.
-[[nodiscard]] double around_m(const toolbox::Tool& tool);
-
 // Motion of the working tool since the previous read, up to the first release of the button.
 struct SweptSamples {
     std::vector<compute::ToolSweep> sweeps;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/longest_side.hpp"
 #include "base/numbers.hpp"
 #include "base/try.hpp"
 #include "compute/rays/room.hpp"
@@ -111,11 +112,6 @@ Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file) {
     if (unit == LengthUnit::m || tool_is_a_file || !is_shape(options.source)) return {};
     return fail(std::string("--units ") + name_of(unit), "is for mesh files, and " + options.source + " is in metres",
                 "leave --units out and write the sizes in metres");
-}
-
-double longest_side_m(const Box& box) {
-    const Vec3 size = box.extent();
-    return std::max({size.x, size.y, size.z});
 }
 
 Box lattice_bounds(const compute::Lattice& lattice) {

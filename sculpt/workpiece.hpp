@@ -16,24 +16,9 @@
 #include "base/work_watch.hpp"
 #include "base/worker_pool.hpp"
 #include "compute/rays/solid.hpp"
+#include "sculpt/workpiece_options.hpp"
 
 namespace burin::sculpt {
-
-// ---- Workpiece
-
-// Default room on every side of a workpiece, as a share of its longest side.
-inline constexpr double kUsualRoom = 0.15;
-
-struct WorkpieceOptions {
-    std::string source = "ball:0.1";  // FILE | block:X,Y,Z | ball:R
-    int resolution = 256;             // lattice cells along the longest side
-    // Empty room on every side for what is added, as a share of the longest side. None: where it is not settled.
-    std::optional<double> room = std::nullopt;
-    bool close_holes = false;
-    bool close_small_holes = false;  // where none of them is larger around than the mesh's shortest side
-    std::optional<LengthUnit> units = std::nullopt;  // of a file; none: as it states, else guessed (mesh_unit.hpp)
-    std::optional<double> weld_m = std::nullopt;     // of a file; none: by its numbers (join_open_edges)
-};
 
 // Looks on while a workpiece is made ready, which takes long for large files and lattices.
 struct LoadWatch {
@@ -42,6 +27,7 @@ struct LoadWatch {
 };
 // Returns the share of all the work at which the solid is there and its surface is meshed.
 [[nodiscard]] double meshing_from(const WorkpieceOptions& options);
+
 struct LoadedWorkpiece {
     compute::Solid solid;
     Json report;                      // the file's health, repairs, and the conversion
@@ -63,7 +49,6 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
 [[nodiscard]] Box workpiece_bounds(const compute::Lattice& lattice);
 // Returns the bounds of the lattice: material can be added within them alone.
 [[nodiscard]] Box lattice_bounds(const compute::Lattice& lattice);
-[[nodiscard]] double longest_side_m(const Box& box);
 // Checks whether --units has a mesh file to speak of: sizes of shapes are in metres.
 [[nodiscard]] Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file);
 

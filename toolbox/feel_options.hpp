@@ -12,7 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "devices/hand/simulated_hand.hpp"
+#include "devices/hand/hand_grip.hpp"
 #include "haptics/forces/touch_force.hpp"
 
 namespace burin::toolbox {

@@ -13,6 +13,9 @@
 namespace burin::toolbox {
 namespace {
 
+// What the tick looks at around a tool (haptics/forces/tool_surface.hpp), of the tool's size.
+constexpr double kSurroundings = 1.0;
+
 // Bounds the poses that one sweep may replace, because the search for the next sweep looks at all of them.
 constexpr std::size_t kLongestRun = 1024, kLongestTurningRun = 64;
 // Radius of the tool where none is given, as a share of the workpiece's longest side.
@@ -162,6 +165,18 @@ std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses, const 
         from = to;
     }
     return sweeps;
+}
+
+double around_m(const Tool& tool) { return reach_of(tool.shape) + kSurroundings * size_of(tool.shape); }
+
+haptics::ToolAction action_of(compute::Operation operation) {
+    switch (operation) {
+        case compute::Operation::cut: return haptics::ToolAction::cut;
+        case compute::Operation::fill: return haptics::ToolAction::fill;
+        case compute::Operation::paint: return haptics::ToolAction::paint;
+        case compute::Operation::smooth: break;
+    }
+    return haptics::ToolAction::touch;
 }
 
 }  // namespace burin::toolbox

@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "compute/tools/tool.hpp"
+#include "haptics/tool_action.hpp"
 #include "toolbox/tool_kinds.hpp"
 
 namespace burin::toolbox {
@@ -84,6 +85,13 @@ struct Tool {
 // remedy; nothing where they suit one another.
 [[nodiscard]] std::optional<std::string> misfit(const ToolSettings& settings, const Tool& tool, double longest_side_m,
                                                 double cell_m);
+
+// Returns what the tick does while the tool works with this operation. Smoothing has no force of its own: its tool only
+// touches.
+[[nodiscard]] haptics::ToolAction action_of(compute::Operation operation);
+
+// Returns the radius of a ball about a tool's place that holds the tool and what the tick looks at around it.
+[[nodiscard]] double around_m(const Tool& tool);
 
 // Returns the sweeps of a tool that was at these poses one after the other. From the first pose on, the longest run of
 // which one sweep, straight and evenly turning, replaces to within tolerance_m everywhere on the tool becomes one

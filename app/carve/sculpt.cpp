@@ -11,6 +11,7 @@
 #include "app/cli/output_files.hpp"
 #include "app/recordings/felt_recording.hpp"
 #include "base/file_io.hpp"
+#include "base/longest_side.hpp"
 #include "base/try.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/vulkan/engine_choice.hpp"
@@ -204,7 +205,7 @@ Result<StrokeInputs> read_inputs(const session::SessionSetup& options) {
     BURIN_TRY_DO(check_all_outputs(options));
     BURIN_TRY_DO(record::check_new_place(options.record.path));
     BURIN_TRY_DO(sculpt::check_simplification(options.carve.exports.simplify_m));
-    BURIN_TRY_DO(sculpt::check_crumbs(options.carve.exports.crumbs_m));
+    BURIN_TRY_DO(geometry::check_crumbs(options.carve.exports.crumbs_m));
     if (options.carve.stroke.file.empty()) return StrokeInputs{std::move(chosen), std::move(feel), {}};
     BURIN_TRY(stroke, sculpt::read_stroke(options.carve.stroke.file));
     return StrokeInputs{std::move(chosen), std::move(feel), std::move(stroke)};
@@ -223,7 +224,7 @@ Result<TakenUp> take_up_workpiece(const session::SessionSetup& options, const Ch
     if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());
     for (const std::string& path : options.carve.exports.files)
         BURIN_TRY_DO(sculpt::check_precision(path, opened.workpiece->solid.lattice));
-    const double longest_side_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
+    const double longest_side_m = burin::longest_side_m(opened.workpiece->bounds_object);
     BURIN_TRY(chosen, options.hands.tool.shape.empty() ? choose_tool(options, longest_side_m) : stand_in);
     BURIN_TRY(material, take_up(*opened.workpiece, chosen));
     return TakenUp{std::move(*opened.workpiece), std::move(chosen), material, longest_side_m};
@@ -279,7 +280,7 @@ void describe_finished(Json& report, const sculpt::FinishedMesh& finished, Lengt
     report["mesh"] = describe_mesh(finished.mesh, export_unit);
     report["mesh"]["self_intersections"] = finished.self_intersections;
     report["mesh"]["crumbs"] = {{"dropped", finished.crumbs.count}, {"below_m", finished.crumbs.below_m}};
-    if (finished.crumbs.count > 0) std::printf("  %s\n", sculpt::in_words(finished.crumbs).c_str());
+    if (finished.crumbs.count > 0) std::printf("  %s\n", geometry::in_words(finished.crumbs).c_str());
     report["slivers"] = finished.slivers;
     if (!finished.simplification.is_null()) report["simplification"] = finished.simplification;
 }
@@ -343,7 +344,7 @@ Result<void> sculpt(const session::SessionSetup& options) {
     const LengthUnit export_unit = options.carve.exports.units.value_or(taken_up.workpiece.unit);
     BURIN_TRY(finished, sculpt::finish_mesh(
                             carving.surface(), carving.engine().solid(), export_unit, options.carve.exports.simplify_m,
-                            options.carve.exports.crumbs_m.value_or(sculpt::kCrumbCells * cell_m), pool));
+                            options.carve.exports.crumbs_m.value_or(geometry::kCrumbCells * cell_m), pool));
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", taken_up.workpiece.report}};
     report["tool"] = std::move(tool_report);
     report["engine"] = {

@@ -151,7 +151,7 @@ void add_mirror_option(Command command, session::SessionSetup& options) {
         "--mirror",
         [&options](const std::vector<std::string>& given) -> Result<void> {
             if (given.empty()) return {};
-            BURIN_TRY(mirror, sculpt::parse_mirror(given.back(), "--mirror " + given.back()));
+            BURIN_TRY(mirror, toolbox::parse_mirror(given.back(), "--mirror " + given.back()));
             options.carve.mirror = mirror;
             return {};
         },

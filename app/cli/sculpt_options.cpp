@@ -8,7 +8,7 @@
 #include "app/cli/live_options.hpp"
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
-#include "sculpt/crumbs.hpp"
+#include "geometry/mesh/crumbs.hpp"
 #include "session/options/option_bounds.hpp"
 
 namespace burin::app {
@@ -122,7 +122,7 @@ void add_result_options(Command command, session::SessionSetup& options) {
                    "Export fewer triangles: the surface moves at most this far, in metres");
     command.option("--crumbs", options.carve.exports.crumbs_m,
                    formatted("Export no loose pieces below this size, in metres; 0 keeps all; else %g cells",
-                             sculpt::kCrumbCells));
+                             geometry::kCrumbCells));
     command.option("--pictures", options.carve.stroke.pictures,
                    "A folder for before.png, after.png, left.png, right.png, stereo.png");
     command.option("--report", options.carve.stroke.report,

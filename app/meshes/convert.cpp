@@ -15,6 +15,7 @@
 #include "app/meshes/convert_placing.hpp"
 #include "app/meshes/document_command.hpp"
 #include "app/recordings/session_export.hpp"
+#include "base/progress.hpp"
 #include "base/try.hpp"
 #include "compute/repair/rounding.hpp"
 #include "geometry/files/closed_mesh.hpp"
@@ -24,7 +25,6 @@
 #include "geometry/mesh/mesh_placing.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "sculpt/finishing.hpp"
-#include "sculpt/progress.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
@@ -93,7 +93,7 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
                     numbers.steps_apart);
     if (numbers.is_rounded) tell_rounding(mesh_m, numbers.mesh, unit);
     if (!numbers.is_rounded || format == geometry::MeshFormat::obj) return std::move(numbers.mesh);
-    sculpt::Progress progress("repairing what rounding has turned over");
+    Progress progress("repairing what rounding has turned over");
     const compute::RoundingReport repair =
         compute::repair_rounding(mesh_m, numbers.mesh, pool, [&](double done) { progress.show(done); });
     if (repair.vertices_moved > 0)

@@ -109,7 +109,7 @@ std::string felt_settings(const session::SessionSetup& options, const toolbox::T
                       {"material", tool.material},
                       {"sweep_tolerance_cells", tool.sweep_tolerance_cells},
                       {"smooth_strength", tool.smooth_strength},
-                      {"mirror", sculpt::name_of(options.carve.mirror)}}},
+                      {"mirror", toolbox::name_of(options.carve.mirror)}}},
                     {"feel",
                      {{"hardness", feel.hardness},
                       {"yield_kPa", optional_json(feel.yield_kPa)},
@@ -155,7 +155,7 @@ Result<session::SessionSetup> read_felt_settings(const std::string& text, const 
     reader.text("session", "engine", engine);
     reader.flag("session", "undo", undo);
     reader.flag("session", "real_time", o.carve.stroke.real_time);
-    BURIN_TRY(planes, sculpt::parse_mirror(mirror, where));
+    BURIN_TRY(planes, toolbox::parse_mirror(mirror, where));
     o.carve.mirror = planes;
     if (!reader.missing().empty())
         return fail(where, "its settings have no sound value for " + reader.missing(),

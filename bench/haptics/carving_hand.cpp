@@ -64,7 +64,7 @@ CarvingHand::CarvingHand(const compute::ToolShape& tool, const CarvedBlock& bloc
     tool_.shape = tool;
     const toolbox::FeltTool felt = toolbox::felt_tool(tool);
     parameters_.probe = felt.probe;
-    parameters_.action = sculpt::action_of(compute::Operation::cut);
+    parameters_.action = toolbox::action_of(compute::Operation::cut);
     parameters_.materials.fill(toolbox::touch_material({}));
     parameters_.shape = felt.shape;
     parameters_.tool = felt.surface;

@@ -181,7 +181,7 @@ haptics::TickParameters session_parameters(const haptics::Probe& probe, bool fri
     haptics::TickParameters parameters;
     parameters.sequence = 1;
     parameters.probe = probe;
-    parameters.action = sculpt::action_of(compute::Operation::cut);
+    parameters.action = toolbox::action_of(compute::Operation::cut);
     haptics::TouchMaterial material = toolbox::touch_material({});
     if (!friction) material.static_friction = material.dynamic_friction = 0.0;
     parameters.materials.fill(material);

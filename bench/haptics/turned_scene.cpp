@@ -63,7 +63,7 @@ public:
         haptics::TouchMaterial material = toolbox::touch_material({});
         if (!turning.friction) material.static_friction = material.dynamic_friction = 0.0;
         parameters_.materials.fill(material);
-        parameters_.action = sculpt::action_of(compute::Operation::cut);
+        parameters_.action = toolbox::action_of(compute::Operation::cut);
         parameters_.probe = felt.probe;
         parameters_.shape = felt.shape;
         parameters_.tool = felt.surface;

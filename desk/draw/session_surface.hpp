@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/surface/surface_store.hpp"
-#include "sculpt/surface_update.hpp"
+#include "scene/surface_update.hpp"
 
 namespace burin::session {
 
@@ -19,7 +19,7 @@ public:
     void open(const gpu::Device& device);
     void close() { store_.reset(); }
     // Takes tiles that changed, before or after open().
-    void take(std::span<const sculpt::SurfaceUpdate> updates, const Vec3& lattice_origin_object);
+    void take(std::span<const scene::SurfaceUpdate> updates, const Vec3& lattice_origin_object);
     // Records the upload of what has changed, once a frame, before any screen is drawn; returns its bytes.
     [[nodiscard]] Result<std::uint64_t> upload(gpu::Commands& commands) { return store_->flush(commands); }
     // See SurfaceStore::refine_beside().
@@ -29,9 +29,9 @@ public:
     [[nodiscard]] const std::shared_ptr<renderer::SurfaceStore>& store() const { return store_; }
 
 private:
-    void take(const sculpt::SurfaceUpdate& update, const Vec3& lattice_origin_object);
+    void take(const scene::SurfaceUpdate& update, const Vec3& lattice_origin_object);
 
-    std::vector<sculpt::TileUpdate> tiles_;  // indexed by tile number
+    std::vector<scene::TileUpdate> tiles_;  // indexed by tile number
     std::vector<Box> occluders_;
     std::shared_ptr<renderer::SurfaceStore> store_;
 };

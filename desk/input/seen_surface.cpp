@@ -66,11 +66,11 @@ SeenSurface::SeenSurface(const compute::Lattice& lattice) : lattice_(lattice), t
     tiles_->of_grid.resize(compute::TileGrid(lattice).count());
 }
 
-void SeenSurface::take(const sculpt::SurfaceUpdate& update) {
+void SeenSurface::take(const scene::SurfaceUpdate& update) {
     if (!tiles_ || update.tiles.empty()) return;
     if (tiles_.use_count() > 1) tiles_ = std::make_shared<Tiles>(*tiles_);
     bool came_or_went = false;
-    for (const sculpt::TileUpdate& changed : update.tiles) {
+    for (const scene::TileUpdate& changed : update.tiles) {
         auto& tile = tiles_->of_grid.at(changed.tile);
         came_or_went = came_or_went || (tile == nullptr) != (changed.surface == nullptr);
         tile = changed.surface;

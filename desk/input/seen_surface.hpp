@@ -17,7 +17,7 @@
 
 #include "base/space.hpp"
 #include "compute/mesher/tile_grid.hpp"
-#include "sculpt/surface_update.hpp"
+#include "scene/surface_update.hpp"
 
 namespace burin::session {
 
@@ -39,7 +39,7 @@ public:
     explicit SeenSurface(const compute::Lattice& lattice);
 
     // Takes over the tiles that changed.
-    void take(const sculpt::SurfaceUpdate& update);
+    void take(const scene::SurfaceUpdate& update);
 
     // Returns where a ray first meets a triangle that faces it; nothing where it passes by.
     [[nodiscard]] std::optional<SurfaceHit> first_hit(const Ray& ray_object) const;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "base/longest_side.hpp"
 #include "base/try.hpp"
 #include "compute/vulkan/engine_choice.hpp"
 #include "desk/live/opened_desk.hpp"
@@ -34,7 +35,7 @@ Result<std::unique_ptr<Desk>> Desk::create(const SessionSetup& options, const Se
     take_hand(desk->viewer_, desk->session_->state());
     desk->viewer_.seen_from = seen_from(desk->seen());
     if (!options.record.from_before_units)
-        desk->tool_sizes_ = tool_sizes_for(sculpt::longest_side_m(desk->session_->room().workpiece_object));
+        desk->tool_sizes_ = tool_sizes_for(longest_side_m(desk->session_->room().workpiece_object));
     if (const sculpt::Sculpture* workpiece = desk->session_->scene_side().workpiece())
         desk->surface_ = SeenSurface(workpiece->surface().lattice());
     return desk;
@@ -145,7 +146,7 @@ void Desk::take_loaded() { take(session_->take_loaded()); }
 
 void Desk::take_news(std::uint64_t updates) { take(session_->take_news(updates)); }
 
-void Desk::take(std::optional<sculpt::SurfaceUpdate> news) {
+void Desk::take(std::optional<scene::SurfaceUpdate> news) {
     if (!news) return;
     times_.cut(news->cut_ns);
     surface_.take(*news);
@@ -153,7 +154,7 @@ void Desk::take(std::optional<sculpt::SurfaceUpdate> news) {
     if (updates_.empty())
         updates_.push_back(std::move(*news));
     else
-        sculpt::merge(updates_.back(), std::move(*news));
+        scene::merge(updates_.back(), std::move(*news));
 }
 
 // ---- Pictures

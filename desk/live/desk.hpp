@@ -62,7 +62,7 @@ public:
 
     // ---- What the frame draws
     // Returns the surface updates since the last call, and the origin of their tiles' positions.
-    [[nodiscard]] std::vector<sculpt::SurfaceUpdate> take_surface_updates() { return std::exchange(updates_, {}); }
+    [[nodiscard]] std::vector<scene::SurfaceUpdate> take_surface_updates() { return std::exchange(updates_, {}); }
     [[nodiscard]] Vec3 lattice_origin_object() const { return session_->scene_side().lattice_origin_object(); }
     // Returns the scene of a screen; nothing where it stays dark.
     [[nodiscard]] std::optional<picture::Picture> scene_on(std::size_t screen) const;
@@ -106,7 +106,7 @@ private:
     [[nodiscard]] SceneInput feed_panel(const FrameInput& input);
     void note_times(const FrameInput& input);
     [[nodiscard]] std::vector<CommandInput> after(wall::StereoMode begun_in, const SessionState& state);
-    void take(std::optional<sculpt::SurfaceUpdate> news);
+    void take(std::optional<scene::SurfaceUpdate> news);
     void stand_on_plinth(picture::Picture& scene) const;
     [[nodiscard]] bool tells_late_pictures() const {
         return session_->hands().felt_by_person() || viewer_.head.tracked;
@@ -117,12 +117,12 @@ private:
     DeskRoom room_;
     Viewer viewer_;
     LivePanel panel_;
-    ToolSizeRange tool_sizes_;                    // that the panel offers
-    SeenSurface surface_;                         // that the mouse points at
-    wall::OutputPlace output_;                    // of the main screen
-    ImageSize panel_output_;                      // of the panel's window; empty: there is none
-    std::optional<wall::StereoMode> framed_;      // of the main screen, when the workpiece was last fitted into it
-    std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet: all of them in one, or none
+    ToolSizeRange tool_sizes_;                   // that the panel offers
+    SeenSurface surface_;                        // that the mouse points at
+    wall::OutputPlace output_;                   // of the main screen
+    ImageSize panel_output_;                     // of the panel's window; empty: there is none
+    std::optional<wall::StereoMode> framed_;     // of the main screen, when the workpiece was last fitted into it
+    std::vector<scene::SurfaceUpdate> updates_;  // not drawn yet: all of them in one, or none
     SessionTimes times_;
     ComfortWatch comfort_;
     TrackerWatch tracker_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "desk/live/opened_desk.hpp"
 
+#include "base/longest_side.hpp"
 #include "base/try.hpp"
 #include "desk/panel/live_panel.hpp"
 #include "sculpt/workpiece.hpp"
@@ -21,8 +22,7 @@ DeskSettings settings_of(const HandRoom& hand, const SessionWall& wall) {
     settings.rest_device = hand.rest_device;
     settings.leans_sideways = hand.is_upright;
     if (hand.reach == Reach::own)
-        settings.depth_per_wheel_step_m =
-            kOwnDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), hand.workspace_device_m});
+        settings.depth_per_wheel_step_m = kOwnDepthPerWheelStep * longest_side_m({Vec3(0.0), hand.workspace_device_m});
     if (hand.reach == Reach::arm) settings.depth_per_wheel_step_m = kArmDepthPerWheelStep_m;
     return settings;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/longest_side.hpp"
 #include "base/try.hpp"
 #include "desk/live/opened_desk.hpp"
 #include "desk/panel/live_panel.hpp"
@@ -45,7 +46,7 @@ void OpeningPicture::take(FirstLook look) {
 
 // The scene as the session begins it, with the mesh in the workpiece's place.
 picture::Picture OpeningPicture::scene() const {
-    const double longest_m = sculpt::longest_side_m(room_.workpiece_object);
+    const double longest_m = longest_side_m(room_.workpiece_object);
     const auto tool = toolbox::parse_tool_settings(toolbox::with_tool({}, longest_m));
     Viewer viewer = begin_viewer(desk_, output_);
     const SessionState state =

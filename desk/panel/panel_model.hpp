@@ -16,12 +16,12 @@
 #include "haptics/workspace/workspace_picture.hpp"
 #include "scene/haptic_material.hpp"
 #include "scene/rendered_material.hpp"
-#include "sculpt/mirror.hpp"
 #include "session/activity/activity_panel.hpp"
 #include "session/input/actions.hpp"
 #include "session/notices/message_kind.hpp"
 #include "session/record/panel_measured.hpp"
 #include "toolbox/feel_options.hpp"
+#include "toolbox/mirror.hpp"
 #include "toolbox/tool_kinds.hpp"
 #include "wall/stereo_mode.hpp"
 
@@ -185,7 +185,7 @@ struct PanelModel {
     double stiffness_N_per_m = 600.0;
     double velocity_filter = 0.0, force_filter = 0.0;  // factor a of the moving average; 0: off
 
-    sculpt::Mirror mirror;
+    toolbox::Mirror mirror;
     MouseMode mouse = MouseMode::free;
     bool offers_mouse = false;  // the choice of how the mouse leads the hand is shown
     double strength = 0.3;      // of a stroke on the surface

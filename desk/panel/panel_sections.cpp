@@ -153,7 +153,7 @@ void show_mirror(Kit& kit, const PanelModel& model) {
         const std::string label = std::string("mirror ") + "xyz"[axis];
         if (!kit.button(label, kTitles.at(axis), axis == 0 ? wide : narrow, true, model.mirror.across.at(axis)))
             continue;
-        sculpt::Mirror mirror = model.mirror;
+        toolbox::Mirror mirror = model.mirror;
         mirror.across.at(axis) = !mirror.across.at(axis);
         kit.give(SetMirror{mirror});
     }

@@ -11,7 +11,7 @@
 #include "desk/opening/first_time.hpp"
 #include "desk/view/session_tracker.hpp"
 #include "devices/registry/device_registry.hpp"
-#include "sculpt/crumbs.hpp"
+#include "geometry/mesh/crumbs.hpp"
 #include "session/drive/session_streams.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/live/opened_room.hpp"
@@ -71,7 +71,7 @@ Result<void> check_for_a_session(const SessionSetup& options) {
 // Reports errors in the options before a window opens, also those in the file of a mesh tool.
 Result<void> check(const SessionSetup& options) {
     BURIN_TRY_DO(toolbox::parse_tool(options.hands.tool));
-    BURIN_TRY_DO(sculpt::check_crumbs(options.carve.exports.crumbs_m));
+    BURIN_TRY_DO(geometry::check_crumbs(options.carve.exports.crumbs_m));
     BURIN_TRY_DO(toolbox::parse_feel(options.carve.feel));
     if (options.scene.no_workpiece && !has_world(options))
         return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");

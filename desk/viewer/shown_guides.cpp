@@ -76,10 +76,10 @@ void add_mirror(picture::Picture& scene, const SessionState& state, const Room& 
     const std::shared_ptr<const HeldTool>& held = state.led().held;
     if (!scene.tool.visible || tool.tick == 0 || !held || !room.carved_object) return;
     const bool is_mesh = std::holds_alternative<compute::MeshTool>(held->shape);
-    for (const sculpt::MirrorImage& image : sculpt::images_of(state.mirror)) {
+    for (const toolbox::MirrorImage& image : toolbox::images_of(state.mirror)) {
         if (is_mesh && image.reverses()) continue;
-        const Pose there = sculpt::image_of(Pose{tool.proxy_object_m, tool.tool_orientation_object}, image,
-                                            room.carved_object->center());
+        const Pose there = toolbox::image_of(Pose{tool.proxy_object_m, tool.tool_orientation_object}, image,
+                                             room.carved_object->center());
         const Similarity object_from_tool{there.position_m, there.orientation,
                                           held->drawn ? 1.0 : scene.tool.radius_m / state.world_from_object.scale};
         scene.objects.push_back({held->drawn ? held->drawn : ball(), state.world_from_object * object_from_tool,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/channels.hpp"
@@ -14,7 +15,6 @@
 #include "haptics/realtime.hpp"
 #include "record/record_writer.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/progress.hpp"
 #include "session/drive/driver.hpp"
 #include "session/drive/executors.hpp"
 #include "session/record/carved_by.hpp"
@@ -199,7 +199,7 @@ private:
     haptics::HapticChannels& channels_;
     Nanoseconds start_ns_, end_ns_, due_ns_;
     FigureKeeper keeper_;
-    sculpt::Progress progress_;
+    Progress progress_;
     bool waits_for_recorder_ = false;
     const compute::CarvingEngine* engine_ = nullptr;
     std::unique_ptr<record::RecordWriter> recorder_;  // last: its thread calls the keeper until it has ended
@@ -272,7 +272,7 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     parameters.shape = felt_tool.shape;
     parameters.tool = felt_tool.surface;
     parameters.materials.fill(options.feel.material);
-    parameters.action = sculpt::action_of(tool.operation);
+    parameters.action = toolbox::action_of(tool.operation);
     channels.parameters.publish();
 
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.

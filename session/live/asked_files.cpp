@@ -38,7 +38,7 @@ void AskedFiles::place(sculpt::ExportSurface& wanted) {
     wanted.path = placed->string();
 }
 
-void AskedFiles::tell(const sculpt::ExportOutcome& ended) {
+void AskedFiles::tell(const scene::ExportOutcome& ended) {
     if (ended.written) {
         log_.notify(ended.message, MessageKind::info, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
     } else if (outputs_.refuse_meshes()) {

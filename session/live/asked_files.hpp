@@ -10,8 +10,8 @@
 
 #include "base/image.hpp"
 #include "document/document_writer.hpp"
+#include "scene/surface_update.hpp"
 #include "sculpt/sculpt_order.hpp"
-#include "sculpt/surface_update.hpp"
 #include "session/notices/message_log.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/state/session_orders.hpp"
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] bool write() const { return outputs_.write(); }
     // Says where a mesh goes; one that is refused is ordered as well, since a recording counts the orders.
     void place(sculpt::ExportSurface& wanted);
-    void tell(const sculpt::ExportOutcome& ended);
+    void tell(const scene::ExportOutcome& ended);
 
     struct DocumentPlace {
         std::string path, shown;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/notices.hpp"
+#include "base/longest_side.hpp"
 
 namespace burin::session {
 
@@ -15,13 +16,13 @@ void Notices::look(const SessionState& state, const SessionHands& hands, std::sp
 
 void Notices::look_at_tool(const toolbox::ToolSettings& settings, const toolbox::Tool& tool,
                            const Box& workpiece_object, double spacing_m) {
-    const double longest_m = sculpt::longest_side_m(workpiece_object);
+    const double longest_m = longest_side_m(workpiece_object);
     if (const auto misfit = misfit_.look(settings, tool, longest_m, spacing_m)) log_.notify(*misfit);
 }
 
-void Notices::take(const sculpt::SurfaceUpdate& update) {
+void Notices::take(const scene::SurfaceUpdate& update) {
     for (const std::string& message : update.messages) log_.notify(message);
-    for (const sculpt::ExportOutcome& ended : update.exports) files_.tell(ended);
+    for (const scene::ExportOutcome& ended : update.exports) files_.tell(ended);
     strokes_.take(update);
 }
 

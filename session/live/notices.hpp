@@ -35,7 +35,7 @@ public:
     void look_at_tool(const toolbox::ToolSettings& settings, const toolbox::Tool& tool, const Box& workpiece_object,
                       double spacing_m);
     // Takes what has changed of the carved surface.
-    void take(const sculpt::SurfaceUpdate& update);
+    void take(const scene::SurfaceUpdate& update);
     // Tells the user a step's messages; of what a log asked for and did not get with its line.
     void tell(const std::vector<Asked>& messages);
 

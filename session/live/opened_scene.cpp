@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/longest_side.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "compute/engine/chosen_engine.hpp"
@@ -45,7 +46,7 @@ void note_workpiece(const sculpt::MadeWorkpiece& made, const SessionSetup& optio
     room.workpiece_object = workpiece.bounds_object;
     room.carved_object = room.workpiece_object;
     room.lattice_object = sculpt::lattice_bounds(made.lattice);
-    const double cells = sculpt::longest_side_m(workpiece.bounds_object) / made.lattice.spacing_m;
+    const double cells = longest_side_m(workpiece.bounds_object) / made.lattice.spacing_m;
     const auto resolution = is_document(options.carve.workpiece) ? static_cast<int>(std::lround(cells))
                                                                  : options.carve.workpiece.resolution;
     found.name = std::filesystem::path(options.carve.workpiece.source).filename().string();
@@ -77,7 +78,7 @@ void note_world(const WorldSide& world, const SessionSetup& options, Room& room,
 }
 
 void note_tool(const SessionSetup& options, const Room& room, FoundOut& found) {
-    const double longest_side_m = sculpt::longest_side_m(room.workpiece_object);
+    const double longest_side_m = burin::longest_side_m(room.workpiece_object);
     found.tool_options = options.hands.tool;
     if (!room.carved_object && found.tool_options.shape.empty())
         found.tool_options.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);

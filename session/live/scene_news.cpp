@@ -12,8 +12,8 @@ bool SceneNews::collect(const scene::SceneThread::Ended& update) {
     service_->take_changes(changes);
     Report report;
     for (auto& change : changes.drawn)
-        if (auto* const carved = dynamic_cast<sculpt::CarvedChange*>(change.get()))
-            sculpt::add(report.news.surface, std::move(carved->update));
+        if (auto* const carved = dynamic_cast<scene::SurfaceChange*>(change.get()))
+            scene::add(report.news.surface, std::move(carved->update));
         else
             report.news.drawn.push_back(std::move(change));
     if (report.news.surface && !report.news.surface->tiles.empty()) carving_duration_.add(update.took_ns);
@@ -38,7 +38,7 @@ SceneNews::Taken SceneNews::take(std::uint64_t updates) {
     Taken taken;
     for (; !reports_.empty() && reports_.front().update <= updates; reports_.pop_front()) {
         Taken& news = reports_.front().news;
-        sculpt::add(taken.surface, std::move(news.surface));
+        scene::add(taken.surface, std::move(news.surface));
         std::ranges::move(news.objects, std::back_inserter(taken.objects));
         if (news.materials) taken.materials = news.materials;
         std::ranges::move(news.drawn, std::back_inserter(taken.drawn));

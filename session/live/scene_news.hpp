@@ -39,7 +39,7 @@ public:
     bool collect(const scene::SceneThread::Ended& update);
     // Returns what the first `updates` of all collected updates have reported since the last call. The frame's thread.
     struct Taken {
-        std::optional<sculpt::SurfaceUpdate> surface;
+        std::optional<scene::SurfaceUpdate> surface;
         std::vector<scene::ObjectUpdate> objects;       // the newest last
         std::optional<scene::MaterialTable> materials;  // if it has changed
         std::vector<scene::DrawnShare> drawn;           // of other kinds than carved surfaces

@@ -15,7 +15,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
         for (std::size_t part = 0; part < hands_.parts(); ++part) carved_->order(use, part);
         parts.push_back(&*carved_);
     }
-    tools_around_m_.assign(hands_.hands(), sculpt::around_m(use.tool));
+    tools_around_m_.assign(hands_.hands(), toolbox::around_m(use.tool));
     if (world_) {
         for (std::size_t part = 0; part < hands_.parts(); ++part) world_->part().grip_with(part, kGrips);
         parts.push_back(&world_->part());
@@ -42,7 +42,7 @@ SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand)
         if (carved_ && use == nullptr) carved_->order(order);
         if (use == nullptr) return;
         for (std::size_t part = first; carved_ && part < first + parts; ++part) carved_->order(*use, part);
-        tools_around_m_[hand] = carved_ ? carved_->around_m(first) : sculpt::around_m(use->tool);
+        tools_around_m_[hand] = carved_ ? carved_->around_m(first) : toolbox::around_m(use->tool);
         for (std::size_t part = first; part < first + parts; ++part)
             service_->use_probe(part, tools_around_m_[hand] + spread_m);
     };

@@ -75,7 +75,7 @@ public:
         std::uint64_t state = 0;  // compute::History::state
         bool exporting = false;
     };
-    void note(const sculpt::SurfaceUpdate& update) {
+    void note(const scene::SurfaceUpdate& update) {
         strokes_ = {update.undoable, update.redoable, update.state, update.exporting};
     }
     [[nodiscard]] const Strokes& strokes() const { return strokes_; }

@@ -79,14 +79,14 @@ void Session::carry_out(SessionOrders orders, const Give& give) {
     if (orders.put_away) log().dismiss();
 }
 
-std::optional<sculpt::SurfaceUpdate> Session::take_loaded() {
-    std::optional<sculpt::SurfaceUpdate> loaded;
+std::optional<scene::SurfaceUpdate> Session::take_loaded() {
+    std::optional<scene::SurfaceUpdate> loaded;
     if (scene_.carved() != nullptr) loaded = scene_.carved()->take_surface_update();
     if (loaded) take(*loaded);
     return loaded;
 }
 
-std::optional<sculpt::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
+std::optional<scene::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
     SceneNews::Taken news = scene_.news().take(updates);
     if (news.surface) take(*news.surface);
     for (const std::string& message : news.messages) notify(message);
@@ -102,7 +102,7 @@ std::optional<sculpt::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
     return std::move(news.surface);
 }
 
-void Session::take(const sculpt::SurfaceUpdate& news) {
+void Session::take(const scene::SurfaceUpdate& news) {
     notices_.take(news);
     scene_.note(news);
     state_.strokes = news.undoable;

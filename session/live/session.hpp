@@ -61,8 +61,8 @@ public:
     bool collect(const scene::SceneThread::Ended& update) { return scene_.news().collect(update); }
     // Takes over what the parts report at the beginning, before the scene's thread starts, and what so many of the
     // collected updates have reported. Returns what is new of the carved surface, for who shows it.
-    std::optional<sculpt::SurfaceUpdate> take_loaded();
-    std::optional<sculpt::SurfaceUpdate> take_news(std::uint64_t updates);
+    std::optional<scene::SurfaceUpdate> take_loaded();
+    std::optional<scene::SurfaceUpdate> take_news(std::uint64_t updates);
     // Ends what the scene's parts do elsewhere, takes over all that is left, and has the activity end. No thread runs
     // any more.
     void finish_scene();
@@ -117,7 +117,7 @@ private:
     [[nodiscard]] Result<void> begin(const Place& place);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void carry_out(SessionOrders orders, const Give& give);
-    void take(const sculpt::SurfaceUpdate& news);
+    void take(const scene::SurfaceUpdate& news);
     [[nodiscard]] document::Content saved_content() const;
 
     // Of the session's beginning, on its clock, and of the step that has begun, since then.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/try.hpp"
+#include "geometry/mesh/crumbs.hpp"
 #include "haptics/channels.hpp"
-#include "sculpt/crumbs.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/live/opened_scene.hpp"
 #include "session/live/session.hpp"
@@ -14,10 +14,8 @@
 namespace burin::session {
 namespace {
 
-// Ticks that the recording's ring holds. A text log's is read by the frame's thread, which may stall for so many; a
-// session file's by its writer, which waits for the disk.
-constexpr std::size_t kTicksToLog = 8192;
-
+constexpr std::size_t kTicksToLog = 8192;  // the frame's thread, which reads them for a text log, may stall for so many
+// Returns how many ticks the ring of a recording holds.
 std::size_t ring_for(const SessionSetup& setup) {
     if (setup.record.path.empty()) return setup.record.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
     return is_session_file(setup.record.path) ? record::kRingTicks : kTicksToLog;
@@ -72,8 +70,9 @@ Result<void> Session::begin(const Place& place) {
     state_ = std::move(first);
     state_.carves = scene_.workpiece() != nullptr;
     if (scene_.world() != nullptr) state_.world = scene_.world()->objects();
-    const double usual_m = options_.carve.exports.usual_crumbs ? sculpt::kCrumbCells * scene_.spacing_m() : 0.0;
-    state_.crumbs_m = options_.carve.exports.crumbs_m.value_or(usual_m);
+    const ExportOptions& exports = options_.carve.exports;
+    state_.crumbs_m =
+        exports.crumbs_m.value_or(exports.usual_crumbs ? geometry::kCrumbCells * scene_.spacing_m() : 0.0);
     if (const auto& view = work_.opened().view) state_.world_from_object = *view;
     BURIN_TRY(use, tool_of(state_));
     notices_.look_at_tool(state_.led().tool, use.tool, room_.workpiece_object, scene_.spacing_m());

@@ -99,7 +99,7 @@ std::vector<DeviceWatch::News> DeviceWatch::look(const SessionHands& hands, std:
 }
 
 // Tiles are meshed anew where a tool has only passed; what a stroke has changed can be undone.
-void StrokeWatch::take(const sculpt::SurfaceUpdate& update) {
+void StrokeWatch::take(const scene::SurfaceUpdate& update) {
     changed_ = changed_ || update.undoable != undoable_;
     undoable_ = update.undoable;
     told_ = told_ || !update.messages.empty();

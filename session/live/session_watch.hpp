@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compute/light/surface_light.hpp"
-#include "sculpt/surface_update.hpp"
+#include "scene/surface_update.hpp"
 #include "session/activity/activity.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/notices/message_kind.hpp"
@@ -65,7 +65,7 @@ public:
     static constexpr Nanoseconds kSettled_ns = 300'000'000;
 
     // Takes what has changed of the surface.
-    void take(const sculpt::SurfaceUpdate& update);
+    void take(const scene::SurfaceUpdate& update);
     // Returns what a stroke that has changed nothing did not do, and why, once it is over. depth_m: of a stroke as the
     // mouse leads it; spacing_m: of the lattice.
     [[nodiscard]] std::optional<std::string> look(const SessionState& state, const haptics::ToolState& tool,

@@ -9,9 +9,9 @@
 
 #include "base/length_unit.hpp"
 #include "compute/engine/chosen_engine.hpp"
-#include "sculpt/mirror.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/workpiece_options.hpp"
 #include "toolbox/feel_options.hpp"
+#include "toolbox/mirror.hpp"
 
 namespace burin::session {
 
@@ -39,7 +39,7 @@ struct StrokeOptions {
 
 struct CarveOptions {
     sculpt::WorkpieceOptions workpiece;
-    sculpt::Mirror mirror;  // planes on whose other sides the tool works as well
+    toolbox::Mirror mirror;  // planes on whose other sides the tool works as well
     compute::EngineChoice engine = compute::EngineChoice::automatic;
     // Makes it; none: the processor's, and a device that is asked for is refused. No option of the command line.
     compute::EngineMaker make_engine;

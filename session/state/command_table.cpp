@@ -259,7 +259,7 @@ Parsed parse_mouse(CommandWords words) {
 }
 
 Parsed parse_mirror(CommandWords words) {
-    BURIN_TRY(mirror, sculpt::parse_mirror(words[0], "command mirror " + words[0]));
+    BURIN_TRY(mirror, toolbox::parse_mirror(words[0], "command mirror " + words[0]));
     return SetMirror{mirror};
 }
 

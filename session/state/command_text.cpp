@@ -61,7 +61,7 @@ struct Printer {
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
     CommandInput operator()(const DoAct& c) const { return {"do", c.words}; }
     CommandInput operator()(const SelectObject& c) const { return {"select", {c.object}}; }
-    CommandInput operator()(const SetMirror& c) const { return {"mirror", {sculpt::name_of(c.mirror)}}; }
+    CommandInput operator()(const SetMirror& c) const { return {"mirror", {toolbox::name_of(c.mirror)}}; }
     CommandInput operator()(const SetMouse& c) const { return {"mouse", {std::string(name_of(c.mode))}}; }
     CommandInput operator()(const LeadHand& c) const { return {"hand", {c.hand}}; }
     CommandInput operator()(const EditObject& c) const {

@@ -11,12 +11,12 @@
 
 #include "compute/rays/operation.hpp"
 #include "haptics/workspace/workspace_picture.hpp"
-#include "sculpt/mirror.hpp"
 #include "session/input/actions.hpp"
 #include "session/objects/edit_object.hpp"
 #include "session/options/edge_comfort.hpp"
 #include "session/state/asked_close.hpp"
 #include "toolbox/feel_options.hpp"
+#include "toolbox/mirror.hpp"
 #include "toolbox/tool_kinds.hpp"
 #include "wall/stereo_mode.hpp"
 
@@ -165,7 +165,7 @@ struct CalibrateHandle {
 
 // Carves the other sides of these planes as well.
 struct SetMirror {
-    sculpt::Mirror mirror;
+    toolbox::Mirror mirror;
     bool operator==(const SetMirror&) const = default;
 };
 

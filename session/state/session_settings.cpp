@@ -74,8 +74,8 @@ std::optional<std::string> text(compute::Operation operation) {
     return std::string(toolbox::descriptor_of(operation).name);
 }
 std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
-std::optional<std::string> text(const sculpt::Mirror& mirror) {
-    return mirror.any() ? std::optional(sculpt::name_of(mirror)) : std::nullopt;
+std::optional<std::string> text(const toolbox::Mirror& mirror) {
+    return mirror.any() ? std::optional(toolbox::name_of(mirror)) : std::nullopt;
 }
 std::optional<std::string> text(EdgeComfort comfort) {
     return comfort == EdgeComfort::automatic ? std::nullopt : std::optional(std::string(name_of(comfort)));
@@ -120,9 +120,9 @@ bool read(const std::string& text, compute::Operation& value) {
     }
     return false;
 }
-bool read(const std::string& text, sculpt::Mirror& value) {
-    const Result<sculpt::Mirror> mirror = sculpt::parse_mirror(text, "--mirror " + text);
-    value = mirror.value_or(sculpt::Mirror{});
+bool read(const std::string& text, toolbox::Mirror& value) {
+    const Result<toolbox::Mirror> mirror = toolbox::parse_mirror(text, "--mirror " + text);
+    value = mirror.value_or(toolbox::Mirror{});
     return mirror.has_value();
 }
 bool read(const std::string& text, MouseMode& value) {

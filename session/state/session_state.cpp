@@ -156,7 +156,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.probe = felt.probe;
     p.shape = felt.shape;
     p.tool = felt.surface;
-    p.action = state.carves ? sculpt::action_of(hand.tool.operation) : haptics::ToolAction::touch;
+    p.action = state.carves ? toolbox::action_of(hand.tool.operation) : haptics::ToolAction::touch;
     p.materials.fill(material_under_tool(state, hand));
     if (on_surface)
         for (haptics::TouchMaterial& material : p.materials) material.stiffness_N_per_m = kMouseStiffness_N_per_m;

@@ -14,13 +14,13 @@
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "base/space.hpp"
-#include "sculpt/mirror.hpp"
 #include "session/held/hand_state.hpp"
 #include "session/input/actions.hpp"
 #include "session/objects/world_history.hpp"
 #include "session/state/asked_close.hpp"
 #include "session/state/smooth_stroke.hpp"
 #include "toolbox/feel_options.hpp"
+#include "toolbox/mirror.hpp"
 
 namespace burin::devices {
 struct DeviceDescription;  // devices/haptic/haptic_device.hpp
@@ -54,7 +54,7 @@ struct SessionState {
     toolbox::FeelSettings feel;
     bool carves = true;                 // there is a workpiece
     bool saves = true;                  // the work can be saved
-    sculpt::Mirror mirror;              // planes on whose other sides the workpiece is carved as well
+    toolbox::Mirror mirror;             // planes on whose other sides the workpiece is carved as well
     MouseMode mouse = MouseMode::free;  // how a mouse leads the hand in use
     // Somebody has chosen that. Logs from before there was a choice fill on the surface alone, and still do.
     bool mouse_chosen = false;

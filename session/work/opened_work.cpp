@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/longest_side.hpp"
 #include "base/numbers.hpp"
 #include "base/try.hpp"
 #include "compute/rays/extent.hpp"
@@ -285,7 +286,7 @@ Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes
     double size_m = 1.0;
     if (opened.workpiece) {
         describe_workpiece(reader, *opened.workpiece, lost);
-        size_m = sculpt::longest_side_m(opened.workpiece->bounds_object);
+        size_m = longest_side_m(opened.workpiece->bounds_object);
     }
     opened.view = view_in(reader, size_m, lost);
     if (!lost.empty()) {

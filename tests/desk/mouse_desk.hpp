@@ -183,7 +183,7 @@ private:
         });
         desk->take_news(Executor::kAllCollected);
         if (draws)
-            for (const sculpt::SurfaceUpdate& update : desk->take_surface_updates()) strokes_ = update.undoable;
+            for (const scene::SurfaceUpdate& update : desk->take_surface_updates()) strokes_ = update.undoable;
         next_ns_ += frame_ns_;
     }
 

@@ -387,7 +387,7 @@ TEST(MouseOnSurface, StrokesThatNobodyDrawsKeepEachTileOnce) {
     const auto updates = desk.desk->take_surface_updates();
     ASSERT_EQ(updates.size(), 1u);
     std::set<std::uint32_t> tiles;
-    for (const sculpt::TileUpdate& tile : updates[0].tiles) {
+    for (const scene::TileUpdate& tile : updates[0].tiles) {
         EXPECT_TRUE(tiles.insert(tile.tile).second) << tile.tile;
         EXPECT_EQ(tile.surface, desk.session().scene_side().surface()->shared_tile(tile.tile)) << "the newest";
     }

@@ -63,7 +63,8 @@ struct Opened {
 Opened opened(const std::string& description, Clock& clock, const std::string& option = {}) {
     static_cast<void>(written("tracker_of_wall.toml", description));
     SessionSetup options;
-    options.desk.wall = written("wall_of_tracker.toml", std::string(kWall) + "[tracker]\nfile = \"tracker_of_wall.toml\"\n");
+    options.desk.wall =
+        written("wall_of_tracker.toml", std::string(kWall) + "[tracker]\nfile = \"tracker_of_wall.toml\"\n");
     options.desk.tracker = option;
     Opened made{wall::read_wall(options.desk.wall).value(), nullptr};
     const auto resolved = session_tracker(options, made.setup);

@@ -99,7 +99,7 @@ TEST(CarvedPart, CarvesAndTakesOrdersBesideTheFrame) {
     MonotonicClock clock;
     Bench bench;
     std::mutex mutex;
-    std::optional<SurfaceUpdate> seen;
+    std::optional<scene::SurfaceUpdate> seen;
     scene::SceneThread thread(bench.desk.service(), clock, [&](const scene::SceneThread::Ended&) {
         const std::lock_guard lock(mutex);
         add(seen, bench.desk.take_surface_update());
@@ -116,9 +116,9 @@ TEST(CarvedPart, CarvesAndTakesOrdersBesideTheFrame) {
         }
         return false;
     };
-    ASSERT_TRUE(wait_until([](const SurfaceUpdate& n) { return n.undoable == 1; }));
+    ASSERT_TRUE(wait_until([](const scene::SurfaceUpdate& n) { return n.undoable == 1; }));
     thread.order([&] { bench.desk.order(UndoStroke{}); });
-    ASSERT_TRUE(wait_until([](const SurfaceUpdate& n) { return n.redoable == 1; }));
+    ASSERT_TRUE(wait_until([](const scene::SurfaceUpdate& n) { return n.redoable == 1; }));
     thread.order([&] { bench.desk.order(RedoStroke{}); });
     thread.stop();  // carries out what was ordered
     EXPECT_FALSE(thread.failure());
@@ -243,7 +243,7 @@ TEST(CarvedPart, AnExportInMidStrokeEndsTheStroke) {
 
 TEST(SurfaceUpdate, MergedTellsTheNewestOfEverythingAndEveryMessage) {
     const auto tile = std::make_shared<const geometry::SurfaceTile>();
-    SurfaceUpdate news, later;
+    scene::SurfaceUpdate news, later;
     news.tiles = {{3, nullptr, nullptr}, {5, tile, nullptr}};
     news.inner_boxes_object = {Box{Vec3(0.0), Vec3(1.0)}};
     news.cut_ns = 1000;
@@ -305,7 +305,8 @@ bool said(Bench& bench, const std::string& part) {
     const auto update = bench.desk.take_surface_update();
     if (!update) return false;
     return std::ranges::any_of(update->messages, [&](const std::string& m) { return m.contains(part); }) ||
-           std::ranges::any_of(update->exports, [&](const ExportOutcome& e) { return e.message.contains(part); });
+           std::ranges::any_of(update->exports,
+                               [&](const scene::ExportOutcome& e) { return e.message.contains(part); });
 }
 
 }  // namespace

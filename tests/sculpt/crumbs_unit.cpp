@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/crumbs.hpp"
+#include "geometry/mesh/crumbs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ TEST(ExportedColours, AreToldWhereTheFormatKeepsNone) {
 TEST(Crumbs, BelowASizeAreDroppedAndCountedWithTheirHollows) {
     geometry::TriangleMesh mesh = part_with_crumbs();
     ASSERT_EQ(shells_in(mesh), 6u);
-    const DroppedCrumbs dropped = drop_crumbs(mesh, LengthUnit::mm, 0.0005);
+    const geometry::DroppedCrumbs dropped = geometry::drop_crumbs(mesh, LengthUnit::mm, 0.0005);
     EXPECT_EQ(dropped.count, 2u);
     EXPECT_EQ(in_words(dropped), "dropped 2 crumbs smaller than 0.5 mm");
     const geometry::MeshHealth left = geometry::examine(mesh);
@@ -75,21 +75,21 @@ TEST(Crumbs, BelowASizeAreDroppedAndCountedWithTheirHollows) {
 
 TEST(Crumbs, AreAllKeptWhereTheSizeIsZero) {
     geometry::TriangleMesh mesh = part_with_crumbs();
-    EXPECT_EQ(drop_crumbs(mesh, LengthUnit::mm, 0.0).count, 0u);
+    EXPECT_EQ(geometry::drop_crumbs(mesh, LengthUnit::mm, 0.0).count, 0u);
     EXPECT_EQ(shells_in(mesh), 6u);
-    EXPECT_EQ(in_words({0, 0.0005}), "");
+    EXPECT_EQ(geometry::in_words({0, 0.0005}), "");
 }
 
 TEST(Crumbs, TheLargestShellIsNeverOneOfThem) {
     geometry::TriangleMesh mesh = part_with_crumbs();
-    EXPECT_EQ(drop_crumbs(mesh, LengthUnit::mm, 10.0).count, 3u);
+    EXPECT_EQ(geometry::drop_crumbs(mesh, LengthUnit::mm, 10.0).count, 3u);
     EXPECT_EQ(shells_in(mesh), 2u) << "the part and its bubble";
     geometry::TriangleMesh alone;
     add_cube(alone, Vec3(0.0), 0.1);
-    EXPECT_EQ(drop_crumbs(alone, LengthUnit::mm, 10.0).count, 0u);
+    EXPECT_EQ(geometry::drop_crumbs(alone, LengthUnit::mm, 10.0).count, 0u);
     EXPECT_EQ(shells_in(alone), 1u);
     geometry::TriangleMesh nothing;
-    EXPECT_EQ(drop_crumbs(nothing, LengthUnit::mm, 10.0).count, 0u);
+    EXPECT_EQ(geometry::drop_crumbs(nothing, LengthUnit::mm, 10.0).count, 0u);
 }
 
 TEST(Crumbs, FarFromTheOriginKeepTheirSign) {
@@ -97,15 +97,15 @@ TEST(Crumbs, FarFromTheOriginKeepTheirSign) {
     add_cube(mesh, Vec3(1e6), 50.0);
     add_cube(mesh, Vec3(1e6 + 10.0), 0.25, true);
     add_cube(mesh, Vec3(1e6 + 60.0), 0.25);
-    EXPECT_EQ(drop_crumbs(mesh, LengthUnit::mm, 0.001).count, 1u);
+    EXPECT_EQ(geometry::drop_crumbs(mesh, LengthUnit::mm, 0.001).count, 1u);
     EXPECT_EQ(shells_in(mesh), 2u);
 }
 
 TEST(Crumbs, OfASizeThatIsNoneAreRefused) {
     for (const double wrong :
          {-1e-3, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-        EXPECT_FALSE(check_crumbs(wrong)) << wrong;
-    EXPECT_TRUE(check_crumbs(0.0) && check_crumbs(5e-4) && check_crumbs(std::nullopt));
+        EXPECT_FALSE(geometry::check_crumbs(wrong)) << wrong;
+    EXPECT_TRUE(geometry::check_crumbs(0.0) && geometry::check_crumbs(5e-4) && geometry::check_crumbs(std::nullopt));
 }
 
 // A ball of about a cell's radius is left in the air beside a block, as carving leaves them.
@@ -123,7 +123,7 @@ TEST(Crumbs, OfACarvedSolidLeaveItsFinishedMesh) {
     const auto finish = [&](double crumbs_m) {
         return finish_mesh(carving.surface(), carving.engine().solid(), LengthUnit::mm, {}, crumbs_m, pool).value();
     };
-    const FinishedMesh all = finish(0.0), rest = finish(kCrumbCells * cell_m);
+    const FinishedMesh all = finish(0.0), rest = finish(geometry::kCrumbCells * cell_m);
     EXPECT_EQ(shells_in(all.mesh), 2u);
     EXPECT_EQ(all.crumbs.count, 0u);
     EXPECT_EQ(shells_in(rest.mesh), 1u);

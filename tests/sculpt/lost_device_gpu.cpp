@@ -5,9 +5,9 @@
 
 #include "compute/vulkan/standby_engine.hpp"
 #include "gpu/core.hpp"
-#include "sculpt/mirror.hpp"
 #include "sculpt/sculpture.hpp"
 #include "tests/compute/vulkan_engine_fixture.hpp"
+#include "toolbox/mirror.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -68,7 +68,7 @@ TEST_F(LostDeviceGpu, AtTheBeginningOfAnUpdateWithImagesCarvesTheseOnce) {
     WorkerPool pool(1);
     Sculpture carved(std::make_unique<compute::StandbyEngine>(solid, *own, pool), pool);
     Sculpture alone(compute::make_cpu_engine(solid, pool), pool);
-    for (Sculpture* one : {&carved, &alone}) one->mirror(Mirror{.across = {true, false, false}});
+    for (Sculpture* one : {&carved, &alone}) one->mirror(toolbox::Mirror{.across = {true, false, false}});
     Random random(3);
     for (const bool is_lost : {false, true}) {
         own->core()->lose_at_next_submit = is_lost;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Carving with planes of symmetry: both sides get the same, whatever the tool, and one undo takes back both.
 #include "compute/engine/engine.hpp"
-#include "sculpt/mirror.hpp"
+#include "sculpt/stroke_mirror.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct MirroredBlock {
     }
     [[nodiscard]] Vec3 middle() const { return workpiece_bounds(carving.surface().lattice()).center(); }
     // How much a stroke near the corner of the largest x, y and z takes away, on one side of each plane.
-    double removed(const compute::ToolShape& shape, const Mirror& mirror) {
+    double removed(const compute::ToolShape& shape, const toolbox::Mirror& mirror) {
         carving.mirror(mirror);
         const Box box = workpiece_bounds(carving.surface().lattice());
         const Quat leans = glm::angleAxis(0.5, glm::normalize(Vec3(0.3, 0.2, 1.0)));
@@ -41,7 +41,7 @@ struct MirroredBlock {
     }
     // How much of the rays' interval ends lie off the mirror images of other ends: the share of those more than a
     // hundredth of a cell away, and of those on rays whose images have another number of ends.
-    [[nodiscard]] double asymmetry(const MirrorImage& image) const {
+    [[nodiscard]] double asymmetry(const toolbox::MirrorImage& image) const {
         const compute::Solid& solid = carving.engine().solid();
         std::size_t ends = 0, off = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -80,24 +80,26 @@ compute::MeshTool crooked() {
 
 TEST(Mirror, IsReadAsItIsWritten) {
     for (unsigned planes = 0; planes < 8; ++planes) {
-        const Mirror mirror{{(planes & 1u) != 0, (planes & 2u) != 0, (planes & 4u) != 0}};
-        EXPECT_EQ(*parse_mirror(name_of(mirror), "--mirror"), mirror) << name_of(mirror);
-        EXPECT_EQ(images_of(mirror).size() + 1, 1u << static_cast<unsigned>(std::ranges::count(mirror.across, true)));
+        const toolbox::Mirror mirror{{(planes & 1u) != 0, (planes & 2u) != 0, (planes & 4u) != 0}};
+        EXPECT_EQ(*toolbox::parse_mirror(name_of(mirror), "--mirror"), mirror) << name_of(mirror);
+        EXPECT_EQ(toolbox::images_of(mirror).size() + 1,
+                  1u << static_cast<unsigned>(std::ranges::count(mirror.across, true)));
     }
-    EXPECT_EQ(*parse_mirror("zx", ""), (Mirror{{true, false, true}}));
-    EXPECT_EQ(*parse_mirror("XZ", ""), (Mirror{{true, false, true}})) << "as the buttons show them";
+    EXPECT_EQ(*toolbox::parse_mirror("zx", ""), (toolbox::Mirror{{true, false, true}}));
+    EXPECT_EQ(*toolbox::parse_mirror("XZ", ""), (toolbox::Mirror{{true, false, true}})) << "as the buttons show them";
     for (const char* wrong : {"", "w", "xx", "Xx", "x,y", "nones"})
-        EXPECT_EQ(parse_mirror(wrong, "--mirror").error().remedy, "write none or axes, such as x or xz") << wrong;
+        EXPECT_EQ(toolbox::parse_mirror(wrong, "--mirror").error().remedy, "write none or axes, such as x or xz")
+            << wrong;
 }
 
 // A point of a tool and its image keep their distance from every plane.
 TEST(Mirror, ReflectsEveryPointOfATool) {
     const Pose pose{{0.3, -0.2, 0.7}, glm::angleAxis(1.1, glm::normalize(Vec3(0.2, 0.9, -0.4)))};
     const Vec3 middle{0.1, 0.2, -0.3}, at_tool{0.05, -0.02, 0.03};
-    for (const MirrorImage& image : images_of({{true, true, true}})) {
+    for (const toolbox::MirrorImage& image : toolbox::images_of({{true, true, true}})) {
         const Vec3 at_image = image.reverses() ? Vec3(-at_tool.x, at_tool.y, at_tool.z) : at_tool;
-        const Vec3 expected = image_of(pose * at_tool, image, middle);
-        EXPECT_LT(glm::length(image_of(pose, image, middle) * at_image - expected), 1e-15);
+        const Vec3 expected = toolbox::image_of(pose * at_tool, image, middle);
+        EXPECT_LT(glm::length(toolbox::image_of(pose, image, middle) * at_image - expected), 1e-15);
     }
 }
 
@@ -114,14 +116,15 @@ TEST(Mirror, GivesBothSidesTheSameWhateverTheTool) {
         const double one_m3 = alone.removed(shape, {});
         ASSERT_GT(one_m3, 2e-8) << name;
         EXPECT_GT(alone.asymmetry({{true, false, false}}), 0.01) << "the measure sees a stroke on one side";
-        for (const Mirror& mirror :
-             {Mirror{{true, false, false}}, Mirror{{false, true, true}}, Mirror{{true, true, true}}}) {
+        for (const toolbox::Mirror& mirror :
+             {toolbox::Mirror{{true, false, false}}, toolbox::Mirror{{false, true, true}},
+              toolbox::Mirror{{true, true, true}}}) {
             MirroredBlock block;
-            const auto images = images_of(mirror);
+            const auto images = toolbox::images_of(mirror);
             // A mesh is no exact mirror image: it takes a node on the surface for one side or the other.
             const double all_m3 = static_cast<double>(1 + images.size()) * one_m3;
             EXPECT_NEAR(block.removed(shape, mirror), all_m3, 2e-3 * all_m3) << name << ' ' << name_of(mirror);
-            for (const MirrorImage& image : images)
+            for (const toolbox::MirrorImage& image : images)
                 EXPECT_LT(block.asymmetry(image), 2e-4) << name << ' ' << name_of(mirror);
         }
     }

@@ -166,7 +166,7 @@ inline Groove carve_groove(devices::AnyHand hand, double duration_s,
     parameters.shape = felt.shape;
     parameters.tool = felt.surface;
     parameters.materials.fill(feel.material);
-    parameters.action = action_of(tool.operation);
+    parameters.action = toolbox::action_of(tool.operation);
     channels.parameters.publish();
     SimulatedClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);

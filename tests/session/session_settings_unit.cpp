@@ -64,8 +64,8 @@ SetOption option(const char* name, Member member, auto other) {
                         text << ' ' << *value;
                 } else if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
                     text << static_cast<int>(value);
-                } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, sculpt::Mirror>) {
-                    text << sculpt::name_of(value);
+                } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, toolbox::Mirror>) {
+                    text << toolbox::name_of(value);
                 } else {
                     text << value;
                 }
@@ -92,7 +92,7 @@ const std::vector<SetOption>& every_option() {
         option("--material", BURIN_OF(hands.tool.material), "1,2,3"),
         option("--sweep-tolerance", BURIN_OF(hands.tool.sweep_tolerance_cells), 0.25),
         option("--smooth-strength", BURIN_OF(hands.tool.smooth_strength), 0.75),
-        option("--mirror", BURIN_OF(carve.mirror), sculpt::Mirror{{true, false, true}}),
+        option("--mirror", BURIN_OF(carve.mirror), toolbox::Mirror{{true, false, true}}),
         option("--hardness", BURIN_OF(carve.feel.hardness), "oak"),
         option("--yield", BURIN_OF(carve.feel.yield_kPa), 12.5),
         option("--grain", BURIN_OF(carve.feel.grain_mm), 1.5),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has changed of a carved workpiece, for whoever shows it (carved_part.hpp): tiles that never change again. Frame:
-// object, metres. Plain data.
+// What has changed of a surface of tiles, such as a carved one, for whoever shows it: tiles that never change again.
+// Frame: object, metres. Plain data.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,19 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/space.hpp"
 #include "geometry/contact/surface_tile.hpp"
+#include "scene/drawn_change.hpp"
 
 namespace burin::compute {
 struct TileLight;  // compute/light/tile_light.hpp
 }  // namespace burin::compute
 
-namespace burin::sculpt {
+namespace burin::scene {
 
 struct TileUpdate {
     std::uint32_t tile = 0;
@@ -51,4 +53,11 @@ void merge(SurfaceUpdate& into, SurfaceUpdate later);
 // Merges a later surface update, if there is one, into one that may not exist yet.
 void add(std::optional<SurfaceUpdate>& to, std::optional<SurfaceUpdate> later);
 
-}  // namespace burin::sculpt
+// One on its way to the frames.
+class SurfaceChange final : public DrawnChange {
+public:
+    explicit SurfaceChange(SurfaceUpdate changed) : update(std::move(changed)) {}
+    SurfaceUpdate update;
+};
+
+}  // namespace burin::scene

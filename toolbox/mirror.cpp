@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/mirror.hpp"
+#include "toolbox/mirror.hpp"
 
 #include <cctype>
 #include <utility>
 
 #include "base/try.hpp"
-#include "compute/tools/mesh_tool.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 namespace {
 
 constexpr std::string_view kAxes = "xyz";
@@ -28,13 +27,6 @@ Quat turn_of(const MirrorImage& image) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (image.across.at(axis)) turn = turn * half_turn(axis);
     return turn;
-}
-
-std::shared_ptr<const geometry::TriangleMesh> reflected_mesh(const geometry::TriangleMesh& mesh) {
-    auto image = std::make_shared<geometry::TriangleMesh>(mesh);
-    for (auto& vertex : image->positions_m) vertex.x = -vertex.x;
-    for (auto& triangle : image->triangles) std::swap(triangle[1], triangle[2]);
-    return image;
 }
 
 }  // namespace
@@ -87,39 +79,4 @@ Pose image_of(const Pose& object_from_tool, const MirrorImage& image, const Vec3
     return {image_of(object_from_tool.position_m, image, middle_object), turned};
 }
 
-Result<compute::ToolShape> StrokeMirror::reflected(const compute::ToolShape& shape) {
-    const auto* tool = std::get_if<compute::MeshTool>(&shape);
-    if (tool == nullptr) return shape;
-    if (mesh_ != tool->mesh) {
-        BURIN_TRY(image, compute::prepare_mesh_tool(reflected_mesh(*tool->mesh)));
-        mesh_ = tool->mesh;
-        image_ = std::move(image);
-    }
-    return image_;
-}
-
-Result<std::vector<compute::ToolSweep>> StrokeMirror::with_images(std::span<const compute::ToolSweep> sweeps) {
-    const std::vector<MirrorImage> images = images_of(mirror_);
-    std::vector<compute::ToolSweep> all;
-    all.reserve(sweeps.size() * (1 + images.size()));
-    for (const compute::ToolSweep& sweep : sweeps) {
-        all.push_back(sweep);
-        const bool turns = !std::holds_alternative<compute::BallTool>(sweep.shape);
-        for (const MirrorImage& image : images) {
-            compute::ToolSweep other = sweep;
-            if (turns && image.reverses()) {
-                BURIN_TRY(shape, reflected(sweep.shape));
-                other.shape = std::move(shape);
-            }
-            for (Pose* pose : {&other.start, &other.end}) {
-                const Pose moved = image_of(*pose, image, middle_object_);
-                pose->position_m = moved.position_m;
-                if (turns) pose->orientation = moved.orientation;
-            }
-            all.push_back(std::move(other));
-        }
-    }
-    return all;
-}
-
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

@@ -7,7 +7,7 @@
 
 #include "base/clock.hpp"
 
-namespace burin::sculpt {
+namespace burin {
 
 class Progress {
 public:
@@ -24,4 +24,4 @@ private:
     bool terminal_, shown_ = false;
 };
 
-}  // namespace burin::sculpt
+}  // namespace burin

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/progress.hpp"
+#include "base/progress.hpp"
 
 #include <unistd.h>
 
 #include <cstdio>
 
-namespace burin::sculpt {
+namespace burin {
 namespace {
 constexpr Nanoseconds kFirst_ns = kNanosecondsPerSecond;
 constexpr Nanoseconds kOnTerminal_ns = kNanosecondsPerSecond / 5;
@@ -28,4 +28,4 @@ void Progress::show(double done) {
     next_ns_ = now_ns + (terminal_ ? kOnTerminal_ns : kElsewhere_ns);
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin

@@ -8,17 +8,14 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/space.hpp"
-#include "compute/tools/tool.hpp"
 
-namespace burin::sculpt {
+namespace burin::toolbox {
 
 struct Mirror {
     std::array<bool, 3> across{};  // the planes of constant x, y, z
@@ -47,23 +44,4 @@ struct MirrorImage {
 // in its own frame across its plane of constant x, because a pose turns and cannot reflect.
 [[nodiscard]] Pose image_of(const Pose& object_from_tool, const MirrorImage& image, const Vec3& middle_object);
 
-// Adds the images to sweeps. Keeps the image of the last mesh that was a tool, which takes long to make.
-class StrokeMirror {
-public:
-    explicit StrokeMirror(const Vec3& middle_object) : middle_object_(middle_object) {}
-
-    void set(const Mirror& mirror) { mirror_ = mirror; }
-    [[nodiscard]] const Mirror& mirror() const { return mirror_; }
-    // Returns each sweep, with its images behind it. Fails where a mesh is no tool (compute/tools/mesh_tool.hpp).
-    [[nodiscard]] Result<std::vector<compute::ToolSweep>> with_images(std::span<const compute::ToolSweep> sweeps);
-
-private:
-    [[nodiscard]] Result<compute::ToolShape> reflected(const compute::ToolShape& shape);
-
-    Vec3 middle_object_;
-    Mirror mirror_;
-    std::shared_ptr<const geometry::TriangleMesh> mesh_;  // whose image this is
-    compute::MeshTool image_;
-};
-
-}  // namespace burin::sculpt
+}  // namespace burin::toolbox

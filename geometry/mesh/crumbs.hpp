@@ -11,7 +11,7 @@
 #include "base/length_unit.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
-namespace burin::sculpt {
+namespace burin::geometry {
 
 // Crumbs up to here are dropped where nothing else is asked for, in cells of the lattice: a crumb of so few cells has
 // no shape of its own.
@@ -25,7 +25,7 @@ struct DroppedCrumbs {
 // Drops the shells whose longest side is below this length, and the hollows within their boxes; returns how many shells
 // that is. Hollows of what stays are kept, and so is always the shell of the longest side. Takes a closed mesh of
 // numbers in the unit, whose shells share no vertex; 0 drops nothing.
-DroppedCrumbs drop_crumbs(geometry::TriangleMesh& numbers, LengthUnit unit, double below_m);
+DroppedCrumbs drop_crumbs(TriangleMesh& numbers, LengthUnit unit, double below_m);
 
 // Says so in words: "dropped 7 crumbs smaller than 0.5 mm"; empty where there were none.
 [[nodiscard]] std::string in_words(const DroppedCrumbs& dropped);
@@ -33,4 +33,4 @@ DroppedCrumbs drop_crumbs(geometry::TriangleMesh& numbers, LengthUnit unit, doub
 // Checks the length of --crumbs, which is finite and not negative.
 [[nodiscard]] Result<void> check_crumbs(std::optional<double> below_m);
 
-}  // namespace burin::sculpt
+}  // namespace burin::geometry

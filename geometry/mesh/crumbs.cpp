@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/crumbs.hpp"
+#include "geometry/mesh/crumbs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "geometry/mesh/edge_table.hpp"
 
-namespace burin::sculpt {
+namespace burin::geometry {
 namespace {
 
 // A closed piece of the surface.
@@ -31,8 +31,8 @@ struct ShellsOfMesh {
     std::vector<Shell> shells;
 };
 
-ShellsOfMesh shells_of(const geometry::TriangleMesh& mesh) {
-    geometry::DisjointSets joined(mesh.positions_m.size());
+ShellsOfMesh shells_of(const TriangleMesh& mesh) {
+    DisjointSets joined(mesh.positions_m.size());
     for (const auto& t : mesh.triangles) {
         joined.unite(t[0], t[1]);
         joined.unite(t[0], t[2]);
@@ -79,7 +79,7 @@ std::size_t mark_crumbs(std::vector<Shell>& shells, double below) {
 }
 
 // Keeps the triangles of the shells that stay, and the vertices that these use, in their order.
-void keep_rest(geometry::TriangleMesh& mesh, const ShellsOfMesh& found) {
+void keep_rest(TriangleMesh& mesh, const ShellsOfMesh& found) {
     std::vector<bool> used(mesh.positions_m.size(), false);
     const bool has_materials = !mesh.triangle_materials.empty();
     std::size_t kept = 0;
@@ -108,7 +108,7 @@ void keep_rest(geometry::TriangleMesh& mesh, const ShellsOfMesh& found) {
 
 }  // namespace
 
-DroppedCrumbs drop_crumbs(geometry::TriangleMesh& numbers, LengthUnit unit, double below_m) {
+DroppedCrumbs drop_crumbs(TriangleMesh& numbers, LengthUnit unit, double below_m) {
     DroppedCrumbs dropped{0, below_m};
     if (!(below_m > 0.0) || numbers.triangles.empty()) return dropped;
     ShellsOfMesh found = shells_of(numbers);
@@ -129,4 +129,4 @@ Result<void> check_crumbs(std::optional<double> below_m) {
                 "give below which size loose pieces are dropped, in metres, or leave the option out");
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::geometry
