@@ -9,6 +9,7 @@
 #include "activities/rehab/rehab.hpp"
 #include "activities/seek/seek.hpp"
 #include "activities/train/recorded_visit.hpp"
+#include "activities/world/exploration.hpp"
 #include "base/try.hpp"
 
 namespace burin::activities {
@@ -30,6 +31,7 @@ Result<session::MadeActivity> rehab_as_recorded(const std::string& settings, con
 }
 
 constexpr std::array kActivityKinds{
+    ActivityKind{Exploration::kName, "A world is explored along a stroke by a simulated hand", exploration_as_recorded},
     ActivityKind{"seek", "Objects of a world are touched as they are named", seek_as_recorded},
     ActivityKind{"hand", "A hand in a glove grasps and carries the objects of a world", grasp_as_recorded},
     ActivityKind{"rehab", "An exercise for a hand in a glove: what its hand does is counted", rehab_as_recorded},

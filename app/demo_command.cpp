@@ -22,8 +22,10 @@
 #include "base/assets.hpp"
 #include "base/try.hpp"
 #include "desk/draw/pictures.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "scene/vrml_world.hpp"
+#include "scene/world_file.hpp"
 
 namespace burin::app {
 namespace {
@@ -34,9 +36,7 @@ constexpr std::array kPictured{
     std::pair(activities::CubeCase::both, "both.png"), std::pair(activities::CubeCase::against, "single-point.png")};
 
 struct CubeWorld {
-    std::vector<scene::ObjectId> ids;
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
+    activities::ExploredWorld world;
     Box cube_scene_m;  // of the object to be pressed
 };
 
@@ -45,13 +45,13 @@ Result<void> open_cube(CubeWorld& to, const std::string& path) {
     scene::WorldOrProblems world = scene::read_any_world(path);
     if (!world) return std::unexpected(world.error().front());
     for (const scene::SceneObject& object : world->objects) {
-        to.ids.push_back(object.id);
         if (!object.felt || !to.cube_scene_m.empty()) continue;
         for (const Vec3& p : object.mesh->positions_m) to.cube_scene_m.include(object.pose * (object.scale * p));
     }
     if (to.cube_scene_m.empty()) return fail(path, "has nothing to touch", "name a world with a cube");
-    BURIN_TRY(part, scene::MeshPart::create(std::move(world->objects), to.materials));
-    to.part = std::move(part);
+    to.world = {.file = path,
+                .scene = std::make_shared<const scene::World>(std::move(*world)),
+                .device = std::string(devices::kSimulatedWand)};
     return {};
 }
 
@@ -67,7 +67,7 @@ activities::WandPose pose_in_case(const activities::CubeMeasure& measure) {
 Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& world,
                         const activities::PressedCube& test, const devices::WandDescription& wand, double radius_m) {
     BURIN_TRY(pictures, PictureFolder::create(folder.string(), "--out"));
-    const activities::WorldView view(*world.part, world.ids, radius_m);
+    const activities::WorldView view(session::DrawnWorld(world.world.scene->objects), radius_m);
     const activities::WandView avatar(wand, wand.gain, radius_m);
     activities::WandCamera camera;
     // From the side on which the wand is, so that the face that is pressed is seen along.
@@ -144,7 +144,7 @@ Result<void> demo_wand(const CubeDemo& o) {
     CubeWorld cube;
     BURIN_TRY_DO(open_cube(cube, o.world));
     BURIN_TRY_DO(session::make_picture_folder(o.out, "--out"));
-    BURIN_TRY(test, activities::press_cube(*cube.part, cube.materials, cube.cube_scene_m, described, o.radius_m));
+    BURIN_TRY(test, activities::press_cube(cube.world, cube.cube_scene_m, described, o.radius_m));
     BURIN_TRY_DO(write_figures(o.out, test, o.world));
     if (!o.no_pictures) BURIN_TRY_DO(draw_cases(o.out, cube, test, described, o.radius_m));
     print_findings(test);

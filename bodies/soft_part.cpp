@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/try.hpp"
 #include "bodies/solver/plastic_flow.hpp"
 #include "geometry/contact/local_surface.hpp"
 #include "scene/scene_changes.hpp"
@@ -228,15 +229,86 @@ Vec3 SoftPart::push_m_per_s2() const {
     return frame_.pose().orientation * sum_N / mass_kg_;
 }
 
+bool SoftPart::is_still() const {
+    return std::ranges::all_of(state_.velocities_m_per_s, [](const Vec3& velocity_m_per_s) {
+        return glm::dot(velocity_m_per_s, velocity_m_per_s) <= kAtRest_m_per_s * kAtRest_m_per_s;
+    });
+}
+
 bool SoftPart::rests() const {
-    if (!contacts_.empty()) return false;
-    const auto square = [](const Vec3& v) { return glm::dot(v, v); };
-    const bool returns = held_at_m_.empty();  // one that has flowed has other places at rest
-    for (std::uint32_t i = 0; i < body_.corners(); ++i)
-        if (square(state_.velocities_m_per_s[i]) > kAtRest_m_per_s * kAtRest_m_per_s ||
-            (returns && square(state_.places_m[i] - body_.rest().places_m[i]) > kAtRest_m * kAtRest_m))
-            return false;
+    if (!contacts_.empty() || !is_still()) return false;
+    if (!held_at_m_.empty()) return true;  // one that has flowed has other places at rest
+    for (std::uint32_t i = 0; i < body_.corners(); ++i) {
+        const Vec3 away_m = state_.places_m[i] - body_.rest().places_m[i];
+        if (glm::dot(away_m, away_m) > kAtRest_m * kAtRest_m) return false;
+    }
     return true;
+}
+
+// ---- Dents
+
+bool SoftPart::is_pressed() const {
+    return setup_.material.is_plastic() && std::ranges::any_of(contacts_, [this](const SoftContact& contact) {
+               return contact.force_N(state_.places_m) > 0.0;
+           });
+}
+
+void SoftPart::take(SoftShapeKept shape) {
+    state_.places_m = std::move(shape.places_m);
+    std::ranges::fill(state_.velocities_m_per_s, Vec3(0.0));
+    held_at_m_ = std::move(shape.held_at_m);
+    take_rest_shapes(body_, state_, shape.metrics);
+    has_moved_ = true;
+}
+
+void SoftPart::follow_dents() {
+    if (dents_.goes_on() && !is_pressed() && is_still()) dents_.end();
+    while (!waiting_.empty() && has_gone(waiting_.front())) waiting_.erase(waiting_.begin());
+}
+
+bool SoftPart::has_gone(scene::StepWay way) {
+    if (way != scene::StepWay::forget && is_pressed()) return false;
+    SoftShapeKept now = shape();
+    if (const SoftShapeKept* const next = dents_.next(way)) {
+        SoftState before = state_;
+        take(*next);
+        find_contacts();
+        if (is_pressed()) {
+            state_ = std::move(before);
+            held_at_m_ = now.held_at_m;
+            find_contacts();
+            return false;
+        }
+    }
+    static_cast<void>(dents_.go(way, std::move(now)));
+    walked_ += way == scene::StepWay::forget ? 0 : 1;
+    return true;
+}
+
+scene::PartSteps SoftPart::undo_steps() const {
+    scene::PartSteps steps = dents_.steps();
+    steps.walked = walked_;
+    return steps;
+}
+
+Result<void> SoftPart::save(scene::Pages& pages) {
+    if (!setup_.material.is_plastic()) return ScenePart::save(pages);
+    dents_.save(pages);
+    save_body(setup_, shape(), pages);
+    return {};
+}
+
+Result<void> SoftPart::load(const scene::Pages& pages, const scene::Steps& steps,
+                            std::span<const scene::Pages> each_step, const std::string& where) {
+    BURIN_TRY(saved, load_body(setup_, body_, pages, where));
+    std::vector<SoftShapeKept> shapes;
+    for (const scene::Pages& step : each_step) {
+        BURIN_TRY(shape, shape_in(body_, step, where));
+        shapes.push_back(std::move(shape));
+    }
+    dents_.load(steps, std::move(shapes));
+    take(std::move(saved));
+    return {};
 }
 
 Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recorded*/) {
@@ -250,6 +322,7 @@ Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recor
     const int steps = rests() ? 0 : static_cast<int>(std::min<Nanoseconds>(due, kMostSteps));
     for (int i = 0; i < steps; ++i) {
         if (i > 0) find_contacts();
+        if (is_pressed() && !dents_.goes_on()) dents_.begin(shape());
         solver_.step(body_, state_,
                      {seconds(setup_.step_ns), setup_.sweeps, Vec3(0.0), contacts_, holds_N_per_m_, held_at_m_});
         if (!held_at_m_.empty()) follow_shape(body_, state_, holds_N_per_m_, held_at_m_);
@@ -257,6 +330,7 @@ Result<void> SoftPart::update(Nanoseconds now_ns, const scene::PartSeen* /*recor
     }
     make_models(now_ns);
     has_moved_ = has_moved_ || steps > 0;
+    follow_dents();
     return {};
 }
 

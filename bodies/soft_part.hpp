@@ -9,6 +9,8 @@
 // body at rest. It says how the body gives when it is pressed slowly, which is what a finger does within a step of 4 ms
 // (docs/decisions/030-bodies-that-give.md). The body is held in its frame by springs on its core. The frame stands,
 // goes with a hand or flies (bodies/body_frame.hpp); what its acceleration does inside the body is not felt.
+// The dents of a plastic body are steps (bodies/soft_dents.hpp). One that is taken back while somebody presses the
+// body, or would with the shape from before, waits until nobody does: no finger is to find itself in the body.
 // Hardest cases: an update that comes late steps kMostSteps at most and leaves the rest of the time out, and its
 // old models fade by themselves. A body at rest that nobody is near is not stepped. Frame: the scene's; the body's own
 // has its middle at the origin. Deterministic: an update depends on its time and its ticks alone. Threads: as any
@@ -19,10 +21,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bodies/body_frame.hpp"
 #include "bodies/mesh/embedded_surface.hpp"
+#include "bodies/soft_dents.hpp"
 #include "bodies/solver/soft_body.hpp"
 #include "bodies/solver/soft_step.hpp"
 #include "geometry/contact/local_model.hpp"
@@ -70,6 +75,15 @@ public:
     [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
     [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;
     [[nodiscard]] Nanoseconds period_ns() const override { return setup_.step_ns; }
+    // Of a plastic body; one that is elastic has no steps, and is not saved.
+    [[nodiscard]] scene::PartSteps undo_steps() const override;
+    void go(scene::StepWay way) override { waiting_.push_back(way); }
+    [[nodiscard]] Result<void> save(scene::Pages& pages) override;
+    [[nodiscard]] bool is_kept() const override { return setup_.material.is_plastic(); }
+    // Has it go on as it was saved, before its first update; steps: of the pages, those from first to last. Fails where
+    // these are of another body, or damaged; it is then as it was.
+    [[nodiscard]] Result<void> load(const scene::Pages& pages, const scene::Steps& steps,
+                                    std::span<const scene::Pages> each_step, const std::string& where);
 
     [[nodiscard]] const SoftPartSetup& setup() const { return setup_; }
     // Adds a SoftShape where it has moved since the last call, and at first. Its triangles stay the same.
@@ -107,6 +121,13 @@ private:
     void make_models(Nanoseconds now_ns);
     [[nodiscard]] Vec3 push_m_per_s2() const;
     [[nodiscard]] bool rests() const;
+    [[nodiscard]] bool is_pressed() const;
+    [[nodiscard]] bool is_still() const;
+    [[nodiscard]] SoftShapeKept shape() const { return {state_.places_m, held_at_m_, state_.flow.metrics}; }
+    void take(SoftShapeKept shape);
+    // Goes a step, unless somebody would then press the body; returns whether it has.
+    [[nodiscard]] bool has_gone(scene::StepWay way);
+    void follow_dents();
 
     SoftPartSetup setup_;
     BodyFrame frame_;
@@ -126,6 +147,9 @@ private:
     std::optional<Nanoseconds> stepped_to_ns_;
     std::uint64_t steps_ = 0;
     bool has_moved_ = true;  // since the frames were told
+    SoftDents dents_;
+    std::vector<scene::StepWay> waiting_;  // until nobody presses it
+    std::uint64_t walked_ = 0;             // PartSteps::walked
     scene::PartSeen seen_;
 };
 

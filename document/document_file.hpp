@@ -9,10 +9,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "document/history.hpp"
 #include "record/store_file.hpp"
 #include "scene/pages.hpp"
 
@@ -44,7 +46,12 @@ struct Content {
     std::map<std::string, std::string> facts = {};
     std::vector<std::string> commands = {};  // of a session (session/state/command_table.hpp), in their order
     std::vector<scene::Pages> parts = {};
+    std::optional<History> history = {};  // of the steps of all parts; nothing: nobody keeps one
 };
+
+// The history lies in the tables of steps as the one step, and in those of changes as a page, of a part of its own.
+inline constexpr std::int64_t kHistoryPart = -1, kHistoryStep = 1;
+inline constexpr const char* kOrderPage = "order";
 
 // Returns whether a name is a document's, by its ending.
 [[nodiscard]] bool is_document_name(std::string_view path);

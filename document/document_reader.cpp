@@ -187,6 +187,27 @@ Result<scene::Pages> DocumentReader::numbered(const char* table, const PartPlace
     return pages;
 }
 
+Result<std::optional<History>> DocumentReader::history() {
+    const PartPlace own{.number = kHistoryPart, .kind = kOrderPage};
+    BURIN_TRY(there, steps(own));
+    if (!there) return std::nullopt;
+    BURIN_TRY(pages, step(own, kHistoryStep));
+    return history_in(pages);
+}
+
+Result<std::optional<History>> DocumentReader::history_after(std::int64_t change) {
+    BURIN_TRY(pages, numbered("change", {.number = kHistoryPart, .kind = kOrderPage}, change));
+    if (pages.pages.empty()) return std::nullopt;
+    return history_in(pages);
+}
+
+Result<std::optional<History>> DocumentReader::history_in(const scene::Pages& pages) const {
+    const std::vector<std::byte>* const bytes = pages.find({kOrderPage, 0});
+    std::optional<History> read = bytes != nullptr ? History::from(*bytes) : std::nullopt;
+    if (!read) return fail(path_ + ": the order of its steps", "is damaged");
+    return read;
+}
+
 Result<scene::Pages> DocumentReader::pages_of(std::string_view kind) {
     const auto at = std::ranges::find(parts_, kind, &PartPlace::kind);
     if (at == parts_.end())

@@ -48,6 +48,10 @@ public:
     [[nodiscard]] Result<std::optional<scene::Steps>> steps(const PartPlace& part);
     // Returns the pages of a step, each numbered 0. Fails where one of them is damaged, or there is none.
     [[nodiscard]] Result<scene::Pages> step(const PartPlace& part, std::int64_t number);
+    // Returns the order of all parts' steps as the pages are, or as it was after a change; nothing where none is there,
+    // as in older documents, or where it is not of this save. Fails where it is damaged.
+    [[nodiscard]] Result<std::optional<History>> history();
+    [[nodiscard]] Result<std::optional<History>> history_after(std::int64_t change);
     // Reads those of the first part of a kind.
     [[nodiscard]] Result<scene::Pages> pages_of(std::string_view kind);
 
@@ -57,6 +61,7 @@ private:
     [[nodiscard]] Result<void> read_commands();
     [[nodiscard]] Result<void> read_parts();
     [[nodiscard]] Result<void> count_changes();
+    [[nodiscard]] Result<std::optional<History>> history_in(const scene::Pages& pages) const;
     [[nodiscard]] Result<scene::Pages> numbered(const char* table, const PartPlace& part, std::int64_t number);
     [[nodiscard]] Result<std::vector<std::byte>> page(const char* table, std::int64_t part,
                                                       const scene::PageName& name);

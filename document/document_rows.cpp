@@ -46,6 +46,15 @@ Result<void> put_history(Database& database, std::int64_t part, const scene::Ste
                      std::int64_t{crc_of(part, saved.version.saves, steps)}});
 }
 
+Result<void> drop_steps(Database& database, std::int64_t part) {
+    BURIN_TRY_DO(run_with(database, "DELETE FROM step WHERE part = ?", {part}));
+    return run_with(database, "DELETE FROM history WHERE part = ?", {part});
+}
+
+const char* name_of(Table table) { return table == Table::page ? "page" : table == Table::change ? "change" : "step"; }
+
+}  // namespace
+
 Result<void> put_steps(Database& database, std::int64_t part, const scene::Steps& steps, Saved& saved) {
     BURIN_TRY_DO(run_with(database, "DELETE FROM step WHERE part = ? AND (number < ? OR number > ?)",
                           {part, steps.first, steps.last}));
@@ -59,15 +68,6 @@ Result<void> put_steps(Database& database, std::int64_t part, const scene::Steps
     }
     return put_history(database, part, steps, saved);
 }
-
-Result<void> drop_steps(Database& database, std::int64_t part) {
-    BURIN_TRY_DO(run_with(database, "DELETE FROM step WHERE part = ?", {part}));
-    return run_with(database, "DELETE FROM history WHERE part = ?", {part});
-}
-
-const char* name_of(Table table) { return table == Table::page ? "page" : table == Table::change ? "change" : "step"; }
-
-}  // namespace
 
 Result<void> put_fact(Database& database, const std::string& key, const std::string& value) {
     BURIN_TRY(fact, database.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)"));
@@ -104,7 +104,10 @@ Result<void> put_content(Database& database, const Content& content, Saved& save
         const auto kept = pages.steps ? put_steps(database, number, *pages.steps, saved) : drop_steps(database, number);
         if (!kept) return kept;
     }
-    return {};
+    if (!content.history) return drop_steps(database, kHistoryPart);
+    scene::Steps order{.first = kHistoryStep, .done = kHistoryStep, .last = kHistoryStep};
+    order.pages[{kOrderPage, kHistoryStep}] = content.history->bytes();
+    return put_steps(database, kHistoryPart, order, saved);
 }
 
 }  // namespace burin::document

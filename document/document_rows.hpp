@@ -18,6 +18,10 @@ enum class Table : std::uint8_t { page, change, step };
 // Compresses and puts one page, or one page of a change or of a step.
 [[nodiscard]] Result<void> put_page(record::Database& database, Table table, std::int64_t part,
                                     const scene::PageName& name, const std::vector<std::byte>& bytes, Saved& saved);
+// Puts the steps that are new in the place of those that are there, and says which there are. saved.version: of which
+// save.
+[[nodiscard]] Result<void> put_steps(record::Database& database, std::int64_t part, const scene::Steps& steps,
+                                     Saved& saved);
 [[nodiscard]] Result<void> put_fact(record::Database& database, const std::string& key, const std::string& value);
 
 }  // namespace burin::document

@@ -30,6 +30,16 @@ Result<void> in_transaction(Database& database, Write write) {
     return done;
 }
 
+// Puts one change, with its steps, within a transaction.
+Result<void> put_change(Database& database, const Change& change, std::int64_t number) {
+    Saved ignored;
+    for (const auto& [name, bytes] : change.pages.pages)
+        BURIN_TRY_DO(put_page(database, Table::change, change.part, {name.kind, number}, bytes, ignored));
+    if (change.pages.steps) BURIN_TRY_DO(put_steps(database, change.part, *change.pages.steps, ignored));
+    if (!change.history) return {};
+    return put_page(database, Table::change, kHistoryPart, {kOrderPage, number}, change.history->bytes(), ignored);
+}
+
 }  // namespace
 
 Result<Journal> Journal::begin(const std::string& path, const Content& beginning, const std::string& vfs) {
@@ -52,15 +62,7 @@ Result<void> Journal::add(const std::vector<Change>& changes) {
     Database& database = file_.database();
     std::int64_t number = changes_;
     const Result<void> done = in_transaction(database, [&]() -> Result<void> {
-        for (const Change& change : changes) {
-            ++number;
-            Saved ignored;
-            for (const auto& [name, bytes] : change.pages.pages)
-                if (const auto put =
-                        put_page(database, Table::change, change.part, {name.kind, number}, bytes, ignored);
-                    !put)
-                    return put;
-        }
+        for (const Change& change : changes) BURIN_TRY_DO(put_change(database, change, ++number));
         return {};
     });
     if (!done) return done;

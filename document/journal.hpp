@@ -8,6 +8,7 @@
 // Thread: one, the writer's (document/document_writer.hpp). Failures are Errors that name the file and the remedy.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,12 @@
 
 namespace burin::document {
 
-// A change: what pages of one part hold after it.
+// A change: what pages of one part hold after it. Its steps, where it names them, are all that there are then, with the
+// pages of those that are new; history: the order of all parts' steps then, where the change says it.
 struct Change {
     std::int64_t part = 0;
     scene::Pages pages = {};
+    std::optional<History> history = {};
 };
 
 class Journal {

@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are copied as
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<Colour, 3>) == 9, "without gaps");
 
 constexpr const char *kObject = "object", *kMesh = "mesh", *kColours = "colours";
-constexpr std::string_view kChanged = "object ";
+constexpr std::string_view kChanged = "object ", kWas = "was ", kIs = "is ";
 constexpr std::int64_t kPieces = 4096;  // that numbers have room for
 using Bytes = std::vector<std::byte>;
 
@@ -225,6 +225,24 @@ SceneObject lost_object(ObjectId id) {
             .motion = {}};
 }
 
+// Reads the values of an object from a page of this kind and its number, "object 3"; nothing where the page is damaged,
+// or the object is none of these.
+std::optional<SceneObject> object_named(const PageName& name, std::string_view kind, const Bytes& bytes,
+                                        std::span<const SceneObject> objects,
+                                        std::span<const std::shared_ptr<const CornerColours>> colours) {
+    ObjectId id = 0;
+    if (name.kind.starts_with(kind))
+        std::from_chars(name.kind.data() + kind.size(), name.kind.data() + name.kind.size(), id);
+    std::optional<ReadObject> read = id >= 1 && id <= objects.size() ? object_in(bytes, id) : std::nullopt;
+    if (!read) return std::nullopt;
+    const SceneObject& before = objects[id - 1];
+    read->object.mesh = before.mesh;
+    read->object.name = before.name;
+    if (read->has_colours) read->object.corner_colours = colours[id - 1];
+    if (!is_sound(read->object)) read->object.seen = read->object.felt = false;
+    return std::move(read->object);
+}
+
 }  // namespace
 
 std::vector<std::byte> object_bytes(const SceneObject& object, std::size_t mesh) {
@@ -319,20 +337,35 @@ Result<void> apply_change(std::vector<SceneObject>& objects,
                           const std::string& where) {
     std::vector<SceneObject> changed;
     for (const auto& [name, bytes] : change.pages) {
-        ObjectId id = 0;
-        if (name.kind.starts_with(kChanged))
-            std::from_chars(name.kind.data() + kChanged.size(), name.kind.data() + name.kind.size(), id);
-        std::optional<ReadObject> read = id >= 1 && id <= objects.size() ? object_in(bytes, id) : std::nullopt;
-        if (!read) return fail(where, "a change of an object is damaged", "what was before it opens");
-        const SceneObject& before = objects[id - 1];
-        read->object.mesh = before.mesh;
-        read->object.name = before.name;
-        if (read->has_colours) read->object.corner_colours = colours[id - 1];
-        if (!is_sound(read->object)) read->object.seen = read->object.felt = false;
-        changed.push_back(std::move(read->object));
+        std::optional<SceneObject> object = object_named(name, kChanged, bytes, objects, colours);
+        if (!object) return fail(where, "a change of an object is damaged", "what was before it opens");
+        changed.push_back(std::move(*object));
     }
     for (SceneObject& object : changed) objects[object.id - 1] = std::move(object);
     return {};
+}
+
+void save_step(const ObjectStep& step, std::int64_t number, std::size_t mesh,
+               std::map<PageName, std::vector<std::byte>>& pages) {
+    const std::string id = std::to_string(step.before->id);
+    pages[{std::string(kWas) + id, number}] = object_bytes(*step.before, mesh);
+    pages[{std::string(kIs) + id, number}] = object_bytes(*step.after, mesh);
+}
+
+Result<ObjectStep> step_in(std::span<const SceneObject> objects,
+                           std::span<const std::shared_ptr<const CornerColours>> colours, const Pages& step,
+                           const std::string& where) {
+    ObjectStep read;
+    for (const auto& [name, bytes] : step.pages) {
+        auto& into = name.kind.starts_with(kWas) ? read.before : read.after;
+        std::optional<SceneObject> object =
+            object_named(name, name.kind.starts_with(kWas) ? kWas : kIs, bytes, objects, colours);
+        if (!object || into) return fail(where, "a step of undo is damaged");
+        into = std::make_shared<const SceneObject>(std::move(*object));
+    }
+    if (!read.before || !read.after || read.before->id != read.after->id)
+        return fail(where, "a step of undo is damaged");
+    return read;
 }
 
 }  // namespace burin::scene

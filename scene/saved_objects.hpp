@@ -6,6 +6,7 @@
 //             then x, y, z of each vertex, f64, in metres; then the three vertices of each triangle, u32. Meshes are
 //             numbered from 0, and objects share them. What is more than kMostPieceBytes goes on in the next piece.
 //   object I  in a change of a journal: the values that the object has from then on, as in its page
+//   was I, is I   in a step of undo, by the step's number: the values of the object before and after it
 //   colours   page I, pieces as of a mesh: three sRGB colours, of three bytes each, for each triangle of the object
 //
 // Meshes and colours of a file's own stay as long as the world does, so an update writes pages of objects alone.
@@ -15,6 +16,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "scene/object_step.hpp"
 #include "scene/pages.hpp"
 #include "scene/scene_object.hpp"
 
@@ -59,5 +62,14 @@ struct LoadedObjects {
 [[nodiscard]] Result<void> apply_change(std::vector<SceneObject>& objects,
                                         std::span<const std::shared_ptr<const CornerColours>> colours,
                                         const Pages& change, const std::string& where);
+
+// Puts a step of this number into pages; mesh: of its object.
+void save_step(const ObjectStep& step, std::int64_t number, std::size_t mesh,
+               std::map<PageName, std::vector<std::byte>>& pages);
+// Returns the step of these pages, each numbered 0. The objects are those of the document, the colours of their files.
+// Fails where a page is damaged, or of an object that there is not.
+[[nodiscard]] Result<ObjectStep> step_in(std::span<const SceneObject> objects,
+                                         std::span<const std::shared_ptr<const CornerColours>> colours,
+                                         const Pages& step, const std::string& where);
 
 }  // namespace burin::scene

@@ -16,6 +16,7 @@
 #include "scene/contact_events.hpp"
 #include "scene/drawn_change.hpp"
 #include "scene/haptic_material.hpp"
+#include "scene/part_steps.hpp"
 #include "scene/scene_object.hpp"
 
 namespace burin::scene {
@@ -49,7 +50,14 @@ struct HandNews {
     }
 };
 
+// The steps of a part, by its number among those of the scene.
+struct StepsOfPart {
+    std::size_t part = 0;
+    PartSteps steps;
+};
+
 struct SceneChanges {
+    std::vector<StepsOfPart> steps;          // where they have changed
     std::vector<ObjectUpdate> objects;       // the newest last
     std::optional<MaterialTable> materials;  // where they have changed
     std::vector<std::shared_ptr<DrawnChange>> drawn;

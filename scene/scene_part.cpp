@@ -12,6 +12,8 @@ void ScenePart::take_contacts(std::span<const ContactEvent> /*events*/) {}
 
 void ScenePart::take_changes(SceneChanges& /*changes*/) {}
 
+void ScenePart::go(StepWay /*way*/) {}
+
 Result<void> ScenePart::save(Pages& /*pages*/) {
     return fail("a part of the scene", "cannot be saved yet", "export it, or save a session without it");
 }

@@ -17,6 +17,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/space.hpp"
+#include "scene/part_steps.hpp"
 #include "scene/scene_update.hpp"
 
 namespace burin::geometry {
@@ -79,6 +80,13 @@ public:
     // the last call, as they ask. Fails where the part cannot be saved, with the reason. What was saved is loaded by
     // whoever makes the part.
     [[nodiscard]] virtual Result<void> save(Pages& pages);
+    // Returns whether save() can give it.
+    [[nodiscard]] virtual bool is_kept() const { return false; }
+    // Returns which steps there are that lead back and forward; none where nothing that it does is undone.
+    [[nodiscard]] virtual PartSteps undo_steps() const { return {}; }
+    // Takes its last step back, repeats the one that was taken back last, or forgets those; an order, which is counted
+    // in PartSteps::walked once it is carried out, also where there is no such step. What goes on is ended before.
+    virtual void go(StepWay way);
 };
 
 }  // namespace burin::scene

@@ -93,6 +93,10 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
 
 void SceneService::take_changes(SceneChanges& changes) {
     for (ScenePart* part : parts_) part->take_changes(changes);
+    told_steps_.resize(parts_.size());
+    for (std::size_t part = 0; part < parts_.size(); ++part)
+        if (const PartSteps steps = parts_[part]->undo_steps(); std::exchange(told_steps_[part], steps) != steps)
+            changes.steps.push_back({part, steps});
     std::ranges::move(std::exchange(contacts_, {}), std::back_inserter(changes.hands.contacts));
 }
 

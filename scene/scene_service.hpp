@@ -86,6 +86,7 @@ private:
     std::vector<haptics::TickRecord> ticks_;  // of one hand in one update
     std::vector<ContactFollower> followers_;  // of each hand
     std::vector<ContactEvent> contacts_;      // of one update, until they are told
+    std::vector<PartSteps> told_steps_;       // of each part, as the frames know them
     bool hands_move_ = false;
     SceneUpdate seen_;
 };

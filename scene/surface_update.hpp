@@ -13,8 +13,11 @@
 
 #include "base/clock.hpp"
 #include "base/space.hpp"
-#include "geometry/contact/surface_tile.hpp"
 #include "scene/drawn_change.hpp"
+
+namespace burin::geometry {
+struct SurfaceTile;  // geometry/contact/surface_tile.hpp
+}
 
 namespace burin::compute {
 struct TileLight;  // compute/light/tile_light.hpp

@@ -221,7 +221,8 @@ std::optional<scene::SurfaceUpdate> CarvedPart::take_surface_update() {
 void CarvedPart::order(const SculptOrder& order) {
     const bool walks = std::holds_alternative<UndoStroke>(order) || std::holds_alternative<RedoStroke>(order);
     const bool writes = std::holds_alternative<ExportSurface>(order) || std::holds_alternative<SaveScene>(order);
-    const bool follows = !waiting_.empty() && writes;
+    const bool forgets = std::holds_alternative<ForgetUndone>(order);
+    const bool follows = !waiting_.empty() && (writes || forgets);
     if (follows || (walks && (pressed() || !waiting_.empty()))) {
         waiting_.push_back(order);
         return;
@@ -267,6 +268,7 @@ void CarvedPart::use_tool(Carver& carver, const UseTool& use) {
 void CarvedPart::carry_out(const UndoStroke&) {
     sculpture_.end_stroke();
     ++edits_;
+    ++walked_;
     const Result<std::size_t> undone = sculpture_.undo(1);
     if (!undone) return notify(undone.error().line());
     if (*undone == 0) notify("there is no stroke to undo");
@@ -274,9 +276,33 @@ void CarvedPart::carry_out(const UndoStroke&) {
 
 void CarvedPart::carry_out(const RedoStroke&) {
     ++edits_;
+    ++walked_;
     const Result<std::size_t> redone = sculpture_.redo(1);
     if (!redone) return notify(redone.error().line());
     if (*redone == 0) notify("there is no stroke to redo");
+}
+
+void CarvedPart::carry_out(const ForgetUndone&) {
+    if (compute::History* const history = sculpture_.history()) history->forget_undone();
+}
+
+scene::PartSteps CarvedPart::undo_steps() const {
+    const compute::History* const history = sculpture_.history();
+    if (history == nullptr) return {};
+    const std::int64_t done = history->first() + static_cast<std::int64_t>(history->undoable()) - 1;
+    return {.first = history->first(),
+            .done = done,
+            .last = done + static_cast<std::int64_t>(history->redoable()),
+            .made = history->made(),
+            .walked = walked_};
+}
+
+void CarvedPart::go(scene::StepWay way) {
+    switch (way) {
+        case scene::StepWay::back: return order(UndoStroke{});
+        case scene::StepWay::forward: return order(RedoStroke{});
+        case scene::StepWay::forget: return order(ForgetUndone{});
+    }
 }
 
 // Copies the surface and the rays: tiles are shared, so the rays are the only large part of the copy.

@@ -78,6 +78,9 @@ public:
     [[nodiscard]] Nanoseconds period_ns() const override { return busy_ ? kBusy_ns : kResting_ns; }
     void finish() override;
     [[nodiscard]] Result<void> save(scene::Pages& pages) override { return sculpture_.save(pages); }
+    // Its steps are strokes, the one that goes on among them.
+    [[nodiscard]] scene::PartSteps undo_steps() const override;
+    void go(scene::StepWay way) override;
 
     // As a scene::SurfaceChange.
     void take_changes(scene::SceneChanges& changes) override;
@@ -100,6 +103,7 @@ private:
     void carry_out(const MirrorStrokes& with) { sculpture_.mirror(with.mirror); }
     void carry_out(const UndoStroke&);
     void carry_out(const RedoStroke&);
+    void carry_out(const ForgetUndone&);
     void carry_out(const ExportSurface& wanted);
     void carry_out(const LightFrom& from);
     void carry_out(const SaveScene& wanted);
@@ -124,7 +128,8 @@ private:
     bool busy_ = true;                  // there was something to report after the last update
     std::vector<SculptOrder> waiting_;  // for the end of a stroke
     std::optional<Nanoseconds> waiting_since_ns_;
-    TakeChange journal_;  // null: nobody keeps one
+    std::uint64_t walked_ = 0;  // PartSteps::walked
+    TakeChange journal_;        // null: nobody keeps one
     Nanoseconds journal_told_ns_ = 0;
     std::future<scene::ExportOutcome> export_;
     std::vector<std::string> messages_;

@@ -27,6 +27,8 @@ struct MirrorStrokes {
 };
 struct UndoStroke {};
 struct RedoStroke {};
+// What was undone is not repeated any more: something else was done.
+struct ForgetUndone {};
 struct ExportSurface {
     std::string path;    // .stl, .ply or .obj
     std::string name{};  // what the message calls it; empty: its path
@@ -42,6 +44,7 @@ struct LightFrom {
 struct SaveScene {
     std::function<void()> save;
 };
-using SculptOrder = std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ExportSurface, LightFrom, SaveScene>;
+using SculptOrder =
+    std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ForgetUndone, ExportSurface, LightFrom, SaveScene>;
 
 }  // namespace burin::sculpt

@@ -149,6 +149,12 @@ Rehab::Rehab(std::unique_ptr<Exercise> exercise)
     if (values.has("start") && values.number("start") == kStartsAsked) control_.phase = RunPhase::ready;
 }
 
+Result<void> Rehab::load_body(const scene::Pages& pages, const scene::Steps& steps,
+                              std::span<const scene::Pages> each_step, const std::string& where) {
+    if (!body_) return fail(where, "is of a soft body, and this exercise has none", "leave --from out");
+    return body_->load(pages, steps, each_step, where);
+}
+
 std::string Rehab::settings() const {
     return "rehab " + std::string(exercise_->name()) + " " + line_of(exercise_->settings());
 }

@@ -47,6 +47,12 @@ public:
     [[nodiscard]] session::ActivityPanel panel() const override;
 
     [[nodiscard]] const Exercise& exercise() const { return *exercise_; }
+    // What a document calls the part of the body, and how many dents of it there can be.
+    static constexpr std::string_view kBodyPart = bodies::kSoftBodyPart;
+    static constexpr std::size_t kMostDents = bodies::SoftDents::kMostSteps;
+    // Has its body go on as it was saved (SoftPart::load), before the session. Fails where it has none.
+    [[nodiscard]] Result<void> load_body(const scene::Pages& pages, const scene::Steps& steps,
+                                         std::span<const scene::Pages> each_step, const std::string& where);
     [[nodiscard]] const HandMeasures& measures() const { return measures_; }
     // Has a keeper told how far the run has come: with each event and, while it goes on, each kTells_ns besides, the
     // report and the events since. What it cannot keep is told to the person, once, and tried again.

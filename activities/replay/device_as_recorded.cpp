@@ -3,6 +3,7 @@
 
 #include "activities/wand/wand_facts.hpp"
 #include "activities/wand/wand_stroke.hpp"
+#include "activities/world/exploration.hpp"
 #include "base/sha256.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/wand_choice.hpp"
@@ -31,8 +32,9 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
         BURIN_TRY(stroke, recorded_wand_stroke(reader));
         return DeviceWords{stroke.device, stroke.points};
     }
-    if (const std::string points = reader.fact(record::kWandPointsFact); !points.empty())
-        return DeviceWords{std::string(devices::kSimulatedWand), points};
+    const std::string named = reader.fact(record::kWandPointsFact);
+    const bool is_exploration = !reader.fact(kExplorationFact).empty();  // whose settings name the wand's file
+    if (!named.empty() && !is_exploration) return DeviceWords{std::string(devices::kSimulatedWand), named};
     if (activity != session::kLiveActivity) return DeviceWords{};
     const std::string settings = live_settings_of(reader);
     const Result<std::string> device = session::option_on(settings, "--device");

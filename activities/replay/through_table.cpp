@@ -109,7 +109,7 @@ Result<ThroughTable> feel_into_table(record::RecordReader& reader, const Through
     made.has_torque = probe.device.wand.has_value();
     BURIN_TRY(sink, ThroughSink::create(reader, std::move(table)));
     made.was_there = sink.compares();
-    BURIN_TRY(figures, feel_through(reader, *world->part, world->ids, world->materials, probe, options.range,
+    BURIN_TRY(figures, feel_through(reader, {.scene = world->scene}, probe, options.range,
                                     [&](const record::RecordedTick& tick, const std::vector<record::Word>& row) {
                                         return sink.take(tick, row);
                                     }));

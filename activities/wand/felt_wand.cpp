@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/try.hpp"
+#include "scene/world_file.hpp"
 #include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
@@ -37,8 +38,8 @@ WandFelt felt_in(double time_s, const haptics::TickRecord& tick) {
 // Collects what each point has felt of each object.
 class PointTouches {
 public:
-    PointTouches(const scene::MeshPart& part, const std::vector<devices::WandPoint>& points)
-        : part_(part), points_(points) {}
+    PointTouches(const scene::World& world, const std::vector<devices::WandPoint>& points)
+        : world_(world), points_(points) {}
 
     // Returns the name of an object that is pressed for the first time.
     std::optional<std::string> add(const WandFelt& felt) {
@@ -49,7 +50,7 @@ public:
             const auto [at, is_new] = found_.try_emplace({point.object, i});
             PointTouch& touch = at->second;
             if (is_new)
-                touch = {point.object, part_.object(point.object).name, points_[i].name, 0, felt.time_s, 0.0, 0.0};
+                touch = {point.object, name_in(world_, point.object), points_[i].name, 0, felt.time_s, 0.0, 0.0};
             const double force_N = glm::length(point.force_N);
             touch.force_max_N = std::max(touch.force_max_N, force_N);
             touch.force_mean_N += (force_N - touch.force_mean_N) / static_cast<double>(++touch.updates);
@@ -74,7 +75,7 @@ public:
     }
 
 private:
-    const scene::MeshPart& part_;
+    const scene::World& world_;
     const std::vector<devices::WandPoint>& points_;
     using Key = std::pair<scene::ObjectId, std::size_t>;
     std::map<Key, PointTouch> found_;
@@ -111,9 +112,8 @@ AxisAngle axis_angle(const Quat& unit) noexcept {
     return {v / sine, 2.0 * std::atan2(sine, q.w)};
 }
 
-Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
-                                            const sculpt::Stroke& stroke, const WandOptions& options,
-                                            const OnWandMoment& on_moment) {
+Result<WandExploredWorld> explore_with_wand(const ExploredWorld& world, const sculpt::Stroke& stroke,
+                                            const WandOptions& options, const OnWandMoment& on_moment) {
     WandExploredWorld explored;
     WandOptions placed = options;
     const Vec3 workspace_m = devices::device_of(options.wand).workspace_m;
@@ -122,7 +122,7 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::
     if (explored.fitted) placed.scene_from_device = session::fit_into_workspace(stroke, workspace_m);
     explored.scene_from_device = placed.scene_from_device;
 
-    PointTouches touches(part, options.points);
+    PointTouches touches(*world.scene, options.points);
     const auto at_tick = [&](double, const haptics::TickRecord& tick) {
         explored.force_max_N = std::max(explored.force_max_N, glm::length(tick.gate.given.force_device_N));
         explored.torque_max_Nm = std::max(explored.torque_max_Nm, glm::length(tick.gate.given.torque_device_Nm));
@@ -130,8 +130,9 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::
         touches.add(tick);
         if (tick.gate.cause != haptics::GateCause::none) ++explored.ticks_faulted;
     };
-    const auto at_update = [&](double time_s, const haptics::TickRecord& last) -> Result<void> {
-        WandMoment moment{time_s, nullptr, std::nullopt};
+    const auto at_update = [&](double time_s, const haptics::TickRecord& last,
+                               const session::DrawnWorld& drawn) -> Result<void> {
+        WandMoment moment{time_s, nullptr, std::nullopt, &drawn};
         if (last.tick > 0) {
             explored.trace.push_back(felt_in(time_s, last));
             moment.felt = &explored.trace.back();
@@ -139,8 +140,8 @@ Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::
         }
         return on_moment ? on_moment(moment) : Result<void>{};
     };
-    BURIN_TRY(run, run_wand(part, materials, script_in_device(script_of(stroke), placed.scene_from_device), placed,
-                            at_tick, at_update));
+    BURIN_TRY(run, run_wand(world, script_in_device(script_of(stroke), placed.scene_from_device), placed, at_tick,
+                            at_update));
     explored.run = run;
     explored.touches = touches.all();
     return explored;

@@ -58,16 +58,16 @@ struct WandExploredWorld {
 struct WandMoment {
     double time_s = 0.0;
     const WandFelt* felt = nullptr;
-    std::optional<std::string> newly_touched;  // name of an object
+    std::optional<std::string> newly_touched;    // name of an object
+    const session::DrawnWorld* drawn = nullptr;  // as it is now; valid during the call
 };
 using OnWandMoment = std::function<Result<void>(const WandMoment&)>;
 
 // Leads the wand along a stroke of at least one row. Where the stroke leaves the workspace it is centred in it, and the
 // motion scaled up where it is larger. Only options.scene_from_device is not read. Fails when an update does, or what
 // is called at one.
-[[nodiscard]] Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
-                                                          const sculpt::Stroke& stroke, const WandOptions& options,
-                                                          const OnWandMoment& on_moment);
+[[nodiscard]] Result<WandExploredWorld> explore_with_wand(const ExploredWorld& world, const sculpt::Stroke& stroke,
+                                                          const WandOptions& options, const OnWandMoment& on_moment);
 
 // Axis and angle of a rotation: a unit axis (x where there is no turn) and an angle from 0 to pi.
 struct AxisAngle {
@@ -79,7 +79,7 @@ struct AxisAngle {
 // ---- Table and figure (felt_wand_figures.cpp)
 
 // CSV, an update a line; names of the objects stand in it, "-" where none is touched.
-[[nodiscard]] std::string wand_table(const WandExploredWorld& explored, const scene::MeshPart& part,
+[[nodiscard]] std::string wand_table(const WandExploredWorld& explored, const scene::World& world,
                                      const std::vector<devices::WandPoint>& points);
 [[nodiscard]] std::string wand_figure(const WandExploredWorld& explored, const std::vector<devices::WandPoint>& points);
 

@@ -2,6 +2,7 @@
 #include "activities/wand/felt_wand.hpp"
 #include "base/plot/figures.hpp"
 #include "base/text.hpp"
+#include "scene/world_file.hpp"
 
 namespace burin::activities {
 namespace {
@@ -33,7 +34,7 @@ plot::TimePlot empty_plot(const std::string& title, const std::string& label, co
 
 }  // namespace
 
-std::string wand_table(const WandExploredWorld& explored, const scene::MeshPart& part,
+std::string wand_table(const WandExploredWorld& explored, const scene::World& world,
                        const std::vector<devices::WandPoint>& points) {
     std::string csv = "time_s,x_m,y_m,z_m,axis_x,axis_y,axis_z,angle_rad";
     for (const devices::WandPoint& point : points) {
@@ -57,7 +58,7 @@ std::string wand_table(const WandExploredWorld& explored, const scene::MeshPart&
         for (const PointFelt& point : felt.points) {
             add_vector(csv, point.place_m);
             add_vector(csv, point.proxy_m);
-            csv += "," + (point.object == 0 ? std::string("-") : cell(part.object(point.object).name));
+            csv += "," + (point.object == 0 ? std::string("-") : cell(name_in(world, point.object)));
             add_vector(csv, point.force_N);
             add_vector(csv, point.place_m - point.proxy_m);
         }

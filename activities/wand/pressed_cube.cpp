@@ -292,7 +292,7 @@ std::vector<CubeFinding> findings_of(const std::vector<CubeMeasure>& measures) {
     return measures.size() == kCubeCases ? CubeJudge(measures).all() : std::vector<CubeFinding>{};
 }
 
-Result<PressedCube> press_cube(scene::MeshPart& part, const scene::MaterialTable& materials, const Box& cube_scene_m,
+Result<PressedCube> press_cube(const ExploredWorld& world, const Box& cube_scene_m,
                                const devices::WandDescription& wand, double radius_m) {
     if (wand.points.size() < 2) return fail(wand.name, "has no two points", "describe its ends as [[point]]");
     WandOptions options;
@@ -310,7 +310,7 @@ Result<PressedCube> press_cube(scene::MeshPart& part, const scene::MaterialTable
         CubeKeeper keeper(ticks, wand);
         const Way way = way_along(presses);
         Result<WandRun> run =
-            run_wand(part, materials, script_in_device(way.script, options.scene_from_device), options,
+            run_wand(world, script_in_device(way.script, options.scene_from_device), options,
                      [&](double time_s, const haptics::TickRecord& record) { keeper.add(time_s, record); }, {});
         for (const auto& [which, hold_s] : way.holds) test.measures.push_back(measured(which, hold_s, ticks, setup));
         return run;

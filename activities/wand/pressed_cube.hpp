@@ -63,9 +63,8 @@ struct PressedCube {
 // Runs the test on the box around a felt object that is a cube with its face square to z. Fails where the cube is not
 // so high that both ends of the wand fit on its face, or so high that one alone cannot, and where the places are
 // outside of the wand's workspace.
-[[nodiscard]] Result<PressedCube> press_cube(scene::MeshPart& part, const scene::MaterialTable& materials,
-                                             const Box& cube_scene_m, const devices::WandDescription& wand,
-                                             double radius_m);
+[[nodiscard]] Result<PressedCube> press_cube(const ExploredWorld& world, const Box& cube_scene_m,
+                                             const devices::WandDescription& wand, double radius_m);
 
 // Compares the measures with what the thesis expects.
 [[nodiscard]] std::vector<CubeFinding> findings_of(const std::vector<CubeMeasure>& measures);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "activities/wand/wand_pictures.hpp"
+#include "scene/world_file.hpp"
 
 #include <algorithm>
 #include <string>
@@ -20,10 +21,8 @@ WandPose pose_felt(const WandFelt& felt) {
 
 }  // namespace
 
-WandPictures::WandPictures(scene::MeshPart& part, std::span<const scene::ObjectId> ids, const WandOptions& feel,
-                           PictureDrawer draw)
-    : part_(part),
-      view_(part, ids, feel.radius_m),
+WandPictures::WandPictures(const scene::World& world, const WandOptions& feel, PictureDrawer draw)
+    : view_(session::DrawnWorld(world.objects), feel.radius_m),
       avatar_(feel.wand, feel.wand.gain, feel.radius_m),
       draw_(std::move(draw)) {
     const Vec3 size_m = view_.bounds_scene().extent();
@@ -32,8 +31,8 @@ WandPictures::WandPictures(scene::MeshPart& part, std::span<const scene::ObjectI
 }
 
 Result<void> WandPictures::at(const WandMoment& moment) {
-    view_.take(part_.take_object_updates());
     if (!draw_ || moment.felt == nullptr) return {};
+    view_.take(*moment.drawn);
     last_ = pose_felt(*moment.felt);
     if (!moment.newly_touched || touched_ >= kMostWandPictures) return {};
     ++touched_;

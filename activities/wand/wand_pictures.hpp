@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "activities/wand/felt_wand.hpp"
 #include "activities/wand/wand_view.hpp"
@@ -15,9 +14,8 @@ namespace burin::activities {
 
 class WandPictures {
 public:
-    // The part must outlive it, and its updates are taken here alone. Without a drawer there are no pictures.
-    WandPictures(scene::MeshPart& part, std::span<const scene::ObjectId> ids, const WandOptions& feel,
-                 PictureDrawer draw);
+    // Without a drawer there are no pictures.
+    WandPictures(const scene::World& world, const WandOptions& feel, PictureDrawer draw);
 
     [[nodiscard]] Result<void> at(const WandMoment& moment);
     [[nodiscard]] Result<void> finish();
@@ -25,7 +23,6 @@ public:
 private:
     [[nodiscard]] Result<void> draw(const std::string& file) const;
 
-    scene::MeshPart& part_;
     WorldView view_;
     WandView avatar_;
     WandCamera camera_;

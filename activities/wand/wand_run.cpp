@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "activities/wand/wand_run.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "activities/world/opened_exploration.hpp"
 #include "base/try.hpp"
-#include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
-#include "record/record_writer.hpp"
-#include "record/touched_columns.hpp"
-#include "scene/scene_service.hpp"
 
 namespace burin::activities {
 namespace {
@@ -17,57 +13,21 @@ namespace {
 // How far an end may move until the next update, at the device: 1 m/s and 6 rad/s for more than a period.
 constexpr double kWandReach_m = 0.02;
 
-haptics::TickParameters wand_parameters(const WandOptions& options, const devices::DeviceDescription& device,
-                                        const scene::MaterialTable& materials) {
-    haptics::TickParameters parameters;
-    parameters.sequence = 1;
-    parameters.workspace.object_from_device = options.scene_from_device;
-    parameters.workspace.workspace_device_m = device.workspace_m;
-    parameters.probe.count = static_cast<std::uint32_t>(options.points.size());
-    for (std::size_t i = 0; i < options.points.size(); ++i)
-        parameters.probe.points[i] = {devices::offset_device_m(options.wand, options.points[i]), options.radius_m};
-    parameters.clearance_ratio = 0.0;  // nothing is carved
-    parameters.action = haptics::ToolAction::touch;
-    parameters.position_noise_m = device.resolution_m;
-    parameters.limits.max_force_N = device.max_force_N;
-    materials.write(parameters.materials);
-    return parameters;
-}
-
-// Returns the hand's side of the scene: the ball around where the first point rests that holds all others.
-scene::SceneHand hand_in_scene(const WandOptions& options, const devices::HandPose& start,
-                               haptics::HapticChannels& channels) {
-    const Vec3 first_m = devices::offset_device_m(options.wand, options.points.front());
-    double farthest_m = 0.0;
-    for (const devices::WandPoint& point : options.points)
-        farthest_m = std::max(farthest_m, glm::length(devices::offset_device_m(options.wand, point) - first_m));
-    const double scale = options.scene_from_device.scale;
-    return {&channels, options.scene_from_device * (start.position_device_m + start.orientation_device * first_m),
-            scale * farthest_m + 2.0 * options.radius_m, scale * kWandReach_m};
-}
-
-// Begins to record every tick; null where none is recorded. The recorder is the ring's only reader.
-Result<std::unique_ptr<record::RecordWriter>> record_wand(const WandOptions& options, const scene::MeshPart& part,
-                                                          const devices::DeviceDescription& device,
-                                                          const haptics::Probe& probe,
-                                                          haptics::HapticChannels& channels) {
-    if (options.record.empty()) return nullptr;
-    const record::RowShape shape = record::shape_of(device, probe);
-    record::RecordedHand hand{device.name, device, probe, &channels.records};
-    hand.more_columns = record::touched_columns(shape);
-    hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
-        record::append_touched(tick, shape, row);
-    };
-    record::WriterOptions writer;
-    writer.facts = options.facts;
-    for (scene::ObjectId id = 1; id <= part.size(); ++id)
-        if (part.has(id)) writer.objects.emplace_back(static_cast<std::int64_t>(id), part.object(id).name);
-    std::vector<record::RecordedHand> hands;
-    hands.push_back(std::move(hand));
-    return record::RecordWriter::create(options.record, std::move(hands), std::move(writer));
-}
-
 }  // namespace
+
+ExplorationSettings settings_of(const WandOptions& options, const Pose& start_device) {
+    const devices::DeviceDescription device = devices::device_of(options.wand);
+    const Vec3 first_m = devices::offset_device_m(options.wand, options.points.front());
+    ExplorationSettings settings;
+    settings.tool_radius_m = options.radius_m;
+    settings.scene_from_device = options.scene_from_device;
+    settings.start_scene_m = options.scene_from_device * (start_device * first_m);
+    settings.reach_m = options.scene_from_device.scale * kWandReach_m;
+    settings.clearance_ratio = 0.0;  // nothing is carved
+    settings.position_noise_m = device.resolution_m;
+    settings.limits.max_force_N = device.max_force_N;
+    return settings;
+}
 
 std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> script,
                                                 const Similarity& scene_from_device) {
@@ -81,53 +41,32 @@ std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> s
     return script;
 }
 
-Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
-                         std::vector<devices::HandPose> script, const WandOptions& options, const OnWandTick& on_tick,
-                         const OnWandUpdate& on_update) {
-    BURIN_TRY(hand, devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, options.grip));
-    const double end_s = hand.end_s();
-    const devices::HandTarget start = hand.target(0.0);
+Result<WandRun> run_wand(const ExploredWorld& world, std::vector<devices::HandPose> script, const WandOptions& options,
+                         const OnWandTick& on_tick, const OnWandUpdate& on_update) {
+    BURIN_TRY(leads, devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, options.grip));
+    const double end_s = leads.end_s();
+    const devices::HandTarget start = leads.target(0.0);
+    const ExplorationSettings settings = settings_of(options, {start.position_device_m, start.orientation_device});
+    const session::Session* session = nullptr;
+    haptics::TickRecord last;
+    FeltBy felt_by;
+    felt_by.on_tick = [&](const haptics::TickRecord& tick) {
+        last = tick;
+        if (on_tick) on_tick(seconds(tick.time_ns), tick);
+    };
+    if (on_update)
+        felt_by.on_update = [&] {
+            return on_update(seconds(last.time_ns), last, session->scene_side().world()->drawn());
+        };
+    session::BroughtHand hand{{}, std::move(leads), options.wand, options.points};
+    BURIN_TRY(opened, open_exploration(world, settings, std::move(hand), std::move(felt_by)));
+    session = opened->session.get();
+    BURIN_TRY_DO(opened->run(end_s, options.facts));
 
-    SimulatedClock clock;
-    haptics::HapticChannels channels(haptics::HapticChannels::kTicks,
-                                     options.record.empty() ? haptics::HapticChannels::kRecords : record::kRingTicks);
-    devices::SimulatedWand wand(std::move(hand), options.wand, &clock);
-    const haptics::TickParameters parameters = wand_parameters(options, wand.description(), materials);
-    channels.parameters.draft() = parameters;
-    channels.parameters.publish();
-    BURIN_TRY(recorder, record_wand(options, part, wand.description(), parameters.probe, channels));
-    haptics::HapticLoop loop(wand, clock, channels);
-    scene::SceneService service(
-        {&part}, {hand_in_scene(options, {0.0, start.position_device_m, start.orientation_device, 0}, channels)});
-
-    WandRun run;
-    run.period_s = seconds(loop.period_ns());
-    const Nanoseconds start_ns = clock.now_ns(), end_ns = start_ns + nanoseconds(end_s);
-    Nanoseconds next_update_ns = start_ns;
-    haptics::TickRecord last, drained;
-    while (clock.now_ns() < end_ns) {
-        if (clock.now_ns() >= next_update_ns) {
-            BURIN_TRY_DO(service.update(clock.now_ns()));
-            if (recorder) {
-                // Simulated time is not held back by any clock: the ring would overflow.
-                recorder->take_now();
-                if (const auto failed = recorder->failure()) return std::unexpected(*failed);
-            }
-            next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
-            if (on_update) BURIN_TRY_DO(on_update(seconds(clock.now_ns() - start_ns), last));
-        }
-        clock.sleep_until(clock.now_ns() + loop.period_ns());
-        last = loop.step();
-        while (!recorder && channels.records.pop(drained)) {
-        }
-        if (on_tick) on_tick(seconds(clock.now_ns() - start_ns), last);
-    }
-    if (recorder) BURIN_TRY_DO(recorder->close());
-    run.ticks = loop.ticks();
-    run.surfaces_published = service.published(0);
-    run.trips = wand.trips();
-    run.saturation = wand.saturation();
-    return run;
+    session::Session& ended = *opened->session;
+    const auto& wand = dynamic_cast<const devices::SimulatedWand&>(ended.hands().opened(0));
+    return WandRun{ended.loop().ticks(), ended.scene().published(0), wand.trips(), seconds(ended.loop().period_ns()),
+                   wand.saturation()};
 }
 
 }  // namespace burin::activities

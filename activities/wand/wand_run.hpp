@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A simulated hand leads a simulated wand through a scene of meshes, which both ends, or any points of it, touch.
-//
-// Data flow: hand -> wand -> haptic loop (at the wand's rate) -> ring of stroke samples -> the scene's service (100
-// Hz), which takes objects along their paths and publishes what is near -> haptic loop. In simulated time, on the
-// caller's thread: every run gives the same bits. Frames: the script's is the device's; figures are in the scene's axes
-// where a name says so.
+// A simulated hand leads a simulated wand through a world, which both ends, or any points of it, touch: a session that
+// nobody sees (activities/world/exploration.hpp), in simulated time on the caller's thread, so that every run gives the
+// same bits. Frames: the script's is the device's; figures are in the scene's axes where a name says so.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "activities/world/exploration_settings.hpp"
+#include "activities/world/explored_world.hpp"
 #include "devices/haptic/simulated_wand.hpp"
-#include "scene/mesh_part.hpp"
+
+namespace burin::haptics {
+struct TickRecord;  // haptics/tick_record.hpp
+}  // namespace burin::haptics
+
+namespace burin::session {
+class DrawnWorld;  // session/objects/drawn_world.hpp
+}  // namespace burin::session
 
 namespace burin::activities {
 
@@ -24,9 +30,11 @@ struct WandOptions {
     double radius_m = 0.004;                 // of the ball at each, in the scene
     Similarity scene_from_device;
     devices::HandGrip grip;
-    std::string record = {};                                      // a new session file for every tick; empty: none
-    std::vector<std::pair<std::string, std::string>> facts = {};  // for it
+    std::vector<std::pair<std::string, std::string>> facts = {};  // for a recording
 };
+
+// Returns what the ticks of the wand are told, whose hand begins there.
+[[nodiscard]] ExplorationSettings settings_of(const WandOptions& options, const Pose& start_device);
 
 // Takes a script from the scene into the device's frame.
 [[nodiscard]] std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> script,
@@ -34,7 +42,8 @@ struct WandOptions {
 
 // Called with each tick, and at each update of the scene with the last one, whose number is 0 before the first.
 using OnWandTick = std::function<void(double time_s, const haptics::TickRecord& tick)>;
-using OnWandUpdate = std::function<Result<void>(double time_s, const haptics::TickRecord& last)>;
+using OnWandUpdate =
+    std::function<Result<void>(double time_s, const haptics::TickRecord& last, const session::DrawnWorld& drawn)>;
 
 struct WandRun {
     std::uint64_t ticks = 0, surfaces_published = 0, trips = 0;
@@ -44,8 +53,8 @@ struct WandRun {
 
 // Leads the wand along the script, to its last pose. Fails on a script that is none, and when an update, what is called
 // at one, or the recording does.
-[[nodiscard]] Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
-                                       std::vector<devices::HandPose> script, const WandOptions& options,
-                                       const OnWandTick& on_tick, const OnWandUpdate& on_update);
+[[nodiscard]] Result<WandRun> run_wand(const ExploredWorld& world, std::vector<devices::HandPose> script,
+                                       const WandOptions& options, const OnWandTick& on_tick,
+                                       const OnWandUpdate& on_update);
 
 }  // namespace burin::activities

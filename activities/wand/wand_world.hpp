@@ -10,7 +10,6 @@
 
 #include "activities/wand/felt_wand.hpp"
 #include "base/error.hpp"
-#include "scene/mesh_part.hpp"
 
 namespace burin::activities {
 
@@ -20,9 +19,7 @@ struct WandStroke;  // activities/wand/wand_stroke.hpp
 struct WandWorld {
     WandOptions feel;
     sculpt::Stroke stroke;
-    std::vector<scene::ObjectId> ids;
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
+    ExploredWorld world;
     std::string digest;
 };
 

@@ -7,10 +7,12 @@
 #include <limits>
 #include <utility>
 
+#include "activities/world/exploration.hpp"
 #include "activities/world/nearest_object.hpp"
-#include "activities/world/world_replay.hpp"
-#include "activities/world/world_touch.hpp"
 #include "base/try.hpp"
+#include "haptics/tick_record.hpp"
+#include "scene/scene_service.hpp"
+#include "scene/world_file.hpp"
 
 namespace burin::activities {
 namespace {
@@ -261,8 +263,11 @@ private:
 // Updates the scene every 10 ms, after the tick before.
 class SteadyUpdates {
 public:
-    Result<void> before(const record::RecordedTick& tick, Nanoseconds period_ns, scene::SceneService& service) {
-        if (!std::exchange(began_, true)) newest_ns_ = next_ns_ = tick.time_ns - period_ns;
+    // The first update has been made at that time.
+    explicit SteadyUpdates(Nanoseconds began_ns)
+        : newest_ns_(began_ns), next_ns_(began_ns + scene::SceneService::kHandsMove_ns) {}
+
+    Result<void> before(const record::RecordedTick& tick, scene::SceneService& service) {
         Result<void> done;
         if (newest_ns_ >= next_ns_) {
             done = service.update(newest_ns_);
@@ -273,8 +278,7 @@ public:
     }
 
 private:
-    bool began_ = false;
-    Nanoseconds newest_ns_ = 0, next_ns_ = 0;
+    Nanoseconds newest_ns_, next_ns_;
 };
 
 // Returns the settings with which the motion is felt: those of the exploration where it was one, so that its own world
@@ -307,29 +311,28 @@ bool same_mapping(const Similarity& a, const Similarity& b) {
 
 // A world with the recorded hand in it.
 struct OtherWorld {
-    WorldTouch touch;
     std::unique_ptr<RepeatedHand> hand;
-    SteadyUpdates updates = {};
-    Similarity mapping = {};
-
-    OtherWorld(scene::MeshPart& part, const scene::MaterialTable& materials, const ExplorationSettings& settings,
-               const ThroughProbe& probe)
-        : touch(part, materials, settings, probe.device.probe(probe.radius_m)), mapping(settings.scene_from_device) {}
+    SteadyUpdates updates;
+    Similarity mapping;
+    Approach approach;
 
     Result<haptics::TickRecord> feel(const record::RecordedTick& tick) {
-        if (!same_mapping(mapping, tick.object_from_device)) touch.use_mapping(mapping = tick.object_from_device);
-        BURIN_TRY_DO(updates.before(tick, hand->period_ns(), touch.service()));
+        if (!same_mapping(mapping, tick.object_from_device)) hand->use_mapping(mapping = tick.object_from_device);
+        BURIN_TRY_DO(updates.before(tick, hand->service()));
         return hand->repeated(tick);
     }
 };
 
 Result<std::unique_ptr<OtherWorld>> begin_through(const record::RecordReader& reader, const record::RecordedTick& first,
-                                                  scene::MeshPart& part, const scene::MaterialTable& materials,
-                                                  const ThroughProbe& probe) {
-    auto world = std::make_unique<OtherWorld>(part, materials, settings_through(reader, first, probe), probe);
-    BURIN_TRY(hand, RepeatedHand::create(probe.device, world->touch.channels()));
-    world->hand = std::move(hand);
-    return world;
+                                                  const ExploredWorld& world, const ThroughProbe& probe) {
+    const ExplorationSettings settings = settings_through(reader, first, probe);
+    const Nanoseconds begins_ns = first.time_ns - period_of(probe.device);
+    BURIN_TRY(hand, RepeatedHand::create(world, settings, probe.device, begins_ns));
+    std::vector<scene::ObjectId> ids;
+    for (const scene::SceneObject& object : world.scene->objects) ids.push_back(object.id);
+    Approach approach(hand->objects(), ids, probe);
+    return std::make_unique<OtherWorld>(std::move(hand), SteadyUpdates(begins_ns), settings.scene_from_device,
+                                        std::move(approach));
 }
 
 }  // namespace
@@ -340,16 +343,14 @@ std::vector<record::Column> through_columns(const DeviceAsRecorded& device) {
     return std::move(names.columns);
 }
 
-Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPart& part,
-                                    std::span<const scene::ObjectId> ids, const scene::MaterialTable& materials,
-                                    const ThroughProbe& probe, const record::TickRange& range, const TakeRow& take) {
+Result<ThroughFigures> feel_through(record::RecordReader& reader, const ExploredWorld& world, const ThroughProbe& probe,
+                                    const record::TickRange& range, const TakeRow& take) {
     BURIN_TRY_DO(check_hand(reader, probe.device));
     const Result<record::MotionColumns> motion = record::MotionColumns::find(reader, 0);
     const Result<RecordedTouch> recorded = RecordedTouch::find(reader, probe.device);
     if (!motion) return std::unexpected(motion.error());
     if (!recorded) return std::unexpected(recorded.error());
-    std::unique_ptr<OtherWorld> world;
-    Approach approach(part, ids, probe);
+    std::unique_ptr<OtherWorld> other;
     ThroughFigures figures;
     record::RowWalk walk(reader, 0);
     for (;;) {
@@ -359,16 +360,17 @@ Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPar
         if (tick.tick < range.from) continue;
         if (tick.tick > range.to) return figures;
         BURIN_TRY_DO(check_tick(reader, tick));
-        const bool is_first = !world;
+        const bool is_first = !other;
         if (is_first) {
-            BURIN_TRY(begun, begin_through(reader, tick, part, materials, probe));
-            world = std::move(begun);
+            BURIN_TRY(begun, begin_through(reader, tick, world, probe));
+            other = std::move(begun);
         }
-        BURIN_TRY(felt, world->feel(tick));
+        BURIN_TRY(felt, other->feel(tick));
+        const scene::MeshPart& part = other->hand->objects();
         const TickThrough through = tick_through(tick, felt, *recorded, walk, probe.device);
-        if (is_first) note_beginning(figures, through, part, approach.objects(), probe);
+        if (is_first) note_beginning(figures, through, part, other->approach.objects(), probe);
         note_tick(figures, through, part);
-        approach.note(figures, through);
+        other->approach.note(figures, through);
         ThroughValues values;
         values.words.reserve(64);
         visit_through(values, probe.device, through);

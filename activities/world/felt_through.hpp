@@ -63,9 +63,8 @@ using TakeRow = std::function<Result<void>(const record::RecordedTick& tick, con
 
 // Feels the motion of the recording's hand; the mapping is the recorded one, in each tick. Rows are handed on in the
 // order of the ticks in the range.
-[[nodiscard]] Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPart& part,
-                                                  std::span<const scene::ObjectId> ids,
-                                                  const scene::MaterialTable& materials, const ThroughProbe& probe,
-                                                  const record::TickRange& range, const TakeRow& take);
+[[nodiscard]] Result<ThroughFigures> feel_through(record::RecordReader& reader, const ExploredWorld& world,
+                                                  const ThroughProbe& probe, const record::TickRange& range,
+                                                  const TakeRow& take);
 
 }  // namespace burin::activities

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
-#include "activities/world/world_recorder.hpp"
-#include "activities/world/world_touch.hpp"
+#include "activities/world/opened_exploration.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
-#include "haptics/haptic_loop.hpp"
+#include "scene/contact_follower.hpp"
+#include "scene/world_file.hpp"
 #include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
@@ -35,14 +34,14 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
 // Collects what was felt of each object.
 class Touches {
 public:
-    explicit Touches(const scene::MeshPart& part) : part_(part) {}
+    explicit Touches(const scene::World& world) : world_(world) {}
 
     // Returns the name of an object when it has been touched at so many updates as press the tool into it.
     std::optional<std::string> add(double time_s, const haptics::ToolState& tool, scene::ObjectId touched) {
         if (touched == 0) return std::nullopt;
         const auto [at, is_new] = found_.try_emplace(touched);
         ObjectTouch& touch = at->second;
-        if (is_new) touch = {touched, part_.object(touched).name, 0, time_s, 0.0, 0.0};
+        if (is_new) touch = {touched, name_in(world_, touched), 0, time_s, 0.0, 0.0};
         const double force_N = glm::length(tool.given.force_device_N);
         touch.force_max_N = std::max(touch.force_max_N, force_N);
         touch.force_mean_N += (force_N - touch.force_mean_N) / static_cast<double>(++touch.updates);
@@ -65,78 +64,77 @@ public:
     }
 
 private:
-    const scene::MeshPart& part_;
+    const scene::World& world_;
     std::map<scene::ObjectId, ObjectTouch> found_;
     std::map<scene::ObjectId, session::RenderedTally> walls_;
 };
 
-Result<std::unique_ptr<WorldRecorder>> recorder_of(const scene::MeshPart& part, std::span<const scene::ObjectId> ids,
-                                                   const devices::DeviceDescription& device,
-                                                   const ExplorationSettings& settings, const ExploreOptions& options) {
-    if (options.record.empty()) return std::unique_ptr<WorldRecorder>();
-    std::vector<std::pair<std::int64_t, std::string>> objects;
-    for (const scene::ObjectId id : ids) objects.emplace_back(static_cast<std::int64_t>(id), part.object(id).name);
-    WorldRecorder::Facts facts = options.facts;
-    facts.emplace_back(kActivityFact, kWorldActivity);
-    facts.emplace_back(kSettingsFact, settings_text(settings));
-    return WorldRecorder::create(options.record, device, haptics::ball_probe(settings.tool_radius_m), std::move(facts),
-                                 std::move(objects));
-}
+// Collects what was felt on the way.
+class WorldKeeper {
+public:
+    WorldKeeper(WorldFigures& figures, const scene::World& world, double period_s)
+        : figures_(figures), touches_(world), keeper_(figures.felt, figures.felt.duration_s, period_s) {}
+
+    void add(const haptics::TickRecord& tick) {
+        touched_ = scene::touched_in(tick, touched_);
+        touches_.add(tick);
+        keeper_.add(tick);
+        figures_.felt.last_tool = haptics::tool_of(tick, 0, 0);
+        time_s_ = seconds(tick.time_ns);
+    }
+    [[nodiscard]] WorldMoment moment() {
+        WorldMoment moment;
+        moment.time_s = time_s_;
+        moment.tool = figures_.felt.last_tool;
+        if (moment.tool.tick > 0) moment.newly_touched = touches_.add(time_s_, moment.tool, touched_[0]);
+        return moment;
+    }
+    void finish(session::Session& session) {
+        keeper_.finish(session.channels());
+        figures_.felt.surfaces_published = session.scene().published(0);
+        figures_.touches = touches_.all();
+    }
+
+private:
+    WorldFigures& figures_;
+    Touches touches_;
+    session::FigureKeeper keeper_;
+    scene::TouchedObjects touched_{};  // in the last tick
+    double time_s_ = 0.0;
+};
 
 }  // namespace
 
-Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scene::ObjectId> ids,
-                                     const scene::MaterialTable& materials, const sculpt::Stroke& stroke,
+Result<WorldFigures> explore_by_feel(const ExploredWorld& world, const sculpt::Stroke& stroke,
                                      const ExploreOptions& options, const OnUpdate& on_update) {
     WorldFigures figures;
     session::FeltFigures& felt = figures.felt;
     felt.workspace_device_m = devices::OmniModel{}.workspace_m;
     felt.object_from_device = session::fit_into_workspace(stroke, felt.workspace_device_m);
     felt.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kRests_s;
-    BURIN_TRY(hand, hand_along(stroke, felt.object_from_device, options.grip));
+    session::BroughtHand hand;
+    BURIN_TRY(leads, hand_along(stroke, felt.object_from_device, options.grip));
+    hand.leads = std::move(leads);
 
     ExplorationSettings settings;
     settings.tool_radius_m = options.tool_radius_m;
     settings.scene_from_device = felt.object_from_device;
     settings.start_scene_m = stroke.front().position_object_m;
     settings.reach_m = kReach_m * felt.object_from_device.scale;
-    WorldTouch touch(part, materials, settings);
-    haptics::HapticChannels& channels = touch.channels();
-    SimulatedClock clock;
-    devices::SimulatedOmni omni(std::move(hand), {}, &clock);
-    haptics::HapticLoop loop(omni, clock, channels);
-    BURIN_TRY(recorder, recorder_of(part, ids, omni.description(), settings, options));
-    session::FigureKeeper keeper(felt, felt.duration_s, seconds(loop.period_ns()));
-    Touches touches(part);
-    scene::TouchedObjects touched{};  // in the last tick
 
-    const Nanoseconds start_ns = clock.now_ns(), end_ns = start_ns + nanoseconds(felt.duration_s);
-    Nanoseconds next_update_ns = start_ns;
-    while (clock.now_ns() < end_ns) {
-        if (clock.now_ns() >= next_update_ns) {
-            BURIN_TRY_DO(touch.service().update(clock.now_ns()));
-            next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
-            const double time_s = seconds(clock.now_ns() - start_ns);
-            WorldMoment moment{channels.tool.newest(), std::nullopt};
-            moment.newly_touched = touches.add(time_s, moment.tool, touched[0]);
-            keeper.take(channels);
-            if (recorder) {
-                BURIN_TRY_DO(recorder->update(clock.now_ns(), touch.service().seen().last_ticks[0]));
-            }
-            if (on_update) BURIN_TRY_DO(on_update(time_s, moment));
-        }
-        clock.sleep_until(clock.now_ns() + loop.period_ns());
-        const haptics::TickRecord tick = loop.step();
-        touched = scene::touched_in(tick, touched);
-        touches.add(tick);
-        if (recorder) recorder->add(tick, std::array{tick.contact.points[0].object});
-    }
-    if (recorder) BURIN_TRY_DO(recorder->finish());
-    keeper.take(channels);
-    keeper.finish(channels);
-    felt.surfaces_published = touch.service().published(0);
-    felt.last_tool = channels.tool.newest();
-    figures.touches = touches.all();
+    std::optional<WorldKeeper> keeper;
+    session::Session* session = nullptr;
+    FeltBy felt_by{[&](const haptics::TickRecord& tick) { keeper->add(tick); },
+                   [&]() -> Result<void> {
+                       WorldMoment moment = keeper->moment();
+                       moment.drawn = &session->scene_side().world()->drawn();
+                       return on_update ? on_update(moment) : Result<void>{};
+                   }};
+    BURIN_TRY(opened, open_exploration(world, settings, std::move(hand), std::move(felt_by)));
+    session = opened->session.get();
+    keeper.emplace(figures, *world.scene, seconds(session->loop().period_ns()));
+    BURIN_TRY_DO(opened->run(felt.duration_s, options.facts));
+    keeper->finish(*session);
     return figures;
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Explores a world by feel (burin world FILE --stroke): a simulated hand leads a simulated Omni along a stroke, feels
-// the world's objects through the haptic loop, and is pushed back by them. Objects on paths move meanwhile.
-//
-// Data flow: hand -> device -> haptic loop (1 kHz) -> ring of stroke samples -> the scene's service (100 Hz), which
-// takes objects along their paths and publishes what is near -> haptic loop. In simulated time, on the caller's thread:
-// every run gives the same bits.
+// the world's objects, and is pushed back by them. Objects on paths move meanwhile. It is a session that nobody sees
+// (activities/world/exploration.hpp); here is the hand's script, and what is collected of the ticks.
+// In simulated time, on the caller's thread: every run gives the same bits.
 // Frame: the scene's, metres; forces at the device, newtons.
 #pragma once
 
@@ -14,19 +12,23 @@
 #include <utility>
 #include <vector>
 
+#include "activities/world/explored_world.hpp"
+#include "base/error.hpp"
 #include "devices/hand/simulated_hand.hpp"
-#include "scene/mesh_part.hpp"
 #include "sculpt/stroke_file.hpp"
 #include "session/felt/felt_figures.hpp"
 #include "session/felt/rendered_tally.hpp"
+
+namespace burin::session {
+class DrawnWorld;  // session/objects/drawn_world.hpp
+}  // namespace burin::session
 
 namespace burin::activities {
 
 struct ExploreOptions {
     double tool_radius_m = 0.004;  // of the ball that touches
     devices::HandGrip grip;
-    std::string record = {};  // a new session file (activities/world/world_recorder.hpp); empty: none
-    // Facts for that file, besides the settings of the exploration.
+    // Facts for a recording, besides the settings of the exploration.
     std::vector<std::pair<std::string, std::string>> facts = {};
 };
 
@@ -55,17 +57,17 @@ struct WorldFigures {
 
 // The tool, and an object newly touched, at an update of the service: enough to draw a picture of it.
 struct WorldMoment {
+    double time_s = 0.0;  // since the beginning
     haptics::ToolState tool;
     // Name of an object that has been touched for the first time, some updates ago: pressed by now.
     std::optional<std::string> newly_touched;
+    const session::DrawnWorld* drawn = nullptr;  // as it is now; valid during the call
 };
-using OnUpdate = std::function<Result<void>(double time_s, const WorldMoment& moment)>;
+using OnUpdate = std::function<Result<void>(const WorldMoment& moment)>;
 
-// Feels the objects of the part, whose materials the table holds, along a stroke of at least one row. Where the stroke
-// is larger than the workspace, the motion is scaled up. Fails when an update does, or what is called at one, or the
-// recording.
-[[nodiscard]] Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scene::ObjectId> ids,
-                                                   const scene::MaterialTable& materials, const sculpt::Stroke& stroke,
+// Feels the objects of the world along a stroke of at least one row. Where the stroke is larger than the workspace, the
+// motion is scaled up. Fails when an update does, or what is called at one, or the recording.
+[[nodiscard]] Result<WorldFigures> explore_by_feel(const ExploredWorld& world, const sculpt::Stroke& stroke,
                                                    const ExploreOptions& options, const OnUpdate& on_update);
 
 }  // namespace burin::activities

@@ -17,12 +17,10 @@ Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path, const M
     auto opened = std::make_unique<OpenedWorld>();
     for (scene::SceneObject& object : world.objects) {
         materials.apply(object.material);
-        opened->ids.push_back(object.id);
         opened->objects.push_back({static_cast<std::int64_t>(object.id), object.name});
     }
     opened->digest = scene::world_digest(world.objects);
-    BURIN_TRY(part, scene::MeshPart::create(std::move(world.objects), opened->materials));
-    opened->part = std::move(part);
+    opened->scene = std::make_shared<const scene::World>(std::move(world));
     return opened;
 }
 

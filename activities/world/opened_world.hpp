@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "record/record_reader.hpp"
 #include "scene/mesh_part.hpp"
+#include "scene/world_file.hpp"
 
 namespace burin::activities {
 
@@ -33,9 +34,7 @@ struct MaterialOverride {
 
 // A world that can be touched.
 struct OpenedWorld {
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
-    std::vector<scene::ObjectId> ids;
+    std::shared_ptr<const scene::World> scene;
     std::vector<record::RecordedObject> objects;
     std::string digest;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "activities/world/touch_pictures.hpp"
+#include "scene/world_file.hpp"
 
 #include <utility>
 
@@ -19,13 +20,12 @@ std::string file_word(const std::string& name) {
     return word;
 }
 
-TouchPictures::TouchPictures(scene::MeshPart& part, std::span<const scene::ObjectId> ids, double radius_m,
-                             PictureDrawer draw)
-    : part_(part), view_(part, ids, radius_m), draw_(std::move(draw)) {}
+TouchPictures::TouchPictures(const scene::World& world, double radius_m, PictureDrawer draw)
+    : view_(session::DrawnWorld(world.objects), radius_m), draw_(std::move(draw)) {}
 
 Result<void> TouchPictures::at(const WorldMoment& moment) {
-    view_.take(part_.take_object_updates());
     if (!draw_) return {};
+    view_.take(*moment.drawn);
     if (!std::exchange(has_begun_, true)) return draw_(view_.close_scene({}), "world.png");
     if (!moment.newly_touched || touched_ >= kMostTouchPictures) return {};
     ++touched_;

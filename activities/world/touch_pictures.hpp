@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <span>
 #include <string>
 
 #include "activities/world/felt_world.hpp"
@@ -22,9 +21,8 @@ using PictureDrawer = std::function<Result<void>(const picture::Picture&, const 
 
 class TouchPictures {
 public:
-    // The part must outlive it, and its updates are taken here alone. `radius_m`: of the ball that touches. Without a
-    // drawer there are no pictures.
-    TouchPictures(scene::MeshPart& part, std::span<const scene::ObjectId> ids, double radius_m, PictureDrawer draw);
+    // `radius_m`: of the ball that touches. Without a drawer there are no pictures.
+    TouchPictures(const scene::World& world, double radius_m, PictureDrawer draw);
 
     // Draws the first moment, and those with an object newly touched as long as they are not too many.
     [[nodiscard]] Result<void> at(const WorldMoment& moment);
@@ -32,7 +30,6 @@ public:
     [[nodiscard]] picture::Picture on_wall(const haptics::ToolState& tool) const { return view_.wall_scene(tool); }
 
 private:
-    scene::MeshPart& part_;
     WorldView view_;
     PictureDrawer draw_;
     std::size_t touched_ = 0;

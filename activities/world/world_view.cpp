@@ -2,6 +2,7 @@
 #include "activities/world/world_view.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "picture/frame_setup.hpp"
 #include "session/held/staging.hpp"
@@ -24,7 +25,10 @@ session::DrawnWorld drawn_world_of(const scene::MeshPart& part, std::span<const 
 }  // namespace
 
 WorldView::WorldView(const scene::MeshPart& part, std::span<const scene::ObjectId> ids, double tool_radius_m)
-    : drawn_(drawn_world_of(part, ids)), bounds_scene_(drawn_.bounds_scene()), tool_radius_m_(tool_radius_m) {
+    : WorldView(drawn_world_of(part, ids), tool_radius_m) {}
+
+WorldView::WorldView(session::DrawnWorld drawn, double tool_radius_m)
+    : drawn_(std::move(drawn)), bounds_scene_(drawn_.bounds_scene()), tool_radius_m_(tool_radius_m) {
     if (bounds_scene_.empty()) bounds_scene_ = {Vec3(-0.05), Vec3(0.05)};
     world_from_scene_.scale = kLongestOnWall_m / longest(bounds_scene_.extent());
     world_from_scene_.position_m = kPlace_world - world_from_scene_.scale * bounds_scene_.center();

@@ -20,9 +20,11 @@ class WorldView {
 public:
     // Takes the meshes of the objects that are seen. `tool_radius_m`: of the ball that touches, in the scene.
     WorldView(const scene::MeshPart& part, std::span<const scene::ObjectId> ids, double tool_radius_m);
+    WorldView(session::DrawnWorld drawn, double tool_radius_m);
 
     // Takes over what has changed.
     void take(std::span<const scene::ObjectUpdate> updates) { drawn_.take(updates); }
+    void take(const session::DrawnWorld& now) { drawn_ = now; }
     // Returns the picture of the world with the tool as it is now, seen from the middle between the eyes, from nearby.
     [[nodiscard]] picture::Picture close_scene(const haptics::ToolState& tool) const;
     // Returns the world on the wall, for a tracked viewer with two eyes.

@@ -14,6 +14,7 @@
 #include "base/try.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
+#include "sculpt/saved_solid.hpp"
 #include "session/record/input_files.hpp"
 #include "session/work/opened_work.hpp"
 
@@ -46,14 +47,16 @@ void print_part(const document::PartPlace& part, const scene::Pages& pages) {
         std::printf("  page %lld of %s is damaged\n", static_cast<long long>(name.number), name.kind.c_str());
 }
 
-// Adds how many strokes undo takes back and redo repeats.
+// Adds how many steps of a part undo takes back and redo repeats.
 void tell_steps(document::DocumentReader& reader, const document::PartPlace& part, bool prints, Json& json) {
     const Result<std::optional<scene::Steps>> steps = reader.steps(part);
     if (!steps || !*steps) return;
     const std::int64_t back = (*steps)->done + 1 - (*steps)->first, forward = (*steps)->last - (*steps)->done;
     json["undo"] = {{"back", back}, {"forward", forward}};
     if (!prints) return;
-    std::printf("  undo: %lld %s back, %lld forward\n", static_cast<long long>(back), back == 1 ? "stroke" : "strokes",
+    const bool strokes = part.kind == sculpt::kSolidPart;
+    const std::string what = std::string(strokes ? "stroke" : "step") + (back == 1 ? "" : "s");
+    std::printf("  undo: %lld %s back, %lld forward\n", static_cast<long long>(back), what.c_str(),
                 static_cast<long long>(forward));
 }
 

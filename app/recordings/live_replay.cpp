@@ -23,6 +23,7 @@
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
 #include "scene/world_digest.hpp"
+#include "session/drive/headless_session.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
@@ -108,6 +109,9 @@ std::vector<std::string> changes_of(const LiveReplay& how) {
 Result<void> check_files(const record::RecordReader& reader, const session::SessionSetup& own,
                          const std::string& first_device, const std::vector<std::string>& sets) {
     const std::string tool = tool_file_of(own), &workpiece = own.carve.workpiece.source, &device = own.hands.device;
+    if (std::error_code ignored; !own.scene.world.empty() && !std::filesystem::exists(own.scene.world, ignored))
+        return fail(own.scene.world, "is the world of the recording, and is not there",
+                    "say where it is now by --world FILE");
     if (const auto same = check_recorded_file(reader, {record::kWorldDigestFact, "world", "world"}, own.scene.world,
                                               digest_of_world(own.scene.world, own.scene.reading), sets);
         !same)
@@ -264,6 +268,10 @@ std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
 }
 
 Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay& how, const record::TickRange& range) {
+    const bool had_viewer = reader.fact(session::kViewerFact) != session::kNoViewer;
+    if (!had_viewer && !how.sets.empty())
+        return fail("--set", "is for sessions that a person leads, and " + reader.path() + " has a hand of its own",
+                    "leave it out");
     BURIN_TRY(prepared, read_recorded_session(reader));
     BURIN_TRY_DO(change_settings(reader, how, prepared));
     BURIN_TRY(judge,
@@ -273,7 +281,7 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     session::ReplayManner manner;
     manner.draws = !how.pictures.empty();
     manner.only_compares = true;
-    manner.another_view = prepared.another_view;
+    manner.another_view = prepared.another_view || !had_viewer;
     manner.picture_every_ns = nanoseconds(how.every_s);
     manner.witness = &judge;
     manner.ticks = &reader;

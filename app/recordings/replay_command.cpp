@@ -8,19 +8,15 @@
 #include <memory>
 #include <optional>
 
-#include "activities/wand/wand_stroke.hpp"
-#include "activities/world/world_replay.hpp"
+#include "activities/world/opened_world.hpp"
 #include "app/cli/output_files.hpp"
-#include "app/recordings/felt_recording.hpp"
-#include "app/recordings/live_replay.hpp"
+#include "app/recordings/recording_kinds.hpp"
 #include "app/recordings/through_report.hpp"
 #include "base/try.hpp"
-#include "compute/engine/chosen_engine.hpp"
 #include "record/examination.hpp"
 #include "record/motion.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/record/input_files.hpp"
-#include "session/record/session_recording.hpp"
 
 namespace burin::app {
 namespace {
@@ -82,52 +78,22 @@ struct AskedReplay {
     }
     [[nodiscard]] bool is_whole() const { return !from && !to; }
     [[nodiscard]] Result<void> replay() const;
-    [[nodiscard]] Result<void> replay_session(record::RecordReader& reader) const;
 };
 
 Result<void> AskedReplay::replay() const {
     BURIN_TRY(reader, record::RecordReader::open(file));
     BURIN_TRY_DO(record::check_ticks(reader, range()));
-    const std::string activity = reader.fact(activities::kActivityFact);
-    if (activity == session::kLiveActivity) return replay_session(reader);
-    std::optional<compute::EngineChoice> engine;
-    if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=cpu"})
-        engine = compute::EngineChoice::cpu;
-    if (activity == kFeltActivity && sets == std::vector<std::string>{"engine=vulkan"})
-        engine = compute::EngineChoice::vulkan;
-    if ((!sets.empty() && !engine) || !pictures.empty())
-        return fail(pictures.empty() ? "--set" : "--pictures",
-                    "is for live sessions, and " + file + " is of another kind",
-                    activity == kFeltActivity ? "leave it out, or give --set engine=cpu or engine=vulkan alone"
-                                              : "leave it out");
-    if (activity != activities::kWorldActivity && activity != kFeltActivity && activity != activities::kWandActivity)
-        return fail(file, "does not hold what a replay needs",
-                    "replay what burin world --record or burin sculpt --record has written; other "
-                    "motions can be felt --through a world");
+    BURIN_TRY(kind, kind_of(reader));
     BURIN_TRY_DO(check_build(reader));
     const auto begun = std::chrono::steady_clock::now();
-    BURIN_TRY(found, activity == activities::kWorldActivity ? activities::replay_world(reader, world, range())
-                     : activity == activities::kWandActivity
-                         ? activities::replay_wand(reader, world, stroke, range())
-                         : replay_felt(reader, {stroke, workpiece, engine}, range()));
-    if (!found.difference && found.ticks > 0 && is_whole()) BURIN_TRY_DO(session::check_unchanged(reader));
-    return tell(reader, found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
-}
-
-// Does a live session again.
-Result<void> AskedReplay::replay_session(record::RecordReader& reader) const {
-    if (!stroke.empty())
-        return fail("--stroke", "belongs to a felt stroke, and this is a live session", "leave it out");
-    BURIN_TRY_DO(check_build(reader));
-    const auto begun = std::chrono::steady_clock::now();
-    BURIN_TRY(found, replay_live(reader, {world, workpiece, sets, pictures, every_s}, range()));
-    if (!found.comparison.difference && found.comparison.ticks > 0 && is_whole())
-        BURIN_TRY_DO(session::check_unchanged(reader));
+    BURIN_TRY(found, kind->replay(reader, {{world, workpiece, sets, pictures, every_s}, stroke, range()}));
+    const bool is_equal = !found.comparison.difference;
+    if (is_equal && found.comparison.ticks > 0 && is_whole()) BURIN_TRY_DO(session::check_unchanged(reader));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-    if (!found.comparison.difference && found.unrecorded > 0)
+    if (is_equal && found.unrecorded > 0)
         std::fprintf(stderr, "burin: %s: %llu ticks of its log have no columns: they were lost\n", file.c_str(),
                      static_cast<unsigned long long>(found.unrecorded));
-    if (!found.comparison.difference && found.left > 0)
+    if (is_equal && found.left > 0)
         std::fprintf(stderr, "burin: %s: its log was torn off: the last %llu ticks are not compared\n", file.c_str(),
                      static_cast<unsigned long long>(found.left));
     return tell(reader, found.comparison, took.count(), json);

@@ -5,15 +5,11 @@
 #include <cstdio>
 
 #include "activities/replay/through_table.hpp"
-#include "activities/wand/wand_stroke.hpp"
-#include "activities/world/world_replay.hpp"
 #include "app/cli/output_files.hpp"
-#include "app/recordings/felt_recording.hpp"
-#include "app/recordings/live_replay.hpp"
+#include "app/recordings/recording_kinds.hpp"
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "record/examination.hpp"
-#include "session/record/session_recording.hpp"
 
 namespace burin::app {
 namespace {
@@ -100,18 +96,10 @@ Json through_json(const activities::ThroughFigures& f, bool has_torque) {
 
 // Returns the radius of the balls that touched.
 Result<double> recorded_radius_m(const record::RecordReader& reader) {
-    const std::string activity = reader.fact(activities::kActivityFact);
     std::optional<double> ball_m;
-    if (activity == activities::kWorldActivity) {
-        BURIN_TRY(own, activities::recorded_settings(reader));
-        ball_m = own.tool_radius_m;
-    } else if (activity == activities::kWandActivity) {
-        BURIN_TRY(stroke, activities::recorded_wand_stroke(reader));
-        ball_m = stroke.radius_m;
-    } else if (activity == kFeltActivity) {
-        ball_m = felt_ball_radius_m(reader.fact(activities::kSettingsFact));
-    } else if (activity == session::kLiveActivity) {
-        ball_m = live_ball_radius_m(reader);
+    if (const auto kind = kind_of(reader)) {
+        BURIN_TRY(own_m, (*kind)->ball_radius_m(reader));
+        ball_m = own_m;
     }
     if (ball_m) return *ball_m;
     return fail(reader.path(), "does not say how large the ball was that touched", "give it by --radius METRES");

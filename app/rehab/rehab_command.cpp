@@ -31,6 +31,7 @@
 #include "devices/gloves/grip_shape.hpp"
 #include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
+#include "document/document_reader.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"
@@ -161,7 +162,7 @@ struct AskedExercise {
     // Of each of the kind's settings; they overrule the file.
     std::vector<std::optional<double>> numbers;
     std::vector<std::string> words;
-    std::string settings, report, hand;
+    std::string settings, report, hand, from;
     ResultsOptions results;
     RunRemarks remarks;
     std::uint64_t seed = 1;
@@ -265,6 +266,26 @@ Result<void> keep_run(const AskedExercise& of, const activities::Rehab& exercise
     return !done ? done : !written ? written : kept;
 }
 
+// Has the body of an exercise go on as a document has it. A recording would have to have it as well.
+Result<void> go_on_from(const std::string& path, const session::SessionSetup& setup, activities::Rehab& exercise) {
+    if (path.empty()) return {};
+    if (!setup.record.path.empty() || session::is_database(setup.record.input))
+        return fail("--from", "cannot be recorded: a recording does not hold the body that it began with",
+                    "leave out --from, or the recording");
+    BURIN_TRY(reader, document::DocumentReader::open(path));
+    BURIN_TRY(pages, reader.pages_of(activities::Rehab::kBodyPart));
+    const auto part = std::ranges::find(reader.parts(), activities::Rehab::kBodyPart, &document::PartPlace::kind);
+    BURIN_TRY(found, reader.steps(*part));
+    const scene::Steps steps = found.value_or(scene::Steps());
+    std::vector<scene::Pages> each;
+    for (std::int64_t number = steps.first; number <= steps.last; ++number) {
+        if (each.size() > activities::Rehab::kMostDents) return fail(path, "has more dents than there can be");
+        BURIN_TRY(step, reader.step(*part, number));
+        each.push_back(std::move(step));
+    }
+    return exercise.load_body(pages, steps, each, path);
+}
+
 Result<void> run_exercise(const AskedExercise& of) {
     BURIN_TRY(given, of.values());
     // A recording is done again, and is whose it was; any other input is a script.
@@ -291,6 +312,7 @@ Result<void> run_exercise(const AskedExercise& of) {
     if (!run.fitted.is_null()) exercise->fitted_by(std::move(run.fitted));
     BURIN_TRY(results, is_again ? ResultsOfRun::again(of.results, recording)
                                 : ResultsOfRun::begin(of.results, hand_of_run(of, setup), exercise));
+    BURIN_TRY_DO(go_on_from(of.from, session, *exercise));
     session.activity = exercise;
     if (!repeated_activity(setup).empty()) leave_to_recording(session, false);
     const Result<void> done = run_recorded_session(session, "rehab");
@@ -334,6 +356,8 @@ CommandAction add_exercise(Command command, const ExerciseKind& kind) {
     command.flag("--print-config", of.print_config, "Print the settings as such a file, and do no more");
     add_hand_option(command, of);
     command.option("--seed", of.seed, "Of the scripted hand").show_default();
+    if (kind.make(SettingValues(kind.settings))->has_body())
+        command.option("--from", of.from, "A document of this body that was saved: it goes on with its dents");
     command.option("--report", of.report, "A JSON file for score, measures and events; - for standard output");
     add_results_options(command, of.results);
     add_remark_options(command, of.remarks);

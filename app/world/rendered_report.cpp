@@ -45,11 +45,8 @@ haptics::Probe probe_of(const devices::WandDescription& wand, std::span<const de
     return probe;
 }
 
-void tell_what_is_not_rendered(const std::string& world, const scene::MeshPart& part,
-                               std::span<const scene::ObjectId> ids, const devices::DeviceDescription& device,
-                               const haptics::Probe& probe) {
-    std::vector<scene::SceneObject> objects;
-    for (const scene::ObjectId id : ids) objects.push_back(part.object(id));
+void tell_what_is_not_rendered(const std::string& world, const std::vector<scene::SceneObject>& objects,
+                               const devices::DeviceDescription& device, const haptics::Probe& probe) {
     haptics::TickParameters parameters;
     parameters.probe = probe;
     const std::string more = scene::more_than_rendered(objects, device, parameters);

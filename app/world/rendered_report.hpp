@@ -25,9 +25,8 @@ void add_wall(Json& touch, const session::RenderedTally& wall);
 [[nodiscard]] haptics::Probe probe_of(const devices::WandDescription& wand, std::span<const devices::WandPoint> points);
 
 // Tells on standard error what the world asks for and the device does not render; nothing where it renders all.
-void tell_what_is_not_rendered(const std::string& world, const scene::MeshPart& part,
-                               std::span<const scene::ObjectId> ids, const devices::DeviceDescription& device,
-                               const haptics::Probe& probe);
+void tell_what_is_not_rendered(const std::string& world, const std::vector<scene::SceneObject>& objects,
+                               const devices::DeviceDescription& device, const haptics::Probe& probe);
 
 // What the simulated stylus, and the simulated wand with one end and with both, render of a material.
 struct RenderedOn {

@@ -17,6 +17,7 @@
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "record/record_writer.hpp"
+#include "scene/world_file.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
@@ -92,24 +93,23 @@ Result<void> explore_world(const WorldExploration& options) {
     BURIN_TRY(world, activities::open_world(options.world, {}));
     activities::ExploreOptions explore;
     explore.tool_radius_m = options.radius_m;
-    explore.record = options.record;
     if (!options.record.empty()) {
         BURIN_TRY(facts, activities::facts_of_stroke(
                              options.world, *world, options.stroke,
                              {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}}));
         explore.facts = std::move(facts);
     }
-    tell_what_is_not_rendered(options.world, *world->part, world->ids, devices::description_of({}),
+    tell_what_is_not_rendered(options.world, world->scene->objects, devices::description_of({}),
                               haptics::ball_probe(options.radius_m));
 
     BURIN_TRY(folder, PictureFolder::create_if_named(options.pictures, "--pictures"));
     activities::PictureDrawer draw;
     if (folder)
         draw = [&](const picture::Picture& scene, const std::string& file) { return folder->take(scene, file); };
-    activities::TouchPictures pictures(*world->part, world->ids, options.radius_m, std::move(draw));
+    activities::TouchPictures pictures(*world->scene, options.radius_m, std::move(draw));
     BURIN_TRY(figures, activities::explore_by_feel(
-                           *world->part, world->ids, world->materials, stroke, explore,
-                           [&](double, const activities::WorldMoment& moment) { return pictures.at(moment); }));
+                           {.file = options.world, .scene = world->scene, .record = options.record}, stroke, explore,
+                           [&](const activities::WorldMoment& moment) { return pictures.at(moment); }));
     if (folder) BURIN_TRY_DO(folder->take_both_eyes(pictures.on_wall(figures.felt.last_tool), "stereo.png"));
     if (!options.record.empty())
         std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(figures.felt.ticks).c_str());

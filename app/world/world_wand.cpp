@@ -19,6 +19,7 @@
 #include "base/text.hpp"
 #include "base/try.hpp"
 #include "record/record_writer.hpp"
+#include "scene/world_file.hpp"
 #include "session/felt/felt_figures.hpp"
 #include "session/record/input_files.hpp"
 
@@ -84,11 +85,11 @@ Json report_of(const WorldExploration& options, const devices::WandDescription& 
 }
 
 Result<void> write_wand_report(const WorldExploration& options, const devices::WandDescription& wand,
-                               const std::vector<devices::WandPoint>& points, const scene::MeshPart& part,
+                               const std::vector<devices::WandPoint>& points, const scene::World& world,
                                const activities::WandExploredWorld& explored) {
     if (options.report.empty()) return {};
     BURIN_TRY_DO(write_text(session::felt_figure_path(options.report), wand_figure(explored, points)));
-    if (const auto done = write_text(session::felt_table_path(options.report), wand_table(explored, part, points));
+    if (const auto done = write_text(session::felt_table_path(options.report), wand_table(explored, world, points));
         !done)
         return done;
     return write_text(options.report, json_text(report_of(options, wand, points, explored)));
@@ -106,21 +107,20 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
                                         options.radius_m};
     BURIN_TRY(opened, activities::open_wand_world(stroke));
     activities::WandWorld& w = *opened;
-    w.feel.record = options.record;
+    w.world.record = options.record;
     if (!options.record.empty())
         w.feel.facts =
             facts_of_wand(stroke, w, {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}});
 
-    tell_what_is_not_rendered(options.world, *w.part, w.ids, devices::device_of(w.feel.wand),
+    tell_what_is_not_rendered(options.world, w.world.scene->objects, devices::device_of(w.feel.wand),
                               probe_of(w.feel.wand, w.feel.points));
     BURIN_TRY(folder, PictureFolder::create_if_named(options.pictures, "--pictures"));
     activities::PictureDrawer draw;
     if (folder)
         draw = [&](const picture::Picture& scene, const std::string& file) { return folder->take(scene, file); };
-    activities::WandPictures pictures(*w.part, w.ids, w.feel, std::move(draw));
-    const Result<activities::WandExploredWorld> explored =
-        activities::explore_with_wand(*w.part, w.materials, w.stroke, w.feel,
-                                      [&](const activities::WandMoment& moment) { return pictures.at(moment); });
+    activities::WandPictures pictures(*w.world.scene, w.feel, std::move(draw));
+    const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(
+        w.world, w.stroke, w.feel, [&](const activities::WandMoment& moment) { return pictures.at(moment); });
     if (!explored) return std::unexpected(explored.error());
     if (explored->fitted)
         std::fprintf(stderr, "burin: %s: leaves the wand's workspace; it is centred in it, scaled by %.3g\n",
@@ -130,7 +130,7 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
     print_motion_scaled(explored->scene_from_device.scale);
     if (!options.record.empty())
         std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(explored->run.ticks).c_str());
-    return write_wand_report(options, w.feel.wand, w.feel.points, *w.part, *explored);
+    return write_wand_report(options, w.feel.wand, w.feel.points, *w.world.scene, *explored);
 }
 
 }  // namespace burin::app

@@ -109,6 +109,13 @@ void flow(const SoftBody& body, SoftState& state, double dt_s) {
     }
 }
 
+// An element that has never flowed has the body's own grams, as at the beginning.
+void take_rest_shapes(const SoftBody& body, SoftState& state, std::span<const glm::dmat3> metrics) {
+    state.flow = body.at_rest().flow;
+    for (std::size_t cell = 0; cell < metrics.size(); ++cell)
+        if (metrics[cell] != glm::dmat3(1.0)) take_metric(body, state.flow, cell, metrics[cell]);
+}
+
 void follow_shape(const SoftBody& body, const SoftState& state, std::span<const double> holds_N_per_m,
                   std::span<Vec3> held_at_m) {
     const std::span<const Vec3> rest = body.rest().places_m;

@@ -27,6 +27,9 @@ constexpr double kLeastPlasticQuality = 0.1, kLeastPlasticVolume = 0.1;
 // Lets a body flow for a time. Requires a plastic body and a state of it.
 void flow(const SoftBody& body, SoftState& state, double dt_s);
 
+// Gives a plastic body's elements the rest shapes of these metrics, one for each; none counts as stopped.
+void take_rest_shapes(const SoftBody& body, SoftState& state, std::span<const glm::dmat3> metrics);
+
 // Sets the places to which a plastic body's corners are drawn (SoftStepInput::held_at_m) to where the corners are, but
 // for the rigid motion that all that are held have made since the beginning. So springs hold where the body is and how
 // it is turned, and do not draw it back into the shape that it had.

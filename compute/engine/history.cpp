@@ -23,7 +23,10 @@ std::size_t History::size_of(const RayBatch& stroke) {
 void History::record(const Changes& changes) {
     if (changes.empty()) return;
     discard_undone();
-    if (!open_.rays.empty()) done_states_.pop_back();
+    if (open_.rays.empty())
+        ++made_;
+    else
+        done_states_.pop_back();
     done_states_.push_back(++last_state_);
     bytes_ -= size_of(open_);
     for (const shared::ChangedRay& change : changes.rays) {
@@ -157,6 +160,7 @@ void History::take_step(HistoryStep step) {
     if (step == HistoryStep::stroke) {
         if (open_.rays.empty()) return;
         discard_undone();
+        ++made_;
         done_states_.push_back(++last_state_);
         end_stroke();
         return keep_within_budget();

@@ -43,6 +43,10 @@ public:
     // Tells the states of the solid apart that the strokes lead to: the same number again after undo, and no other's.
     // It is 0 at first, also with strokes of an earlier session.
     [[nodiscard]] std::uint64_t state() const { return done_states_.empty() ? oldest_state_ : done_states_.back(); }
+    // Returns how many strokes have been begun, in this history or in the one that it repeats.
+    [[nodiscard]] std::uint64_t made() const { return made_; }
+    // Forgets the strokes that could be redone.
+    void forget_undone() { discard_undone(); }
     // undo() takes back the last stroke, after closing an open one; redo() repeats the stroke that was undone last. The
     // changes that the engine reports for this must not be recorded. Both return false, with no effect, when there is
     // no such stroke, and fail when the engine does; the stroke is then kept.
@@ -88,7 +92,7 @@ private:
     std::deque<RayBatch> done_, undone_;  // rays with the ends that undo or redo assigns to them; the next are last
     // After each stroke of done_ and of the open one, and of undone_ once it is redone; before the oldest of done_.
     std::deque<std::uint64_t> done_states_, undone_states_;
-    std::uint64_t oldest_state_ = 0, last_state_ = 0;
+    std::uint64_t oldest_state_ = 0, last_state_ = 0, made_ = 0;
     std::int64_t first_ = 1;
     std::set<std::int64_t> unsaved_;
     RayBatch open_;                                             // the stroke that has not ended

@@ -19,6 +19,7 @@
 #include "desk/viewer/state_words.hpp"
 #include "desk/viewer/viewer_lead.hpp"
 #include "desk/viewer/viewer_watch.hpp"
+#include "sculpt/made_workpiece.hpp"
 #include "session/live/session.hpp"
 #include "session/record/input_source.hpp"
 #include "session/record/thread_log.hpp"

@@ -53,6 +53,7 @@ namespace burin::session {
 //   Act{"apart", "METRES", "Lay beads so far apart", {number_within(0.0001, 1.0, "m")}}
 using Act = CommandForm;
 
+struct BroughtHand;   // session/activity/brought_hand.hpp
 struct WorldObjects;  // session/objects/world_objects.hpp
 
 // A part of a hand in a step. A stylus and a wand are one part, a glove has one for each fingertip.
@@ -125,6 +126,9 @@ public:
     // Returns how the hand of a glove is led by a desk, where its scene asks for something of its own; nothing: over
     // all that is seen, with the palm down. Asked once, when the session begins.
     [[nodiscard]] virtual std::optional<LedHand> led_hand() const { return std::nullopt; }
+    // Returns the hand that it brings, which leads the first device by itself; null: none. Asked when the session
+    // opens, and valid as long as it lasts.
+    [[nodiscard]] virtual const BroughtHand* brought_hand() const { return nullptr; }
     // Returns whether stage() draws the hands, so that no tools are drawn for them.
     [[nodiscard]] virtual bool draws_hands() const { return false; }
     // Changes what a screen shows.

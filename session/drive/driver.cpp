@@ -45,6 +45,9 @@ Result<void> SteppedExecutor::advance_to(Nanoseconds until_ns) {
         tick();
         if (clock_.now_ns() < next_update_ns_) continue;
         BURIN_TRY_DO(service_.update(clock_.now_ns()));
+        updates_.push_back(service_.seen());
+        updates_.back().orders = std::exchange(orders_, 0);
+        ++made_;
         collect();
         next_update_ns_ += scene::SceneService::kHandsMove_ns;
     }
@@ -66,13 +69,14 @@ void SteppedExecutor::collect() {
 }
 
 void SteppedExecutor::order(Order order) {
+    if (order.counts()) ++orders_;
     order();
     service_.finish();
 }
 
 Result<Executor::Taken> SteppedExecutor::take_updates() {
-    collect();
-    return Taken{};
+    if (collects_orders_) collect();
+    return Taken{std::exchange(updates_, {}), collects_orders_ ? kAllCollected : made_};
 }
 
 // ---- On threads

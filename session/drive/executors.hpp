@@ -27,11 +27,14 @@ public:
     // Appends how long each tick from now on takes, in nanoseconds.
     void measure_ticks(std::vector<std::uint32_t>& durations_ns) { tick_durations_ns_ = &durations_ns; }
 
+    // Has the parts' reports collected after updates alone, as a thread of the scene does: a replay has no others.
+    void collect_after_updates_alone() { collects_orders_ = false; }
+
     [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
     [[nodiscard]] std::vector<haptics::ToolState> tools() override { return newest_tools(parts_); }
     // Carries the order out at once, exports to their end, so that later orders find it complete.
     void order(Order order) override;
-    // Collects once more, for orders since the last update.
+    // Collects once more, for orders since the last update, unless updates alone are collected.
     [[nodiscard]] Result<Taken> take_updates() override;
 
 private:
@@ -44,6 +47,10 @@ private:
     scene::SceneService& service_;
     AfterUpdate after_update_;
     Nanoseconds next_update_ns_;
+    bool collects_orders_ = true;
+    std::uint64_t made_ = 0;                   // updates
+    std::size_t orders_ = 0;                   // since the last update
+    std::vector<scene::SceneUpdate> updates_;  // not taken yet
     MonotonicClock stopwatch_;
     std::vector<std::uint32_t>* tick_durations_ns_ = nullptr;
 };

@@ -8,13 +8,32 @@
 #include "base/try.hpp"
 #include "devices/hand/steered_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
+#include "devices/haptic/simulated_wand.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/haptic_host.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "session/activity/brought_hand.hpp"
 #include "session/record/recordings.hpp"
 
 namespace burin::session {
+namespace {
+
+devices::AnyHand leading(const HandToOpen& wanted, devices::SteeredHand steered) {
+    if (wanted.brought != nullptr && wanted.brought->leads) return *wanted.brought->leads;
+    return steered;
+}
+
+// Opens a device by its name, or the wand that an activity describes.
+Result<devices::OpenedDevice> open_device(const HandToOpen& wanted, devices::HapticHost host) {
+    if (wanted.brought == nullptr || !wanted.brought->handle)
+        return devices::open_haptic_device(wanted.device, std::move(host));
+    auto wand = std::make_unique<devices::SimulatedWand>(std::move(host.hand), *wanted.brought->handle, &host.clock);
+    devices::Amplifiers* const amplifiers = wand.get();
+    return devices::of_one_part(std::move(wand), amplifiers);
+}
+
+}  // namespace
 
 Error of_hand(const std::string& name, Error error) {
     if (!name.empty()) error.where = "hand " + name + ": " + error.where;
@@ -62,6 +81,11 @@ const devices::DeviceDescription& SessionHands::device(std::size_t part) const {
     return hands_[of.hand]->device.parts[of.part].device->description();
 }
 
+const devices::HapticDevice& SessionHands::opened(std::size_t part) const {
+    const PartOfHand of = parts_[part]->of;
+    return *hands_[of.hand]->device.parts[of.part].device;
+}
+
 Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock, bool stands_in) {
     for (const HandToOpen& one : wanted) BURIN_TRY_DO(open_one(one, clock, stands_in));
     std::vector<haptics::LoopPart> parts;
@@ -89,8 +113,7 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
     BURIN_TRY(steered, devices::SteeredHand::create(&hand->steering, rest));
     hand->told.position_device_m = rest.position_device_m;
     hand->told.orientation_device = rest.orientation_device;
-    auto opened =
-        devices::open_haptic_device(wanted.device, {clock, std::move(steered), stands_in, &session_recordings()});
+    auto opened = open_device(wanted, {clock, leading(wanted, std::move(steered)), stands_in, &session_recordings()});
     if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
     hand->device = std::move(*opened);
     hand->given = wanted.device;

@@ -24,6 +24,7 @@
 namespace burin::devices {
 struct DeviceDescription;  // devices/haptic/haptic_device.hpp
 struct HandTarget;         // devices/hand/hand_target.hpp
+class HapticDevice;        // devices/haptic/haptic_device.hpp
 struct SteeredTarget;
 }  // namespace burin::devices
 
@@ -36,11 +37,14 @@ struct ToolState;       // haptics/tool_state.hpp
 
 namespace burin::session {
 
+struct BroughtHand;  // session/activity/brought_hand.hpp
+
 // Which device is whose, and where a simulated hand rests in it.
 struct HandToOpen {
     std::string name;    // "right"; empty for the only hand
     std::string device;  // by its name (devices/registry/device_registry.hpp)
     Pose rest_device;
+    const BroughtHand* brought = nullptr;  // leads it in place of what the session tells; null: nobody
 };
 
 using scene::PartOfHand;
@@ -109,6 +113,8 @@ public:
     // Returns the channels of all parts, in their order.
     [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts();
     [[nodiscard]] const devices::DeviceDescription& device(std::size_t part) const;
+    // Returns a part's device itself, for what one kind alone counts.
+    [[nodiscard]] const devices::HapticDevice& opened(std::size_t part) const;
     // Returns whether a person's hand feels any of the devices.
     [[nodiscard]] bool felt_by_person() const;
 

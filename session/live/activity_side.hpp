@@ -48,6 +48,7 @@ public:
     void adjust(PartOfHand of, haptics::TickParameters& parameters) const {
         if (activity_) activity_->adjust(of, parameters);
     }
+    [[nodiscard]] const BroughtHand* brought_hand() const { return activity_ ? activity_->brought_hand() : nullptr; }
     [[nodiscard]] bool draws_hands() const { return activity_ && activity_->draws_hands(); }
     void stage(picture::Picture& scene, std::size_t screen) const {
         if (activity_) activity_->stage(scene, screen);

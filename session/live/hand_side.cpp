@@ -4,17 +4,37 @@
 #include <utility>
 
 #include "base/try.hpp"
+#include "haptics/channels.hpp"
+#include "haptics/tick_parameters.hpp"
+#include "record/record_writer.hpp"
 #include "scene/rendered_material.hpp"
 #include "session/held/held_handle.hpp"
+#include "session/record/session_recording.hpp"
 #include "session/state/session_room.hpp"
 
 namespace burin::session {
-Result<void> HandSide::open(const SessionSetup& setup, const SessionState& state, const Room& room, Clock& clock) {
+namespace {
+
+constexpr std::size_t kTicksToLog = 8192;  // the frame's thread, which reads them for a text log, may stall for so many
+// Returns how many ticks the ring of a recording holds.
+std::size_t ring_for(const RecordSetup& record) {
+    if (record.path.empty()) return record.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
+    return is_session_file(record.path) ? burin::record::kRingTicks : kTicksToLog;
+}
+
+}  // namespace
+
+HandSide::HandSide(const RecordSetup& record, double pace) : hands_(ring_for(record), pace) {}
+
+Result<void> HandSide::open(const SessionSetup& setup, const SessionState& state, const Room& room,
+                            const BroughtHand* brought, Clock& clock) {
     std::vector<HandToOpen> wanted;
     for (const NamedDevice& hand : devices_of(setup.hands)) {
         const std::size_t i = wanted.size();
-        wanted.push_back(
-            {hand.hand, hand.device, {state.hands[i].target.position_device_m, room.hands[i].rest_device}});
+        wanted.push_back({hand.hand,
+                          hand.device,
+                          {state.hands[i].target.position_device_m, room.hands[i].rest_device},
+                          i == 0 ? brought : nullptr});
     }
     BURIN_TRY_DO(hands_.open(wanted, clock, setup.record.stands_in));
     tools_.resize(hands_.parts());
@@ -34,7 +54,9 @@ std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state
         // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
         // ends of a handle are swung as well, at 6 rad/s.
         const double scale = parameters_of(state, room, hand).workspace.object_from_device.scale;
-        const double reach_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m;
+        const double usual_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m;
+        const auto& placed = room.hands[hand].placed;
+        const double reach_m = placed ? placed->reach_m : usual_m;
         all.push_back({place_at_rest(hand, state, room), reach_m, spread_of(hand, state, room)});
     }
     return all;
@@ -87,6 +109,7 @@ double HandSide::spread_of(std::size_t hand, const SessionState& state, const Ro
 
 // Returns where a hand's tool is before the first tick.
 Vec3 HandSide::place_at_rest(std::size_t hand, const SessionState& state, const Room& room) const {
+    if (const auto& placed = room.hands[hand].placed) return placed->begins_scene_m;
     const Vec3& rest_device_m = state.hands[hand].target.position_device_m;
     const Vec3 first_device_m = handles_[hand]
                                     ? handles_[hand]->first_point_device({rest_device_m, room.hands[hand].rest_device})

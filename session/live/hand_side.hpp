@@ -22,12 +22,12 @@ public:
     using Handles = std::vector<std::shared_ptr<const HeldHandle>>;
 
     // As SessionHands.
-    HandSide(std::size_t records, double pace) : hands_(records, pace) {}
+    HandSide(const RecordSetup& record, double pace);
 
     void use(Handles handles) { handles_ = std::move(handles); }
-    // Opens the devices, each with its hand where the state has it.
+    // Opens the devices, each with its hand where the state has it. brought: the first hand; null: the session's own.
     [[nodiscard]] Result<void> open(const SessionSetup& setup, const SessionState& state, const Room& room,
-                                    Clock& clock);
+                                    const BroughtHand* brought, Clock& clock);
     // Returns where the hands' tools are before the first tick. spacing_m: of the workpiece's lattice.
     [[nodiscard]] std::vector<SceneSide::Beginning> beginnings(const SessionState& state, const Room& room,
                                                                double spacing_m) const;

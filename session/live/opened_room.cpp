@@ -10,6 +10,7 @@
 #include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "session/activity/activity.hpp"
+#include "session/activity/brought_hand.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/record/recordings.hpp"
@@ -64,6 +65,16 @@ Result<OpenedRoom> open_room(const SessionSetup& options) {
                 opened.room.reach_object = led->reach_scene;
                 room.rest_device = led->rest_device;
             }
+        const BroughtHand* const brought = i == 0 && options.activity ? options.activity->brought_hand() : nullptr;
+        if (brought != nullptr) {
+            room.placed = brought->placed;
+            room.rest_device = brought->placed.rest_device.orientation;
+        }
+        if (brought != nullptr && brought->handle) {
+            reach_over(room, devices::device_of(*brought->handle).workspace_m);
+            opened.handles[i] = std::make_shared<const HeldHandle>(*brought->handle, brought->points);
+            continue;
+        }
         if (!nature->handle) continue;
         reach_over(room, devices::device_of(*nature->handle).workspace_m);
         if (options.hands.points.empty()) continue;

@@ -21,6 +21,7 @@ bool SceneNews::collect(const scene::SceneThread::Ended& update) {
     report.news.materials = std::move(changes.materials);
     report.news.messages = std::exchange(messages_, {});
     report.news.hands = std::move(changes.hands);
+    report.news.steps = std::move(changes.steps);
     const bool anything = report.news.surface || !report.news.objects.empty() || report.news.materials ||
                           !report.news.drawn.empty() || !report.news.messages.empty();
     const bool ticks = report.news.hands.has_ticks();
@@ -29,7 +30,8 @@ bool SceneNews::collect(const scene::SceneThread::Ended& update) {
     if (!report.news.drawn.empty() && reports_.size() >= kMostShapes)
         reports_[reports_.size() - kMostShapes].news.drawn.clear();
     report.update = ++updates_;
-    if (anything || ticks || !report.news.hands.contacts.empty()) reports_.push_back(std::move(report));
+    const bool tells = anything || ticks || !report.news.hands.contacts.empty() || !report.news.steps.empty();
+    if (tells) reports_.push_back(std::move(report));
     return anything || (ticks && frames_for_ticks_.load(std::memory_order_relaxed));
 }
 
@@ -43,6 +45,7 @@ SceneNews::Taken SceneNews::take(std::uint64_t updates) {
         if (news.materials) taken.materials = news.materials;
         std::ranges::move(news.drawn, std::back_inserter(taken.drawn));
         std::ranges::move(news.messages, std::back_inserter(taken.messages));
+        std::ranges::move(news.steps, std::back_inserter(taken.steps));
         taken.hands.add(std::move(news.hands));
     }
     return taken;

@@ -18,7 +18,7 @@
 #include "scene/scene_changes.hpp"
 #include "scene/scene_service.hpp"
 #include "scene/scene_thread.hpp"
-#include "sculpt/carved_part.hpp"
+#include "scene/surface_update.hpp"
 
 namespace burin::session {
 
@@ -44,7 +44,8 @@ public:
         std::optional<scene::MaterialTable> materials;  // if it has changed
         std::vector<scene::DrawnShare> drawn;           // of other kinds than carved surfaces
         std::vector<std::string> messages;
-        scene::HandNews hands;  // ticks for the activity, contacts for the recording as well
+        std::vector<scene::StepsOfPart> steps;  // the newest last
+        scene::HandNews hands;                  // ticks for the activity, contacts for the recording as well
     };
     [[nodiscard]] Taken take(std::uint64_t updates);
     // Returns the durations of the updates in which the carved surface changed. Any thread.

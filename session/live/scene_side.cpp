@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/scene_side.hpp"
 
+#include "sculpt/carved_part.hpp"
 #include "session/state/session_state.hpp"
 
 #include <utility>
 
 namespace burin::session {
 
+SceneSide::SceneSide(SessionHands& hands) : hands_(hands) {}
+SceneSide::~SceneSide() = default;
+
+void SceneSide::take(std::unique_ptr<sculpt::Sculpture> carving, std::unique_ptr<WorkerPool> pool) {
+    carving_ = std::move(carving);
+    pool_ = std::move(pool);
+}
+
+const compute::CarvingEngine* SceneSide::engine() const { return carving_ ? &carving_->engine() : nullptr; }
+const compute::Surface* SceneSide::surface() const { return carving_ ? &carving_->surface() : nullptr; }
+double SceneSide::spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
+Vec3 SceneSide::lattice_origin_object() const {
+    return carving_ ? carving_->surface().lattice().origin_object : Vec3(0.0);
+}
+
 Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes, std::span<const Beginning> hands,
                               scene::ScenePart* brought, SampleTap* tap, Nanoseconds start_ns) {
-    std::vector<scene::ScenePart*> parts;
+    std::vector<scene::ScenePart*>& parts = parts_;
     if (carving_) {
-        carved_.emplace(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
+        carved_ = std::make_unique<sculpt::CarvedPart>(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
         for (std::size_t part = 0; part < hands_.parts(); ++part) carved_->order(use, part);
         parts.push_back(&*carved_);
     }
@@ -20,6 +36,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
         for (std::size_t part = 0; part < hands_.parts(); ++part) world_->part().grip_with(part, kGrips);
         parts.push_back(&world_->part());
     }
+    brought_ = brought;
     if (brought != nullptr) parts.push_back(brought);
     if (tap != nullptr) parts.push_back(tap);
     for (const Beginning& hand : hands) spreads_m_.push_back(hand.spread_m);
@@ -30,7 +47,7 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
         touched.push_back(
             {&hands_.channels(part), hand.at_scene, tools_around_m_[of.hand] + hand.spread_m, hand.reach_m, of});
     }
-    service_.emplace(std::move(parts), std::move(touched));
+    service_.emplace(parts, std::move(touched));
     news_.report_of(*service_);
     return service_->update(start_ns);
 }
@@ -48,6 +65,12 @@ SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand)
     };
 }
 
+SceneSide::Order SceneSide::going(std::uint32_t part, scene::StepWay way) {
+    return [this, part, way] {
+        if (part < parts_.size()) parts_[part]->go(way);
+    };
+}
+
 SceneSide::Order SceneSide::saving(document::SaveRequest request, document::DocumentWriter& writer) {
     auto wanted = std::make_shared<document::SaveRequest>(std::move(request));
     sculpt::SaveScene save{[this, wanted, &writer] {
@@ -56,10 +79,20 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
             if (const Result<void> saved = carved_->save(pages); !saved) wanted->refused = saved.error();
             wanted->content.parts.insert(wanted->content.parts.begin(), std::move(pages));
             wanted->state += carved_->state();
+            // It may have made strokes that the frame did not know of when it asked.
+            if (wanted->content.history) wanted->content.history->follow(0, carved_->undo_steps());
         }
+        if (brought_ != nullptr && brought_->is_kept() && !wanted->refused) save_brought(*wanted);
         writer.save(std::move(*wanted));
     }};
     return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };
+}
+
+void SceneSide::save_brought(document::SaveRequest& wanted) {
+    scene::Pages pages{.whole = !wanted.changed_alone};
+    if (const Result<void> saved = brought_->save(pages); !saved) wanted.refused = saved.error();
+    wanted.content.parts.push_back(std::move(pages));
+    if (wanted.content.history) wanted.content.history->follow(brought_part(), brought_->undo_steps());
 }
 
 SceneSide::Order SceneSide::noting(document::Change change, document::DocumentWriter& writer) {
@@ -73,8 +106,9 @@ SceneSide::Order SceneSide::noting(document::Change change, document::DocumentWr
 SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
     return Order::aside([this, content = std::move(content), &writer]() mutable {
         // The workpiece is the first part.
-        if (!carved_ || carved_->copy(*content.parts.emplace(content.parts.begin())))
-            writer.begin_anew(std::move(content));
+        if (carved_ && !carved_->copy(*content.parts.emplace(content.parts.begin()))) return;
+        if (carved_ && content.history) content.history->follow(0, carved_->undo_steps());
+        writer.begin_anew(std::move(content));
     });
 }
 

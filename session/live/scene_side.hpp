@@ -15,12 +15,26 @@
 
 #include "document/document_writer.hpp"
 #include "scene/scene_thread.hpp"
-#include "sculpt/carved_part.hpp"
+#include "sculpt/sculpt_order.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/live/sample_tap.hpp"
 #include "session/live/scene_news.hpp"
 #include "session/live/session_watch.hpp"
 #include "session/live/world_side.hpp"
+
+namespace burin {
+class WorkerPool;  // base/worker_pool.hpp
+}
+
+namespace burin::compute {
+class CarvingEngine;  // compute/engine/engine.hpp
+class Surface;        // compute/mesher/surface.hpp
+}  // namespace burin::compute
+
+namespace burin::sculpt {
+class CarvedPart;  // sculpt/carved_part.hpp
+class Sculpture;   // sculpt/sculpture.hpp
+}  // namespace burin::sculpt
 
 namespace burin::session {
 
@@ -32,13 +46,11 @@ public:
     using Give = std::function<void(Order)>;
 
     // The hands must outlive it.
-    explicit SceneSide(SessionHands& hands) : hands_(hands) {}
+    explicit SceneSide(SessionHands& hands);
+    ~SceneSide();
 
     // Takes what is there to be touched, before begin(). pool: of the workpiece.
-    void take(std::unique_ptr<sculpt::Sculpture> carving, std::unique_ptr<WorkerPool> pool) {
-        carving_ = std::move(carving);
-        pool_ = std::move(pool);
-    }
+    void take(std::unique_ptr<sculpt::Sculpture> carving, std::unique_ptr<WorkerPool> pool);
     void take(std::unique_ptr<WorldSide> world) { world_ = std::move(world); }
     // How a hand begins, by the numbers of the scene.
     struct Beginning {
@@ -54,8 +66,10 @@ public:
 
     // Orders for the scene's thread. A tool is the one of the hand in use.
     [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);
-    // Adds the pages of the workpiece, before those of the request, and has all saved; where that cannot be, nothing
-    // is.
+    // Has a part go a step back or forward; one that there is not says nothing.
+    [[nodiscard]] Order going(std::uint32_t part, scene::StepWay way);
+    // Adds the pages of the workpiece, before those of the request, and of what an activity has brought, behind them,
+    // and has all saved; where that cannot be, nothing is.
     [[nodiscard]] Order saving(document::SaveRequest request, document::DocumentWriter& writer);
     // Notes a change for the journal, in its turn among the saves.
     [[nodiscard]] Order noting(document::Change change, document::DocumentWriter& writer);
@@ -87,25 +101,30 @@ public:
     [[nodiscard]] const SceneNews& news() const { return news_; }
     // Null: there is no workpiece, or no world. The engine counts after the threads have ended.
     [[nodiscard]] const sculpt::Sculpture* workpiece() const { return carving_.get(); }
-    [[nodiscard]] const compute::CarvingEngine* engine() const { return carving_ ? &carving_->engine() : nullptr; }
+    [[nodiscard]] const compute::CarvingEngine* engine() const;
     // Returns the surface as it is carved now, and the objects of the world as they are now.
-    [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }
+    [[nodiscard]] const compute::Surface* surface() const;
     [[nodiscard]] const scene::MeshPart* objects() const { return world_ ? &std::as_const(*world_).part() : nullptr; }
-    [[nodiscard]] sculpt::CarvedPart* carved() { return carved_ ? &*carved_ : nullptr; }
+    [[nodiscard]] sculpt::CarvedPart* carved() { return carved_.get(); }
+    // The part that an activity has brought, null: none; and its number, behind workpiece and objects.
+    [[nodiscard]] const scene::ScenePart* brought() const { return brought_; }
+    [[nodiscard]] std::uint32_t brought_part() const { return (carved_ ? 1u : 0u) + (world_ ? 1u : 0u); }
     [[nodiscard]] WorldSide* world() { return world_.get(); }
     [[nodiscard]] const WorldSide* world() const { return world_.get(); }
     // Of the workpiece's lattice; 0 without one.
-    [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
-    [[nodiscard]] Vec3 lattice_origin_object() const {
-        return carving_ ? carving_->surface().lattice().origin_object : Vec3(0.0);
-    }
+    [[nodiscard]] double spacing_m() const;
+    [[nodiscard]] Vec3 lattice_origin_object() const;
 
 private:
+    void save_brought(document::SaveRequest& wanted);
+
     SessionHands& hands_;
     std::unique_ptr<WorkerPool> pool_;  // of the workpiece; null without one
     std::unique_ptr<sculpt::Sculpture> carving_;
-    std::optional<sculpt::CarvedPart> carved_;  // with carving_
+    std::unique_ptr<sculpt::CarvedPart> carved_;  // with carving_
     std::unique_ptr<WorldSide> world_;
+    std::vector<scene::ScenePart*> parts_;
+    scene::ScenePart* brought_ = nullptr;
     std::optional<scene::SceneService> service_;
     SceneNews news_;
     Strokes strokes_;

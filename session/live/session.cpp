@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "sculpt/carved_part.hpp"
+#include "session/live/orders_between.hpp"
 #include "session/live/session_events.hpp"
 #include "session/state/governed.hpp"
 #include "session/state/session_step.hpp"
@@ -55,13 +57,9 @@ void Session::carry_out(SessionOrders orders, const Give& give) {
         if (!log().follows_recording()) notices_.tell_of(hands_.switch_amplifiers(state_.hand, asked.on), asked.line);
     if (orders.parameters) publish_parameters();
     if (orders.parameters) hands_.spread(state_, room_, scene_, give);
-    auto wanted_save = orders.saves.begin();
-    const auto save_up_to = [&](std::size_t given) {
-        for (; wanted_save != orders.saves.end() && wanted_save->after <= given; ++wanted_save)
-            work_.save(*wanted_save, state_, give);
-    };
+    OrdersBetween between(orders, scene_, work_, state_, give);
     for (std::size_t given = 0; given < orders.carving.size(); ++given) {
-        save_up_to(given);
+        between.give_up_to(given);
         sculpt::SculptOrder& order = orders.carving[given];
         if (const auto* use = std::get_if<sculpt::UseTool>(&order))
             notices_.look_at_tool(state_.led().tool, use->tool, room_.workpiece_object, scene_.spacing_m());
@@ -70,7 +68,7 @@ void Session::carry_out(SessionOrders orders, const Give& give) {
         if (wanted != nullptr) files().place(*wanted);
         give(scene_.carving(std::move(order), state_.hand));
     }
-    save_up_to(SIZE_MAX);
+    between.give_up_to(SIZE_MAX);
     for (const Asked& wanted : orders.names) work_.look_at_name(wanted.text);
     for (WorldOrder& order : orders.world) give(scene_.editing(std::move(order)));
     for (HoldOrder& order : orders.holds) give(scene_.holding(std::move(order)));
@@ -89,6 +87,7 @@ std::optional<scene::SurfaceUpdate> Session::take_loaded() {
 std::optional<scene::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
     SceneNews::Taken news = scene_.news().take(updates);
     if (news.surface) take(*news.surface);
+    for (const auto& [part, now] : news.steps) state_.history.follow(static_cast<std::uint32_t>(part), now);
     for (const std::string& message : news.messages) notify(message);
     for (const scene::ContactEvent& contact : news.hands.contacts)
         notices_.add_event(event_of(contact, hands(), state_.world.get()));
@@ -97,7 +96,9 @@ std::optional<scene::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
     scene_.world()->drawn().take(news.objects);
     const auto before = state_.world;
     state_.world = followed(before, news.objects, news.materials ? &*news.materials : nullptr);
-    if (state_.saves && before != state_.world) state_.edits.follow(*before, *state_.world, state_.strokes);
+    const bool has_moved = state_.saves && before != state_.world;
+    if (has_moved) state_.edits.follow(*before, *state_.world);
+    if (has_moved) state_.history.follow(state_.objects_part(), state_.edits.steps());
     if (news.materials) publish_parameters();
     return std::move(news.surface);
 }
@@ -105,7 +106,6 @@ std::optional<scene::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
 void Session::take(const scene::SurfaceUpdate& news) {
     notices_.take(news);
     scene_.note(news);
-    state_.strokes = news.undoable;
     work_.tell(state_);
 }
 

@@ -19,7 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include "sculpt/made_workpiece.hpp"
 #include "session/live/activity_side.hpp"
 #include "session/live/hand_side.hpp"
 #include "session/live/notices.hpp"
@@ -28,6 +27,10 @@
 #include "session/options/session_setup.hpp"
 #include "session/state/leader.hpp"
 #include "session/state/session_room.hpp"
+
+namespace burin::sculpt {
+struct MadeWorkpiece;  // sculpt/made_workpiece.hpp
+}
 
 namespace burin::session {
 
@@ -40,10 +43,10 @@ public:
     // (haptics::WorkSettings); as measured where time is real (session/hands/machine_pace.hpp), as recorded in a
     // replay, and 1 where results must depend on no machine. made: the workpiece of the options, where it is ready
     // already. place: none, where the scene's frame is the world's.
-    [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SessionSetup& options, Clock& clock,
-                                                                 double pace = 1.0,
-                                                                 std::optional<sculpt::MadeWorkpiece> made = {},
-                                                                 const Place& place = {});
+    [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SessionSetup& options, Clock& clock, double pace,
+                                                                 std::optional<sculpt::MadeWorkpiece> made,
+                                                                 const Place& place);
+    [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SessionSetup& options, Clock& clock);
 
     // ---- A step
     using Give = SceneSide::Give;

@@ -5,28 +5,16 @@
 
 #include "base/try.hpp"
 #include "geometry/mesh/crumbs.hpp"
-#include "haptics/channels.hpp"
+#include "sculpt/carved_part.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/live/opened_scene.hpp"
 #include "session/live/session.hpp"
-#include "session/record/session_recording.hpp"
 
 namespace burin::session {
-namespace {
-
-constexpr std::size_t kTicksToLog = 8192;  // the frame's thread, which reads them for a text log, may stall for so many
-// Returns how many ticks the ring of a recording holds.
-std::size_t ring_for(const SessionSetup& setup) {
-    if (setup.record.path.empty()) return setup.record.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
-    return is_session_file(setup.record.path) ? record::kRingTicks : kTicksToLog;
-}
-
-}  // namespace
-
 Session::Session(Clock& clock, const SessionSetup& options, double pace)
     : clock_(clock),
       options_(options),
-      hands_(ring_for(options), pace),
+      hands_(options.record, pace),
       activity_(options.activity),
       notices_(options),
       work_(options_, scene_, notices_.files(), notices_.log(), [this] { return saved_content(); }) {}
@@ -37,6 +25,10 @@ Result<std::unique_ptr<Session>> Session::create(const SessionSetup& options, Cl
     BURIN_TRY_DO(session->load(std::move(made)));
     BURIN_TRY_DO(session->begin(place));
     return session;
+}
+
+Result<std::unique_ptr<Session>> Session::create(const SessionSetup& options, Clock& clock) {
+    return create(options, clock, 1.0, std::nullopt, {});
 }
 
 Result<void> Session::load(std::optional<sculpt::MadeWorkpiece> made) {
@@ -77,7 +69,7 @@ Result<void> Session::begin(const Place& place) {
     BURIN_TRY(use, tool_of(state_));
     notices_.look_at_tool(state_.led().tool, use.tool, room_.workpiece_object, scene_.spacing_m());
     time_.start_ns = clock_.now_ns();
-    BURIN_TRY_DO(hands_.open(options_, state_, room_, clock_));
+    BURIN_TRY_DO(hands_.open(options_, state_, room_, activity_.brought_hand(), clock_));
     publish_parameters();
     if (!activity_.is_there())
         for (const std::string& more : hands_.more_than_rendered(state_, room_)) notify(more, MessageKind::info);
@@ -85,6 +77,7 @@ Result<void> Session::begin(const Place& place) {
                               hands_.beginnings(state_, room_, scene_.spacing_m()), activity_.scene_part(),
                               activity_.tap(), time_.start_ns));
     if (scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
+    work_.begin_history(state_);
     work_.begin_journal(state_);
     return {};
 }

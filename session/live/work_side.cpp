@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
+#include "sculpt/carved_part.hpp"
 #include "session/work/journal_folder.hpp"
 
 namespace burin::session {
@@ -52,11 +53,21 @@ void WorkSide::has_begun() {
     for (const std::string& line : opened_.kept) log_.notify_of_event(line);
 }
 
+void WorkSide::begin_history(SessionState& state) {
+    state.edits = std::move(opened_.edits);
+    state.history = std::move(opened_.order);
+    if (scene_.carved() != nullptr) state.history.adopt(SessionState::kWorkpiecePart, scene_.carved()->undo_steps());
+    if (scene_.world() != nullptr) state.history.adopt(state.objects_part(), state.edits.steps());
+    const scene::ScenePart* const brought = scene_.brought();
+    state.saves_brought = brought != nullptr && brought->is_kept();
+    if (state.saves_brought) state.history.adopt(scene_.brought_part(), brought->undo_steps());
+}
+
 void WorkSide::begin_journal(const SessionState& state) {
     const bool keeps = !options_.work.journal.empty() && state.saves;
     if (state.saves && options_.record.input.empty()) news_.begin(keeps, !opened_.recovered.empty());
     const bool begins_at_once = scene_.carved() != nullptr || !opened_.journal.empty();
-    if (keeps && begins_at_once) keep_journal(state.world.get());
+    if (keeps && begins_at_once) keep_journal(state.world.get(), state);
     begins_journal_ = keeps && !begins_at_once;
 }
 
@@ -65,19 +76,21 @@ void WorkSide::save(const AskedSave& wanted, const SessionState& state, const Gi
     news_.save_ordered();
     note_edits(wanted.world.get(), state, give);  // so that a save that fails leaves them in the journal
     // A journal that began after this, with what follows, would get what is saved now in place of that.
-    if (std::exchange(begins_journal_, false)) keep_journal(wanted.world.get());
+    if (std::exchange(begins_journal_, false)) keep_journal(wanted.world.get(), state);
     document::SaveRequest request = document_.request(wanted, files_, options_, beginning_());
     if (wanted.world && !request.refused)
-        request.content.parts.push_back(saved_world_.save(*wanted.world, !request.changed_alone));
-    request.state = wanted.edits_state << 32;
+        request.content.parts.push_back(saved_world_.save(*wanted.world, wanted.edits, !request.changed_alone));
+    request.content.history = wanted.history;
+    request.state = wanted.edits.state() << 32;
     give(scene_.saving(std::move(request), document_.writer()));
 }
 
 // Before the scene's thread starts, or where there is no workpiece.
-void WorkSide::keep_journal(const WorldObjects* world) {
+void WorkSide::keep_journal(const WorldObjects* world, const SessionState& state) {
     document::Content beginning = beginning_();
     if (scene_.workpiece() != nullptr) scene_.workpiece()->copy(beginning.parts.emplace_back());
-    if (world != nullptr) beginning.parts.push_back(saved_world_.all(*world));
+    if (world != nullptr) beginning.parts.push_back(saved_world_.all(*world, state.edits));
+    beginning.history = state.history;
     if (const auto kept = document_.keep_journal(options_.work.journal, options_, opened_, std::move(beginning));
         !kept) {
         news_.journal_keeps(false);
@@ -93,10 +106,11 @@ void WorkSide::keep_journal(const WorldObjects* world) {
 // before would take the place of what was noted since.
 void WorkSide::note_edits(const WorldObjects* world, const SessionState& state, const Give& give) {
     if (world == nullptr || !state.saves || options_.work.journal.empty()) return;
-    std::optional<scene::Pages> change = saved_world_.take_change(*world);
+    std::optional<scene::Pages> change = saved_world_.take_change(*world, state.edits);
     if (!change) return;
-    if (std::exchange(begins_journal_, false)) keep_journal(world);
-    give(scene_.noting({.part = state.carves ? 1 : 0, .pages = std::move(*change)}, document_.writer()));
+    if (std::exchange(begins_journal_, false)) keep_journal(world, state);
+    give(scene_.noting({.part = state.objects_part(), .pages = std::move(*change), .history = state.history},
+                       document_.writer()));
 }
 
 void WorkSide::go_on(const SessionState& state, Nanoseconds time_ns, const Give& give) {
@@ -138,7 +152,8 @@ void WorkSide::watch_journal(const SessionState& state, const Give& give) {
     }
     if (!document_.writer().wants_all()) return;
     document::Content now = beginning_();
-    if (state.world) now.parts.push_back(saved_world_.all(*state.world));
+    if (state.world) now.parts.push_back(saved_world_.all(*state.world, state.edits));
+    now.history = state.history;
     give(scene_.journalling(std::move(now), document_.writer()));
 }
 

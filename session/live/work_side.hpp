@@ -43,7 +43,9 @@ public:
     [[nodiscard]] OpenedWork& opened() { return opened_; }
     // Takes what the work begins with, once it is there, and tells what a journal has kept of it.
     void has_begun();
-    void world_has_begun(const WorldObjects& now, bool is_saved) { saved_world_.begin(now, is_saved); }
+    void world_has_begun(const WorldObjects& now, bool is_saved) { saved_world_.begin(now, opened_.edits, is_saved); }
+    // Has the state go on with the steps of the work that was opened, and of what the scene has.
+    void begin_history(SessionState& state);
     // Begins the journal, unless who looks at a world alone needs none before the first edit.
     void begin_journal(const SessionState& state);
 
@@ -65,7 +67,7 @@ public:
 
 private:
     void note_edits(const WorldObjects* world, const SessionState& state, const Give& give);
-    void keep_journal(const WorldObjects* world);
+    void keep_journal(const WorldObjects* world, const SessionState& state);
     void watch_journal(const SessionState& state, const Give& give);
 
     const SessionSetup& options_;

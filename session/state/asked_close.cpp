@@ -73,8 +73,10 @@ void order_save(SessionState& state, SessionOrders& orders, const std::string& n
     save.line = orders.line;
     save.replaces = replaces;
     save.after = orders.carving.size();
+    save.after_goes = orders.goes.size();
     save.world = state.world;
-    save.edits_state = state.edits.state();
+    save.edits = state.edits;
+    save.history = state.history;
     orders.saves.push_back(std::move(save));
     AskedClose& asked = state.asked;
     const bool named_to_close = asked.naming.has_value() && asked.closing == Closing::asked;

@@ -116,7 +116,7 @@ public:
         const scene::ObjectId id = edited.order.object;
         const auto before = state_.world->objects[id - 1];
         state_.world = std::move(edited.world);
-        if (state_.saves) state_.edits.note(before, state_.world->objects[id - 1], wanted.property, state_.strokes);
+        if (state_.saves) note_edit(before, state_.world->objects[id - 1], wanted.property);
         orders_.world.push_back(std::move(edited.order));
         return {};
     }
@@ -131,7 +131,7 @@ public:
 
 private:
     [[nodiscard]] Result<void> may_save() const {
-        if (state_.saves) return {};
+        if (state_.saves || state_.saves_brought) return {};
         return fail("the scene", "belongs to what is done in it, and is not saved",
                     "open a world or a workpiece by itself: burin world FILE, burin sculpt FILE");
     }
@@ -164,21 +164,41 @@ private:
         orders_.carving.push_back(std::move(order));
         return {};
     }
-    // Strokes and edits of objects go back, and forward, in the order in which they were done.
+    void note_edit(const std::shared_ptr<const scene::SceneObject>& before,
+                   const std::shared_ptr<const scene::SceneObject>& after, scene::ObjectProperty property) {
+        const std::uint32_t part = state_.objects_part();
+        const document::StepName newest{part, state_.edits.steps().done};
+        state_.edits.note(before, after, property, state_.history.back() == newest);
+        state_.history.follow(part, state_.edits.steps());
+        forget_undone(state_, orders_);
+    }
+    // Steps of all parts go back, and forward, in the order in which they were made. A stroke may have begun of which
+    // nobody knows here yet: where no other step is known, the workpiece is asked.
     Result<void> undo() {
-        const WorldStep* edit = state_.edits.back();
-        if (state_.carves && (edit == nullptr || state_.strokes > edit->strokes)) return order(sculpt::UndoStroke{});
+        const auto step = state_.history.back();
+        if (step ? step->part != state_.objects_part() : state_.carves)
+            return go(step ? step->part : SessionState::kWorkpiecePart, scene::StepWay::back);
+        const scene::ObjectStep* const edit = step ? state_.edits.back() : nullptr;
         if (edit == nullptr) return fail("undo", "there is nothing to take back", "");
         BURIN_TRY_DO(restore(edit->before));
         state_.edits.went_back();
+        state_.history.follow(step->part, state_.edits.steps());
         return {};
     }
     Result<void> redo() {
-        const WorldStep* edit = state_.edits.forward();
-        if (state_.carves && (edit == nullptr || state_.strokes < edit->strokes)) return order(sculpt::RedoStroke{});
+        const auto step = state_.history.forward();
+        if (step ? step->part != state_.objects_part() : state_.carves)
+            return go(step ? step->part : SessionState::kWorkpiecePart, scene::StepWay::forward);
+        const scene::ObjectStep* const edit = step ? state_.edits.forward() : nullptr;
         if (edit == nullptr) return fail("redo", "there is nothing to repeat", "");
         BURIN_TRY_DO(restore(edit->after));
         state_.edits.went_forward();
+        state_.history.follow(step->part, state_.edits.steps());
+        return {};
+    }
+    Result<void> go(std::uint32_t part, scene::StepWay way) {
+        state_.history.ordered(part, way);
+        orders_.goes.push_back({part, way, orders_.carving.size()});
         return {};
     }
     Result<void> restore(std::shared_ptr<const scene::SceneObject> object) {
@@ -253,6 +273,12 @@ Result<void> Runner::operator()(const RunAction& run) {
 }
 
 }  // namespace
+
+void forget_undone(SessionState& state, SessionOrders& orders) {
+    if (state.history.take_forgotten(state.objects_part())) state.edits.forget_undone();
+    for (const std::uint32_t part : state.history.take_forgotten())
+        orders.goes.push_back({part, scene::StepWay::forget, orders.carving.size()});
+}
 
 Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command) {
     BURIN_TRY(parsed, parse_command(command));

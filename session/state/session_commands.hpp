@@ -16,4 +16,7 @@ struct SessionState;   // session/state/session_state.hpp
 [[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command);
 [[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const SessionCommand& command);
 
+// Has every part forget what it could have repeated until another part made a step.
+void forget_undone(SessionState& state, SessionOrders& orders);
+
 }  // namespace burin::session

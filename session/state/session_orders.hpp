@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "document/history.hpp"
+#include "scene/part_steps.hpp"
 #include "sculpt/sculpt_order.hpp"
 #include "session/notices/message_kind.hpp"
+#include "session/objects/world_history.hpp"
 #include "session/objects/world_orders.hpp"
 
 namespace burin::session {
@@ -27,8 +30,17 @@ struct Asked {
 // A save, of the work as it was when it was asked for.
 struct AskedSave : Asked {
     std::size_t after = 0;                           // so many of the step's orders for the workpiece
+    std::size_t after_goes = 0;                      // and so many of those to go
     std::shared_ptr<const WorldObjects> world = {};  // null: there is none
-    std::uint64_t edits_state = 0;                   // WorldHistory::state()
+    WorldHistory edits = {};                         // of its objects
+    document::History history = {};
+};
+
+// Has a part of the scene go a step back or forward.
+struct GoOrder {
+    std::uint32_t part = 0;
+    scene::StepWay way = scene::StepWay::back;
+    std::size_t after = 0;  // so many of the step's orders for the workpiece
 };
 
 // What the activity is told by a command.
@@ -47,6 +59,7 @@ struct AskedAmplifiers {
 struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
+    std::vector<GoOrder> goes;
     std::vector<WorldOrder> world;
     std::vector<HoldOrder> holds;  // after the edits of `world`
     std::vector<AskedAct> acts;

@@ -9,6 +9,7 @@
 #include "base/space.hpp"
 #include "haptics/tool_action.hpp"
 #include "session/held/pen_at_rest.hpp"
+#include "session/held/placed_hand.hpp"
 #include "session/input/actions.hpp"
 
 namespace burin::session {
@@ -25,6 +26,7 @@ struct HandRoom {
     Quat rest_device = pen_at_rest();  // orientation at rest
     // Where the mouse does not lead it along the surface; with the hand only once that was chosen.
     haptics::FillPlace fills = haptics::FillPlace::surface;
+    std::optional<PlacedHand> placed;  // by an activity; none: over what can be touched
 };
 
 // What there is to be touched, and with how many hands, before the first step.

@@ -48,6 +48,11 @@ constexpr double kBeside = 0.22;
 HandState begun_hand(const Room& room, std::size_t number, std::size_t count, HandState hand,
                      const Similarity& world_from_object) {
     const HandRoom& own = room.hands[number];
+    if (own.placed) {
+        hand.world_from_device = world_from_object * own.placed->scene_from_device;
+        hand.target.position_device_m = own.placed->rest_device.position_m;
+        return hand;
+    }
     hand.world_from_device = world_from_workspace(room, own, world_from_object, hand.handle.get());
     hand.target.position_device_m = resting_hand_device(own, hand.handle.get(), kClearsBorder_m);
     if (count < 2) return hand;
@@ -84,6 +89,7 @@ Vec3 resting_hand_device(const HandRoom& hand, const HeldHandle* held, double be
 }
 
 Similarity object_from_device(const SessionState& state, const Room& room, std::size_t number) {
+    if (const auto& placed = room.hands[number].placed) return placed->scene_from_device;
     const HandState& hand = state.hands[number];
     Similarity world_from_device = hand.world_from_device;
     world_from_device.scale *= hand.workspace_gain;

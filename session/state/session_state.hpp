@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "base/space.hpp"
+#include "document/history.hpp"
 #include "session/held/hand_state.hpp"
 #include "session/input/actions.hpp"
 #include "session/objects/world_history.hpp"
@@ -54,13 +55,14 @@ struct SessionState {
     toolbox::FeelSettings feel;
     bool carves = true;                 // there is a workpiece
     bool saves = true;                  // the work can be saved
+    bool saves_brought = false;         // a part that the activity has brought can be, though the rest is its own
     toolbox::Mirror mirror;             // planes on whose other sides the workpiece is carved as well
     MouseMode mouse = MouseMode::free;  // how a mouse leads the hand in use
     // Somebody has chosen that. Logs from before there was a choice fill on the surface alone, and still do.
     bool mouse_chosen = false;
     std::shared_ptr<const WorldObjects> world;  // null: none
     WorldHistory edits;                         // of its objects, where they can be saved
-    std::size_t strokes = 0;                    // that can be undone, as far as a frame knows
+    document::History history;                  // of the steps of all parts, as far as a frame knows
     std::optional<SmoothStroke> smooth_stroke;  // while one lasts
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
@@ -71,6 +73,9 @@ struct SessionState {
 
     [[nodiscard]] HandState& led() { return hands[hand]; }
     [[nodiscard]] const HandState& led() const { return hands[hand]; }
+    // The numbers of the scene's parts, which are those of a document's: a workpiece is the first, then the objects.
+    static constexpr std::uint32_t kWorkpiecePart = 0;
+    [[nodiscard]] std::uint32_t objects_part() const { return carves ? 1 : 0; }
 };
 
 // Has mouse, keys and panel lead another hand. Fails where there is none of that name, and says which there are.

@@ -83,6 +83,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
         state.world_from_object.orientation = glm::normalize(state.world_from_object.orientation);
         step.orders.parameters = true;  // the workpiece has moved under the hand
     }
+    forget_undone(state, step.orders);
     const auto run = [&](const CommandInput& command, std::size_t line) {
         if (const auto done = run_command(state, step.orders, command, leader); !done)
             step.orders.messages.push_back({done.error().line(), line});

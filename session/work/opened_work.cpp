@@ -89,10 +89,24 @@ Result<void> apply_change(const scene::Pages& change, OpenedWork& opened, const 
     return opened.workpiece ? sculpt::apply_change(opened.workpiece->solid, change, where, history) : Result<void>{};
 }
 
-// Makes the changes again that were not saved. Stops, and fails, at one that is damaged.
-Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened, compute::History* history) {
+// Has the order of steps follow a change. What the change says of the order may lack strokes that were noted before it.
+void follow_change(const std::optional<document::History>& ordered, compute::History* history,
+                   document::History& order) {
+    constexpr std::uint32_t kPart = SessionState::kWorkpiecePart;
+    if (ordered) order.replace_order(*ordered);
+    if (history == nullptr) return;
+    if (!ordered) return order.follow(kPart, steps_of(*history));
+    if (!order.leads_forward(kPart)) history->forget_undone();
+    order.adopt(kPart, steps_of(*history));
+}
+
+// Makes the changes again that were not saved. Stops, and fails, at one that is damaged. order: of the steps; null: it
+// is not wanted.
+Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened, compute::History* history,
+                           document::History* order) {
     for (std::int64_t number = 1; number <= reader.changes(); ++number) {
-        bool is_there = false;
+        BURIN_TRY(ordered, reader.history_after(number));
+        bool is_there = ordered.has_value();
         for (const document::PartPlace& part : reader.parts()) {
             BURIN_TRY(change, reader.change(part, number));
             if (change.pages.empty()) continue;
@@ -100,6 +114,7 @@ Result<void> apply_changes(document::DocumentReader& reader, OpenedWork& opened,
             BURIN_TRY_DO(apply_change(change, opened, reader.path(), history));
         }
         if (!is_there) return fail(reader.path(), "change " + std::to_string(number) + " is missing");
+        if (order != nullptr) follow_change(ordered, history, *order);
         opened.recovered = std::to_string(number) + (number == 1 ? " change" : " changes");
     }
     return {};
@@ -266,6 +281,35 @@ Result<void> settle_document(SessionSetup& options) {
     return {};
 }
 
+namespace {
+
+// Reads the order of the steps of solid and objects as the pages are.
+document::History order_in(document::DocumentReader& reader, const compute::History* history, std::string& lost) {
+    document::History order;
+    Result<std::optional<document::History>> saved = reader.history();
+    if (!saved) add_to(lost, "the order of its steps is damaged: undo takes back the edits of objects first");
+    if (saved && *saved) order = std::move(**saved);
+    if (history != nullptr) order.adopt(SessionState::kWorkpiecePart, steps_of(*history));
+    return order;
+}
+
+// Reads what was done to the objects, as of the newest change: what the history names of it.
+void take_edits(document::DocumentReader& reader, OpenedWork& opened, bool is_sound, std::string& lost) {
+    const auto part = std::ranges::find(reader.parts(), scene::kObjectsPart, &document::PartPlace::kind);
+    const std::uint32_t number = opened.workpiece ? 1 : 0;
+    if (is_sound) {
+        opened.edits = edits_in(reader, *part, opened.world->objects, opened.colours, lost);
+    } else {
+        const auto steps = reader.steps(*part);
+        if (!steps || (*steps && (*steps)->first <= (*steps)->last))
+            add_to(lost, "edits of objects are undone back to this opening alone");
+    }
+    if (!opened.order.leads_forward(number)) opened.edits.forget_undone();
+    opened.order.adopt(number, opened.edits.steps());
+}
+
+}  // namespace
+
 Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes) {
     BURIN_TRY(reader, document::DocumentReader::open(path));
     OpenedWork opened;
@@ -274,10 +318,16 @@ Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes
     const bool has_solid = has_part(reader, sculpt::kSolidPart) || !has_objects;
     if (has_solid) BURIN_TRY_DO(read_solid(reader, undo_bytes, opened, lost));
     const bool leads_back = has_solid && undo_bytes > 0 && lost.empty();
+    const std::size_t lost_before = lost.size();
     if (has_objects) BURIN_TRY_DO(read_objects(reader, opened, lost));
+    const bool has_all_objects = lost.size() == lost_before;
     compute::History* const history = leads_back ? &*opened.history : nullptr;
-    if (const auto changed = apply_changes(reader, opened, history); !changed) add_to(lost, changed.error().what);
+    if (undo_bytes > 0) opened.order = order_in(reader, history, lost);
+    const auto changed = apply_changes(reader, opened, history, undo_bytes > 0 ? &opened.order : nullptr);
+    if (!changed) add_to(lost, changed.error().what);
     if (history != nullptr) history->take_step(compute::HistoryStep::stroke);  // the one that was not ended
+    if (history != nullptr) opened.order.follow(SessionState::kWorkpiecePart, steps_of(*history));
+    if (undo_bytes > 0 && has_objects) take_edits(reader, opened, has_all_objects && changed.has_value(), lost);
     if (document::is_log_damaged(path))
         add_to(lost, "its log " + path + "-wal is damaged: the newest changes may be missing");
     if (record::lacks_its_log(path))

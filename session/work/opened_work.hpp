@@ -23,8 +23,11 @@ struct OpenedWork {
     std::optional<sculpt::LoadedWorkpiece> workpiece = {};                  // none: a document of a world without one
     std::optional<scene::World> world = {};                                 // of a document
     std::vector<std::shared_ptr<const scene::CornerColours>> colours = {};  // of the files of its objects
-    std::string lost = {};                           // what of a document was damaged, in words; empty: nothing
-    std::optional<compute::History> history = {};    // of a document, where one was asked for
+    std::string lost = {};  // what of a document was damaged, in words; empty: nothing
+    // What was done to a document's work, where that was asked for: strokes, edits of objects, and their order.
+    std::optional<compute::History> history = {};
+    WorldHistory edits = {};
+    document::History order = {};
     std::optional<Similarity> view = {};             // of a document
     std::string document = {};                       // where a save goes; empty: the work has no file yet
     std::optional<document::Version> version = {};   // of that document

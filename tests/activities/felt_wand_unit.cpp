@@ -12,6 +12,8 @@
 
 #include "base/json.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "scene/scene_object.hpp"
+#include "scene/world_file.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -38,17 +40,11 @@ scene::SceneObject plate(scene::ObjectId id, const std::string& name, const Vec3
     return object;
 }
 
-struct Plates {
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
-    std::vector<scene::ObjectId> ids{1, 2};
-
-    Plates() {
-        auto made = scene::MeshPart::create(
-            {plate(1, "left", {-0.12, 0.16, 0.0}), plate(2, "right", {0.12, 0.12, 0.0})}, materials);
-        if (made) part = std::move(*made);
-    }
-};
+ExploredWorld plates() {
+    return {.scene = std::make_shared<const scene::World>(scene::World{
+                "plates", {plate(1, "left", {-0.12, 0.16, 0.0}), plate(2, "right", {0.12, 0.12, 0.0})}, {}}),
+            .device = std::string(devices::kSimulatedWand)};
+}
 
 // A wand that lies along x: rolled by so much towards it. Its first point is the left one, and goes down.
 sculpt::Stroke lowered(double from_m, double to_m, double roll_rad) {
@@ -69,12 +65,10 @@ WandOptions options_with(const std::string& points) {
 }  // namespace
 
 TEST(FeltWand, EachPointFeelsTheObjectThatItTouches) {
-    Plates world;
-    ASSERT_NE(world.part, nullptr);
     // Rolled by 1.3, the top end is 77 mm to the left and 21 mm above the middle, the bottom end to the right and
     // below: they meet the plates, one of which is 40 mm lower, within 3 mm of each other.
     const WandOptions options = options_with("top,bottom");
-    const auto explored = explore_with_wand(*world.part, world.materials, lowered(0.18, 0.128, 1.3), options, {});
+    const auto explored = explore_with_wand(plates(), lowered(0.18, 0.128, 1.3), options, {});
     ASSERT_TRUE(explored) << explored.error().line();
     EXPECT_FALSE(explored->fitted);
     ASSERT_EQ(explored->touches.size(), 2u);
@@ -98,9 +92,8 @@ TEST(FeltWand, EachPointFeelsTheObjectThatItTouches) {
 
 // It used to say what was asked: 100.3 N of a wand that gave 3.
 TEST(FeltWand, APointsForceIsWhatTheWandGave) {
-    Plates world;
     const WandOptions options = options_with("top,bottom");
-    const auto explored = explore_with_wand(*world.part, world.materials, lowered(0.18, 0.1, 1.3), options, {});
+    const auto explored = explore_with_wand(plates(), lowered(0.18, 0.1, 1.3), options, {});
     ASSERT_TRUE(explored) << explored.error().line();
     ASSERT_FALSE(explored->touches.empty());
     EXPECT_GT(explored->force_max_N, 1.0);
@@ -113,10 +106,9 @@ TEST(FeltWand, APointsForceIsWhatTheWandGave) {
 }
 
 TEST(FeltWand, AStrokeOutsideOfTheWorkspaceIsCentredInIt) {
-    Plates world;
     sculpt::Stroke stroke = lowered(0.18, 0.14, 0.0);
     for (sculpt::StrokeRow& row : stroke) row.position_object_m += Vec3(0.0, 1.0, 0.0);
-    const auto explored = explore_with_wand(*world.part, world.materials, stroke, options_with("centre"), {});
+    const auto explored = explore_with_wand(plates(), stroke, options_with("centre"), {});
     ASSERT_TRUE(explored);
     EXPECT_TRUE(explored->fitted);
     EXPECT_TRUE(explored->touches.empty());
@@ -124,8 +116,7 @@ TEST(FeltWand, AStrokeOutsideOfTheWorkspaceIsCentredInIt) {
 }
 
 TEST(FeltWand, AFailureOfAMomentEndsIt) {
-    Plates world;
-    const auto failed = explore_with_wand(*world.part, world.materials, lowered(0.2, 0.18, 0.0), options_with("3"),
+    const auto failed = explore_with_wand(plates(), lowered(0.2, 0.18, 0.0), options_with("3"),
                                           [](const WandMoment& moment) -> Result<void> {
                                               if (moment.time_s < 0.1) return {};
                                               return fail("picture", "cannot be written");
@@ -148,11 +139,10 @@ TEST(FeltWand, AxisAndAngleTurnAsTheQuaternionDoes) {
 }
 
 TEST(FeltWand, TheTableHasALineAnUpdateAndAColumnEach) {
-    Plates world;
     const WandOptions options = options_with("top,centre,bottom");
-    const auto explored = explore_with_wand(*world.part, world.materials, lowered(0.18, 0.14, 1.3), options, {});
+    const auto explored = explore_with_wand(plates(), lowered(0.18, 0.14, 1.3), options, {});
     ASSERT_TRUE(explored);
-    std::istringstream table(wand_table(*explored, *world.part, options.points));
+    std::istringstream table(wand_table(*explored, *plates().scene, options.points));
     std::string line;
     std::size_t lines = 0, columns = 0;
     while (std::getline(table, line)) {

@@ -10,6 +10,7 @@
 #include "activities/world/touch_pictures.hpp"
 #include "activities/world/world_view.hpp"
 #include "haptics/tick_parameters.hpp"
+#include "scene/world_file.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -62,24 +63,21 @@ sculpt::Stroke press_on_each(std::size_t cubes, double radius_m) {
     return stroke;
 }
 
-struct Explored {
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
-    std::vector<scene::ObjectId> ids;
-    WorldFigures figures;
-    double force_at_rest_N = 0.0;
+std::shared_ptr<const scene::World> world_of(std::vector<scene::SceneObject> objects) {
+    return std::make_shared<const scene::World>(scene::World{"cubes", std::move(objects), {}});
+}
 
-    explicit Explored(std::vector<scene::SceneObject> objects) {
-        for (const auto& object : objects) ids.push_back(object.id);
-        auto made = scene::MeshPart::create(std::move(objects), materials);
-        if (made) part = std::move(*made);
-    }
+struct Explored {
+    ExploredWorld world;
+    WorldFigures figures;
+
+    explicit Explored(std::vector<scene::SceneObject> objects) { world.scene = world_of(std::move(objects)); }
     void explore(const sculpt::Stroke& stroke, const ExploreOptions& options, const OnUpdate& on_update = {}) {
-        ASSERT_NE(part, nullptr);
-        auto done = explore_by_feel(*part, ids, materials, stroke, options, on_update);
+        auto done = explore_by_feel(world, stroke, options, on_update);
         ASSERT_TRUE(done) << done.error().line();
         figures = std::move(*done);
     }
+    [[nodiscard]] session::DrawnWorld drawn() const { return session::DrawnWorld(world.scene->objects); }
 };
 
 }  // namespace
@@ -93,7 +91,8 @@ TEST(FeltWorld, EachObjectPushesBackAsItsStiffnessSays) {
     std::vector<double> at_rest_N(stiffness.size(), 0.0), inside_m(stiffness.size(), 0.0);
     const double felt_radius_m = (1.0 - haptics::TickParameters{}.clearance_ratio) * options.tool_radius_m;
     world.explore(press_on_each(stiffness.size(), options.tool_radius_m), options,
-                  [&](double time_s, const WorldMoment& moment) -> Result<void> {
+                  [&](const WorldMoment& moment) -> Result<void> {
+                      const double time_s = moment.time_s;
                       const double in_visit_s = std::fmod(time_s - 0.3, 2.5);
                       const auto visit = static_cast<std::size_t>(std::max(time_s - 0.3, 0.0) / 2.5);
                       if (in_visit_s > 1.4 && in_visit_s < 1.45 && visit < at_rest_N.size()) {
@@ -133,7 +132,7 @@ TEST(FeltWorld, WhatIsNotFeltIsPassedAndWhatIsNotSeenIsNotDrawn) {
     objects[0].felt = false;
     objects[1].seen = false;
     Explored world(std::move(objects));
-    const WorldView view(*world.part, world.ids, 0.004);
+    const WorldView view(world.drawn(), 0.004);
     EXPECT_EQ(view.wall_scene({}).objects.size(), 2u);
     world.explore(press_on_each(3, 0.004), {});
     ASSERT_EQ(world.figures.touches.size(), 2u);
@@ -149,9 +148,9 @@ TEST(FeltWorld, AnObjectOnItsPathPushesTheHand) {
     sculpt::Stroke stroke;
     for (const double t : {0.0, 3.7}) stroke.push_back({t, {0.0, 0.006, 0.0}, Quat{1, 0, 0, 0}, false});
     std::vector<Vec3> drawn;
-    WorldView view(*world.part, world.ids, 0.004);
-    world.explore(stroke, {}, [&](double, const WorldMoment&) -> Result<void> {
-        view.take(world.part->take_object_updates());
+    WorldView view(world.drawn(), 0.004);
+    world.explore(stroke, {}, [&](const WorldMoment& moment) -> Result<void> {
+        view.take(*moment.drawn);
         drawn.push_back(view.wall_scene({}).objects[0].world_from_mesh.position_m);
         return {};
     });
@@ -163,11 +162,11 @@ TEST(FeltWorld, AnObjectOnItsPathPushesTheHand) {
 
 TEST(FeltWorld, AFailureOfAFrameEndsIt) {
     Explored world(row_of({300.0}));
-    const auto done = explore_by_feel(*world.part, world.ids, world.materials, press_on_each(1, 0.004), {},
-                                      [](double time_s, const WorldMoment&) -> Result<void> {
-                                          if (time_s < 0.1) return {};
-                                          return fail("picture", "cannot be written", "free some space");
-                                      });
+    const auto done =
+        explore_by_feel(world.world, press_on_each(1, 0.004), {}, [](const WorldMoment& moment) -> Result<void> {
+            if (moment.time_s < 0.1) return {};
+            return fail("picture", "cannot be written", "free some space");
+        });
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().where, "picture");
 }
@@ -178,7 +177,6 @@ TEST(TouchPictures, AreOfTheWorldAtFirstAndOfEachObjectAsItIsFirstPressed) {
     const ExploreOptions options;
     for (const bool draws : {true, false}) {
         Explored world(row_of({250.0, 500.0}));
-        ASSERT_NE(world.part, nullptr);
         std::vector<std::string> drawn;
         PictureDrawer draw;
         if (draws)
@@ -186,9 +184,9 @@ TEST(TouchPictures, AreOfTheWorldAtFirstAndOfEachObjectAsItIsFirstPressed) {
                 drawn.push_back(file);
                 return {};
             };
-        TouchPictures pictures(*world.part, world.ids, options.tool_radius_m, draw);
+        TouchPictures pictures(*world.world.scene, options.tool_radius_m, draw);
         world.explore(press_on_each(2, options.tool_radius_m), options,
-                      [&](double, const WorldMoment& moment) { return pictures.at(moment); });
+                      [&](const WorldMoment& moment) { return pictures.at(moment); });
         const std::vector<std::string> wanted{"world.png", "touched-1-cube-1.png", "touched-2-cube-2.png"};
         EXPECT_EQ(drawn, draws ? wanted : std::vector<std::string>{});
     }

@@ -11,6 +11,7 @@
 #include "base/json.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "scene/vrml_world.hpp"
+#include "scene/world_file.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -20,23 +21,19 @@ namespace {
 constexpr double kBall_m = 0.004, kCubeStiffness_N_per_m = 700.0;  // as assets/worlds/wand-cube.wrl has it
 
 struct CubeScene {
-    scene::MaterialTable materials;
-    std::unique_ptr<scene::MeshPart> part;
-    std::vector<scene::ObjectId> ids;
+    ExploredWorld world;
     Box bounds_m;
 
     CubeScene() {
-        scene::WorldOrProblems world = scene::read_any_world("assets/worlds/wand-cube.wrl");
-        if (!world) return;
-        for (const scene::SceneObject& object : world->objects) {
-            ids.push_back(object.id);
+        scene::WorldOrProblems read = scene::read_any_world("assets/worlds/wand-cube.wrl");
+        if (!read) return;
+        for (const scene::SceneObject& object : read->objects)
             for (const Vec3& p : object.mesh->positions_m) bounds_m.include(object.pose * p);
-        }
-        auto made = scene::MeshPart::create(std::move(world->objects), materials);
-        if (made) part = std::move(*made);
+        world = {.scene = std::make_shared<const scene::World>(std::move(*read)),
+                 .device = std::string(devices::kSimulatedWand)};
     }
     [[nodiscard]] Result<PressedCube> test(const devices::WandDescription& wand = {}) {
-        return press_cube(*part, materials, bounds_m, wand, kBall_m);
+        return press_cube(world, bounds_m, wand, kBall_m);
     }
 };
 
@@ -132,9 +129,9 @@ TEST(PressedCube, HoldsAlsoWithTheTorquesOfTheThesisTable) {
 
 TEST(PressedCube, RefusesACubeThatDoesNotSuit) {
     CubeScene scene;
-    ASSERT_NE(scene.part, nullptr);
+    ASSERT_NE(scene.world.scene, nullptr);
     const auto refused = [&](const Box& cube) {
-        const Result<PressedCube> test = press_cube(*scene.part, scene.materials, cube, {}, kBall_m);
+        const Result<PressedCube> test = press_cube(scene.world, cube, {}, kBall_m);
         return test ? std::string("not refused") : test.error().line();
     };
     EXPECT_NE(refused({{-0.05, 0.15, -0.05}, {0.05, 0.25, 0.05}}).find("both ends need a face of 168 mm"),
@@ -181,7 +178,7 @@ TEST(WandPoints, AreNamedOrCounted) {
 
 TEST(WandView, DrawsARodAndABallForEachPoint) {
     CubeScene scene;
-    const WorldView world(*scene.part, scene.ids, kBall_m);
+    const WorldView world(session::DrawnWorld(scene.world.scene->objects), kBall_m);
     const WandView avatar({}, 1.0, kBall_m);
     WandPose pose;
     pose.scene_from_tool = {{0.0, 0.2, -0.11}, {1, 0, 0, 0}};

@@ -238,25 +238,44 @@ TEST(WorldSession, StrokesAndEditsOfObjectsAreUndoneInTheOrderInWhichTheyWereDon
     };
     const EditObject louder{"rock", scene::ObjectProperty::scale, {2.0}},
         back{"bird", scene::ObjectProperty::scale, {3.0}};
-    state.strokes = 1;  // a stroke, an edit, two strokes, an edit
+    scene::PartSteps strokes;
+    const auto stroke = [&] {
+        strokes.last = ++strokes.done;
+        ++strokes.made;
+        state.history.follow(SessionState::kWorkpiecePart, strokes);
+    };
+    // What the workpiece says once it has carried an order out: after three of them, since who undoes is quick.
+    const auto goes = [&](Action action, scene::StepWay way) {
+        const auto orders = orders_of(RunAction{action});
+        EXPECT_EQ(orders.world.size(), 0u);
+        ASSERT_EQ(orders.goes.size(), 1u);
+        EXPECT_EQ(orders.goes[0].part, SessionState::kWorkpiecePart);
+        EXPECT_EQ(orders.goes[0].way, way);
+        ++strokes.walked;
+        strokes.done += way == scene::StepWay::back ? -1 : 1;
+    };
+    stroke();
     static_cast<void>(orders_of(louder));
-    state.strokes = 3;
+    stroke();
+    stroke();
     static_cast<void>(orders_of(back));
     EXPECT_EQ(orders_of(RunAction{Action::undo}).world.size(), 1u);
     EXPECT_EQ(state.world->find(2)->scale, 1.0);
-    EXPECT_EQ(orders_of(RunAction{Action::undo}).carving.size(), 1u);
-    state.strokes = 2;
-    EXPECT_EQ(orders_of(RunAction{Action::undo}).carving.size(), 1u);
-    state.strokes = 1;
+    goes(Action::undo, scene::StepWay::back);
+    goes(Action::undo, scene::StepWay::back);
     EXPECT_EQ(orders_of(RunAction{Action::undo}).world.size(), 1u);
     EXPECT_EQ(state.world->find(1)->scale, 1.0);
-    EXPECT_EQ(orders_of(RunAction{Action::undo}).carving.size(), 1u);
-    state.strokes = 0;
-    EXPECT_EQ(orders_of(RunAction{Action::redo}).carving.size(), 1u);
-    state.strokes = 1;
+    goes(Action::undo, scene::StepWay::back);
+    state.history.follow(SessionState::kWorkpiecePart, strokes);
+    goes(Action::redo, scene::StepWay::forward);
     EXPECT_EQ(orders_of(RunAction{Action::redo}).world.size(), 1u);
     EXPECT_EQ(state.world->find(1)->scale, 2.0);
-    EXPECT_EQ(orders_of(RunAction{Action::redo}).carving.size(), 1u);
+    goes(Action::redo, scene::StepWay::forward);
+    // An edit ends what could be repeated, of the workpiece as well.
+    const auto edited = orders_of(EditObject{"rock", scene::ObjectProperty::opacity, {0.5}});
+    ASSERT_EQ(edited.goes.size(), 1u);
+    EXPECT_EQ(edited.goes[0].way, scene::StepWay::forget);
+    EXPECT_FALSE(state.history.forward());
 }
 
 TEST(WorldSession, WhatAHandHoldsIsNotUndoneUnderIt) {

@@ -257,21 +257,21 @@ protected:
             now.objects.push_back(std::make_shared<const scene::SceneObject>(object));
         }
         SavedWorld world;
-        world.begin(now, false);
+        world.begin(now, {}, false);
         document::Content content;
-        content.parts.push_back(world.all(now));
+        content.parts.push_back(world.all(now, {}));
         const auto saved = document::write_document(document, content, document::Place::replaced);
         ASSERT_TRUE(saved) << saved.error().line();
         document_file = place.read("work.burin");
         document::Content start = beginning(saved->version);
-        start.parts.push_back(world.all(now));
+        start.parts.push_back(world.all(now, {}));
         auto kept = document::Journal::begin(made, start);
         ASSERT_TRUE(kept) << kept.error().line();
         for (int number = 1; number <= kLeftStrokes; ++number) {
             auto edited = std::make_shared<scene::SceneObject>(*now.objects[1]);
             edited->scale = 1.0 + 0.1 * number;
             now.objects[1] = edited;
-            auto change = world.take_change(now);
+            auto change = world.take_change(now, {});
             ASSERT_TRUE(change);
             ASSERT_TRUE(kept->add({{.part = 0, .pages = std::move(*change)}}));
         }

@@ -5,6 +5,7 @@
 #include "compute/engine/chosen_engine.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/tick.hpp"
+#include "sculpt/made_workpiece.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/live/session.hpp"
 
@@ -31,7 +32,8 @@ TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
     options.carve.engine = compute::EngineChoice::cpu;
     for (const double pace : {1.0, 1.7}) {
         SimulatedClock clock;
-        auto session = pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace);
+        auto session =
+            pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace, std::nullopt, {});
         ASSERT_TRUE(session);
         Session& s = **session;
         EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);

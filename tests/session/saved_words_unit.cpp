@@ -75,8 +75,8 @@ public:
             carving.copy(content.parts.emplace_back());
         } else {
             SavedWorld world;
-            world.begin(*state.world, false);
-            content.parts.push_back(world.all(*state.world));
+            world.begin(*state.world, {}, false);
+            content.parts.push_back(world.all(*state.world, {}));
         }
         const auto saved = document::write_document(document_, content, document::Place::replaced);
         ASSERT_TRUE(saved);

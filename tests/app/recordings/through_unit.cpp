@@ -176,7 +176,8 @@ TEST(ThroughAWorld, KnowsTheWandFromTheRecording) {
     change(at, "changed.session", "UPDATE meta SET value = value || '#' WHERE key = 'wand description'");
     change(at, "digest.session", "DELETE FROM meta WHERE key = 'wand description'");
     change(at, "nothing.session", "DELETE FROM meta WHERE key LIKE 'wand %'");
-    change(at, "points.session", "UPDATE meta SET value = replace(value, 'centre,low', 'low') WHERE key = 'settings'");
+    change(at, "points.session",
+           "UPDATE meta SET value = replace(value, 'centre,low', 'low') WHERE key = 'log header'");
     const std::string through = " --through w.toml";
     EXPECT_EQ(at.run(kThroughBurin + " replay digest.session" + through).status, 0);
     write_small_wand(at, "0.07");

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "session/drive/headless_session.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/try.hpp"
+#include "haptics/channels.hpp"
+#include "session/drive/executors.hpp"
+#include "session/drive/thread_recorder.hpp"
+#include "session/live/session.hpp"
+#include "session/record/input_source.hpp"
+#include "session/record/session_recording.hpp"
+
+namespace burin::session {
+namespace {
+
+class HeadlessFrames final : public FrameSource {
+public:
+    HeadlessFrames(Session& session, const HeadlessRun& run, InputSource input)
+        : session_(session), run_(run), input_(std::move(input)), recorder_(input_, session) {
+        session_.log().hear_nothing_from_outside();
+        static_cast<void>(session_.take_loaded());
+    }
+
+    [[nodiscard]] std::optional<Nanoseconds> next() override {
+        if (session_.state().quit || (next_ns_ > 0 && time_ns_ >= run_.lasts_ns)) return std::nullopt;
+        time_ns_ = std::exchange(next_ns_, next_ns_ + scene::SceneService::kHandsMove_ns);
+        return session_.start_ns() + time_ns_;
+    }
+
+    [[nodiscard]] Result<void> make(Executor& executor) override {
+        const std::vector<haptics::ToolState> tools = executor.tools();
+        static_cast<void>(input_.begin_frame(time_ns_, time_ns_));
+        session_.begin_step(time_ns_, tools);
+        Leader nobody;
+        session_.step({}, nobody, [&](Executor::Order order) { executor.order(std::move(order)); });
+        BURIN_TRY(taken, executor.take_updates());
+        static_cast<void>(session_.take_news(taken.collected));
+        recorder_.frame(tools, taken.updates, {{}, {}, {}});
+        BURIN_TRY_DO(take_records());
+        return run_.after_frame ? run_.after_frame() : Result<void>{};
+    }
+
+    [[nodiscard]] Result<void> finish(Executor& executor) {
+        BURIN_TRY(last, executor.take_updates());
+        session_.finish_scene();
+        recorder_.finish(last.updates);
+        if (const auto& failed = input_.recording_error()) return std::unexpected(*failed);
+        BURIN_TRY_DO(session_.files().outcome());
+        return run_.after_frame ? run_.after_frame() : Result<void>{};
+    }
+
+private:
+    // No clock holds simulated time back: the rings would overflow while the recorder writes.
+    [[nodiscard]] Result<void> take_records() {
+        if (const auto file = input_.recording()) file->take_ticks();
+        if (const auto& failed = input_.recording_error()) return std::unexpected(*failed);
+        if (input_.records()) return {};
+        haptics::TickRecord unread;
+        for (haptics::HapticChannels* const part : session_.channels_of_parts())
+            while (part->records.pop(unread)) {
+            }
+        return {};
+    }
+
+    Session& session_;
+    const HeadlessRun& run_;
+    InputSource input_;
+    ThreadRecorder recorder_;
+    Nanoseconds time_ns_ = 0, next_ns_ = 0;  // of the present frame and the next one, in session time
+};
+
+Result<InputSource> input_of(Session& session, const HeadlessRun& run) {
+    if (session.options().record.path.empty()) return InputSource::live();
+    SessionFacts facts = run.facts;
+    facts.emplace_back(kViewerFact, kNoViewer);
+    BURIN_TRY(writer, create_recording(session.options(), facts, session));
+    return InputSource::live(std::move(writer));
+}
+
+}  // namespace
+
+Result<void> run_headless(Session& session, SimulatedClock& clock, const HeadlessRun& run) {
+    BURIN_TRY(input, input_of(session, run));
+    HeadlessFrames frames(session, run, std::move(input));
+    SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
+                             [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
+    executor.collect_after_updates_alone();
+    BURIN_TRY_DO(drive(executor, frames));
+    return frames.finish(executor);
+}
+
+}  // namespace burin::session
