@@ -2,6 +2,7 @@
 #include "tests/house/session_figures.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -26,7 +27,7 @@ public:
         for (const std::string& path : repository_files(root)) {
             if (!is_product(path) && !path.starts_with("shaders/shared/")) continue;
             const std::string text = read_text(root / path);
-            files_.emplace(path, File{lines_in(text), {}});
+            files_.emplace(path, File{lines_in(text), {}, is_product(path) ? without_comments(text) : std::string()});
             for (const Include& include : includes_of(text)) files_[path].includes.insert(include.name);
         }
     }
@@ -66,6 +67,17 @@ public:
                     if (include.starts_with(to)) found.push_back(path + " includes " + include);
         return found;
     }
+    // Returns the files in which a pattern is found, but for those whose paths begin with one of `apart`.
+    [[nodiscard]] std::vector<std::string> files_with(const std::string& pattern,
+                                                      const std::vector<std::string>& apart = {}) const {
+        const std::regex wanted(pattern);
+        std::vector<std::string> found;
+        for (const auto& [path, file] : files_)
+            if (std::ranges::none_of(apart, [&](const std::string& folder) { return path.starts_with(folder); }))
+                for (std::sregex_iterator at(file.code.begin(), file.code.end(), wanted), end; at != end; ++at)
+                    found.push_back(path);
+        return found;
+    }
     [[nodiscard]] std::size_t lines_of(const std::string& beginning) const {
         std::size_t lines = 0;
         for (const auto& [path, file] : files_)
@@ -77,6 +89,7 @@ private:
     struct File {
         std::size_t lines = 0;
         std::set<std::string> includes;
+        std::string code;  // of a product's file, without comments
     };
     std::map<std::string, File> files_;
 };
@@ -104,6 +117,18 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     std::vector<Figure> figures;
     std::vector<std::string> up = reading.includes_up("session/", "desk/");
     figures.push_back({"includes from session/ up to desk/", static_cast<double>(up.size()), 0.0, std::move(up), ""});
+    // What goes round the session, and how far carving is still every session's nature (bars: what is reached).
+    std::vector<std::string> carving = reading.includes_up("session/", "sculpt/");
+    std::ranges::move(reading.includes_up("desk/", "sculpt/"), std::back_inserter(carving));
+    const auto count = [&figures](std::string what, std::vector<std::string> found, double bar) {
+        figures.push_back({std::move(what), static_cast<double>(found.size()), bar, std::move(found), ""});
+    };
+    count("includes of sculpt/ in session/ and desk/", std::move(carving), 26.0);
+    count("uses of one struct for all options", reading.files_with("\\bSculptOptions\\b"), 0.0);
+    count("haptic loops made outside of session/hands/",
+          reading.files_with("\\bHapticLoop loop_?[({;]", {"session/hands/", "haptics/", "bench/"}), 2.0);
+    count("ticks that study/ computes by itself",
+          reading.files_with("\\bfull_tick\\(", {"haptics/", "bench/", "docs/"}), 1.0);
     std::vector<std::string> members = private_members(read_text(root / "session/live/session.hpp"), "Session");
     figures.push_back({"members of a Session", static_cast<double>(members.size()), 12.0, std::move(members), ""});
     std::vector<std::string> of_desk = private_members(read_text(root / "desk/live/desk.hpp"), "Desk");
