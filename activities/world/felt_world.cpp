@@ -9,6 +9,7 @@
 #include "activities/world/opened_exploration.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "scene/contact_follower.hpp"
 #include "scene/world_file.hpp"
 #include "session/felt/felt_stroke.hpp"

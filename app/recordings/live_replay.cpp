@@ -52,7 +52,7 @@ std::string tool_file_of(const session::SessionSetup& options) {
 }
 
 // Returns a device's name without what describes it: simulated-wand of simulated-wand:FILE.
-std::string kind_of(const std::string& device) { return device.substr(0, device.find(':')); }
+std::string device_kind_of(const std::string& device) { return device.substr(0, device.find(':')); }
 
 // Returns the digest of a file; nothing where there is none.
 std::optional<std::string> digest_of(const std::string& path) {
@@ -150,7 +150,7 @@ Result<void> check_changes(const LiveReplay& how, const session::SessionSetup& r
         if (several && set.starts_with("device="))
             return fail("--set " + set, "the recording has several hands, each with its device",
                         "change them by --set 'hands=" + hands_text(recorded.hands.named) + "'");
-        else if (set.starts_with("device=") && kind_of(set.substr(7)) != kind_of(recorded.hands.device))
+        else if (set.starts_with("device=") && device_kind_of(set.substr(7)) != device_kind_of(recorded.hands.device))
             return fail("--set " + set,
                         "is another device than the recorded one, " + recorded.hands.device +
                             ": where the hand was and what it gave is that one's",
