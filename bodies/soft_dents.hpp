@@ -53,7 +53,7 @@ public:
     // Goes a step, which ends a dent before, and returns the shape that the body is to take; now: its own. Nothing
     // where there is no such step, and for forget.
     [[nodiscard]] std::optional<SoftShapeKept> go(scene::StepWay way, SoftShapeKept now);
-    // As of a scene's part, but for the orders.
+    // Returns the steps as a scene's part states them (scene/part_steps.hpp), without the orders that wait.
     [[nodiscard]] scene::PartSteps steps() const;
 
     // Puts the steps that are new since the last call into the pages, or all of them where the pages ask for the whole.

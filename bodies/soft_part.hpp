@@ -75,7 +75,7 @@ public:
     [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
     [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;
     [[nodiscard]] Nanoseconds period_ns() const override { return setup_.step_ns; }
-    // Of a plastic body; one that is elastic has no steps, and is not saved.
+    // Dents of a plastic body are its steps; an elastic body has none, and is not saved.
     [[nodiscard]] scene::PartSteps undo_steps() const override;
     void go(scene::StepWay way) override { waiting_.push_back(way); }
     [[nodiscard]] Result<void> save(scene::Pages& pages) override;

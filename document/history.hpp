@@ -11,10 +11,10 @@
 // Hardest failure: a list that names steps which a part has not, so that undo takes back something else. So whatever a
 // part says of itself holds: follow() takes out what the part has dropped, adds what it has made, and moves what it has
 // gone without being told. What a part says of before an order that is under way is left out; the next says it.
-// What is made ends all that could be repeated, in every part; take_forgotten() says which parts have to forget some.
+// A new step of any part ends redo in every part; take_forgotten() says which parts have to drop steps for it.
 //
-// As bytes, little-endian: u32, how many lead back; then runs of steps of a part, whose numbers follow each other: the
-// part u32, how many u32, the first number i64.
+// Format of bytes(), little-endian: the count of steps that lead back (u32); then, for each run of steps of one part
+// with rising numbers, the part (u32), the count (u32) and the first number (i64).
 // Pure; any thread.
 #pragma once
 
@@ -66,14 +66,14 @@ public:
     [[nodiscard]] bool leads_forward(std::uint32_t part) const;
 
     [[nodiscard]] std::vector<std::byte> bytes() const;
-    // Nothing where the bytes are no history's.
+    // Reads what bytes() has written; returns nothing for other bytes.
     [[nodiscard]] static std::optional<History> from(std::span<const std::byte> bytes);
 
     // Compares the lists.
     bool operator==(const History& other) const { return steps_ == other.steps_ && done_ == other.done_; }
 
 private:
-    // What a part has said last, and how many orders to go it has been given.
+    // Counts, of one part, the steps that it has stated last and the orders to go that it was given.
     struct Known {
         std::uint64_t made = 0, ordered = 0;
     };

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] session::ActivityPanel panel() const override;
 
     [[nodiscard]] const Exercise& exercise() const { return *exercise_; }
-    // What a document calls the part of the body, and how many dents of it there can be.
+    // The kind of part that a document keeps the body as, and the most dents of it that are kept.
     static constexpr std::string_view kBodyPart = bodies::kSoftBodyPart;
     static constexpr std::size_t kMostDents = bodies::SoftDents::kMostSteps;
     // Has its body go on as it was saved (SoftPart::load), before the session. Fails where it has none.

@@ -22,7 +22,7 @@
 
 namespace burin::activities {
 
-// What is told of an exploration; each may be null.
+// Functions that are told how an exploration goes; each may be null.
 struct FeltBy {
     std::function<void(const haptics::TickRecord& tick)> on_tick = {};
     // At the beginning, and whenever an update of the scene has been felt; a failure ends the exploration.

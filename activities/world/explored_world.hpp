@@ -13,7 +13,7 @@ struct World;  // scene/world_file.hpp
 
 namespace burin::activities {
 
-// What is explored, and what of it is recorded.
+// A world to be explored, the device that feels it, and the file that the exploration is recorded into.
 struct ExploredWorld {
     std::string file = {};                           // as a recording names it; empty: none
     std::shared_ptr<const scene::World> scene = {};  // as it was read

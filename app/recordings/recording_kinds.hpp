@@ -13,7 +13,7 @@
 
 namespace burin::app {
 
-// How a recording is to be done again.
+// Options of a replay.
 struct ReplayAsked {
     LiveReplay how;      // where files are now, changed settings, pictures
     std::string stroke;  // where the stroke's file is now; empty: where it was

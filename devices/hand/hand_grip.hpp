@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How firmly a hand holds the stylus.
+// The grip: the spring, the damper and the mass with which a hand holds the stylus.
 //
 // F = K (target - p) + B (d target/dt - p') plus the hand's mass on the stylus. Mass and damping are of the
 // size of a hand tapping a wall (0.1 kg, 3 Ns/m, 100 N/m). A hand that follows a path holds more firmly: the Omni's
@@ -24,7 +24,7 @@ struct HandGrip {
     double angular_damping_Nms_per_rad = 0.05;
 };
 
-// Whether every number of a grip is finite and not negative.
+// Returns whether every number of a grip is finite and not negative.
 [[nodiscard]] inline bool is_sensible(const HandGrip& grip) noexcept {
     return not_negative(grip.mass_kg) && not_negative(grip.stiffness_N_per_m) && not_negative(grip.damping_Ns_per_m) &&
            not_negative(grip.inertia_kgm2) && not_negative(grip.torsion_Nm_per_rad) &&
